@@ -1,0 +1,35 @@
+# Copyright the Palmar authors.
+# SPDX-License-Identifier: Apache-2.0
+#
+# Compiler settings shared by every target: the interface library palmar::compiler.
+
+find_program(PALMAR_CCACHE ccache)
+if(PALMAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER ${PALMAR_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PALMAR_CCACHE})
+endif()
+
+# "Dev": quick enough to run the whole test suite under the sanitizers.
+set(CMAKE_CXX_FLAGS_DEV "-O1 -g1" CACHE STRING "")
+set(CMAKE_C_FLAGS_DEV "-O1 -g1" CACHE STRING "")
+set(CMAKE_EXE_LINKER_FLAGS_DEV "" CACHE STRING "")
+set(CMAKE_SHARED_LINKER_FLAGS_DEV "" CACHE STRING "")
+
+add_library(palmar_compiler INTERFACE)
+add_library(palmar::compiler ALIAS palmar_compiler)
+target_compile_features(palmar_compiler INTERFACE cxx_std_20)
+target_compile_options(palmar_compiler INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
+                                                  -ffp-contract=off -fno-math-errno)
+if(PALMAR_WERROR)
+  target_compile_options(palmar_compiler INTERFACE -Werror)
+endif()
+if(PALMAR_SANITIZE)
+  target_compile_options(palmar_compiler INTERFACE -fsanitize=address,undefined
+                                                    -fno-sanitize-recover=undefined
+                                                    -fno-omit-frame-pointer)
+  target_link_options(palmar_compiler INTERFACE -fsanitize=address,undefined)
+endif()
+if(PALMAR_TIDY)
+  find_program(PALMAR_CLANG_TIDY clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${PALMAR_CLANG_TIDY} --quiet)
+endif()

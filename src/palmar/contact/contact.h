@@ -1,0 +1,92 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/geometry/distance_field.h"
+#include "palmar/geometry/rigid3.h"
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// Response of the skin to a vertex force (METHOD.md section 2).
+enum class Kernel {
+  kPatch,  ///< uniform pressure on the vertex's Voronoi disc; mesh-independent (default)
+  kPoint   ///< Xie 2014, eq. (3-1), (3-2): point force, r held at 0.5 mm
+};
+
+struct ContactOptions {
+  Kernel kernel = Kernel::kPatch;
+  bool swelling = true;     ///< bulge around the contact, Xie 2014, eq. (3-5) to (3-8)
+  double cell_area = 24.0;  ///< mm^2; sensor cell for the averaged peak (Xie 2014: 4.2 cells/cm^2)
+  std::optional<double> shear_modulus;  ///< MPa; replaces G(d_max) everywhere if set
+  void check() const;                   ///< throws UsageError: field, value, allowed range
+};
+
+/// A hand with its geodesic distances and response matrices; they depend on the hand alone, so
+/// prepare once and solve many. Immutable, shareable between threads.
+class PreparedHand {
+ public:
+  /// Throws UsageError on a bad option. Cost: about 1 s for 10 000 vertices on one core.
+  explicit PreparedHand(std::shared_ptr<const Hand> hand, Kernel kernel = Kernel::kPatch);
+  ~PreparedHand();
+  PreparedHand(PreparedHand&&) noexcept;
+  PreparedHand& operator=(PreparedHand&&) noexcept;
+
+  const Hand& hand() const;
+  Kernel kernel() const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// Contact in one region; region-wise totals.
+struct RegionContact {
+  Region region{};
+  double force = 0.0;                ///< sum of vertex forces, N
+  Vec3 force_vector = Vec3::Zero();  ///< of the skin on the product, product frame, N
+  double area = 0.0;                 ///< contact area on the skin, mm^2
+  double peak_pressure = 0.0;        ///< largest vertex pressure, MPa
+  double peak_pressure_cells = 0.0;  ///< largest mean over a sensor cell, MPa
+  double mean_pressure = 0.0;        ///< force / area, MPa
+  Vec3 centre = Vec3::Zero();        ///< centre of pressure, product frame, mm
+  double max_penetration = 0.0;      ///< d_max before deformation, mm
+  double shear_modulus = 0.0;        ///< G(d_max), MPa
+};
+
+enum class ContactStatus { kSolved, kNoContact, kNotConverged };
+
+/// Contact of a posed hand with a product. Per-vertex fields follow hand.skin; product frame, mm,
+/// N, MPa.
+struct ContactResult {
+  ContactStatus status = ContactStatus::kNoContact;
+  std::string message;                 ///< what went wrong, or empty
+  std::vector<Vec3> undeformed;        ///< posed skin before contact, product frame
+  std::vector<Vec3> deformed;          ///< skin after contact, product frame
+  std::vector<double> distance;        ///< signed distance before contact, mm (capped far away)
+  std::vector<double> displacement;    ///< u: positive into the hand, negative a bulge, mm
+  std::vector<double> force;           ///< p, N
+  std::vector<double> pressure;        ///< p / Voronoi area, MPa
+  std::vector<RegionContact> regions;  ///< regions in contact only, ascending
+  RegionContact total;                 ///< region field meaningless; totals of all regions
+  double complementarity_error = 0.0;  ///< max |s_i p_i| over all regions, N mm, recomputed
+  double residual_penetration_contact = 0.0;  ///< largest |distance| of loaded vertices after, mm
+  double residual_penetration_other = 0.0;    ///< deepest other vertex after deformation, mm
+  int iterations = 0;
+};
+
+/// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`
+/// places it. Never throws on a numerical failure: see status.
+ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
+                                 const Rigid3& product_from_hand, const DistanceField& product,
+                                 const ContactOptions& options = {});
+
+}  // namespace palmar

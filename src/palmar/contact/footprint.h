@@ -1,0 +1,23 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/contact/contact.h"
+
+namespace palmar {
+
+/// Pressure on the product's surface: the product's mesh, refined where it is touched so that the
+/// map is not coarser than the skin.
+struct ProductFootprint {
+  TriangleMesh surface;          ///< product frame, mm
+  std::vector<double> pressure;  ///< per vertex of `surface`, MPa; 0 where not touched
+};
+
+/// Maps the skin's pressure to the product's surface. Triangles longer than `edge_length` [mm] are
+/// split where the product is touched, at most as deep as needed; the shape is unchanged.
+ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
+                                const TriangleMesh& product, double edge_length = 2.0);
+
+}  // namespace palmar

@@ -1,0 +1,38 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// What a distance field says about one point.
+struct DistanceSample {
+  double distance = 0.0;        ///< signed distance to the surface, mm; negative inside
+  Vec3 closest = Vec3::Zero();  ///< nearest point of the surface, mm
+  Vec3 normal = Vec3::UnitZ();  ///< unit outward gradient of the distance at the point
+  int triangle = -1;  ///< nearest triangle of a mesh; -1 for analytic shapes or beyond range
+};
+
+/// Signed distance to the surface of a solid, in the solid's own frame. Implementations are
+/// immutable after construction and may be queried from several threads at once.
+class DistanceField {
+ public:
+  virtual ~DistanceField() = default;
+
+  /// Samples every point. samples.size() must equal points.size(). Points farther than `range`
+  /// [mm] from the surface may come back as distance = +range (outside) or -range (inside) with no
+  /// closest point (triangle -1, closest = the point itself); that makes far queries cheap.
+  virtual void sample(std::span<const Vec3> points, double range,
+                      std::span<DistanceSample> samples) const = 0;
+
+  /// Box around the surface, mm.
+  virtual Box3 bounding_box() const = 0;
+
+  /// One point, unlimited range. Convenience over sample().
+  DistanceSample at(const Vec3& point) const;
+};
+
+}  // namespace palmar

@@ -1,0 +1,45 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/footprint.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/product/product.h"
+
+namespace palmar {
+
+struct AssessOptions {
+  PowerGraspOptions grasp;
+  ContactOptions contact;
+  std::uint64_t seed = 0;  ///< written into the results; the power grasp itself draws no random numbers
+};
+
+/// Seconds spent, for the record; not part of the deterministic result.
+struct AssessTimes {
+  double grasp = 0.0;    ///< s
+  double contact = 0.0;  ///< s
+};
+
+/// One hand holding one product: grasp, contact, footprint.
+struct Assessment {
+  std::string hand_name;
+  Grasp grasp;
+  std::vector<Vec3> posed_skin;  ///< hand frame, mm
+  ContactResult contact;
+  ProductFootprint footprint;
+  AssessOptions options;
+  AssessTimes times;
+};
+
+/// Grasps the product and solves the contact. A product that can't be held gives an assessment whose
+/// grasp says why. Throws UsageError, Cancelled.
+Assessment assess(const PreparedHand& hand, const Product& product,
+                  const AssessOptions& options = {}, const Progress& progress = {});
+
+}  // namespace palmar
