@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace palmar {
 struct AssessOptions {
   PowerGraspOptions grasp;
   ContactOptions contact;
-  std::uint64_t seed = 0;  ///< written into the results; the power grasp itself draws no random numbers
+  std::uint64_t seed =
+      0;  ///< written into the results; the power grasp itself draws no random numbers
 };
 
 /// Seconds spent, for the record; not part of the deterministic result.
@@ -37,8 +39,21 @@ struct Assessment {
   AssessTimes times;
 };
 
-/// Grasps the product and solves the contact. A product that can't be held gives an assessment whose
-/// grasp says why. Throws UsageError, Cancelled.
+/// A product with what came of it.
+struct AssessedProduct {
+  Product product;
+  Assessment assessment;
+};
+
+/// What one `palmar assess` found: one hand, one or more products.
+struct AssessmentSet {
+  std::shared_ptr<const Hand> hand;
+  std::vector<AssessedProduct> assessments;
+  std::string command_line;  ///< for provenance
+};
+
+/// Grasps the product and solves the contact. A product that can't be held gives an assessment
+/// whose grasp says why. Throws UsageError, Cancelled.
 Assessment assess(const PreparedHand& hand, const Product& product,
                   const AssessOptions& options = {}, const Progress& progress = {});
 

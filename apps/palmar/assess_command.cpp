@@ -1,0 +1,128 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli.h"
+#include "grasp_options.h"
+#include "palmar/core/error.h"
+#include "palmar/io/assessment_json.h"
+#include "palmar/io/product_file.h"
+#include "palmar/report/assessment_report.h"
+#include "palmar/study/assessment.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AssessArguments {
+  std::vector<std::string> products;
+  GraspArguments grasp;
+  ContactArguments contact;
+  std::string out;
+  bool no_pictures = false;
+};
+
+/// "palmar-report", or the first free "palmar-report-2", ...: nothing that stands there is touched.
+std::string default_folder() {
+  std::string folder = "palmar-report";
+  for (int i = 2; fs::exists(folder); ++i) folder = "palmar-report-" + std::to_string(i);
+  return folder;
+}
+
+std::string summary(const Product& product, const Assessment& assessment) {
+  return fmt::format("== {}\n{}{}", product.name, grasp_text(assessment.grasp),
+                     contact_text(assessment.contact));
+}
+
+int run_assess(const AssessArguments& arguments, const Context& context) {
+  AssessOptions options;
+  options.grasp = arguments.grasp.options();
+  options.contact = arguments.contact.options();
+  options.seed = context.common.seed;
+  const Progress progress = make_progress(context.common);
+
+  // Every product is read before the first is grasped: a mistyped name costs no waiting.
+  std::vector<Product> products;
+  for (const std::string& path : arguments.products) {
+    progress.throw_if_cancelled();
+    products.push_back(load_product(path, {.unit = parse_unit(arguments.grasp.unit)}));
+    for (const std::string& text : products.back().notes) note(context.common, path + ": " + text);
+  }
+
+  progress.update(0.0, "preparing the hand");
+  const auto hand = load_hand(arguments.grasp.hand);
+  const PreparedHand prepared(hand, options.contact.kernel);
+
+  std::vector<AssessedProduct> done;
+  std::optional<Cancelled> cancelled;
+  int code = 0;
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    Progress part = progress;
+    if (progress.report) {
+      part.report = [&](double share, const std::string& activity) {
+        const double start =
+            0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(products.size());
+        progress.report(start + 0.6 * share / static_cast<double>(products.size()),
+                        products[i].name + ": " + activity);
+      };
+    }
+    try {
+      done.push_back({products[i], assess(prepared, products[i], options, part)});
+    } catch (const Cancelled& stop) {
+      cancelled = stop;
+      break;
+    }
+    const ContactResult& contact = done.back().assessment.contact;
+    if (contact.status == ContactStatus::kNotConverged) {
+      note(context.common, products[i].name + ": " + contact.message);
+      code = 4;
+    }
+  }
+
+  const AssessmentSet set{
+      .hand = hand, .assessments = std::move(done), .command_line = context.command_line};
+  const bool writes = !arguments.out.empty() || !context.common.json;
+  std::string folder = arguments.out;
+  if (writes && !set.assessments.empty()) {
+    if (folder.empty()) folder = default_folder();
+    // What is done is written even when the user has cancelled; a second Ctrl-C ends that too.
+    const Progress writing{.report = progress.report,
+                           .cancel = cancelled ? nullptr : progress.cancel};
+    write_report(folder, set, {.pictures = !arguments.no_pictures}, writing);
+  }
+  finish_progress();
+  if (context.common.json) {
+    print(assessment_json(set) + "\n");
+  } else {
+    for (const AssessedProduct& one : set.assessments) {
+      print(summary(one.product, one.assessment) + "\n");
+    }
+    if (writes && !set.assessments.empty()) print("Report: " + folder + "/report.html\n");
+  }
+  if (cancelled) throw *cancelled;
+  return code;
+}
+
+}  // namespace
+
+void add_assess_command(CLI::App& app, Context& context) {
+  const auto arguments = std::make_shared<AssessArguments>();
+  CLI::App* verb = add_verb(app, "assess", "How products feel in the hand: grasp, contact, report",
+                            "palmar assess old.stl new.stl --unit mm --out report");
+  verb->add_option("PRODUCT", arguments->products, "Mesh files: STL, OBJ, PLY, 3MF, glTF")
+      ->required();
+  arguments->grasp.add_to(*verb);
+  arguments->contact.add_to(*verb);
+  verb->add_option("--out", arguments->out,
+                   "Folder of the report; default palmar-report (with --json alone: none)");
+  verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
+  verb->callback([&context, arguments] {
+    context.run = [&context, arguments] { return run_assess(*arguments, context); };
+  });
+}
+
+}  // namespace palmar::cli

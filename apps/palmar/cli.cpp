@@ -1,0 +1,141 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "palmar/core/error.h"
+#include "palmar/io/hand_file.h"
+
+namespace palmar::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> interrupted{false};
+bool progress_line_open = false;
+
+void on_interrupt(int) {
+  if (interrupted.exchange(true)) _exit(130);  // second press: at once
+}
+
+double parse_number(const std::string& option, const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) {
+    throw UsageError(option + ": \"" + text + "\" is not a number");
+  }
+  return value;
+}
+
+}  // namespace
+
+CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
+                   const std::string& example) {
+  CLI::App* verb = parent.add_subcommand(name, description);
+  verb->footer("Example: " + example);
+  verb->fallthrough();
+  return verb;
+}
+
+std::string share_folder() {
+  if (const char* folder = std::getenv("PALMAR_SHARE")) return folder;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  return (executable.parent_path().parent_path() / "share" / "palmar").string();
+}
+
+std::shared_ptr<const Hand> load_hand(const std::string& name) {
+  if (name != "template") return std::make_shared<const Hand>(read_hand(name));
+  const std::string path = share_folder() + "/template.hand.glb";
+  if (!fs::exists(path)) {
+    throw InputError("the template hand is missing: " + path +
+                     " (run `palmar doctor`; it is made when Palmar is built)");
+  }
+  return std::make_shared<const Hand>(read_hand(path));
+}
+
+std::vector<double> parse_list(const std::string& option, const std::string& text) {
+  std::vector<double> values;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', start);
+    values.push_back(parse_number(option, text.substr(start, comma - start)));
+    if (comma == std::string::npos) return values;
+    start = comma + 1;
+  }
+}
+
+Vec3 parse_vector(const std::string& option, const std::string& text) {
+  const std::vector<double> values = parse_list(option, text);
+  if (values.size() != 3) {
+    throw UsageError(option + ": \"" + text + "\" has " + std::to_string(values.size()) +
+                     " numbers; three, x,y,z, are needed");
+  }
+  return {values[0], values[1], values[2]};
+}
+
+std::optional<LengthUnit> parse_unit(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (text == "mm") return LengthUnit::kMillimetre;
+  if (text == "cm") return LengthUnit::kCentimetre;
+  if (text == "m") return LengthUnit::kMetre;
+  if (text == "inch" || text == "in") return LengthUnit::kInch;
+  throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
+}
+
+Progress make_progress(const CommonOptions& common) {
+  Progress progress;
+  progress.cancel = &interrupted;
+  if (common.quiet || common.json || isatty(STDERR_FILENO) == 0) return progress;
+  const auto start = std::chrono::steady_clock::now();
+  progress.report = [start](double share, const std::string& activity) {
+    const double spent =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    char left[48] = "";
+    if (share > 0.1 && share < 1.0 && spent > 1.0) {
+      std::snprintf(left, sizeof left, ", about %.0f s left", std::ceil(spent * (1 / share - 1)));
+    }
+    std::fprintf(stderr, "\r\033[K%3.0f %%  %s%s", 100 * share, activity.c_str(), left);
+    std::fflush(stderr);
+    progress_line_open = true;
+  };
+  return progress;
+}
+
+void finish_progress() {
+  if (progress_line_open) std::fprintf(stderr, "\r\033[K");
+  progress_line_open = false;
+}
+
+void install_interrupt_handler() {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
+}
+
+void note(const CommonOptions& common, const std::string& text) {
+  if (common.quiet) return;
+  finish_progress();
+  std::fprintf(stderr, "palmar: %s\n", text.c_str());
+}
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw OutputError("standard output can't be written to (disk full or pipe closed)");
+  }
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,73 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/geometry/types.h"
+#include "palmar/hand/hand.h"
+#include "palmar/product/product.h"
+
+namespace palmar::cli {
+
+/// Options that every command takes.
+struct CommonOptions {
+  bool json = false;       ///< one JSON object on stdout instead of text
+  bool quiet = false;      ///< no progress, no notes on stderr
+  int threads = 0;         ///< 0: all cores
+  std::uint64_t seed = 0;  ///< written into results
+};
+
+/// What the parsed command line asks for: the chosen verb sets `run`, which returns the exit code.
+struct Context {
+  CommonOptions common;
+  std::string command_line;
+  std::function<int()> run;
+};
+
+// One function per noun adds it with its verbs.
+void add_assess_command(CLI::App& app, Context& context);
+void add_contact_commands(CLI::App& app, Context& context);
+void add_doctor_command(CLI::App& app, Context& context);
+void add_grasp_commands(CLI::App& app, Context& context);
+void add_hand_commands(CLI::App& app, Context& context);
+void add_product_commands(CLI::App& app, Context& context);
+
+/// Adds a verb with its worked example under the help text.
+CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
+                   const std::string& example);
+
+/// Folder with the template hand: beside the executable (../share/palmar), or $PALMAR_SHARE.
+std::string share_folder();
+
+/// The hand called `name`: "template", or a *.hand.glb file. Throws InputError.
+std::shared_ptr<const Hand> load_hand(const std::string& name);
+
+/// "1,2,3" as a vector. Throws UsageError naming the option.
+Vec3 parse_vector(const std::string& option, const std::string& text);
+/// "0.5,1,2" as numbers. Throws UsageError naming the option.
+std::vector<double> parse_list(const std::string& option, const std::string& text);
+/// "mm", "cm", "m", "inch"; empty = not given. Throws UsageError naming --unit.
+std::optional<LengthUnit> parse_unit(const std::string& text);
+
+/// Progress for this command: a line on a terminal's stderr (none with --quiet, --json or a pipe),
+/// cancelled by Ctrl-C.
+Progress make_progress(const CommonOptions& common);
+/// Ends the progress line, so that other messages start on a line of their own.
+void finish_progress();
+/// Installs the Ctrl-C handler: the first press asks to stop, the second stops at once.
+void install_interrupt_handler();
+
+/// A note for the user on stderr, silent with --quiet.
+void note(const CommonOptions& common, const std::string& text);
+/// Text on stdout; throws OutputError if it can't be written (a full disk, say).
+void print(const std::string& text);
+
+}  // namespace palmar::cli

@@ -1,0 +1,186 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "cli.h"
+#include "nearest_name.h"
+#include "palmar/core/error.h"
+#include "palmar/hand/named_postures.h"
+#include "palmar/hand/skeleton.h"
+#include "palmar/hand/skinning.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/io/hand_asset.h"
+#include "palmar/io/hand_file.h"
+#include "palmar/io/hand_json.h"
+#include "palmar/report/hand_export.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+constexpr const char* kHandHelp = "\"template\" or a .hand.glb file";
+
+Dof dof_for(const std::string& name) {
+  if (const auto dof = dof_named(name)) return *dof;
+  std::vector<std::string> known;
+  for (int d = 0; d < kDofCount; ++d) known.emplace_back(name_of(static_cast<Dof>(d)));
+  const std::string nearest = nearest_name(name, known);
+  throw UsageError(
+      "--set: \"" + name + "\" is no degree of freedom" +
+      (nearest.empty() ? "; `palmar hand info` lists them" : "; did you mean " + nearest + "?"));
+}
+
+/// Named posture, then single angles "index_pip_flexion=60" (degrees) on top.
+Posture posture_from(const Hand& hand, const std::string& name,
+                     const std::vector<std::string>& settings) {
+  Posture posture = reference_posture(hand.skeleton);
+  if (!name.empty() && name != "reference") {
+    const auto named = named_posture(hand.skeleton, name);
+    if (!named) {
+      const std::string nearest = nearest_name(name, posture_names());
+      std::string known;
+      for (const std::string& one : posture_names()) known += (known.empty() ? "" : ", ") + one;
+      throw UsageError("--posture: \"" + name + "\" is not known" +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+                       " Known: reference, " + known);
+    }
+    posture = *named;
+  }
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError("--set: \"" + setting + "\" is not of the form index_pip_flexion=60 (deg)");
+    }
+    const double angle = parse_list("--set", setting.substr(equals + 1)).front();
+    posture[dof_for(setting.substr(0, equals))] = radians(angle);
+  }
+  return posture;
+}
+
+void add_template(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string asset, out;
+    double edge = TemplateOptions{}.edge_length;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "template", "Make the template hand from the generic hand asset",
+                            "palmar hand template --edge-mm 3 --out coarse.hand.glb");
+  verb->add_option("--asset", o->asset,
+                   "Generic hand of the WebXR input profiles (right.glb); "
+                   "default: the copy that came with Palmar");
+  verb->add_option("--edge-mm", o->edge, "Mean edge length of the skin mesh, mm")
+      ->capture_default_str();
+  verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const std::string asset =
+          o->asset.empty() ? share_folder() + "/generic-hand-right.glb" : o->asset;
+      const Hand made = build_template(read_hand_asset(asset), {.edge_length = o->edge});
+      write_hand(o->out, made);
+      note(context.common, fmt::format("wrote {} ({} vertices)", o->out, made.skin.vertex_count()));
+      return 0;
+    };
+  });
+}
+
+void add_info(CLI::App& hand, Context& context) {
+  const auto name = std::make_shared<std::string>("template");
+  CLI::App* verb = add_verb(hand, "info", "Dimensions, joints, ranges of motion, origin of a hand",
+                            "palmar hand info template");
+  verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
+  verb->callback([&context, name] {
+    context.run = [&context, name] {
+      const auto loaded = load_hand(*name);
+      print(context.common.json ? hand_info_json(*loaded) + "\n" : hand_text(*loaded));
+      return 0;
+    };
+  });
+}
+
+void add_measure(CLI::App& hand, Context& context) {
+  const auto name = std::make_shared<std::string>("template");
+  CLI::App* verb = add_verb(hand, "measure", "Dimensions of a hand as CSV, mm",
+                            "palmar hand measure template > dimensions.csv");
+  verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
+  verb->callback([&context, name] {
+    context.run = [&context, name] {
+      const auto loaded = load_hand(*name);
+      print(context.common.json ? hand_info_json(*loaded) + "\n" : dimensions_csv(*loaded));
+      return 0;
+    };
+  });
+}
+
+void add_mirror(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string hand = "template", out;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "mirror", "The other hand: right to left or left to right",
+                            "palmar hand mirror template --out left.hand.glb");
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const Hand other = mirrored(*load_hand(o->hand));
+      write_hand(o->out, other);
+      note(context.common, fmt::format("wrote {} ({} hand)", o->out, name_of(other.side)));
+      return 0;
+    };
+  });
+}
+
+void add_pose(CLI::App& hand, Context& context, const std::string& name,
+              const std::string& description, const std::string& example, bool takes_posture) {
+  struct Options {
+    std::string hand = "template", posture, out;
+    std::vector<std::string> settings;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, name, description, example);
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  if (takes_posture) {
+    verb->add_option("--posture", o->posture, "Named posture: reference, fist, ...");
+    verb->add_option("--set", o->settings, "Angle of one degree of freedom, NAME=DEG; repeatable");
+  }
+  verb->add_option("--out", o->out,
+                   "File to write: .glb (skin by region and bones), .ply, .obj, .stl (skin), .png "
+                   "(picture)")
+      ->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const auto loaded = load_hand(o->hand);
+      const ClampedPosture clamped =
+          clamp_to_range(loaded->skeleton, posture_from(*loaded, o->posture, o->settings));
+      for (const ClampedAngle& angle : clamped.clamped) {
+        note(context.common,
+             fmt::format("{}: {:.1f} deg is outside the range of motion; {:.1f} deg is used",
+                         name_of(angle.dof), degrees(angle.asked), degrees(angle.used)));
+      }
+      export_posed_hand(o->out, *loaded, clamped.posture);
+      note(context.common, "wrote " + o->out);
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_hand_commands(CLI::App& app, Context& context) {
+  CLI::App* hand = app.add_subcommand("hand", "Make, look at, pose and export hands");
+  hand->require_subcommand(1);
+  hand->fallthrough();
+  add_template(*hand, context);
+  add_info(*hand, context);
+  add_measure(*hand, context);
+  add_mirror(*hand, context);
+  add_pose(*hand, context, "pose", "A hand in a posture, as mesh or picture",
+           "palmar hand pose --posture fist --set thumb_ip_flexion=20 --out fist.glb", true);
+  add_pose(*hand, context, "export", "A hand in its reference posture, as mesh or picture",
+           "palmar hand export template --out hand.ply", false);
+}
+
+}  // namespace palmar::cli

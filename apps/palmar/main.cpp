@@ -1,0 +1,111 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "cli.h"
+#include "nearest_name.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/core/version.h"
+
+namespace palmar::cli {
+namespace {
+
+int fail(const std::string& message, int code) {
+  finish_progress();
+  std::fprintf(stderr, "palmar: %s\n", message.c_str());
+  return code;
+}
+
+/// The deepest subcommand that was named on the command line.
+const CLI::App* deepest_parsed(const CLI::App* app) {
+  for (const CLI::App* sub : app->get_subcommands()) return deepest_parsed(sub);
+  return app;
+}
+
+std::string full_name(const CLI::App* app) {
+  const std::string parent = app->get_parent() != nullptr ? full_name(app->get_parent()) : "";
+  return parent.empty() ? app->get_name() : parent + " " + app->get_name();
+}
+
+/// What was wrong with the command line, and the nearest thing that would have been right.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* where = deepest_parsed(&app);
+  std::string text = error.what();
+  const std::vector<std::string> extras = app.remaining(true);
+  if (!extras.empty()) {
+    const std::string& wrong = extras.front();
+    std::vector<std::string> known;
+    for (const CLI::App* level = where; level != nullptr; level = level->get_parent()) {
+      for (const CLI::Option* option : level->get_options()) {
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      }
+    }
+    for (const CLI::App* sub : where->get_subcommands(nullptr)) known.push_back(sub->get_name());
+    text = (wrong.rfind('-', 0) == 0 ? "unknown option " : "unexpected argument ") + wrong;
+    const std::string nearest = nearest_name(wrong, known);
+    if (!nearest.empty()) text += "; did you mean " + nearest + "?";
+  }
+  return text + "\nTry: " + full_name(where) + " --help";
+}
+
+int run(int argc, char** argv) {
+  Context context;
+  for (int i = 0; i < argc; ++i) {
+    context.command_line += (i > 0 ? " " : "") + std::string(i == 0 ? "palmar" : argv[i]);
+  }
+
+  CLI::App app("Palmar tells how a handheld product will feel in people's hands before it exists.",
+               "palmar");
+  app.set_version_flag("--version", build_description());
+  app.set_help_flag("-h,--help", "Show this help and a worked example");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_flag("--json", context.common.json, "One JSON object on stdout, keys with units");
+  app.add_flag("--quiet", context.common.quiet, "No progress and no notes on stderr");
+  app.add_option("--threads", context.common.threads, "Most threads to use; 0 = all cores")
+      ->check(CLI::Range(0, 1024));
+  app.add_option("--seed", context.common.seed, "Seed of random numbers, kept in the results");
+  app.footer(
+      "Example: palmar assess handle.stl --unit mm --out report\n"
+      "Exit codes: 0 done, 1 unexpected or output not writable, 2 wrong usage, 3 unreadable\n"
+      "input or unit unknown, 4 numerical failure, 5 a stated check failed, 130 cancelled.");
+  add_assess_command(app, context);
+  add_hand_commands(app, context);
+  add_product_commands(app, context);
+  add_grasp_commands(app, context);
+  add_contact_commands(app, context);
+  add_doctor_command(app, context);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    return fail(explain(app, error), 2);
+  }
+  install_interrupt_handler();
+  set_thread_count(context.common.threads);
+  const int code = context.run();
+  finish_progress();
+  return code;
+}
+
+}  // namespace
+}  // namespace palmar::cli
+
+int main(int argc, char** argv) {
+  using palmar::cli::fail;
+  try {
+    return palmar::cli::run(argc, argv);
+  } catch (const palmar::Error& error) {
+    return fail(error.what(), error.exit_code());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", 1);
+  } catch (const std::exception& error) {
+    return fail(std::string("unexpected: ") + error.what(), 1);
+  }
+}

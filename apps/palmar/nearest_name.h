@@ -1,0 +1,14 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace palmar::cli {
+
+/// The candidate with the smallest edit distance to `name`, or "" if none is near (more than a
+/// third of its letters differ). The first one wins a tie.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+
+}  // namespace palmar::cli

@@ -1,0 +1,27 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/contact/contact.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/hand/hand.h"
+
+namespace palmar::cli {
+
+// Values as people read them in a terminal; files are written by io and report.
+
+/// Major and segment dimensions, joints with their ranges of motion.
+std::string hand_text(const Hand& hand);
+/// Dimensions as CSV, one row per quantity: quantity,segment,value_mm.
+std::string dimensions_csv(const Hand& hand);
+/// Status, what stopped each segment, angles.
+std::string grasp_text(const Grasp& grasp);
+/// Totals and one line per region.
+std::string contact_text(const ContactResult& contact);
+
+double degrees(double radians);
+double radians(double degrees);
+
+}  // namespace palmar::cli

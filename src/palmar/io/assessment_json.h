@@ -1,0 +1,20 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/study/assessment.h"
+
+namespace palmar {
+
+/// assessment.json: one object {"assessments": [{"product", "hand", "grasp", "contact", "indices",
+/// "settings", "versions", "times_s"}], ...}. Keys carry units (force_n, contact_area_mm2,
+/// peak_pressure_mpa, ..._mm, ..._deg); doubles are printed shortest so that they read back
+/// exactly. Without times_s the text depends on input and seed alone.
+std::string assessment_json(const AssessmentSet& set);
+
+/// One grasp: status, message, posture in degrees, placement, what stopped each segment.
+std::string grasp_json(const Grasp& grasp);
+
+}  // namespace palmar

@@ -1,0 +1,16 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// Writes a posed hand by the ending of `path`: .glb (skin coloured by region, and bones), .ply,
+/// .obj, .stl (skin), .png (a picture from the palmar and the radial side). Throws UsageError on
+/// another ending, OutputError.
+void export_posed_hand(const std::string& path, const Hand& hand, const Posture& posture);
+
+}  // namespace palmar

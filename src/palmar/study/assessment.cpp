@@ -1,0 +1,51 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment.h"
+
+#include <chrono>
+
+#include "palmar/hand/skinning.h"
+
+namespace palmar {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
+                  const Progress& progress) {
+  options.grasp.check();
+  options.contact.check();
+
+  Assessment result;
+  result.hand_name = hand.hand().name;
+  result.options = options;
+
+  progress.update(0.0, "closing the hand");
+  const Stopwatch grasp_watch;
+  result.grasp = close_power_grasp(hand.hand(), product, options.grasp, progress);
+  result.times.grasp = grasp_watch.seconds();
+
+  progress.update(0.6, "solving the contact");
+  const Stopwatch contact_watch;
+  result.posed_skin = pose_skin(hand.hand(), result.grasp.posture);
+  result.contact = solve_hand_contact(hand, result.posed_skin, result.grasp.product_from_hand,
+                                      *product.distance, options.contact);
+  result.times.contact = contact_watch.seconds();
+
+  progress.update(0.9, "mapping the pressure to the product");
+  result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+  progress.update(1.0, "assessed");
+  return result;
+}
+
+}  // namespace palmar
