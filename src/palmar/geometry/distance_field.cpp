@@ -1,0 +1,15 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/geometry/distance_field.h"
+
+#include <limits>
+
+namespace palmar {
+
+DistanceSample DistanceField::at(const Vec3& point) const {
+  DistanceSample result;
+  sample({&point, 1}, std::numeric_limits<double>::infinity(), {&result, 1});
+  return result;
+}
+
+}  // namespace palmar
