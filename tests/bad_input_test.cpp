@@ -1,0 +1,180 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "run_program.h"
+
+// Every kind of bad input ends with the documented exit code and a message that names the file, the
+// place, the value and what is allowed; nothing is left behind.
+
+namespace palmar::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class BadInput : public ::testing::Test {
+ protected:
+  std::string folder_ = temporary_folder();
+
+  std::string file(const std::string& name, const std::string& content) {
+    return write_text(folder_ + "/" + name, content);
+  }
+  ProgramRun assess(const std::string& arguments) {
+    return run_palmar("assess --out '" + folder_ + "/report' " + arguments, folder_);
+  }
+  void expect_input_error(const ProgramRun& run, const std::string& name, const std::string& text) {
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_THAT(run.err, AllOf(HasSubstr(name), HasSubstr(text)));
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(std::filesystem::exists(folder_ + "/report"));
+  }
+  /// A binary STL of one tetrahedron with corner coordinates scaled by `scale`.
+  static std::string tetrahedron(float scale) {
+    const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    std::string bytes(84, '\0');
+    const std::uint32_t count = 4;
+    std::memcpy(bytes.data() + 80, &count, 4);
+    for (const auto& face : faces) {
+      float values[12] = {};
+      for (int corner = 0; corner < 3; ++corner) {
+        for (int axis = 0; axis < 3; ++axis)
+          values[3 + 3 * corner + axis] = scale * p[face[corner]][axis];
+      }
+      bytes.append(reinterpret_cast<const char*>(values), sizeof values);
+      bytes.append(2, '\0');
+    }
+    return bytes;
+  }
+};
+
+TEST_F(BadInput, MissingFile) {
+  expect_input_error(assess("nowhere.stl"), "nowhere.stl", "o such file");
+}
+
+TEST_F(BadInput, Directory) { expect_input_error(assess("."), ".", "directory"); }
+
+TEST_F(BadInput, EmptyFile) {
+  file("empty.stl", "");
+  expect_input_error(assess("empty.stl"), "empty.stl", "empty");
+}
+
+TEST_F(BadInput, TruncatedBinaryStl) {
+  file("cut.stl", tetrahedron(60).substr(0, 150));
+  expect_input_error(assess("cut.stl"), "cut.stl", "150");
+}
+
+TEST_F(BadInput, TextThatIsNoMesh) {
+  file("letter.stl", "Dear designer,\nplease find the handle attached.\n");
+  expect_input_error(assess("letter.stl"), "letter.stl", "");
+  file("letter.obj", "Dear designer,\nplease find the handle attached.\n");
+  expect_input_error(assess("letter.obj"), "letter.obj", "");
+}
+
+TEST_F(BadInput, NotANumberAndInfinityNameThePlace) {
+  file("nan.obj", "v 0 0 0\nv 50 0 0\nv nan 50 0\nf 1 2 3\n");
+  expect_input_error(assess("nan.obj"), "nan.obj", "3");
+  std::string bytes = tetrahedron(60);
+  const float infinity = INFINITY;
+  std::memcpy(bytes.data() + 84 + 12, &infinity, 4);
+  file("inf.stl", bytes);
+  expect_input_error(assess("inf.stl"), "inf.stl", "inf");
+}
+
+TEST_F(BadInput, ZeroTriangles) {
+  file("none.stl", std::string(84, '\0'));
+  expect_input_error(assess("none.stl"), "none.stl", "triangle");
+}
+
+TEST_F(BadInput, OneTriangle) {
+  file("one.obj", "v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n");
+  expect_input_error(assess("one.obj --unit mm"), "one.obj", "triangle");
+}
+
+TEST_F(BadInput, VerticesWithoutFaces) {
+  file("points.obj", "v 0 0 0\nv 50 0 0\nv 0 50 0\n");
+  expect_input_error(assess("points.obj"), "points.obj", "face");
+}
+
+TEST_F(BadInput, AbsurdSize) {
+  file("huge.stl", tetrahedron(1e9F));
+  expect_input_error(assess("huge.stl --unit mm"), "huge.stl", "mm");
+  expect_input_error(assess("huge.stl"), "huge.stl", "");
+}
+
+TEST_F(BadInput, UndecidableUnitSaysHowToGiveIt) {
+  file("unit.stl", tetrahedron(5000));
+  expect_input_error(assess("unit.stl"), "unit.stl", "--unit");
+}
+
+TEST_F(BadInput, UnknownEnding) {
+  file("part.xyz", "1 2 3\n");
+  expect_input_error(assess("part.xyz"), "part.xyz", "STL");
+}
+
+TEST_F(BadInput, WrongHandFile) {
+  file("part.stl", tetrahedron(60));
+  file("not.hand.glb", "not a hand at all");
+  expect_input_error(assess("part.stl --unit mm --hand not.hand.glb"), "not.hand.glb", "");
+  expect_input_error(assess("part.stl --unit mm --hand absent.hand.glb"), "absent.hand.glb", "");
+}
+
+TEST_F(BadInput, UnwritableOutput) {
+  file("part.stl", tetrahedron(60));
+  file("occupied", "a file, not a folder");
+  const ProgramRun run = run_palmar("assess part.stl --unit mm --out occupied/report", folder_);
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("occupied"));
+  EXPECT_EQ(read_text(folder_ + "/occupied"), "a file, not a folder");
+}
+
+TEST_F(BadInput, FullDisk) {
+  if (access("/dev/full", W_OK) != 0) GTEST_SKIP() << "no /dev/full on this machine";
+  const ProgramRun run = run_palmar("hand measure > /dev/full");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("output"));
+}
+
+TEST_F(BadInput, FileSizeLimitLeavesNoHalfFile) {
+  // A limit of 8 blocks of 512 bytes stands in for a disk that fills up while writing.
+  const ProgramRun run =
+      run_palmar("--version >/dev/null; ulimit -f 8; trap '' XFSZ; '" PALMAR_EXECUTABLE
+                 "' product make sphere --diameter-mm 60 --out ball.stl",
+                 folder_);
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("ball.stl"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(BadInput, UnknownOptionNamesTheNearest) {
+  const ProgramRun run = run_palmar("assess part.stl --untt mm");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("--untt"), HasSubstr("--unit")));
+}
+
+TEST_F(BadInput, UnknownCommandAndMissingArguments) {
+  EXPECT_EQ(run_palmar("asess part.stl").exit_code, 2);
+  EXPECT_EQ(run_palmar("assess").exit_code, 2);
+  EXPECT_EQ(run_palmar("").exit_code, 2);
+}
+
+TEST_F(BadInput, OptionsOutsideTheirRange) {
+  file("part.stl", tetrahedron(60));
+  for (const std::string option :
+       {"--finger-limit-depth-mm -1", "--palm-limit-depth-mm 500", "--kernel magic", "--grip hug",
+        "--unit parsec", "--at 1,2", "--axis 0,0,0", "--shear-modulus-kpa 0", "--threads -2"}) {
+    const ProgramRun run = assess("part.stl --unit mm " + option);
+    EXPECT_EQ(run.exit_code, 2) << option << ": " << run.err;
+    EXPECT_NE(run.err, "") << option;
+  }
+}
+
+}  // namespace
+}  // namespace palmar::testing

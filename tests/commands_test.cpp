@@ -1,0 +1,135 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+// The commands beside assess, run as a user runs them.
+
+namespace palmar::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+TEST(HandCommand, InfoTellsASizeThatPeopleHave) {
+  const ProgramRun run = run_palmar("hand info template --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json info = Json::parse(run.out);
+  EXPECT_EQ(info.at("degree_of_freedom_count"), 23);
+  // Adults, P1 women to P99 men (ANSUR II): hand length 165-215 mm, circumference 165-235 mm.
+  EXPECT_GT(info.at("hand_length_mm").get<double>(), 165);
+  EXPECT_LT(info.at("hand_length_mm").get<double>(), 215);
+  EXPECT_GT(info.at("hand_circumference_mm").get<double>(), 165);
+  EXPECT_LT(info.at("hand_circumference_mm").get<double>(), 235);
+  EXPECT_EQ(info.at("segments").size(), 15U);
+  EXPECT_GT(info.at("vertices").get<int>(), 8000);
+  EXPECT_LT(info.at("vertices").get<int>(), 12000);
+}
+
+TEST(HandCommand, PoseSaysWhichAngleItClamped) {
+  const std::string folder = temporary_folder();
+  const ProgramRun run =
+      run_palmar("hand pose --set index_pip_flexion=170 --out posed.ply", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("index_pip_flexion"));
+  EXPECT_THAT(run.err, HasSubstr("170"));
+  EXPECT_EQ(read_text(folder + "/posed.ply").substr(0, 3), "ply");
+}
+
+TEST(HandCommand, PoseRefusesUnknownNames) {
+  const ProgramRun posture = run_palmar("hand pose --posture fits --out x.ply");
+  EXPECT_EQ(posture.exit_code, 2);
+  EXPECT_THAT(posture.err, HasSubstr("fist"));
+  const ProgramRun dof = run_palmar("hand pose --set index_pip_flexon=20 --out x.ply");
+  EXPECT_EQ(dof.exit_code, 2);
+  EXPECT_THAT(dof.err, HasSubstr("index_pip_flexion"));
+}
+
+TEST(HandCommand, MirrorOfTheMirrorIsTheHand) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("hand mirror template --out left.hand.glb", folder).exit_code, 0);
+  ASSERT_EQ(run_palmar("hand mirror left.hand.glb --out right.hand.glb", folder).exit_code, 0);
+  const Json left = Json::parse(run_palmar("hand info left.hand.glb --json", folder).out);
+  Json right = Json::parse(run_palmar("hand info right.hand.glb --json", folder).out);
+  Json original = Json::parse(run_palmar("hand info template --json", folder).out);
+  EXPECT_EQ(left.at("side"), "left");
+  EXPECT_EQ(right.at("side"), "right");
+  for (const char* key : {"hand_length_mm", "hand_circumference_mm", "joints"}) {
+    EXPECT_EQ(right.at(key), original.at(key)) << key;
+  }
+}
+
+TEST(ProductCommand, MakesWhatItsNameSays) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 48 --length-mm 100 --out c.stl", folder)
+                .exit_code,
+            0);
+  const ProgramRun run = run_palmar("product info c.stl --unit mm --json", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  // pi r^2 l = 180 956 mm3, less what the chords cut off.
+  EXPECT_NEAR(Json::parse(run.out).at("volume_mm3").get<double>(), 180956, 181);
+}
+
+TEST(ProductCommand, CheckEndsWithFiveForAMeshWithAHole) {
+  const std::string folder = temporary_folder();
+  write_text(folder + "/open.obj",
+             "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const ProgramRun run = run_palmar("product check open.obj --unit mm", folder);
+  EXPECT_EQ(run.exit_code, 5);
+  EXPECT_THAT(run.out + run.err, HasSubstr("boundary"));
+}
+
+TEST(ContactCommand, PressOfASphereIsHertz) {
+  // VALIDATION.md G1: R = 20 mm, G = 50 kPa: F = 16/3 G sqrt(R) d^1.5; peak 40.26 kPa at 2 mm.
+  const ProgramRun run = run_palmar(
+      "contact press --specimen plane --indenter sphere:20 --depth-mm 0.5,1,2 --spacing-mm 0.8 "
+      "--shear-modulus-kpa 50 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json steps = Json::parse(run.out).at("steps");
+  ASSERT_EQ(steps.size(), 3U);
+  const double force[] = {0.4216, 1.1926, 3.3731};  // N
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(steps[i].at("force_n").get<double>(), force[i], 0.02 * force[i]);
+  }
+  EXPECT_NEAR(steps[2].at("peak_pressure_mpa").get<double>(), 0.04026, 0.05 * 0.04026);
+}
+
+TEST(ContactCommand, PressRefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(run_palmar("contact press --indenter cone:3 --depth-mm 1").exit_code, 2);
+  EXPECT_EQ(run_palmar("contact press --indenter sphere:-3 --depth-mm 1").exit_code, 2);
+  EXPECT_EQ(run_palmar("contact press --indenter sphere:20").exit_code, 2);
+  EXPECT_EQ(run_palmar("contact press --indenter sphere:20 --depth-mm one").exit_code, 2);
+}
+
+TEST(DoctorCommand, FindsNothingMissingInTheBuild) {
+  const ProgramRun run = run_palmar("doctor");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+}
+
+TEST(DoctorCommand, NamesAMissingTemplate) {
+  const std::string folder = temporary_folder();
+  const ProgramRun run = run_palmar("--version > /dev/null; PALMAR_SHARE='" + folder +
+                                    "' '" PALMAR_EXECUTABLE "' doctor");
+  EXPECT_EQ(run.exit_code, 5);
+  EXPECT_THAT(run.out + run.err, HasSubstr("template.hand.glb"));
+}
+
+TEST(Help, EveryVerbShowsAWorkedExample) {
+  for (const std::string verb :
+       {"assess", "hand template", "hand info", "hand measure", "hand mirror", "hand pose",
+        "hand export", "product info", "product check", "product make", "product convert",
+        "grasp close", "contact press", "doctor"}) {
+    const ProgramRun run = run_palmar(verb + " --help");
+    EXPECT_EQ(run.exit_code, 0) << verb;
+    EXPECT_THAT(run.out, HasSubstr("Example: palmar " + verb)) << verb;
+  }
+}
+
+}  // namespace
+}  // namespace palmar::testing
