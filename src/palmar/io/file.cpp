@@ -138,9 +138,11 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   }
 
   static std::atomic<unsigned> counter{0};
-  TemporaryFile temporary{target.parent_path() / ("." + target.filename().string() + "." +
-                                                  std::to_string(::getpid()) + "-" +
-                                                  std::to_string(counter++) + ".tmp")};
+  std::string temporary_name(".");
+  temporary_name.append(target.filename().string()).append(".");
+  temporary_name.append(std::to_string(::getpid())).append("-");
+  temporary_name.append(std::to_string(counter++)).append(".tmp");
+  TemporaryFile temporary{target.parent_path() / temporary_name};
   const mode_t mode = exists ? status.st_mode & 07777 : 0666;
   Descriptor file(::open(temporary.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file.get() < 0) {

@@ -20,8 +20,7 @@ namespace palmar {
 struct MeshFile {
   TriangleMesh mesh;               ///< in the file's unit
   std::optional<LengthUnit> unit;  ///< if the format carries it (3MF, glTF)
-  double unit_scale = 1.0;  ///< further factor on top of `unit` (3MF: micron, foot); 1 elsewhere
-  std::string format;       ///< "binary STL", "OBJ", "PLY (ascii)", "3MF", "glTF binary" ...
+  std::string format;              ///< "binary STL", "OBJ", "PLY (ascii)", "3MF", "glTF binary" ...
   std::vector<std::string> notes;  ///< what was skipped, dropped or doubted, with counts
 };
 

@@ -50,7 +50,7 @@ std::string shortest(double value) {
   return error == std::errc{} ? std::string(buffer.data(), end) : std::string();
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string shown(text.substr(0, kLongest));
   for (char& c : shown) {
@@ -88,7 +88,8 @@ std::optional<std::string_view> TextScanner::next_word() {
   line_ = next_line_number_;
   if (position_ == text_.size()) return std::nullopt;
   const std::size_t start = position_;
-  while (position_ < text_.size() && !is_blank(text_[position_]) && !is_line_end(text_[position_])) {
+  while (position_ < text_.size() && !is_blank(text_[position_]) &&
+         !is_line_end(text_[position_])) {
     ++position_;
   }
   return text_.substr(start, position_ - start);

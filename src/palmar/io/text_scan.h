@@ -19,7 +19,7 @@ std::optional<long long> parse_integer(std::string_view text);
 std::string shortest(double value);
 
 /// Text in quotes for a message: at most 40 characters, control characters as '?'.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// True if the first bytes look like text (no control characters but white space).
 bool looks_like_text(std::string_view bytes);
