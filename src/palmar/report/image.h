@@ -1,0 +1,55 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palmar {
+
+/// A colour as screens take it: sRGB, 0 to 255.
+struct Rgb {
+  std::uint8_t r = 0, g = 0, b = 0;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+inline constexpr Rgb kWhite{255, 255, 255};
+inline constexpr Rgb kBlack{0, 0, 0};
+
+/// "#rrggbb", as HTML and SVG write a colour.
+std::string hex_colour(Rgb colour);
+
+/// Picture, row by row from the top left; a plain value.
+struct Image {
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
+  std::vector<Rgb> pixels;
+
+  Image() = default;
+  /// Throws UsageError unless both sides are 1 to 16384 pixels.
+  Image(int image_width, int image_height, Rgb fill = kWhite);
+
+  Rgb& at(int x, int y) { return pixels[index(x, y)]; }
+  const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+/// Bytes of a PNG file (8 bit RGB, no time stamp: same picture, same bytes). Throws UsageError on
+/// an empty image.
+std::string encode_png(const Image& image);
+
+/// The picture in a PNG file's bytes; grey, palette and 16 bit become RGB, transparency is laid on
+/// white. Throws InputError if they are no PNG.
+Image decode_png(std::string_view bytes);
+
+/// Bytes as base64 (RFC 4648, padded), as data URIs hold them.
+std::string base64(std::string_view bytes);
+
+}  // namespace palmar
