@@ -26,7 +26,9 @@ struct JointDof {
 };
 
 /// Displacement of the thumb metacarpal from the reference posture to one limit posture (Xie 2014,
-/// eq. 2-5, 2-6): v' = q v + t in the hand frame.
+/// eq. 2-5, 2-6): v' = c + q (v - c) + t, axes of the hand frame, origin c = centre of the CMC
+/// joint. The origin matters for what lies between the limits: t and q are interpolated apart, and
+/// only near the joint does that leave the base of the metacarpal on the trapezium.
 struct CmcLimit {
   Quat q = Quat::Identity();
   Vec3 t = Vec3::Zero();  ///< mm
@@ -82,6 +84,17 @@ struct PosedSkeleton {
   Rigid3 thumb_metacarpal;
   Rigid3 forearm;
 };
+
+/// How far along its four limit postures the CMC joint stands: s_fe > 0 towards flexion, s_aa > 0
+/// towards abduction, |s| = 1 at the limit.
+struct CmcShare {
+  double s_fe = 0.0, s_aa = 0.0;
+};
+CmcShare cmc_share(const Skeleton& skeleton, const Posture& posture);
+
+/// Displacement of the thumb metacarpal for shares of the limit postures (eq. 2-5, 2-6, both at
+/// once), hand frame.
+Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share);
 
 /// Forward kinematics. Angles are used as they are; clamp first.
 PosedSkeleton pose_skeleton(const Skeleton& skeleton, const Posture& posture);

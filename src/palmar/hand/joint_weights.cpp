@@ -1,0 +1,253 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/hand/joint_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "palmar/geometry/mesh_topology.h"
+
+namespace palmar {
+namespace {
+
+using Field = std::vector<double>;  ///< one number per vertex
+
+double smooth_step(double t) {
+  const double s = std::clamp(t, 0.0, 1.0);
+  return s * s * (3.0 - 2.0 * s);
+}
+
+/// Where the skin of a joint turns from steady to moving, mm.
+struct Band {
+  double palmar_half = 9.0, dorsal_half = 8.0;
+  double palmar_shift = 0.0, dorsal_shift = 0.0;  ///< distally
+};
+
+/// Axes of a joint in the reference posture.
+struct JointAxes {
+  Vec3 centre, along, palmar;
+  double depth = 8.0;  ///< over which the band changes from dorsal to palmar, mm
+};
+
+/// w1: 0 on the steady side, 1 on the rigid side.
+double along_bone(const JointAxes& axes, const Band& band, const Vec3& point) {
+  const Vec3 arm = point - axes.centre;
+  const double side = smooth_step(0.5 + 0.5 * arm.dot(axes.palmar) / axes.depth);
+  const double half = band.dorsal_half + side * (band.palmar_half - band.dorsal_half);
+  const double shift = band.dorsal_shift + side * (band.palmar_shift - band.dorsal_shift);
+  return std::clamp(0.5 + 0.5 * (arm.dot(axes.along) - shift) / half, 0.0, 1.0);
+}
+
+/// Distance to a segment of bone with its skin's half thickness taken as unit.
+double scaled_distance(const Vec3& a, const Vec3& b, double radius_a, double radius_b,
+                       const Vec3& point) {
+  const Vec3 ab = b - a;
+  const double t = std::clamp((point - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+  return (point - a - t * ab).norm() / (radius_a + t * (radius_b - radius_a));
+}
+
+struct Chain {
+  std::vector<Vec3> node;
+  std::vector<double> radius;  ///< half thickness of the flesh about the node, mm
+};
+
+double scaled_distance(const Chain& chain, const Vec3& point, std::size_t first = 0) {
+  double best = 1e30;
+  for (std::size_t k = first; k + 1 < chain.node.size(); ++k) {
+    best = std::min(best, scaled_distance(chain.node[k], chain.node[k + 1], chain.radius[k],
+                                          chain.radius[k + 1], point));
+  }
+  return best;
+}
+
+/// Bones of the five rays from the carpus (CMC for the thumb) to the tip.
+std::array<Chain, kFingerCount> make_chains(const Skeleton& skeleton) {
+  std::array<Chain, kFingerCount> chains;
+  const auto centre = [&](JointId id) { return skeleton.joint(id).centre; };
+  chains[0].node = {centre(JointId::kThumbCmc), centre(JointId::kThumbMp),
+                    centre(JointId::kThumbIp), skeleton.fingertips[0]};
+  chains[0].radius = {14, 12, 10, 8};
+  for (int f = 1; f < kFingerCount; ++f) {
+    const int mcp = static_cast<int>(JointId::kIndexMcp) + 3 * (f - 1);
+    const Vec3 head = centre(static_cast<JointId>(mcp));
+    // Metacarpal bases stand in the same order as the heads, at a third of the way from the wrist.
+    const Vec3 base(0.45 * head.x(), 0.33 * head.y(), 0.8 * head.z());
+    chains[static_cast<std::size_t>(f)].node = {base, head, centre(static_cast<JointId>(mcp + 1)),
+                                                centre(static_cast<JointId>(mcp + 2)),
+                                                skeleton.fingertips[static_cast<std::size_t>(f)]};
+    chains[static_cast<std::size_t>(f)].radius = {11, 10.5, 8.5, 7.5, 6.5};
+  }
+  return chains;
+}
+
+/// Mean with the neighbours, `rounds` times, where `free` allows.
+void diffuse(Field& field, const std::vector<std::vector<int>>& neighbours,
+             const std::vector<char>& free, int rounds) {
+  Field next = field;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t v = 0; v < field.size(); ++v) {
+      if (!free[v]) continue;
+      double sum = 0;
+      for (const int n : neighbours[v]) sum += field[static_cast<std::size_t>(n)];
+      next[v] = 0.5 * field[v] + 0.5 * sum / static_cast<double>(neighbours[v].size());
+    }
+    std::swap(field, next);
+  }
+}
+
+JointAxes axes_at(const Skeleton& skeleton, JointId id, const Vec3& proximal, const Vec3& distal,
+                  Dof flexion) {
+  JointAxes axes;
+  axes.centre = skeleton.joint(id).centre;
+  axes.along =
+      ((axes.centre - proximal).normalized() + (distal - axes.centre).normalized()).normalized();
+  axes.palmar = skeleton.dof(flexion).axis.cross(axes.along).normalized();
+  return axes;
+}
+
+/// Greatest height of the skin above the joint's axis near its own plane, mm.
+double palmar_depth(const TriangleMesh& skin, const JointAxes& axes, const Field& share) {
+  double depth = 0;
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
+    const Vec3 arm = skin.vertices[v] - axes.centre;
+    if (share[v] > 0.5 && std::abs(arm.dot(axes.along)) < 4.0 && arm.norm() < 30.0) {
+      depth = std::max(depth, arm.dot(axes.palmar));
+    }
+  }
+  return depth;
+}
+
+JointWeights collect(JointId id, const Field& w1, const Field& w2) {
+  JointWeights weights;
+  weights.joint = id;
+  for (std::size_t v = 0; v < w1.size(); ++v) {
+    if (w1[v] * w2[v] <= 0) continue;
+    weights.vertex.push_back(static_cast<int>(v));
+    weights.w1.push_back(w1[v]);
+    weights.w2.push_back(std::min(w2[v], 1.0));
+  }
+  return weights;
+}
+
+class WeightMaker {
+ public:
+  WeightMaker(const TriangleMesh& skin, const Skeleton& skeleton)
+      : skin_(skin), skeleton_(skeleton), chains_(make_chains(skeleton)) {
+    require_closed_manifold(skin, "skin");
+    neighbours_ = vertex_neighbours(build_topology(skin));
+    find_owners();
+  }
+
+  std::vector<JointWeights> make() const {
+    std::vector<JointWeights> result;
+    result.push_back(wrist());
+    result.push_back(thumb_cmc());
+    const Vec3 cmc = centre(JointId::kThumbCmc), mp = centre(JointId::kThumbMp),
+               ip = centre(JointId::kThumbIp);
+    result.push_back(hinge(JointId::kThumbMp, Dof::kThumbMpFlexion, cmc, ip, own_[0], 1.05, {}));
+    result.push_back(hinge(JointId::kThumbIp, Dof::kThumbIpFlexion, mp, skeleton_.fingertips[0],
+                           own_[0], 1.15, {}));
+    for (int f = 1; f < kFingerCount; ++f) add_finger(f, result);
+    return result;
+  }
+
+ private:
+  const Vec3& centre(JointId id) const { return skeleton_.joint(id).centre; }
+
+  /// Which ray each vertex lies on, first hard, then smooth in palm and webs.
+  void find_owners() {
+    const std::size_t n = skin_.vertices.size();
+    for (Field& field : own_) field.assign(n, 0.0);
+    for (Field& field : hard_) field.assign(n, 0.0);
+    for (std::size_t v = 0; v < n; ++v) {
+      std::size_t best = 0;
+      double nearest = 1e30;
+      for (std::size_t f = 0; f < chains_.size(); ++f) {
+        const double d = scaled_distance(chains_[f], skin_.vertices[v]);
+        if (d < nearest) {
+          nearest = d;
+          best = f;
+        }
+      }
+      hard_[best][v] = 1.0;
+    }
+    own_ = hard_;
+    const std::vector<char> everywhere(n, 1);
+    for (std::size_t f = 0; f < own_.size(); ++f) diffuse(own_[f], neighbours_, everywhere, 12);
+  }
+
+  JointWeights hinge(JointId id, Dof flexion, const Vec3& proximal, const Vec3& distal,
+                     const Field& share, double slack, Band band) const {
+    JointAxes axes = axes_at(skeleton_, id, proximal, distal, flexion);
+    const double depth = palmar_depth(skin_, axes, share);
+    const JointDof& dof = skeleton_.dof(flexion);
+    band.palmar_half = slack * 0.5 * depth * (dof.upper - dof.reference);
+    band.dorsal_half = band.palmar_half;
+    axes.depth = depth;
+    Field w1(skin_.vertices.size());
+    for (std::size_t v = 0; v < w1.size(); ++v) {
+      w1[v] = share[v] > 0 ? along_bone(axes, band, skin_.vertices[v]) : 0.0;
+    }
+    return collect(id, w1, share);
+  }
+
+  void add_finger(int f, std::vector<JointWeights>& result) const {
+    const auto field = static_cast<std::size_t>(f);
+    const int j = static_cast<int>(JointId::kIndexMcp) + 3 * (f - 1);
+    const int d = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
+    const auto joint = [&](int k) { return static_cast<JointId>(j + k); };
+    const Chain& chain = chains_[field];
+    result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[field],
+                           1.1, {.palmar_shift = 4.0, .dorsal_shift = 0.0}));
+    result.push_back(hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3],
+                           hard_[field], 1.1, {}));
+    result.push_back(hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4],
+                           hard_[field], 1.1, {}));
+  }
+
+  JointWeights thumb_cmc() const {
+    Field w1(skin_.vertices.size(), 0.0), w2(skin_.vertices.size(), 1.0);
+    const Vec3 cmc = centre(JointId::kThumbCmc), mp = centre(JointId::kThumbMp);
+    const Vec3 along = (mp - cmc).normalized();
+    const Chain& thumb = chains_[0];
+    for (std::size_t v = 0; v < w1.size(); ++v) {
+      const Vec3& p = skin_.vertices[v];
+      const double to_thumb = scaled_distance(thumb, p);
+      double to_palm = 1e30;
+      for (std::size_t f = 1; f < chains_.size(); ++f) {
+        to_palm = std::min(to_palm, scaled_distance(chains_[f], p));
+      }
+      w2[v] = smooth_step((to_palm / (to_palm + to_thumb) - 0.36) / 0.26);
+      const double y = (p - cmc).dot(along);
+      w1[v] = smooth_step((y + 18.0) / 36.0);
+    }
+    const std::vector<char> everywhere(w1.size(), 1);
+    diffuse(w2, neighbours_, everywhere, 10);
+    return collect(JointId::kThumbCmc, w1, w2);
+  }
+
+  JointWeights wrist() const {
+    Field w1(skin_.vertices.size()), w2(skin_.vertices.size(), 1.0);
+    for (std::size_t v = 0; v < w1.size(); ++v) {
+      w1[v] = std::clamp(0.5 - skin_.vertices[v].y() / 32.0, 0.0, 1.0);
+    }
+    return collect(JointId::kWrist, w1, w2);
+  }
+
+  const TriangleMesh& skin_;
+  const Skeleton& skeleton_;
+  std::array<Chain, kFingerCount> chains_;
+  std::vector<std::vector<int>> neighbours_;
+  std::array<Field, kFingerCount> hard_;  ///< 1 on the vertices of a ray
+  std::array<Field, kFingerCount> own_;   ///< the same, smooth in palm and webs
+};
+
+}  // namespace
+
+std::vector<JointWeights> make_joint_weights(const TriangleMesh& skin, const Skeleton& skeleton) {
+  return WeightMaker(skin, skeleton).make();
+}
+
+}  // namespace palmar
