@@ -62,7 +62,16 @@ struct RegionContact {
   double shear_modulus = 0.0;        ///< G(d_max), MPa
 };
 
-enum class ContactStatus { kSolved, kNoContact, kNotConverged };
+enum class ContactStatus {
+  kSolved,
+  kNoContact,
+  kNotConverged,
+  kTooDeep  ///< palmar skin lies deeper in the product than kMaxContactDepth; it carries no force
+};
+
+/// Skin deeper in the product than this is no contact that a half-space can describe (twice the
+/// limit depth of the palm); it is left out of the solution and told.
+constexpr double kMaxContactDepth = 15.0;  // mm
 
 /// Contact of a posed hand with a product. Per-vertex fields follow hand.skin; product frame, mm,
 /// N, MPa.
@@ -84,7 +93,29 @@ struct ContactResult {
 };
 
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`
-/// places it. Never throws on a numerical failure: see status.
+/// places it. Geodesic distances and Voronoi areas are those of the reference posture.
+///
+/// Per sub-active region (one region's share of the penetrating skin; the dorsum per connected
+/// patch), with G = G(d_max):
+///
+///     s = (R_Bou / G) p + d >= 0,   p >= 0,   s_i p_i = 0    inside the force-applied region
+///     u = (R_Bou / G - a R_Gau) p                            around it
+///
+/// d is the signed distance to the product, negative inside. As R_Bou has no negative entry, only
+/// penetrating vertices can carry force, so the problem is exact on them alone. Regions are solved
+/// independently, as in Xie 2014: their cross-talk is left out. a is such that the bulge is
+/// swelling_height_at() high (response.h). Displacements fade to zero over the
+/// last third of the growth distance of the active region instead of being cut there. A bulge that
+/// would enter the product is flattened against it without force (Xie 2014, eq. 3-7).
+///
+/// Loaded skin ends on the product's surface, at its nearest point; other penetrating skin moves
+/// along the product's normal, the rest along its own normal (eq. 3-15). Where the nearest surface
+/// is on the far side of a thin product (its normal points along the skin's own), the surface is
+/// looked for against the skin's normal, the way the skin came; where there is none, the vertex is
+/// left out and told in `message`.
+///
+/// Never throws on a numerical failure: see status. Throws UsageError on bad options or if
+/// posed_skin has not one point per skin vertex.
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
                                  const Rigid3& product_from_hand, const DistanceField& product,
                                  const ContactOptions& options = {});

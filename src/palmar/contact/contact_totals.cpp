@@ -1,0 +1,59 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/contact_totals.h"
+
+#include <algorithm>
+
+#include "palmar/contact/contact_patch.h"
+
+namespace palmar {
+
+void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
+                const std::vector<double>& shear_modulus,
+                const std::array<double, kRegionCount>& d_max,
+                const std::array<double, kRegionCount>& modulus, double cell_area,
+                ContactResult& result) {
+  const std::size_t n = result.force.size();
+  std::vector<double> gap(n);
+  std::array<std::vector<int>, kRegionCount> loaded;
+  for (std::size_t v = 0; v < n; ++v) {
+    gap[v] = skin.sample[v].distance + result.displacement[v];
+    if (result.force[v] <= 0.0) continue;
+    loaded[static_cast<std::size_t>(prepared.hand->region[v])].push_back(static_cast<int>(v));
+  }
+  const std::vector<double> area = contact_area(
+      prepared.skin.position, prepared.hand->skin.triangles, result.pressure, gap, shear_modulus);
+
+  RegionContact& total = result.total;
+  for (int r = 0; r < kRegionCount; ++r) {
+    total.max_penetration = std::max(total.max_penetration, d_max[r]);
+    if (loaded[r].empty()) continue;
+    RegionContact& part = result.regions.emplace_back();
+    part.region = static_cast<Region>(r);
+    part.max_penetration = d_max[r];
+    part.shear_modulus = modulus[r];
+    Vec3 moment = Vec3::Zero();
+    for (const int v : loaded[r]) {
+      part.force += result.force[v];
+      // The skin pushes the product inwards, against the product's outward normal.
+      part.force_vector -= result.force[v] * skin.sample[v].normal;
+      part.area += area[v];
+      part.peak_pressure = std::max(part.peak_pressure, result.pressure[v]);
+      moment += result.force[v] * result.deformed[v];
+    }
+    part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
+    part.centre = moment / part.force;
+    part.peak_pressure_cells =
+        peak_over_cells(prepared.skin, loaded[r], result.pressure, cell_area);
+    total.force += part.force;
+    total.force_vector += part.force_vector;
+    total.area += part.area;
+    total.peak_pressure = std::max(total.peak_pressure, part.peak_pressure);
+    total.peak_pressure_cells = std::max(total.peak_pressure_cells, part.peak_pressure_cells);
+    total.centre += moment;
+  }
+  if (total.force > 0.0) total.centre /= total.force;
+  if (total.area > 0.0) total.mean_pressure = total.force / total.area;
+}
+
+}  // namespace palmar

@@ -1,0 +1,21 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/skin_product.h"
+
+namespace palmar {
+
+/// Sets result.regions and result.total from the forces and the deformed skin. `shear_modulus`
+/// [MPa] stands per vertex, `d_max` [mm] and `modulus` [MPa] per region.
+void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
+                const std::vector<double>& shear_modulus,
+                const std::array<double, kRegionCount>& d_max,
+                const std::array<double, kRegionCount>& modulus, double cell_area,
+                ContactResult& result);
+
+}  // namespace palmar

@@ -1,0 +1,236 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/hand_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "palmar/contact/contact_totals.h"
+#include "palmar/contact/lcp.h"
+#include "palmar/contact/lemke.h"
+#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/response.h"
+#include "palmar/contact/skin_product.h"
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kRoundingGap = 1e-9;  // mm; skin this deep still counts as on the surface
+
+/// One region's share of the penetrating skin.
+struct SubActiveRegion {
+  Region region{};
+  std::vector<int> collision;   ///< penetrating vertices, ascending
+  RegionResponse own_response;  ///< dorsum only
+  const RegionResponse* response = nullptr;
+  std::vector<int> columns;    ///< of the collision vertices in the response
+  double d_max = 0.0;          ///< mm
+  double shear_modulus = 0.0;  ///< MPa
+  Eigen::VectorXd force;       ///< of the collision vertices, N
+  Eigen::VectorXd gap;         ///< of the collision vertices, mm
+};
+
+/// Splits the collision region by the 19 regions, and the dorsum by connected patches.
+std::vector<SubActiveRegion> split_by_region(const PreparedHand::Impl& prepared,
+                                             const SkinOnProduct& skin) {
+  std::array<std::vector<int>, kRegionCount> collision;
+  for (const int v : skin.collision) {
+    collision[static_cast<std::size_t>(prepared.hand->region[v])].push_back(v);
+  }
+  std::vector<SubActiveRegion> parts;
+  for (int r = 0; r < kRegionCount; ++r) {
+    if (collision[r].empty()) continue;
+    const Region region = static_cast<Region>(r);
+    if (region != Region::kDorsum) {
+      SubActiveRegion& part = parts.emplace_back();
+      part.region = region;
+      part.collision = std::move(collision[r]);
+      continue;
+    }
+    for (std::vector<int>& patch : connected_parts(prepared.skin, collision[r])) {
+      SubActiveRegion& part = parts.emplace_back();
+      part.region = region;
+      part.collision = std::move(patch);
+    }
+  }
+  return parts;
+}
+
+/// Rows and columns of the responses that a part needs.
+void attach_response(const PreparedHand::Impl& prepared, SubActiveRegion& part) {
+  if (part.region != Region::kDorsum) {
+    part.response = &prepared.region[static_cast<std::size_t>(part.region)];
+    for (const int v : part.collision) part.columns.push_back(prepared.row[v]);
+    return;
+  }
+  const RegionTissue& tissue = prepared.tissue(part.region);
+  std::vector<int> around;
+  for (const GrownVertex& g : grow(prepared.skin, part.collision, tissue.neighbourhood)) {
+    if (g.distance > 0.0) around.push_back(g.vertex);
+  }
+  part.own_response = response_between(prepared, tissue, part.collision, around);
+  part.response = &part.own_response;
+  for (int k = 0; k < part.own_response.columns; ++k) part.columns.push_back(k);
+}
+
+/// Solves the LCP of one part on its penetrating vertices. Returns false if no solver found an
+/// answer.
+bool solve_part(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
+                const ContactOptions& options, SubActiveRegion& part, ContactResult& result) {
+  attach_response(prepared, part);
+  ContactProblem problem;
+  const auto m = static_cast<Eigen::Index>(part.collision.size());
+  problem.distance.resize(m);
+  for (Eigen::Index k = 0; k < m; ++k)
+    problem.distance[k] = skin.sample[part.collision[k]].distance;
+  part.d_max = -problem.distance.minCoeff();
+  part.shear_modulus =
+      options.shear_modulus.value_or(shear_modulus_at(prepared.tissue(part.region), part.d_max));
+  problem.response =
+      part.response->bou(part.columns, part.columns).cast<double>() / part.shear_modulus;
+  ContactSolution solution = solve_contact(problem);
+  if (solution.status != LcpStatus::kSolved) solution = solve_contact_lemke(problem);
+  part.force = solution.force;
+  part.gap = solution.gap;
+  result.iterations += solution.pivots;
+  result.complementarity_error =
+      std::max(result.complementarity_error, solution.complementarity_error);
+  return solution.status == LcpStatus::kSolved;
+}
+
+/// Adds one part's displacement to the skin around it (not to penetrating skin, which has its own).
+void add_displacement_around(const PreparedHand::Impl& prepared, const ContactOptions& options,
+                             const SubActiveRegion& part, const std::vector<char>& is_colliding,
+                             const std::vector<float>& fade, std::vector<double>& displacement) {
+  const RegionResponse& response = *part.response;
+  const auto rows = static_cast<Eigen::Index>(response.vertex.size());
+  Eigen::VectorXf u = Eigen::VectorXf::Zero(rows);
+  Eigen::VectorXf bulge = Eigen::VectorXf::Zero(rows);
+  for (std::size_t k = 0; k < part.columns.size(); ++k) {
+    const double p = part.force[static_cast<Eigen::Index>(k)];
+    if (p <= 0.0) continue;
+    u += static_cast<float>(p / part.shear_modulus) * response.bou.col(part.columns[k]);
+    if (options.swelling) bulge += static_cast<float>(p) * response.gau.col(part.columns[k]);
+  }
+  const float highest = options.swelling ? bulge.maxCoeff() : 0.0F;
+  if (highest > 0.0F) {
+    const double height = swelling_height_at(prepared.tissue(part.region), part.force.sum());
+    u -= bulge * (static_cast<float>(height) / highest);
+  }
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const int v = response.vertex[i];
+    if (!is_colliding[v]) displacement[v] += static_cast<double>(fade[v] * u[i]);
+  }
+}
+
+/// 1 near the collision region, 0 from the growth distance on, smooth over its last third.
+std::vector<float> fade_around(const PreparedHand::Impl& prepared, const SkinOnProduct& skin) {
+  double widest = 0.0;
+  for (const RegionTissue& tissue : prepared.hand->tissue.region) {
+    widest = std::max(widest, tissue.neighbourhood);
+  }
+  std::vector<float> fade(skin.sample.size(), 0.0F);
+  for (const GrownVertex& g : grow(prepared.skin, skin.collision, widest)) {
+    const double end = prepared.tissue(prepared.hand->region[g.vertex]).neighbourhood;
+    const double t = std::clamp(3.0 * (1.0 - g.distance / end), 0.0, 1.0);
+    fade[g.vertex] = static_cast<float>(t * t * (3.0 - 2.0 * t));
+  }
+  return fade;
+}
+
+}  // namespace
+
+void ContactOptions::check() const {
+  if (!(cell_area > 0.0 && cell_area <= 1000.0)) {
+    throw UsageError("cell_area is " + std::to_string(cell_area) +
+                     " mm^2; more than 0 and at most 1000 mm^2 is required");
+  }
+  if (shear_modulus && !(*shear_modulus > 0.0 && std::isfinite(*shear_modulus))) {
+    throw UsageError("shear_modulus is " + std::to_string(*shear_modulus) +
+                     " MPa; a finite value above 0 is required");
+  }
+}
+
+ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<Vec3>& posed_skin,
+                                   const Rigid3& product_from_hand, const DistanceField& product,
+                                   const ContactOptions& options, std::optional<Region> only) {
+  options.check();
+  const PreparedHand::Impl& prepared = hand.impl();
+  const std::size_t n = prepared.hand->skin.vertices.size();
+  if (posed_skin.size() != n) {
+    throw UsageError("contact: posed skin has " + std::to_string(posed_skin.size()) +
+                     " points; the hand's skin has " + std::to_string(n) + " vertices");
+  }
+  ContactResult result;
+  result.undeformed.reserve(n);
+  for (const Vec3& v : posed_skin) result.undeformed.push_back(product_from_hand * v);
+  SkinOnProduct skin = find_skin_on_product(*prepared.hand, result.undeformed, product, only);
+  result.message = skin.message;
+  result.displacement.assign(n, 0.0);
+  result.force.assign(n, 0.0);
+  result.pressure.assign(n, 0.0);
+
+  std::vector<SubActiveRegion> parts = split_by_region(prepared, skin);
+  result.status = parts.empty() ? ContactStatus::kNoContact : ContactStatus::kSolved;
+  if (skin.is_too_deep) result.status = ContactStatus::kTooDeep;
+  for (SubActiveRegion& part : parts) {
+    if (!solve_part(prepared, skin, options, part, result)) {
+      result.status = ContactStatus::kNotConverged;
+      result.message += (result.message.empty() ? "" : "; ");
+      result.message += "contact of region " + std::string(name_of(part.region)) + " (" +
+                        std::to_string(part.collision.size()) +
+                        " penetrating vertices) has no solution; it carries no force";
+    }
+    for (std::size_t k = 0; k < part.collision.size(); ++k) {
+      const int v = part.collision[k];
+      const double p = part.force[static_cast<Eigen::Index>(k)];
+      result.force[v] = p;
+      result.pressure[v] = p / prepared.skin.area[v];
+      const double d = skin.sample[v].distance;
+      result.displacement[v] = p > 0.0 ? -d : part.gap[static_cast<Eigen::Index>(k)] - d;
+    }
+  }
+  if (!parts.empty()) {
+    std::vector<char> is_colliding(n, 0);
+    for (const int v : skin.collision) is_colliding[v] = 1;
+    const std::vector<float> fade = fade_around(prepared, skin);
+    for (const SubActiveRegion& part : parts) {
+      add_displacement_around(prepared, options, part, is_colliding, fade, result.displacement);
+    }
+    for (std::size_t v = 0; v < n; ++v) {
+      // A bulge that meets the product lies flat against it.
+      const double d = skin.sample[v].distance;
+      if (d > kRoundingGap) result.displacement[v] = std::max(result.displacement[v], -d);
+    }
+  }
+  deform_skin(skin, product, result);
+
+  result.distance.reserve(n);
+  for (const DistanceSample& sample : skin.sample) result.distance.push_back(sample.distance);
+  std::vector<double> shear_modulus(n, 0.0);
+  std::array<double, kRegionCount> d_max{};
+  std::array<double, kRegionCount> modulus{};
+  for (const SubActiveRegion& part : parts) {
+    for (const int v : part.collision) shear_modulus[v] = part.shear_modulus;
+    const auto r = static_cast<std::size_t>(part.region);
+    if (part.d_max >= d_max[r]) {
+      d_max[r] = part.d_max;
+      modulus[r] = part.shear_modulus;
+    }
+  }
+  add_totals(prepared, skin, shear_modulus, d_max, modulus, options.cell_area, result);
+  return result;
+}
+
+ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
+                                 const Rigid3& product_from_hand, const DistanceField& product,
+                                 const ContactOptions& options) {
+  return solve_region_contact(prepared, posed_skin, product_from_hand, product, options,
+                              std::nullopt);
+}
+
+}  // namespace palmar

@@ -1,0 +1,159 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/lcp.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+/// Values below this share of the largest one are rounding, not infeasibility.
+constexpr double kRounding = 1e-13;
+
+/// p and s for a guess of which variables are in contact.
+struct Complementary {
+  Eigen::VectorXd force;  ///< m; zero outside the contact set
+  Eigen::VectorXd gap;    ///< m; zero inside the contact set
+  bool is_finite = false;
+};
+
+/// Solves R_FF p_F = -d_F and s = R_:F p_F + d, where F is the contact set.
+Complementary solve_for_set(const ContactProblem& problem, const std::vector<int>& contact,
+                            bool is_symmetric) {
+  const Eigen::Index m = problem.distance.size();
+  Complementary result{Eigen::VectorXd::Zero(m), problem.distance, true};
+  if (contact.empty()) return result;
+  const Eigen::MatrixXd columns = problem.response(Eigen::all, contact);
+  const Eigen::MatrixXd R_FF = columns(contact, Eigen::all);
+  const Eigen::VectorXd d_F = problem.distance(contact);
+  Eigen::VectorXd p_F;
+  bool solved = false;
+  if (is_symmetric) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(R_FF);
+    solved = factor.info() == Eigen::Success;
+    if (solved) p_F = -factor.solve(d_F);
+  }
+  // An indefinite block can't be factored by Cholesky but may still have an answer.
+  if (!solved) p_F = -Eigen::PartialPivLU<Eigen::MatrixXd>(R_FF).solve(d_F);
+  result.is_finite = p_F.allFinite();
+  result.gap.noalias() += columns * p_F;
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    result.force[contact[k]] = p_F[static_cast<Eigen::Index>(k)];
+    result.gap[contact[k]] = 0.0;
+  }
+  return result;
+}
+
+double largest_magnitude(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+void ContactProblem::check() const {
+  if (response.rows() != response.cols()) {
+    throw UsageError("contact problem: response matrix is " + std::to_string(response.rows()) +
+                     " x " + std::to_string(response.cols()) + "; a square one is required");
+  }
+  if (response.rows() != distance.size()) {
+    throw UsageError("contact problem: " + std::to_string(distance.size()) +
+                     " distances for a response matrix of " + std::to_string(response.rows()) +
+                     " rows; the numbers must be equal");
+  }
+  for (Eigen::Index i = 0; i < distance.size(); ++i) {
+    if (!std::isfinite(distance[i])) {
+      throw UsageError("contact problem: distance of vertex " + std::to_string(i) +
+                       " is not finite; a length in mm is required");
+    }
+  }
+  if (!response.allFinite()) {
+    throw UsageError("contact problem: the response matrix has an entry that is not finite");
+  }
+}
+
+void LcpOptions::check() const {
+  if (max_fruitless_blocks < 0) {
+    throw UsageError("max_fruitless_blocks is " + std::to_string(max_fruitless_blocks) +
+                     "; 0 or more is required");
+  }
+  if (max_pivots && *max_pivots < 1) {
+    throw UsageError("max_pivots is " + std::to_string(*max_pivots) + "; 1 or more is required");
+  }
+}
+
+void recompute_residual(const ContactProblem& problem, ContactSolution& solution) {
+  solution.gap = problem.distance;
+  solution.complementarity_error = 0.0;
+  solution.relative_residual = 0.0;
+  if (problem.distance.size() == 0) return;
+  solution.gap.noalias() += problem.response * solution.force;
+  const double p_scale = std::max(largest_magnitude(solution.force), 1e-300);
+  const double d_scale = std::max(largest_magnitude(problem.distance), 1e-300);
+  for (Eigen::Index i = 0; i < solution.gap.size(); ++i) {
+    const double s = solution.gap[i];
+    const double p = solution.force[i];
+    solution.complementarity_error = std::max(solution.complementarity_error, std::abs(s * p));
+    solution.relative_residual =
+        std::max(solution.relative_residual, std::abs(std::min(s / d_scale, p / p_scale)));
+  }
+}
+
+ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& options) {
+  problem.check();
+  options.check();
+  const Eigen::Index m = problem.distance.size();
+  ContactSolution solution;
+  solution.force = Eigen::VectorXd::Zero(m);
+  const int max_pivots = options.max_pivots.value_or(100 + 10 * static_cast<int>(m));
+  const double d_scale = largest_magnitude(problem.distance);
+
+  std::vector<char> in_contact(static_cast<std::size_t>(m));
+  for (Eigen::Index i = 0; i < m; ++i) in_contact[i] = problem.distance[i] < 0.0;
+  std::vector<int> contact;
+  std::vector<int> infeasible;
+  int fewest_infeasible = static_cast<int>(m) + 1;
+  int fruitless_left = options.max_fruitless_blocks;
+  while (true) {
+    contact.clear();
+    for (Eigen::Index i = 0; i < m; ++i) {
+      if (in_contact[i]) contact.push_back(static_cast<int>(i));
+    }
+    const Complementary trial = solve_for_set(problem, contact, options.is_symmetric);
+    if (!trial.is_finite) break;
+    const double p_rounding = kRounding * largest_magnitude(trial.force);
+    infeasible.clear();
+    for (int i = 0; i < static_cast<int>(m); ++i) {
+      const bool ok =
+          in_contact[i] ? trial.force[i] >= -p_rounding : trial.gap[i] >= -kRounding * d_scale;
+      if (!ok) infeasible.push_back(i);
+    }
+    if (infeasible.empty()) {
+      solution.status = LcpStatus::kSolved;
+      solution.force = trial.force.cwiseMax(0.0);
+      break;
+    }
+    if (solution.pivots >= max_pivots) break;
+    ++solution.pivots;
+    const int count = static_cast<int>(infeasible.size());
+    if (count < fewest_infeasible) {
+      fewest_infeasible = count;
+      fruitless_left = options.max_fruitless_blocks;
+    } else if (fruitless_left > 0) {
+      --fruitless_left;
+    } else {
+      infeasible = {infeasible.back()};
+    }
+    for (const int i : infeasible) in_contact[i] = !in_contact[i];
+  }
+  recompute_residual(problem, solution);
+  return solution;
+}
+
+}  // namespace palmar

@@ -1,0 +1,61 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// What the contact model needs to know about a skin in its reference posture.
+struct SkinGeometry {
+  std::vector<Vec3> position;       ///< mm
+  std::vector<Vec3> normal;         ///< unit, outward
+  std::vector<double> area;         ///< Voronoi area of a vertex, mm^2; sums to the surface
+  std::vector<double> radius;       ///< of the disc of that area, mm
+  std::vector<int> ring_begin;      ///< vertex count + 1: where the neighbours begin in `ring`
+  std::vector<int> ring;            ///< neighbours over one edge, ascending
+  std::vector<double> edge_length;  ///< of each entry of `ring`, mm
+
+  int vertex_count() const { return static_cast<int>(position.size()); }
+  std::span<const int> neighbours(int vertex) const {
+    return std::span(ring).subspan(ring_begin[vertex], ring_begin[vertex + 1] - ring_begin[vertex]);
+  }
+};
+
+SkinGeometry skin_geometry(const TriangleMesh& skin);
+
+/// Area-weighted unit vertex normals of a mesh whose vertices have moved.
+std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
+                                 const std::vector<Triangle>& triangles);
+
+/// Voronoi area of every vertex, mm^2; in obtuse triangles the mixed rule, so that they sum to the
+/// surface. Source: Meyer, Desbrun, Schroeder, Barr 2003, section 3.3.
+std::vector<double> voronoi_areas(const TriangleMesh& mesh);
+
+/// Distance on the skin between two vertices, from their positions and normals alone:
+///
+///     r^2 = |c|^2 + (c . t)^2 ((phi/2)^2 / sin^2(phi/2) - 1)
+///
+/// with the chord c, the angle phi between the normals and t the direction in which the normal
+/// turns. Exact on planes, spheres and (along every helix) cylinders; elsewhere good where the
+/// curvature changes little between the two. mm.
+double arc_distance(const SkinGeometry& skin, int i, int j);
+
+/// Vertices within `distance` [mm] of the sources along the mesh's edges, ascending, with that
+/// distance.
+struct GrownVertex {
+  int vertex = 0;
+  double distance = 0.0;  ///< mm; 0 for a source
+};
+std::vector<GrownVertex> grow(const SkinGeometry& skin, std::span<const int> sources,
+                              double distance);
+
+/// Connected parts of a set of vertices (ascending in, ascending out), in the order of their first
+/// vertex.
+std::vector<std::vector<int>> connected_parts(const SkinGeometry& skin,
+                                              const std::vector<int>& vertices);
+
+}  // namespace palmar
