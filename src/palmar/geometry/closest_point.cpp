@@ -2,13 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/geometry/closest_point.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "palmar/geometry/embree_mesh.h"
+#include "palmar/core/error.h"
+#include "palmar/geometry/triangle_partition.h"
 
 namespace palmar {
 namespace {
+
+void check_mesh(const TriangleMesh& mesh) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& x = mesh.vertices[v];
+    if (!x.allFinite()) {
+      throw InputError("mesh vertex " + std::to_string(v) + ": coordinates are " +
+                       std::to_string(x.x()) + ", " + std::to_string(x.y()) + ", " +
+                       std::to_string(x.z()) + "; finite numbers are required");
+    }
+  }
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (const int v : mesh.triangles[t]) {
+      if (v < 0 || v >= mesh.vertex_count()) {
+        throw InputError("mesh triangle " + std::to_string(t) + ": corner is vertex " +
+                         std::to_string(v) + "; 0 to " + std::to_string(mesh.vertex_count() - 1) +
+                         " exist");
+      }
+    }
+  }
+}
 
 /// A triangle with what the test needs, side by side in memory.
 struct Face {
@@ -74,41 +98,162 @@ TrianglePoint closest_on_face(const Vec3& p, const Face& f) {
   return result;
 }
 
-/// State of one search; Embree hands it back to the callback.
+using Float4 = Eigen::Array<float, 4, 1>;
+constexpr int kWidth = TrianglePartition::kWidth;
+// Up to this size the box of a group is fitted to its corners, above to the boxes of its parts.
+constexpr int kFittedSize = 64;
+constexpr int kNothing = std::numeric_limits<int>::min();  // child of an empty part
+
+/// Boxes, each turned along its own triangles, of four groups side by side. A group on a smooth
+/// surface gets a flat box, so that few groups near the foot of the point must be opened; upright
+/// boxes would be as thick as the group is wide.
+struct alignas(64) Node {
+  std::array<Float4, 3> centre;               ///< mm
+  std::array<std::array<Float4, 3>, 3> axis;  ///< axis[i][k]: component k of unit axis i
+  std::array<Float4, 3> half;                 ///< half length along axis i, mm; negative if empty
+  std::array<int, kWidth> child;              ///< node if >= 0, else leaf -1 - child
+};
+
+/// Squared distances of a point to the nearest and to the farthest point of four boxes, mm^2.
+struct BoxDistances {
+  Float4 nearest = Float4::Zero();
+  Float4 farthest = Float4::Zero();
+};
+
+BoxDistances box_distances(const Node& node, const Eigen::Vector3f& p) {
+  const Float4 x = p.x() - node.centre[0], y = p.y() - node.centre[1], z = p.z() - node.centre[2];
+  BoxDistances d;
+  for (int i = 0; i < 3; ++i) {
+    const Float4 along = (node.axis[i][0] * x + node.axis[i][1] * y + node.axis[i][2] * z).abs();
+    const Float4 beyond = (along - node.half[i]).max(0.0f);
+    const Float4 across = along + node.half[i];
+    d.nearest += beyond * beyond;
+    d.farthest += across * across;
+  }
+  return d;
+}
+
+/// Up to four triangles a, a + u, a + v side by side in float, to find out which of them deserve
+/// the test in double.
+struct alignas(64) Leaf {
+  std::array<Float4, 3> a, u, v;              ///< mm
+  Float4 inverse_uu, inverse_vv, inverse_ww;  ///< 1 / squared length of u, v and w = v - u; 0 if 0
+  Float4 vv, uv, uu;                          ///< dot products / (uu vv - uv^2)
+  Float4 trust;                               ///< 0 for needles, which float can't judge, else 1
+  int first = 0;                              ///< face of the first triangle
+  int count = 0;
+  bool is_trusted = true;  ///< no needles
+};
+
+Float4 dot(const std::array<Float4, 3>& a, const std::array<Float4, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// p - s a
+std::array<Float4, 3> rest(const std::array<Float4, 3>& p, const Float4& s,
+                           const std::array<Float4, 3>& a) {
+  return {p[0] - s * a[0], p[1] - s * a[1], p[2] - s * a[2]};
+}
+
+/// Squared distances of a point to four triangles, mm^2; 0 for needles.
+Float4 triangle_distances(const Leaf& f, const Eigen::Vector3f& q) {
+  const std::array<Float4, 3> p = {q.x() - f.a[0], q.y() - f.a[1], q.z() - f.a[2]};
+  const std::array<Float4, 3> w = {f.v[0] - f.u[0], f.v[1] - f.u[1], f.v[2] - f.u[2]};
+  const std::array<Float4, 3> pu = {p[0] - f.u[0], p[1] - f.u[1], p[2] - f.u[2]};
+  const Float4 along_u = dot(p, f.u), along_v = dot(p, f.v);
+  const Float4 share_u = (along_u * f.inverse_uu).max(0.0f).min(1.0f);
+  const Float4 share_v = (along_v * f.inverse_vv).max(0.0f).min(1.0f);
+  const Float4 share_w = (dot(pu, w) * f.inverse_ww).max(0.0f).min(1.0f);
+  const std::array<Float4, 3> ru = rest(p, share_u, f.u);
+  const std::array<Float4, 3> rv = rest(p, share_v, f.v);
+  const std::array<Float4, 3> rw = rest(pu, share_w, w);
+  const Float4 edges = dot(ru, ru).min(dot(rv, rv)).min(dot(rw, rw));
+  const Float4 s = f.vv * along_u - f.uv * along_v;
+  const Float4 t = f.uu * along_v - f.uv * along_u;
+  const std::array<Float4, 3> rf = rest(rest(p, s, f.u), t, f.v);
+  const auto is_over_face = s >= 0.0f && t >= 0.0f && s + t <= 1.0f;
+  return f.trust * is_over_face.select(dot(rf, rf), edges);
+}
+
+/// What the box of a group is fitted to.
+struct Spread {
+  Vec3 normal = Vec3::Zero();  ///< sum of area times normal
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  double count = 0.0;
+
+  void add(const Spread& other) {
+    normal += other.normal;
+    sum += other.sum;
+    square += other.square;
+    count += other.count;
+  }
+};
+
+Spread spread_of(const Face& f) {
+  Spread s;
+  s.normal = (f.b - f.a).cross(f.c - f.a);
+  for (const Vec3& x : {f.a, f.b, f.c}) {
+    s.sum += x;
+    s.square += x * x.transpose();
+  }
+  s.count = 3.0;
+  return s;
+}
+
+/// Frame whose rows are: the longest direction in the plane of the group, the other one, its
+/// normal.
+Eigen::Matrix3f frame_of(const Spread& s) {
+  const Vec3 n = s.normal.squaredNorm() > 0.0 ? s.normal.stableNormalized() : Vec3::UnitZ();
+  const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+  const Vec3 mean = s.sum / s.count;
+  const Eigen::Matrix3d covariance = s.square / s.count - mean * mean.transpose();
+  const double uu = u.dot(covariance * u), vv = v.dot(covariance * v), uv = u.dot(covariance * v);
+  const double angle = 0.5 * std::atan2(2.0 * uv, uu - vv);
+  Eigen::Matrix3f frame;
+  frame.row(0) = (std::cos(angle) * u + std::sin(angle) * v).cast<float>();
+  frame.row(1) = (std::cos(angle) * v - std::sin(angle) * u).cast<float>();
+  frame.row(2) = n.cast<float>();
+  return frame;
+}
+
+/// State of one search.
 struct Search {
-  const std::vector<Face>* faces;
   Vec3 point;
   double best2;  ///< squared distance, mm^2
   int triangle = -1;
-  TrianglePoint nearest;
-  double margin;  ///< mm; see radius()
+  TrianglePoint nearest = {};
+  double margin = 0.0;  ///< mm; bound of the rounding of a distance in float
+  float slack2 = 0.0f;  ///< 5001 margin^2, mm^2
+  /// Squared distance from which a box or triangle is skipped, mm^2.
+  float limit2 = std::numeric_limits<float>::infinity();
 
-  /// Embree culls in float: a little more than the best distance, so that no nearer and no equally
+  /// Boxes are in float: look a little beyond the best distance, so that no nearer and no equally
   /// near triangle is lost.
-  float radius() const { return static_cast<float>(std::sqrt(best2) * (1.0 + 1e-6) + margin); }
+  void set_limit() {
+    const double limit = std::sqrt(best2) * (1.0 + 1e-6) + margin;
+    limit2 = std::min(limit2, static_cast<float>(limit * limit));
+  }
+  /// There is a triangle not farther than this [mm^2, in float]. (d + m)^2 is at most
+  /// 1.0002 d^2 + 5001 m^2: cheaper than a root.
+  void lower_limit(float squared_distance) {
+    limit2 = std::min(limit2, 1.0002f * squared_distance + slack2);
+  }
 
-  bool test(int index) {
-    const Face& face = (*faces)[index];
+  void test(const Face& face, int index) {
     const double height = face.normal.dot(point - face.a);
-    if (height * height > best2 * (1.0 + 1e-9)) return false;
+    if (height * height > best2 * (1.0 + 1e-9)) return;
     const TrianglePoint found = closest_on_face(point, face);
     const bool is_nearer = found.squared_distance < best2;
     if (!is_nearer && !(found.squared_distance == best2 && (triangle < 0 || index < triangle))) {
-      return false;
+      return;
     }
     best2 = found.squared_distance;
     nearest = found;
     triangle = index;
-    return is_nearer;
+    set_limit();
   }
 };
-
-bool test_primitive(RTCPointQueryFunctionArguments* arguments) {
-  Search& search = *static_cast<Search*>(arguments->userPtr);
-  if (!search.test(static_cast<int>(arguments->primID))) return false;
-  arguments->query->radius = search.radius();
-  return true;
-}
 
 }  // namespace
 
@@ -118,16 +263,156 @@ TrianglePoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const 
 }
 
 struct ClosestPointQuery::Impl {
-  EmbreeMesh scene;
-  std::vector<Face> faces;
-  explicit Impl(const TriangleMesh& mesh) : scene(mesh) {
-    faces.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-      const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-      faces.push_back({a, b, c, face_normal(a, b, c)});
+  Vec3 origin = Vec3::Zero();  ///< middle of the mesh; everything below is relative to it
+  double reach = 0.0;          ///< largest coordinate relative to it, mm
+  std::vector<Face> faces;     ///< in the order of the tree
+  std::vector<int> triangle;   ///< of each face
+  std::vector<int> face;       ///< of each triangle
+  std::vector<Node> nodes;
+  std::vector<Leaf> leaves;
+
+  explicit Impl(const TriangleMesh& mesh);
+  void fit(Node& node, int k, const Spread& spread, std::span<const Vec3> corners) const;
+  int add_leaf(int begin, int end);
+  void fit_nodes(const TrianglePartition& partition);
+  /// Asks the processor to load what the search needs next; most of its time is waiting for memory.
+  void prefetch(int child) const {
+    const char* start = child >= 0 ? reinterpret_cast<const char*>(&nodes[child])
+                                   : reinterpret_cast<const char*>(&leaves[-1 - child]);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(start + 64 * line);
+  }
+  std::array<Vec3, 8> box_corners(const Node& node, int k) const;
+};
+
+ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
+  check_mesh(mesh);
+  Box3 box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) box.extend(mesh.vertices[v]);
+  }
+  if (box.isEmpty()) return;
+  origin = box.center();
+  reach = 0.5 * box.sizes().maxCoeff();
+
+  const TrianglePartition partition = partition_triangles(mesh, kWidth);
+  faces.reserve(mesh.triangles.size());
+  face.resize(mesh.triangles.size());
+  triangle = partition.order;
+  for (const int t : partition.order) {
+    const Triangle& corners = mesh.triangles[t];
+    const Vec3 a = mesh.vertices[corners[0]] - origin, b = mesh.vertices[corners[1]] - origin,
+               c = mesh.vertices[corners[2]] - origin;
+    face[t] = static_cast<int>(faces.size());
+    faces.push_back({a, b, c, face_normal(a, b, c)});
+  }
+  fit_nodes(partition);
+}
+
+/// Smallest box in the frame of the group, rounded outwards, that holds the corners.
+void ClosestPointQuery::Impl::fit(Node& node, int k, const Spread& spread,
+                                  std::span<const Vec3> corners) const {
+  const Eigen::Matrix3f frame = frame_of(spread);
+  const Eigen::Matrix3d exact = frame.cast<double>();
+  Box3 box;
+  for (const Vec3& x : corners) box.extend(exact * x);
+  const Eigen::Vector3f centre = (exact.transpose() * box.center()).cast<float>();
+  const Vec3 middle = exact * centre.cast<double>();
+  for (int i = 0; i < 3; ++i) {
+    node.centre[i][k] = centre[i];
+    for (int j = 0; j < 3; ++j) node.axis[i][j][k] = frame(i, j);
+    const double half = std::max(box.max()[i] - middle[i], middle[i] - box.min()[i]);
+    node.half[i][k] = static_cast<float>(half * (1.0 + 1e-6));
+  }
+}
+
+std::array<Vec3, 8> ClosestPointQuery::Impl::box_corners(const Node& node, int k) const {
+  std::array<Vec3, 8> corners;
+  for (int c = 0; c < 8; ++c) {
+    for (int j = 0; j < 3; ++j) {
+      double x = node.centre[j][k];
+      for (int i = 0; i < 3; ++i) {
+        const double half = node.half[i][k];
+        x += ((c >> i) & 1 ? half : -half) * static_cast<double>(node.axis[i][j][k]);
+      }
+      corners[c][j] = x;
     }
   }
-};
+  return corners;
+}
+
+int ClosestPointQuery::Impl::add_leaf(int begin, int end) {
+  Leaf leaf;
+  leaf.first = begin;
+  leaf.count = end - begin;
+  for (int k = 0; k < kWidth; ++k) {
+    const Face& f = faces[std::min(begin + k, end - 1)];  // the last one fills what is left
+    const Vec3 u = f.b - f.a, v = f.c - f.a, w = f.c - f.b;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm(), ww = w.squaredNorm(), uv = u.dot(v);
+    const double determinant = u.cross(v).squaredNorm();
+    const double longest = std::max({uu, vv, ww});
+    // Height below a hundredth of the longest side.
+    const bool is_needle = !(determinant > 1e-4 * longest * longest);
+    const auto inverse = [](double x) { return static_cast<float>(x > 1e-30 ? 1.0 / x : 0.0); };
+    for (int i = 0; i < 3; ++i) {
+      leaf.a[i][k] = static_cast<float>(f.a[i]);
+      leaf.u[i][k] = static_cast<float>(u[i]);
+      leaf.v[i][k] = static_cast<float>(v[i]);
+    }
+    leaf.inverse_uu[k] = inverse(uu);
+    leaf.inverse_vv[k] = inverse(vv);
+    leaf.inverse_ww[k] = inverse(ww);
+    leaf.uu[k] = is_needle ? 0.0f : static_cast<float>(uu / determinant);
+    leaf.vv[k] = is_needle ? 0.0f : static_cast<float>(vv / determinant);
+    leaf.uv[k] = is_needle ? 0.0f : static_cast<float>(uv / determinant);
+    leaf.trust[k] = is_needle ? 0.0f : 1.0f;
+    leaf.is_trusted = leaf.is_trusted && !is_needle;
+  }
+  leaves.push_back(leaf);
+  return static_cast<int>(leaves.size()) - 1;
+}
+
+void ClosestPointQuery::Impl::fit_nodes(const TrianglePartition& partition) {
+  nodes.resize(partition.nodes.size());
+  std::vector<std::array<Spread, kWidth>> spreads(partition.nodes.size());
+  std::vector<Vec3> corners;
+  // Children stand behind their parents: from the back, parts are ready before the whole.
+  for (int n = static_cast<int>(nodes.size()) - 1; n >= 0; --n) {
+    const TrianglePartition::Node& parts = partition.nodes[n];
+    for (int k = 0; k < kWidth; ++k) {
+      Node& node = nodes[n];
+      if (parts.size(k) == 0) {
+        // Farther than any limit from everywhere.
+        for (int i = 0; i < 3; ++i) {
+          node.centre[i][k] = std::numeric_limits<float>::max();
+          for (int j = 0; j < 3; ++j) node.axis[i][j][k] = i == j ? 1.0f : 0.0f;
+          node.half[i][k] = 0.0f;
+        }
+        node.child[k] = kNothing;
+        continue;
+      }
+      const int child = parts.child[k];
+      Spread& spread = spreads[n][k];
+      corners.clear();
+      if (child < 0) {
+        for (int f = parts.begin[k]; f < parts.end[k]; ++f) spread.add(spread_of(faces[f]));
+      } else {
+        for (const Spread& part : spreads[child]) spread.add(part);
+      }
+      if (parts.size(k) <= kFittedSize) {
+        for (int f = parts.begin[k]; f < parts.end[k]; ++f) {
+          corners.insert(corners.end(), {faces[f].a, faces[f].b, faces[f].c});
+        }
+      } else {
+        for (int part = 0; part < kWidth; ++part) {
+          const std::array<Vec3, 8> box = box_corners(nodes[child], part);
+          corners.insert(corners.end(), box.begin(), box.end());
+        }
+      }
+      fit(node, k, spread, corners);
+      node.child[k] = child >= 0 ? child : -1 - add_leaf(parts.begin[k], parts.end[k]);
+    }
+  }
+}
 
 ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh)
     : impl_(std::make_unique<const Impl>(mesh)) {}
@@ -137,25 +422,71 @@ ClosestPointQuery& ClosestPointQuery::operator=(ClosestPointQuery&&) noexcept = 
 
 std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double range,
                                                        std::optional<int> hint) const {
-  if (impl_->faces.empty() || !point.allFinite()) return {};
-  Search search{&impl_->faces, point, range * range, -1, {}, 0.0};
-  const Vec3 shifted = point - impl_->scene.origin();
-  search.margin = 4.0 * (impl_->scene.float_error() +
-                         shifted.cwiseAbs().maxCoeff() * std::numeric_limits<float>::epsilon());
-  if (hint) search.test(*hint);
+  const Impl& m = *impl_;
+  if (m.faces.empty() || !point.allFinite()) return {};
+  Search search{
+      point - m.origin, range * range, -1, {}, 0.0, 0.0f, std::numeric_limits<float>::infinity()};
+  // A distance in float is a sum of some ten products of coordinates of this size.
+  search.margin =
+      8.0 * std::numeric_limits<float>::epsilon() * (m.reach + search.point.cwiseAbs().maxCoeff());
+  search.slack2 = static_cast<float>(5001.0 * search.margin * search.margin);
+  search.set_limit();
+  if (hint) search.test(m.faces[m.face[*hint]], *hint);
 
-  RTCPointQuery query;
-  query.x = static_cast<float>(shifted.x());
-  query.y = static_cast<float>(shifted.y());
-  query.z = static_cast<float>(shifted.z());
-  query.time = 0.0f;
-  query.radius = search.radius();
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene.scene(), &query, &context, test_primitive, &search);
+  struct Entry {
+    float squared_distance;
+    int child;
+  };
+  // Each level leaves at most three siblings; depth is log4 of an int.
+  std::array<Entry, 3 * 16 + 1> stack;
+  int size = 0;
+  stack[size++] = {0.0f, 0};
+  // Triangles that may be the nearest; tested in double when no box is left.
+  std::array<Entry, 32> candidates;
+  int candidate_count = 0;
+  const auto test_candidates = [&] {
+    for (int i = 0; i < candidate_count; ++i) {
+      if (candidates[i].squared_distance > search.limit2) continue;
+      const int f = candidates[i].child;
+      search.test(m.faces[f], m.triangle[f]);
+    }
+    candidate_count = 0;
+  };
+  const Eigen::Vector3f p = search.point.cast<float>();
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.squared_distance > search.limit2) continue;
+    if (entry.child < 0) {
+      const Leaf& leaf = m.leaves[-1 - entry.child];
+      const Float4 distance2 = triangle_distances(leaf, p);
+      if (leaf.is_trusted) search.lower_limit(distance2.minCoeff());
+      if (candidate_count + kWidth > static_cast<int>(candidates.size())) test_candidates();
+      for (int k = 0; k < leaf.count; ++k) {
+        candidates[candidate_count] = {distance2[k], leaf.first + k};
+        candidate_count += distance2[k] <= search.limit2 ? 1 : 0;
+      }
+      continue;
+    }
+    const Node& node = m.nodes[entry.child];
+    const BoxDistances distances = box_distances(node, p);
+    search.lower_limit(distances.farthest.minCoeff());
+    const int start = size;
+    for (int k = 0; k < kWidth; ++k) {
+      const float distance2 = distances.nearest[k];
+      if (!(distance2 <= search.limit2) || node.child[k] == kNothing) continue;
+      // Nearest last, so that it is taken first.
+      int at = size++;
+      for (; at > start && stack[at - 1].squared_distance < distance2; --at) {
+        stack[at] = stack[at - 1];
+      }
+      stack[at] = {distance2, node.child[k]};
+    }
+    if (size > start) m.prefetch(stack[size - 1].child);
+  }
+  test_candidates();
 
   if (search.triangle < 0) return {};
-  return ClosestPoint{search.triangle, search.nearest.point, search.nearest.weights,
+  return ClosestPoint{search.triangle, search.nearest.point + m.origin, search.nearest.weights,
                       std::sqrt(search.best2)};
 }
 

@@ -216,10 +216,14 @@ void MeshDistance::Impl::sample_in_order(std::span<const Vec3> points, std::span
     const double distance = nearest ? nearest->distance : range;
     bool is_inside = false;
     if (box.contains(q)) {
-      const std::optional<bool> side =
-          surface.is_closed ? known.find(q, distance) : std::optional<bool>();
-      is_inside = side ? *side : winding.at(q) > 0.5;
-      if (!side) known.add(q, distance, is_inside);
+      if (!surface.is_closed) {
+        is_inside = winding.at(q) > 0.5;
+      } else if (const std::optional<bool> side = known.find(q, distance)) {
+        is_inside = *side;
+      } else {
+        is_inside = winding.whole_at(q) > 0;
+        known.add(q, distance, is_inside);
+      }
     }
     const double sign = is_inside ? -1.0 : 1.0;
     s.distance = sign * distance;

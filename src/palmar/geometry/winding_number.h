@@ -31,6 +31,9 @@ class WindingNumber {
 
   /// w at a point [mm]. On the surface itself the value lies between those of the two sides.
   double at(const Vec3& point) const;
+  /// w at a point [mm] off the surface of a closed mesh, where it is a whole number: a coarse sum
+  /// that is made finer if it doesn't come near a whole number.
+  int whole_at(const Vec3& point) const;
 
  private:
   struct Impl;

@@ -1,0 +1,70 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/geometry/triangle_partition.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace palmar {
+namespace {
+
+struct Item {
+  Eigen::Vector3f centroid;
+  int triangle;
+};
+
+/// Position of the median of items [begin, end) along their longest side, after partial sorting.
+int split(std::vector<Item>& items, int begin, int end) {
+  if (end - begin < 2) return end;
+  Eigen::AlignedBox3f box;
+  for (int i = begin; i < end; ++i) box.extend(items[i].centroid);
+  int axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const int middle = begin + (end - begin) / 2;
+  std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
+                   [axis](const Item& s, const Item& t) {
+                     return s.centroid[axis] < t.centroid[axis] ||
+                            (s.centroid[axis] == t.centroid[axis] && s.triangle < t.triangle);
+                   });
+  return middle;
+}
+
+int divide(TrianglePartition& partition, std::vector<Item>& items, int begin, int end,
+           int leaf_size) {
+  const int index = static_cast<int>(partition.nodes.size());
+  partition.nodes.emplace_back();
+  const int middle = split(items, begin, end);
+  const int first = split(items, begin, middle);
+  const int second = split(items, middle, end);
+  const std::array<int, 5> cuts = {begin, first, middle, second, end};
+  for (int k = 0; k < TrianglePartition::kWidth; ++k) {
+    const bool is_split = cuts[k + 1] - cuts[k] > leaf_size;
+    const int child = is_split ? divide(partition, items, cuts[k], cuts[k + 1], leaf_size) : -1;
+    TrianglePartition::Node& node = partition.nodes[index];
+    node.begin[k] = cuts[k];
+    node.end[k] = cuts[k + 1];
+    node.child[k] = child;
+  }
+  return index;
+}
+
+}  // namespace
+
+TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size) {
+  TrianglePartition partition;
+  if (mesh.triangles.empty()) return partition;
+  std::vector<Item> items(mesh.triangles.size());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Triangle& k = mesh.triangles[t];
+    const Vec3 sum = mesh.vertices[k[0]] + mesh.vertices[k[1]] + mesh.vertices[k[2]];
+    items[t] = {(sum / 3.0).cast<float>(), t};
+  }
+  partition.nodes.reserve(items.size() / 2 + 1);
+  divide(partition, items, 0, static_cast<int>(items.size()), leaf_size);
+  partition.order.reserve(items.size());
+  for (const Item& item : items) partition.order.push_back(item.triangle);
+  return partition;
+}
+
+}  // namespace palmar

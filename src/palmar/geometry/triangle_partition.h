@@ -1,0 +1,34 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// The triangles of a mesh divided again and again by four, at the median centroid of the longest
+/// side: the frame that nearest-point search and winding number hang their own data on.
+struct TrianglePartition {
+  static constexpr int kWidth = 4;
+
+  struct Node {
+    std::array<int, kWidth> begin{};  ///< part k holds order[begin[k]] ... order[end[k] - 1]
+    std::array<int, kWidth> end{};
+    std::array<int, kWidth> child{};  ///< node of part k; -1 if it isn't divided further
+
+    int size(int k) const { return end[k] - begin[k]; }
+  };
+
+  std::vector<int> order;  ///< triangles, neighbours in space near each other
+  std::vector<Node>
+      nodes;  ///< the root first, children behind their parent; empty without triangles
+};
+
+/// Parts of at most `leaf_size` triangles are not divided further. Deterministic; degenerate
+/// triangles are kept.
+TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size);
+
+}  // namespace palmar
