@@ -1,0 +1,35 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// Half width (lateral) and half depth (palmar-dorsal) of a bone at a share of its length.
+struct BoneStation {
+  double share = 0.0;
+  double half_width = 0.0, half_depth = 0.0;  ///< mm
+};
+
+/// A long bone: cross-sections along a straight axis, rounded at both ends.
+struct BoneShape {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< ends of the axis, on the bone's surface
+  Vec3 palmar = Vec3::UnitZ();                  ///< unit, about square to the axis
+  std::vector<BoneStation> station;  ///< ascending share, at least two; smooth in between
+  double base_cap = 0.0;             ///< length over which the base rounds off, mm
+  double head_cap = 0.0;             ///< same at the head
+  double groove = 0.0;               ///< depth of the groove between two condyles, mm; 0: none
+  int rings = 18, around = 20;
+};
+
+/// Closed mesh of rings * around + 2 vertices, triangles outward.
+TriangleMesh bone_mesh(const BoneShape& shape);
+
+/// Ellipsoid with half axes along the columns of `axes` (orthonormal), as rings and two poles.
+TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half_axes,
+                            int rings, int around);
+
+}  // namespace palmar
