@@ -5,34 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "palmar/core/error.h"
 #include "palmar/geometry/triangle_partition.h"
 
 namespace palmar {
 namespace {
-
-void check_mesh(const TriangleMesh& mesh) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3& x = mesh.vertices[v];
-    if (!x.allFinite()) {
-      throw InputError("mesh vertex " + std::to_string(v) + ": coordinates are " +
-                       std::to_string(x.x()) + ", " + std::to_string(x.y()) + ", " +
-                       std::to_string(x.z()) + "; finite numbers are required");
-    }
-  }
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    for (const int v : mesh.triangles[t]) {
-      if (v < 0 || v >= mesh.vertex_count()) {
-        throw InputError("mesh triangle " + std::to_string(t) + ": corner is vertex " +
-                         std::to_string(v) + "; 0 to " + std::to_string(mesh.vertex_count() - 1) +
-                         " exist");
-      }
-    }
-  }
-}
 
 /// A triangle with what the test needs, side by side in memory.
 struct Face {
@@ -285,7 +263,7 @@ struct ClosestPointQuery::Impl {
 };
 
 ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
-  check_mesh(mesh);
+  check_finite_and_indexed(mesh);
   Box3 box;
   for (const Triangle& t : mesh.triangles) {
     for (const int v : t) box.extend(mesh.vertices[v]);

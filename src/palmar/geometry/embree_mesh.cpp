@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/triangle_partition.h"
 
 namespace palmar {
 namespace {
@@ -23,30 +24,10 @@ RTCDevice device() {
   return instance;
 }
 
-void check_mesh(const TriangleMesh& mesh) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3& x = mesh.vertices[v];
-    if (!x.allFinite()) {
-      throw InputError("mesh vertex " + std::to_string(v) + ": coordinates are " +
-                       std::to_string(x.x()) + ", " + std::to_string(x.y()) + ", " +
-                       std::to_string(x.z()) + "; finite numbers are required");
-    }
-  }
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    for (const int v : mesh.triangles[t]) {
-      if (v < 0 || v >= mesh.vertex_count()) {
-        throw InputError("mesh triangle " + std::to_string(t) + ": corner is vertex " +
-                         std::to_string(v) + "; 0 to " + std::to_string(mesh.vertex_count() - 1) +
-                         " exist");
-      }
-    }
-  }
-}
-
 }  // namespace
 
 EmbreeMesh::EmbreeMesh(const TriangleMesh& mesh) {
-  check_mesh(mesh);
+  check_finite_and_indexed(mesh);
   for (const Triangle& t : mesh.triangles) {
     for (const int v : t) box_.extend(mesh.vertices[v]);
   }
@@ -56,6 +37,7 @@ EmbreeMesh::EmbreeMesh(const TriangleMesh& mesh) {
   }
 
   scene_ = rtcNewScene(device());
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   if (mesh.triangles.empty()) {
     rtcCommitScene(scene_);
     return;
@@ -76,7 +58,6 @@ EmbreeMesh::EmbreeMesh(const TriangleMesh& mesh) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcCommitScene(scene_);
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <string>
+
+#include "palmar/core/error.h"
 
 namespace palmar {
 namespace {
@@ -65,6 +67,26 @@ TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size) {
   partition.order.reserve(items.size());
   for (const Item& item : items) partition.order.push_back(item.triangle);
   return partition;
+}
+
+void check_finite_and_indexed(const TriangleMesh& mesh) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& x = mesh.vertices[v];
+    if (!x.allFinite()) {
+      throw InputError("mesh vertex " + std::to_string(v) + ": coordinates are " +
+                       std::to_string(x.x()) + ", " + std::to_string(x.y()) + ", " +
+                       std::to_string(x.z()) + "; finite numbers are required");
+    }
+  }
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (const int v : mesh.triangles[t]) {
+      if (v < 0 || v >= mesh.vertex_count()) {
+        throw InputError("mesh triangle " + std::to_string(t) + ": corner is vertex " +
+                         std::to_string(v) + "; 0 to " + std::to_string(mesh.vertex_count() - 1) +
+                         " exist");
+      }
+    }
+  }
 }
 
 }  // namespace palmar

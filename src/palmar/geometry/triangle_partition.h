@@ -31,4 +31,7 @@ struct TrianglePartition {
 /// triangles are kept.
 TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size);
 
+/// Throws InputError on a coordinate that is not finite and on a corner outside the vertex list.
+void check_finite_and_indexed(const TriangleMesh& mesh);
+
 }  // namespace palmar

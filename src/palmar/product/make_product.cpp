@@ -1,0 +1,125 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/product/make_product.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh_distance.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/orient.h"
+#include "palmar/geometry/weld.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kWeldShare = 1e-6;  // of the size; single-precision files round to about 1e-7
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string counted(int count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+void check_raw(const TriangleMesh& raw, const std::string& source) {
+  for (int v = 0; v < raw.vertex_count(); ++v) {
+    const Vec3& x = raw.vertices[v];
+    if (x.allFinite()) continue;
+    throw InputError(source + ": vertex " + std::to_string(v) + " is (" + number(x.x()) + ", " +
+                     number(x.y()) + ", " + number(x.z()) + "); finite numbers are required");
+  }
+  for (int t = 0; t < raw.triangle_count(); ++t) {
+    for (const int v : raw.triangles[t]) {
+      if (v >= 0 && v < raw.vertex_count()) continue;
+      throw InputError(source + ": triangle " + std::to_string(t) + " names vertex " +
+                       std::to_string(v) + "; " + std::to_string(raw.vertex_count()) +
+                       " vertices exist");
+    }
+  }
+  if (raw.triangles.empty()) throw InputError(source + ": no triangles");
+  if (raw.triangles.size() == 1) {
+    throw InputError(source + ": only one triangle; a surface that can be held needs more");
+  }
+}
+
+void note_repairs(const WeldResult& welded, const OrientResult& oriented,
+                  std::vector<std::string>& notes) {
+  if (welded.dropped_degenerate > 0) {
+    notes.push_back("dropped " + counted(welded.dropped_degenerate, "triangle", "triangles") +
+                    " without area");
+  }
+  if (welded.dropped_duplicate > 0) {
+    notes.push_back("dropped " + counted(welded.dropped_duplicate, "triangle", "triangles") +
+                    " that stood there twice");
+  }
+  if (oriented.flipped_patches > 0) {
+    notes.push_back("turned " + counted(oriented.flipped_patches, "patch", "patches") +
+                    " that faced inwards (of " + std::to_string(oriented.patches) + ")");
+  }
+  if (oriented.mended_patches > 0) {
+    notes.push_back("made neighbouring triangles agree about outside in " +
+                    counted(oriented.mended_patches, "patch", "patches"));
+  }
+  if (!oriented.flipped_triangles.empty()) {
+    notes.push_back(
+        counted(static_cast<int>(oriented.flipped_triangles.size()), "triangle", "triangles") +
+        " flipped in all, of " + std::to_string(oriented.mesh.triangle_count()));
+  }
+  if (oriented.twisted_patches > 0) {
+    notes.push_back(counted(oriented.twisted_patches, "patch is", "patches are") +
+                    " one-sided like a Moebius band; inside and outside are doubtful there");
+  }
+  if (oriented.undecided_patches > 0) {
+    notes.push_back("for " + counted(oriented.undecided_patches, "patch", "patches") +
+                    " it can't be told which side is outside; left as in the file");
+  }
+}
+
+}  // namespace
+
+Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
+                     const std::string& source) {
+  check_raw(raw, source);
+  TriangleMesh scaled = raw;
+  const double scale = millimetres_per(unit.unit);
+  if (scale != 1.0) {
+    for (Vec3& x : scaled.vertices) x *= scale;
+  }
+  Box3 box;
+  for (const Triangle& t : scaled.triangles) {
+    for (const int v : t) box.extend(scaled.vertices[v]);
+  }
+  const WeldResult welded = weld(scaled, {.tolerance = kWeldShare * box.sizes().maxCoeff()});
+  if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
+    throw InputError(source + ": its triangles have no area (size " + number(box.sizes().x()) +
+                     " x " + number(box.sizes().y()) + " x " + number(box.sizes().z()) + " mm)");
+  }
+  OrientResult oriented = orient_outwards(welded.mesh);
+
+  Product product;
+  product.name = name;
+  product.unit = unit.unit;
+  product.unit_source = unit.source;
+  product.source = source;
+  if (!unit.explanation.empty()) product.notes.push_back(unit.explanation);
+  note_repairs(welded, oriented, product.notes);
+  const TopologyReport topology = examine_topology(oriented.mesh);
+  if (!topology.is_closed) {
+    product.notes.push_back(
+        "the surface is open: " + counted(topology.boundary_loops, "hole", "holes") + " with " +
+        counted(topology.boundary_edges, "edge", "edges") +
+        "; inside is judged by the winding number");
+  }
+  product.mesh = std::move(oriented.mesh);
+  product.distance = std::make_shared<const MeshDistance>(product.mesh);
+  return product;
+}
+
+}  // namespace palmar
