@@ -8,10 +8,12 @@
 
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
+#include "palmar/io/gltf.h"
 #include "palmar/io/obj.h"
 #include "palmar/io/ply.h"
 #include "palmar/io/stl.h"
 #include "palmar/io/text_scan.h"
+#include "palmar/io/three_mf.h"
 
 namespace palmar {
 namespace {
@@ -80,11 +82,12 @@ MeshFile parse(Kind kind, std::string_view bytes, const std::filesystem::path& p
     case Kind::kPly:
       return parse_ply(bytes, name);
     case Kind::kThreeMf:
+      return parse_three_mf(bytes, name);
     case Kind::kGltf:
     case Kind::kGlb:
-      break;
+      return parse_gltf(bytes, path);
   }
-  throw InputError(name + ": " + std::string(name_of(kind)) + " is not supported yet");
+  throw InputError(name + ": unknown kind of mesh file");
 }
 
 }  // namespace

@@ -1,0 +1,185 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/io/assessment_json.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "palmar/core/version.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+/// File names may hold bytes that are no UTF-8; they must not stop the output.
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json placement(const Rigid3& product_from_hand) {
+  const Quat& q = product_from_hand.rotation;
+  const Eigen::Matrix3d r = q.toRotationMatrix();
+  const Vec3& t = product_from_hand.translation;
+  Json matrix = Json::array();
+  for (int row = 0; row < 3; ++row) matrix.push_back({r(row, 0), r(row, 1), r(row, 2), t[row]});
+  matrix.push_back({0.0, 0.0, 0.0, 1.0});
+  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_mm", vector3(t)},
+          {"matrix_rows_mm", std::move(matrix)}};
+}
+
+Json grasp_object(const Grasp& grasp) {
+  Json posture = Json::object();
+  for (int d = 0; d < kDofCount; ++d) {
+    const auto dof = static_cast<Dof>(d);
+    posture[std::string(name_of(dof)) + "_deg"] = grasp.posture[dof] * kDegrees;
+  }
+  Json segments = Json::array();
+  for (const SegmentStop& stop : grasp.stops) {
+    segments.push_back({{"segment", name_of(stop.segment)},
+                        {"stopped_by", name_of(stop.reason)},
+                        {"penetration_mm", stop.penetration}});
+  }
+  return {{"status", name_of(grasp.status)},
+          {"message", grasp.message},
+          {"posture", std::move(posture)},
+          {"product_from_hand", placement(grasp.product_from_hand)},
+          {"grip_point_mm", vector3(grasp.grip_point)},
+          {"grip_axis", vector3(grasp.grip_axis)},
+          {"grip_girth_mm", grasp.grip_girth},
+          {"segments", std::move(segments)}};
+}
+
+void add_totals(Json& json, const RegionContact& contact) {
+  json["force_n"] = contact.force;
+  json["contact_area_mm2"] = contact.area;
+  json["peak_pressure_mpa"] = contact.peak_pressure;
+  json["peak_pressure_cells_mpa"] = contact.peak_pressure_cells;
+  json["mean_pressure_mpa"] = contact.mean_pressure;
+  json["force_vector_n"] = vector3(contact.force_vector);
+  json["centre_mm"] = vector3(contact.centre);
+  json["max_penetration_mm"] = contact.max_penetration;
+}
+
+std::string name_of_status(ContactStatus status) {
+  switch (status) {
+    case ContactStatus::kSolved:
+      return "solved";
+    case ContactStatus::kNoContact:
+      return "no_contact";
+    case ContactStatus::kNotConverged:
+      return "not_converged";
+    case ContactStatus::kTooDeep:
+      return "too_deep";
+  }
+  return "unknown";
+}
+
+Json contact_object(const ContactResult& contact) {
+  Json json = {{"status", name_of_status(contact.status)}, {"message", contact.message}};
+  add_totals(json, contact.total);
+  json["complementarity_error_n_mm"] = contact.complementarity_error;
+  json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
+  json["residual_penetration_other_mm"] = contact.residual_penetration_other;
+  json["iterations"] = contact.iterations;
+  Json regions = Json::array();
+  for (const RegionContact& region : contact.regions) {
+    Json one = {{"region", name_of(region.region)}};
+    add_totals(one, region);
+    one["shear_modulus_mpa"] = region.shear_modulus;
+    regions.push_back(std::move(one));
+  }
+  json["regions"] = std::move(regions);
+  return json;
+}
+
+Json product_object(const Product& product) {
+  Box3 box;
+  for (const Vec3& v : product.mesh.vertices) box.extend(v);
+  return {{"name", product.name},
+          {"source", product.source},
+          {"unit", name_of(product.unit)},
+          {"unit_from", name_of(product.unit_source)},
+          {"vertices", product.mesh.vertex_count()},
+          {"triangles", product.mesh.triangle_count()},
+          {"size_mm", vector3(box.isEmpty() ? Vec3::Zero() : Vec3(box.sizes()))},
+          {"notes", product.notes}};
+}
+
+Json hand_object(const Hand& hand) {
+  return {{"name", hand.name},
+          {"side", name_of(hand.side)},
+          {"hand_length_mm", hand.dimensions.hand_length},
+          {"hand_circumference_mm", hand.dimensions.hand_circumference},
+          {"hand_width_mm", hand.dimensions.hand_width},
+          {"hand_thickness_mm", hand.dimensions.hand_thickness},
+          {"vertices", hand.skin.vertex_count()},
+          {"triangles", hand.skin.triangle_count()},
+          {"provenance", hand.provenance}};
+}
+
+/// Measures of the grasp as a whole.
+Json indices_object(const ContactResult& contact) {
+  std::set<Finger> fingers;
+  for (const RegionContact& region : contact.regions) {
+    const auto segment = segment_of(region.region);
+    const auto finger = segment ? finger_of(*segment) : std::nullopt;
+    if (finger) fingers.insert(*finger);
+  }
+  Json in_contact = Json::array();
+  for (const Finger finger : fingers) in_contact.push_back(name_of(finger));
+  return {{"fingers_in_contact", std::move(in_contact)},
+          {"regions_in_contact", contact.regions.size()},
+          {"net_force_n", contact.total.force_vector.norm()}};
+}
+
+Json settings_object(const AssessOptions& options) {
+  const PlacementRequest& placed = options.grasp.placement;
+  return {{"palm_limit_depth_mm", options.grasp.palm_limit_depth},
+          {"finger_limit_depth_mm", options.grasp.finger_limit_depth},
+          {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
+          {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
+          {"turn_deg", placed.turn ? Json(*placed.turn * kDegrees) : Json(nullptr)},
+          {"kernel", options.contact.kernel == Kernel::kPatch ? "patch" : "point"},
+          {"swelling", options.contact.swelling},
+          {"cell_area_mm2", options.contact.cell_area},
+          {"shear_modulus_mpa", or_null(options.contact.shear_modulus)},
+          {"seed", options.seed}};
+}
+
+}  // namespace
+
+std::string grasp_json(const Grasp& grasp) { return dumped(grasp_object(grasp)); }
+
+std::string assessment_json(const AssessmentSet& set) {
+  Json assessments = Json::array();
+  for (const AssessedProduct& one : set.assessments) {
+    const Assessment& assessment = one.assessment;
+    Json hand = set.hand ? hand_object(*set.hand) : Json{{"name", assessment.hand_name}};
+    assessments.push_back(
+        {{"product", product_object(one.product)},
+         {"hand", std::move(hand)},
+         {"grasp", grasp_object(assessment.grasp)},
+         {"contact", contact_object(assessment.contact)},
+         {"indices", indices_object(assessment.contact)},
+         {"settings", settings_object(assessment.options)},
+         {"times_s", {{"grasp", assessment.times.grasp}, {"contact", assessment.times.contact}}}});
+  }
+  const Json json = {{"assessments", std::move(assessments)},
+                     {"versions", {{"palmar", version()}, {"build", build_description()}}},
+                     {"command_line", set.command_line}};
+  return dumped(json);
+}
+
+}  // namespace palmar

@@ -1,0 +1,22 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "palmar/io/mesh_file.h"
+
+namespace palmar {
+
+/// Reads the triangles of the default scene of a glTF 2.0 file, text (.gltf, with embedded or
+/// neighbouring buffers) or binary (.glb): node transforms applied, strips and fans unrolled,
+/// corners with identical positions merged (glTF splits them at seams). Unit: metre, as glTF says.
+/// Points, lines, cameras and materials are skipped; a skin or morph target stays at rest, with a
+/// note. Throws InputError naming the file and the place in its JSON; compressed meshes (Draco,
+/// meshopt) and sparse accessors are refused by name.
+///
+/// Source: Khronos, glTF 2.0 specification, sections 3.5 to 3.7 and 4.4.
+MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path);
+
+}  // namespace palmar
