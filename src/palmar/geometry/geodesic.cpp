@@ -21,17 +21,17 @@ constexpr double kNeedle = 1e-9;
 // Distances shrink to a fixed point; a gain below this share of the mean edge isn't pursued.
 constexpr double kLeastGain = 1e-9;
 
-// Wave rule for corner b of the triangle (v, a, b), squared; infinity if it doesn't apply. In the
-// frame with v at the origin and a on +x, b is (bx, by) and S = (sx, -sy).
+// Wave rule for corner b of the triangle (v, a, b); infinity if it doesn't apply. In the frame with
+// v at the origin and a on +x, b is (bx, by) and S = (sx, -sy).
 inline double wave(double dv, double da, double va, double vb, double cosine, double sine) {
-  const double sx = (dv * dv - da * da + va * va) / (2.0 * va);
-  const double sy_squared = dv * dv - sx * sx;
+  const double sx = 0.5 * ((dv - da) * (dv + da) / va + va);
+  const double sy_squared = (dv - sx) * (dv + sx);
   if (!(sy_squared >= 0.0)) return kInfinity;
   const double sy = std::sqrt(sy_squared);
   const double bx = vb * cosine, by = vb * sine;
   const double crossing = sx * by + bx * sy;  // times (sy + by): where S b crosses v a
   if (crossing < 0.0 || crossing > va * (sy + by)) return kInfinity;
-  return vb * vb + dv * dv + 2.0 * (by * sy - bx * sx);
+  return std::sqrt(vb * vb + dv * dv + 2.0 * (by * sy - bx * sx));
 }
 
 }  // namespace
@@ -98,17 +98,19 @@ GeodesicSolver::GeodesicSolver(const TriangleMesh& mesh) {
 struct GeodesicSolver::Front {
   GeodesicWorkspace& w;
   double radius;
-  double width;
+  double buckets_per_length;
   double gain;
 
   void offer(int vertex, double candidate) {
-    double& d = w.distance_[static_cast<size_t>(vertex)];
-    if (!(candidate < d - gain) && !(d == kInfinity && candidate < d)) return;
-    if (d == kInfinity) w.touched_.push_back(vertex);
-    d = candidate;
+    offer(vertex, w.distance_[static_cast<size_t>(vertex)], candidate);
+  }
+  void offer(int vertex, double known, double candidate) {
+    if (!(candidate < known - gain)) return;
+    if (known == kInfinity) w.touched_.push_back(vertex);
+    w.distance_[static_cast<size_t>(vertex)] = candidate;
     // Beyond the radius a distance is kept, since the wave rule may use it, but not carried on.
     if (candidate > radius) return;
-    const auto bucket = static_cast<size_t>(candidate / width);
+    const auto bucket = static_cast<size_t>(candidate * buckets_per_length);
     if (bucket >= w.bucket_.size()) w.bucket_.resize(bucket + 1);
     w.bucket_[bucket].push_back(vertex);
   }
@@ -142,7 +144,7 @@ std::span<const GeodesicReach> GeodesicSolver::reach(int source, double radius,
   };
   if (!is_allowed(source) || !(radius >= 0.0)) return w.result_;
 
-  Front front{w, radius, bucket_width_, kLeastGain * bucket_width_};
+  Front front{w, radius, 1.0 / bucket_width_, kLeastGain * bucket_width_};
   front.offer(source, 0.0);
   for (size_t k = 0; k < w.bucket_.size(); ++k) {
     // The bucket may grow while it is worked off, and `bucket_` may move.
@@ -154,23 +156,21 @@ std::span<const GeodesicReach> GeodesicSolver::reach(int source, double radius,
       const Corner* const end = corner_.data() + begin_[v + 1];
       for (const Corner* c = corner_.data() + begin_[v]; c != end; ++c) {
         if (!is_allowed(c->a) || !is_allowed(c->b)) continue;
-        const double& da = w.distance_[static_cast<size_t>(c->a)];
-        const double& db = w.distance_[static_cast<size_t>(c->b)];
-        // A corner nearer to the source than v can't gain from v.
+        const double da = w.distance_[static_cast<size_t>(c->a)];
+        const double db = w.distance_[static_cast<size_t>(c->b)];
+        // A corner nearer to the source than v can't gain from v. The wave rule waits for the later
+        // of its two corners, whose distance is then as good as final.
         if (da > dv) {
-          front.offer(c->a, dv + c->va);
-          if (db < kInfinity) {
-            const double squared = wave(dv, db, c->vb, c->va, c->cosine, c->sine);
-            if (squared < da * da) front.offer(c->a, std::sqrt(squared));
-          }
+          double best = dv + c->va;
+          if (db <= dv) best = std::min(best, wave(dv, db, c->vb, c->va, c->cosine, c->sine));
+          front.offer(c->a, da, best);
         }
         if (db > dv) {
-          front.offer(c->b, dv + c->vb);
-          const double squared = wave(dv, da, c->va, c->vb, c->cosine, c->sine);
-          if (squared < db * db) front.offer(c->b, std::sqrt(squared));
+          double best = dv + c->vb;
+          if (da <= dv) best = std::min(best, wave(dv, da, c->va, c->vb, c->cosine, c->sine));
+          front.offer(c->b, db, best);
         }
-        if (c->diagonal < kInfinity && w.distance_[static_cast<size_t>(c->across)] > dv &&
-            is_allowed(c->across)) {
+        if (c->diagonal < kInfinity && is_allowed(c->across)) {
           front.offer(c->across, dv + c->diagonal);
         }
       }
