@@ -8,10 +8,14 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/remesh.h"
 #include "palmar/geometry/subdivide.h"
 #include "palmar/geometry/weld.h"
+#include "palmar/hand/bones.h"
+#include "palmar/hand/dimensions.h"
 #include "palmar/hand/hand_frame.h"
 #include "palmar/hand/joint_weights.h"
+#include "palmar/hand/regions.h"
 #include "palmar/hand/template_skeleton.h"
 
 namespace palmar {
@@ -32,9 +36,17 @@ Hand build_template(const HandAsset& asset, const TemplateOptions& options) {
   Hand hand;
   hand.name = "template";
   hand.side = Side::kRight;
-  hand.skin = subdivide(placed.skin);
   hand.skeleton = build_skeleton(placed);
+  // The asset's edges of 6.7 mm become 1.7 mm, finer than the mesh that is laid over them.
+  const TriangleMesh smooth = subdivide(placed.skin, {.levels = 2});
+  const TriangleMesh even = remesh(smooth, {.edge_length = options.edge_length}).mesh;
+  SkinPartition partition = partition_skin(even, hand.skeleton);
+  hand.skin = std::move(partition.skin);
+  hand.segment = std::move(partition.segment);
+  hand.region = std::move(partition.region);
   hand.weights = make_joint_weights(hand.skin, hand.skeleton);
+  hand.bones = make_bones(hand.skin, hand.skeleton);
+  hand.dimensions = measure_hand(hand);
   hand.tissue = default_tissue();
   hand.provenance = asset.provenance;
   return hand;
