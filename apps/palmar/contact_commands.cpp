@@ -1,0 +1,9 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+
+namespace palmar::cli {
+
+void add_contact_commands(CLI::App&, Context&) {}
+
+}  // namespace palmar::cli
