@@ -19,6 +19,7 @@ enum class StopReason {
   kLimitDepth,     ///< its penetration reached the limit
   kRangeOfMotion,  ///< its joint reached the end of its range without the limit depth
   kProximalStop,   ///< held by a joint nearer to the palm; itself not moved further
+  kDistalStop,     ///< a segment nearer to the tip reached its limit first
   kOtherFinger,    ///< another finger is in the way
   kNotReached,     ///< no contact though its joint is fully closed
 };

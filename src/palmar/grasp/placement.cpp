@@ -1,0 +1,165 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palmar {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kThinShare = 0.8;       // of half the thickness may be filled with skin
+constexpr double kSegmentCredit = 60.0;  // mm^2 of contact that one more touching phalanx is worth
+constexpr double kWrapCredit = 800.0;    // mm^2 for reaching all the way round
+constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
+constexpr double kNoseCredit = 250.0;    // mm^2 for a working end that points away from the wrist
+constexpr int kTurns = 8;
+
+// Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
+struct PalmFrame {
+  Vec3 heads, across, distal, palmar;
+};
+
+PalmFrame palm_frame(const Skeleton& skeleton) {
+  PalmFrame frame;
+  const Vec3 index = skeleton.joint(JointId::kIndexMcp).centre;
+  const Vec3 little = skeleton.joint(JointId::kLittleMcp).centre;
+  frame.heads =
+      0.5 * (skeleton.joint(JointId::kMiddleMcp).centre + skeleton.joint(JointId::kRingMcp).centre);
+  frame.palmar = Vec3::UnitZ();
+  frame.across = index - little;
+  frame.across.z() = 0.0;
+  frame.across.normalize();
+  frame.distal = (Vec3::UnitY() - frame.across * frame.across.y()).normalized();
+  return frame;
+}
+
+double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement) {
+  double score = measure.contact_area + kSegmentCredit * measure.segments +
+                 kWrapCredit * measure.wrap - kClash * measure.other_area -
+                 200.0 * std::max(0.0, measure.deepest_other - 2.0);
+  if (site.nose) {
+    const Vec3 nose = placement.product_from_hand.rotation.conjugate() * *site.nose;
+    score += kNoseCredit * nose.dot(Vec3(0.0, 1.0, 1.0).normalized());
+  }
+  return score;
+}
+
+Hold try_hold(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+              std::size_t site_index, const DepthLimits& limits, const Lay& lay) {
+  Hold hold;
+  hold.site = site_index;
+  hold.placement = place(closer, product, limits, site, lay);
+  const HeldProduct held{&product, hold.placement.product_from_hand};
+  std::array<SegmentStop, kSegmentCount> stops;
+  hold.posture = closer.close_fingers(held, limits, closer.open_posture(), stops);
+  hold.measure = closer.measure(held, hold.posture, hold.placement.axis_in_hand);
+  hold.score = score_of(hold.measure, site, hold.placement);
+  return hold;
+}
+
+// Larger handles lie further down in the palm.
+double usual_proximal(const GripSite& site) {
+  return std::clamp(8.0 + 0.25 * (site.girth / std::numbers::pi - 30.0), 6.0, 30.0);
+}
+
+}  // namespace
+
+DepthLimits limits_for(const DepthLimits& asked, double thickness) {
+  const double most = kThinShare * 0.5 * thickness;
+  return {std::min(asked.palm, most), std::min(asked.finger, most)};
+}
+
+Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
+                const GripSite& site, const Lay& lay) {
+  const PalmFrame palm = palm_frame(closer.hand().skeleton);
+  Vec3 axis = std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal;
+  axis = std::cos(lay.tilt) * axis + std::sin(lay.tilt) * palm.palmar;
+  const Vec3 outward = (palm.palmar - axis * axis.dot(palm.palmar)).normalized();
+
+  Eigen::Matrix3d in_hand;  // grip axis, towards the palm, third
+  in_hand << axis, -outward, axis.cross(-outward);
+  const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
+  const Vec3 facing = Eigen::AngleAxisd(lay.turn, site.axis) * wide;
+  Eigen::Matrix3d in_product;
+  in_product << site.axis, facing, site.axis.cross(facing);
+
+  Placement placement;
+  placement.lay = lay;
+  placement.axis_in_hand = axis;
+  placement.push_in_hand = -outward;
+  placement.product_from_hand.rotation = Quat(in_product * in_hand.transpose()).normalized();
+  // Far enough out that nothing touches: the box of the product as seen from its grip point.
+  const Box3 box = product.bounding_box();
+  const double reach = (box.max() - box.min()).norm() + 120.0;
+  const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
+  const Vec3 grip = site.point + lay.along * site.axis;
+  placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
+  const HeldProduct held{&product, placement.product_from_hand};
+  const double travel =
+      closer.free_travel(held, limits, closer.open_posture(), placement.push_in_hand, 2.0 * reach);
+  placement.product_from_hand.translation -=
+      placement.product_from_hand.rotation * (travel * placement.push_in_hand);
+  return placement;
+}
+
+std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& product,
+                              const std::vector<GripSite>& sites, const DepthLimits& limits,
+                              std::optional<double> turn, const Progress& progress) {
+  struct Rated {
+    Hold hold;
+    double rank = 0.0;
+  };
+  std::vector<Rated> tried;
+  const double best_site = sites.empty() ? 1.0 : sites.front().score;
+  const auto rank_of = [&](const Hold& hold) {
+    // A part that is no handle must hold much better to be preferred.
+    return hold.score * (0.4 + 0.6 * sites[hold.site].score / best_site);
+  };
+  for (std::size_t s = 0; s < std::min<std::size_t>(sites.size(), 2); ++s) {
+    if (s > 0 && sites[s].score < 0.5 * best_site) break;
+    const DepthLimits here = limits_for(limits, sites[s].thickness);
+    for (int k = 0; k < (turn ? 1 : kTurns); ++k) {
+      progress.throw_if_cancelled();
+      Lay lay;
+      lay.turn = turn ? *turn : 2.0 * std::numbers::pi * k / kTurns;
+      lay.proximal = usual_proximal(sites[s]);
+      const Hold hold = try_hold(closer, product, sites[s], s, here, lay);
+      tried.push_back({hold, rank_of(hold)});
+    }
+  }
+  if (tried.empty()) return {};
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Rated& a, const Rated& b) { return a.rank > b.rank; });
+  // A finer look at the two best: one number after the other.
+  std::optional<Rated> best;
+  for (std::size_t k = 0; k < std::min<std::size_t>(tried.size(), 2); ++k) {
+    Rated current = tried[k];
+    const GripSite& site = sites[current.hold.site];
+    const DepthLimits here = limits_for(limits, site.thickness);
+    const auto improve = [&](double Lay::*what, double low, double high,
+                             std::initializer_list<double> steps) {
+      const Lay from = current.hold.placement.lay;
+      for (const double step : steps) {
+        progress.throw_if_cancelled();
+        Lay lay = from;
+        lay.*what += step;
+        if (lay.*what < low || lay.*what > high) continue;
+        const Hold hold = try_hold(closer, product, site, current.hold.site, here, lay);
+        if (rank_of(hold) > current.rank) current = {hold, rank_of(hold)};
+      }
+    };
+    improve(&Lay::proximal, 0.0, 45.0, {-8.0, 8.0, 16.0});
+    improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
+    improve(&Lay::oblique, 8 * kDeg, 26 * kDeg, {-4 * kDeg, 6 * kDeg, 12 * kDeg});
+    improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
+    if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
+    improve(&Lay::proximal, 0.0, 45.0, {-4.0, 4.0});
+    if (!best || current.rank > best->rank) best = current;
+  }
+  return best->hold;
+}
+
+}  // namespace palmar
