@@ -85,7 +85,7 @@ nlohmann::json primitive(Glb& glb, const FieldMesh& one) {
   if (one.colour.size() > 1 || (one.colour.size() == 1 && one.mesh.vertices.size() == 1)) {
     std::vector<float> colours;
     colours.reserve(3 * one.colour.size());
-    for (const Rgb& rgb : one.colour) {
+    for (const VertexColour& rgb : one.colour) {
       for (const std::uint8_t value : rgb) colours.push_back(linear(value));
     }
     attributes["COLOR_0"] = add_floats(glb, colours, 3);

@@ -13,13 +13,13 @@
 namespace palmar {
 
 /// Colour as on the screen: sRGB, 0 to 255.
-using Rgb = std::array<std::uint8_t, 3>;
+using VertexColour = std::array<std::uint8_t, 3>;
 
 /// One mesh of a scene, with a colour and any number of scalars at each vertex.
 struct FieldMesh {
   std::string name;
-  TriangleMesh mesh;              ///< mm
-  std::vector<Rgb> colour;        ///< per vertex, or one for all, or none (light grey)
+  TriangleMesh mesh;                 ///< mm
+  std::vector<VertexColour> colour;  ///< per vertex, or one for all, or none (light grey)
   std::vector<PointField> field;  ///< scalars; "pressure_mpa" becomes the attribute _PRESSURE_MPA
 };
 
