@@ -1,0 +1,184 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/half_space_press.h"
+#include "palmar/contact/hand_contact.h"
+#include "palmar/contact/prepared_hand.h"
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kPunchLength = 100.0;  // mm; longer than any part of a hand is thick
+
+/// The indenter as a solid in a frame of its own: it presses along -z, its lowest point (of the
+/// punch: its whole face) in the origin, the cylinder's axis along y.
+class IndenterField : public DistanceField {
+ public:
+  explicit IndenterField(const PressIndenter& indenter) : indenter_(indenter) {}
+
+  void sample(std::span<const Vec3> points, double range,
+              std::span<DistanceSample> samples) const override {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      samples[i] = one(points[i]);
+      if (std::abs(samples[i].distance) <= range) continue;
+      samples[i].distance = std::copysign(range, samples[i].distance);
+      samples[i].closest = points[i];
+    }
+  }
+  Box3 bounding_box() const override {
+    const double wide = indenter_.kind == PressIndenter::Kind::kSphere ||
+                                indenter_.kind == PressIndenter::Kind::kPunch
+                            ? indenter_.radius
+                            : 1e4;
+    return {Vec3(-wide, -wide, 0.0), Vec3(wide, wide, 1e4)};
+  }
+
+ private:
+  static DistanceSample around(const Vec3& point, const Vec3& centre, const Vec3& from_centre,
+                               double radius) {
+    const double length = from_centre.norm();
+    const Vec3 n = length > 0.0 ? Vec3(from_centre / length) : Vec3(-Vec3::UnitZ());
+    return {length - radius, centre + (point - centre - from_centre) + radius * n, n, -1};
+  }
+
+  DistanceSample one(const Vec3& q) const {
+    const double radius = indenter_.radius;
+    switch (indenter_.kind) {
+      case PressIndenter::Kind::kSphere: {
+        const Vec3 centre(0.0, 0.0, radius);
+        return around(q, centre, q - centre, radius);
+      }
+      case PressIndenter::Kind::kCylinder: {
+        const Vec3 centre(0.0, 0.0, radius);
+        return around(q, centre, Vec3(q.x(), 0.0, q.z() - radius), radius);
+      }
+      case PressIndenter::Kind::kPlane:
+        return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
+      case PressIndenter::Kind::kPunch:
+        break;
+    }
+    const double rho = std::hypot(q.x(), q.y());
+    const Vec3 out = rho > 0.0 ? Vec3(q.x() / rho, q.y() / rho, 0.0) : Vec3(Vec3::UnitX());
+    if (rho <= radius && (q.z() <= 0.0 || q.z() < radius - rho)) {
+      return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
+    }
+    const Vec3 side = radius * out + std::clamp(q.z(), 0.0, kPunchLength) * Vec3::UnitZ();
+    if (rho <= radius) return {rho - radius, side, out, -1};
+    const Vec3 from_side = q - side;
+    return {from_side.norm(), side, from_side.normalized(), -1};
+  }
+
+  PressIndenter indenter_;
+};
+
+/// Height at which the indenter first touches a point (x, y, z), if it covers it.
+double touching_height(const PressIndenter& indenter, const Vec3& q) {
+  double across2 = 0.0;
+  switch (indenter.kind) {
+    case PressIndenter::Kind::kPlane:
+      return q.z();
+    case PressIndenter::Kind::kCylinder:
+      across2 = q.x() * q.x();
+      break;
+    default:
+      across2 = q.x() * q.x() + q.y() * q.y();
+  }
+  const double inside = indenter.radius * indenter.radius - across2;
+  if (inside < 0.0) return -std::numeric_limits<double>::infinity();
+  if (indenter.kind == PressIndenter::Kind::kPunch) return q.z();
+  return q.z() - indenter.radius + std::sqrt(inside);
+}
+
+/// Along the finger towards its tip; along the hand for the palm.
+Vec3 distal_direction(const Hand& hand, Region region) {
+  const auto segment = segment_of(region);
+  const auto finger = segment ? finger_of(*segment) : std::nullopt;
+  if (!finger) return Vec3::UnitY();
+  const Vec3 along = hand.skeleton.fingertips[static_cast<std::size_t>(*finger)] -
+                     hand.skeleton.joint(joint_of(*segment)).centre;
+  return along.norm() > 1e-6 ? Vec3(along.normalized()) : Vec3(Vec3::UnitY());
+}
+
+/// Frame of the indenter at first touch.
+Rigid3 hand_from_indenter(const PressOptions& options, const PreparedHand::Impl& prepared) {
+  const Hand& hand = *prepared.hand;
+  Vec3 outward = Vec3::Zero();
+  Vec3 middle = Vec3::Zero();
+  double area = 0.0;
+  for (int v = 0; v < prepared.skin.vertex_count(); ++v) {
+    if (hand.region[v] != options.specimen.region) continue;
+    outward += prepared.skin.area[v] * prepared.skin.normal[v];
+    middle += prepared.skin.area[v] * prepared.skin.position[v];
+    area += prepared.skin.area[v];
+  }
+  if (!(area > 0.0) || !(outward.norm() > 1e-9 * area)) {
+    throw UsageError("press: hand \"" + hand.name + "\" has no skin in region " +
+                     std::string(name_of(options.specimen.region)));
+  }
+  middle /= area;
+  outward.normalize();
+  Vec3 distal = distal_direction(hand, options.specimen.region);
+  distal -= distal.dot(outward) * outward;
+  if (distal.norm() < 1e-6) distal = outward.unitOrthogonal();
+  distal.normalize();
+  const double c = std::cos(options.tilt);
+  const double s = std::sin(options.tilt);
+  // z points away from the skin, x towards the tip, y across.
+  Eigen::Matrix3d axes;
+  axes.col(2) = c * outward + s * distal;
+  axes.col(0) = c * distal - s * outward;
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  Rigid3 frame{Quat(axes), middle};
+
+  // Over the point that stands out most along the press, at the height of first touch.
+  const Rigid3 frame_from_hand = frame.inverse();
+  Vec3 top(0.0, 0.0, -std::numeric_limits<double>::infinity());
+  for (int v = 0; v < prepared.skin.vertex_count(); ++v) {
+    if (hand.region[v] != options.specimen.region) continue;
+    const Vec3 q = frame_from_hand * prepared.skin.position[v];
+    if (q.z() > top.z()) top = q;
+  }
+  double height = -std::numeric_limits<double>::infinity();
+  for (int v = 0; v < prepared.skin.vertex_count(); ++v) {
+    if (hand.region[v] != options.specimen.region) continue;
+    const Vec3 q = frame_from_hand * prepared.skin.position[v] - Vec3(top.x(), top.y(), 0.0);
+    height = std::max(height, touching_height(options.indenter, q));
+  }
+  frame.translation = frame * Vec3(top.x(), top.y(), height);
+  return frame;
+}
+
+}  // namespace
+
+PressStep press_hand_region(const PressOptions& options, const PreparedHand& hand, double depth) {
+  const PreparedHand::Impl& prepared = hand.impl();
+  Rigid3 hand_from_product = hand_from_indenter(options, prepared);
+  hand_from_product.translation -= depth * (hand_from_product.rotation * Vec3::UnitZ());
+  ContactOptions contact_options;
+  contact_options.swelling = false;
+  contact_options.cell_area = options.cell_area;
+  contact_options.shear_modulus = options.shear_modulus;
+  const ContactResult contact = solve_region_contact(
+      hand, prepared.hand->skin.vertices, hand_from_product.inverse(),
+      IndenterField(options.indenter), contact_options, options.specimen.region);
+  if (contact.status == ContactStatus::kNotConverged) {
+    throw NumericalError("press: " + contact.message);
+  }
+  PressStep step{.depth = depth};
+  step.force = contact.total.force_vector.z();
+  step.area = contact.total.area;
+  step.peak_pressure = contact.total.peak_pressure;
+  step.peak_pressure_cells = contact.total.peak_pressure_cells;
+  step.mean_pressure = contact.total.mean_pressure;
+  step.complementarity_error = contact.complementarity_error;
+  for (const RegionContact& region : contact.regions) step.shear_modulus = region.shear_modulus;
+  return step;
+}
+
+}  // namespace palmar
