@@ -1,0 +1,30 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// Version of the hand files that this program writes; it reads this one and older ones.
+inline constexpr int kHandFileVersion = 1;
+
+/// A hand in a `*.hand.glb` file: glTF 2.0 binary that any viewer opens, with Palmar's data beside.
+///
+/// For viewers (metres, single precision): the skin with joints and weights for linear blending (an
+/// approximation of eq. 2-7), attributes _SEGMENT and _REGION, one node per joint, each bone as a
+/// mesh below its joint.
+/// For Palmar, under `extras`: `palmar_hand_version` and `palmar_hand` with everything in double
+/// precision (mm, rad); so read_hand() gives back the very value that write_hand() was given.
+///
+/// Throws OutputError if the file can't be written in full.
+void write_hand(const std::string& path, const Hand& hand);
+
+/// Throws InputError naming the file for: missing, truncated, no glTF, a glTF that is no Palmar
+/// hand, a newer version than kHandFileVersion, and data that contradict themselves (counts,
+/// indices, weights outside [0, 1], numbers that are not finite).
+Hand read_hand(const std::string& path);
+
+}  // namespace palmar
