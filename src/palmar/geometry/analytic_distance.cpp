@@ -211,6 +211,18 @@ DistanceFieldPtr make_box_distance(const Vec3& size, double edge_radius) {
       0.5 * size);
 }
 
+DistanceFieldPtr make_slab_distance(const Vec3& size) {
+  for (int k = 0; k < 3; ++k) check_length("slab", "edge length", size[k]);
+  const Vec3 half = 0.5 * size;
+  const auto function = [half](const Vec3& p) -> Value {
+    const Vec3 q(p.x(), p.y(), p.z() + half.z());
+    const auto [distance, normal] = folded_box<3>(q.cwiseAbs(), half);
+    return {distance, normal.cwiseProduct(sign_of(q))};
+  };
+  return std::make_shared<AnalyticDistance<decltype(function)>>(
+      function, Box3(Vec3(-half.x(), -half.y(), -size.z()), Vec3(half.x(), half.y(), 0.0)));
+}
+
 void PrismShape::check() const {
   check_length("prism", "width", width);
   check_length("prism", "depth", depth);

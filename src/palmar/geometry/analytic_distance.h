@@ -38,6 +38,9 @@ DistanceFieldPtr make_flat_punch_distance(double radius, double length);
 /// the smallest edge).
 DistanceFieldPtr make_box_distance(const Vec3& size, double edge_radius = 0.0);
 
+/// Box of edge lengths `size` whose upper face is the plane z = 0, centred in x and y.
+DistanceFieldPtr make_slab_distance(const Vec3& size);
+
 struct PrismShape {
   double width = 40.0;         ///< along x
   double depth = 30.0;         ///< along y

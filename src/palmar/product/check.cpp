@@ -1,0 +1,199 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/product/check.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/orient.h"
+#include "palmar/geometry/self_intersection.h"
+#include "palmar/geometry/weld.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kWidestGrip = 110.0;      // mm
+constexpr double kThinnestHandle = 4.0;    // mm
+constexpr double kShortestProduct = 20.0;  // mm
+constexpr double kTinyShare = 0.01;        // of the diagonal of the whole
+constexpr double kFlattestShare = 1e-3;    // volume / (area * size) below which nothing is enclosed
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string counted(int count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Sides of the box along the principal directions of the surface, ascending.
+Vec3 principal_extent(const TriangleMesh& mesh) {
+  Vec3 mean = Vec3::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double w = triangle_area(a, b, c);
+    mean += w * (a + b + c) / 3.0;
+    area += w;
+  }
+  if (!(area > 0.0)) return Vec3::Zero();
+  mean /= area;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 x = (a + b + c) / 3.0 - mean;
+    covariance += triangle_area(a, b, c) * x * x.transpose();
+  }
+  const Eigen::Matrix3d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  Box3 box;
+  for (const Vec3& x : mesh.vertices) box.extend(axes.transpose() * (x - mean));
+  Vec3 extent = box.sizes();
+  std::sort(extent.data(), extent.data() + 3);
+  return extent;
+}
+
+int count_tiny_parts(const TriangleMesh& mesh, const std::vector<int>& component, int parts,
+                     double diagonal) {
+  std::vector<Box3> boxes(static_cast<std::size_t>(parts));
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (component[t] < 0) continue;
+    for (const int v : mesh.triangles[t]) boxes[component[t]].extend(mesh.vertices[v]);
+  }
+  return static_cast<int>(std::count_if(boxes.begin(), boxes.end(), [&](const Box3& box) {
+    return box.diagonal().norm() < kTinyShare * diagonal;
+  }));
+}
+
+void judge(ProductCheck& c, const OrientResult& oriented) {
+  const auto add = [&](Severity severity, const std::string& text) {
+    c.findings.push_back({severity, text});
+  };
+  if (c.is_closed) {
+    add(Severity::kOk, "closed: every edge has two triangles");
+  } else {
+    add(Severity::kWarning, "open: " + counted(c.holes, "hole", "holes") + " with " +
+                                counted(c.boundary_edges, "edge", "edges") +
+                                "; inside is judged by the winding number");
+  }
+  if (c.non_manifold_edges > 0) {
+    add(Severity::kNote,
+        counted(c.non_manifold_edges, "edge has", "edges have") + " more than two triangles");
+  }
+  if (c.is_inverted) add(Severity::kWarning, "inside out: its triangles face inwards");
+  if (c.flipped_triangles > 0) {
+    add(Severity::kWarning, counted(c.flipped_triangles, "triangle faces", "triangles face") +
+                                " the wrong way, in " +
+                                counted(c.flipped_patches, "patch", "patches") + " of " +
+                                std::to_string(oriented.patches));
+  } else {
+    add(Severity::kOk, "oriented: every triangle faces outwards");
+  }
+  if (oriented.undecided_patches > 0) {
+    add(Severity::kWarning, "for " + counted(oriented.undecided_patches, "patch", "patches") +
+                                " it can't be told which side is outside");
+  }
+  if (oriented.twisted_patches > 0) {
+    add(Severity::kWarning, counted(oriented.twisted_patches, "patch is", "patches are") +
+                                " one-sided like a Moebius band");
+  }
+  if (c.crossing_pairs > 0) {
+    add(Severity::kNote,
+        counted(c.crossing_pairs, "pair", "pairs") + " of triangles go through each other");
+  }
+  if (c.parts > 1) {
+    add(Severity::kNote, std::to_string(c.parts) + " separate parts, " +
+                             std::to_string(c.tiny_parts) + " of them tiny (below " +
+                             number(100.0 * kTinyShare) + " % of the size)");
+  }
+  if (c.is_closed && std::abs(c.volume) < kFlattestShare * c.area * c.extent.z()) {
+    add(Severity::kWarning, "encloses next to nothing: " + number(c.volume) + " mm^3 under " +
+                                number(c.area) + " mm^2");
+  }
+  const std::string extent =
+      number(c.extent.x()) + " x " + number(c.extent.y()) + " x " + number(c.extent.z()) + " mm";
+  if (c.is_too_big) {
+    add(Severity::kWarning, "too big for a hand: its smallest side is " + number(c.extent.x()) +
+                                " mm; a hand reaches round " + number(kWidestGrip) + " mm");
+  } else if (c.is_too_small) {
+    add(Severity::kWarning, "too small for a power grip: " + extent + "; at least " +
+                                number(kShortestProduct) + " mm long and " +
+                                number(kThinnestHandle) + " mm thick is needed");
+  } else {
+    add(Severity::kOk, "fits a hand: " + extent);
+  }
+}
+
+void rank(ProductCheck& c) {
+  std::stable_sort(c.findings.begin(), c.findings.end(), [](const Finding& a, const Finding& b) {
+    return static_cast<int>(a.severity) > static_cast<int>(b.severity);
+  });
+  if (!c.findings.empty()) c.verdict = c.findings.front().severity;
+}
+
+}  // namespace
+
+std::string name_of(Severity severity) {
+  switch (severity) {
+    case Severity::kOk:
+      return "ok";
+    case Severity::kNote:
+      return "note";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kError:
+      return "error";
+  }
+  return "";
+}
+
+ProductCheck check_mesh(const TriangleMesh& mesh) {
+  ProductCheck c;
+  const TriangleMesh welded = weld(mesh, {.drops_duplicates = false}).mesh;
+  c.triangles = welded.triangle_count();
+  c.vertices = welded.vertex_count();
+  c.area = surface_area(welded);
+  if (welded.triangles.empty() || !(c.area > 0.0)) {
+    c.findings.push_back({Severity::kError, "no triangles with an area"});
+    c.verdict = Severity::kError;
+    return c;
+  }
+  const MeshTopology topology = build_topology(welded);
+  const TopologyReport report = examine_topology(welded, topology);
+  c.parts = report.components;
+  c.boundary_edges = report.boundary_edges;
+  c.holes = report.boundary_loops;
+  c.non_manifold_edges = report.non_manifold_edges;
+  c.euler_number = report.euler_number;
+  c.is_closed = report.is_closed;
+  c.volume = signed_volume(welded);
+  c.is_inverted = c.is_closed && c.volume < 0.0;
+  c.size = bounding_box(welded).sizes();
+  c.extent = principal_extent(welded);
+  c.is_too_big = c.extent.x() > kWidestGrip;
+  c.is_too_small = c.extent.z() < kShortestProduct || c.extent.y() < kThinnestHandle;
+  c.tiny_parts =
+      count_tiny_parts(welded, triangle_components(welded, topology), c.parts, c.size.norm());
+  c.crossing_pairs = static_cast<int>(find_self_crossings(welded).size());
+  const OrientResult oriented = orient_outwards(welded);
+  c.flipped_patches = oriented.flipped_patches + oriented.mended_patches;
+  c.flipped_triangles = static_cast<int>(oriented.flipped_triangles.size());
+  judge(c, oriented);
+  rank(c);
+  return c;
+}
+
+ProductCheck check_product(const Product& product) {
+  ProductCheck c = check_mesh(product.mesh);
+  for (const std::string& text : product.notes) c.findings.push_back({Severity::kNote, text});
+  rank(c);
+  return c;
+}
+
+}  // namespace palmar
