@@ -1,9 +1,191 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
 #include "cli.h"
+#include "palmar/core/error.h"
+#include "palmar/io/mesh_file.h"
+#include "palmar/io/product_file.h"
+#include "palmar/product/check.h"
+#include "palmar/product/primitives.h"
 
 namespace palmar::cli {
+namespace {
 
-void add_product_commands(CLI::App&, Context&) {}
+using Json = nlohmann::ordered_json;
+
+Json check_json(const Product& product, const ProductCheck& check) {
+  Json findings = Json::array();
+  for (const Finding& finding : check.findings) {
+    findings.push_back({{"severity", name_of(finding.severity)}, {"text", finding.text}});
+  }
+  const auto vector = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
+  return {{"product", product.name},
+          {"source", product.source},
+          {"verdict", name_of(check.verdict)},
+          {"triangles", check.triangles},
+          {"vertices", check.vertices},
+          {"parts", check.parts},
+          {"tiny_parts", check.tiny_parts},
+          {"is_closed", check.is_closed},
+          {"boundary_edges", check.boundary_edges},
+          {"holes", check.holes},
+          {"non_manifold_edges", check.non_manifold_edges},
+          {"flipped_triangles", check.flipped_triangles},
+          {"crossing_pairs", check.crossing_pairs},
+          {"euler_number", check.euler_number},
+          {"is_too_big", check.is_too_big},
+          {"is_too_small", check.is_too_small},
+          {"size_mm", vector(check.size)},
+          {"principal_extent_mm", vector(check.extent)},
+          {"area_mm2", check.area},
+          {"volume_mm3", check.volume},
+          {"findings", std::move(findings)}};
+}
+
+std::string check_text(const Product& product, const ProductCheck& check) {
+  std::string text = fmt::format(
+      "{}: {} triangles, {} vertices, {} part{}\n"
+      "size {:.1f} x {:.1f} x {:.1f} mm, area {:.0f} mm2, volume {:.0f} mm3, Euler number {}\n",
+      product.source, check.triangles, check.vertices, check.parts, check.parts == 1 ? "" : "s",
+      check.size.x(), check.size.y(), check.size.z(), check.area, check.volume, check.euler_number);
+  for (const Finding& finding : check.findings) {
+    text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
+  }
+  return text + "verdict: " + name_of(check.verdict) + "\n";
+}
+
+struct FileArguments {
+  std::string product, unit, out;
+};
+
+/// The mesh as the file has it (in mm, not yet repaired), for an honest check.
+ProductCheck check_of_file(const FileArguments& arguments, Product& product) {
+  product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
+  MeshFile raw = read_mesh(arguments.product);
+  const double scale = millimetres_per(product.unit);
+  for (Vec3& vertex : raw.mesh.vertices) vertex *= scale;
+  // STL has no shared corners; what the product's own weld joins isn't a fault of the file.
+  return raw.format.find("STL") == std::string::npos ? check_mesh(raw.mesh)
+                                                     : check_mesh(product.mesh);
+}
+
+void add_inspection(CLI::App& product, Context& context, const std::string& name,
+                    const std::string& description, bool fails_on_error) {
+  const auto o = std::make_shared<FileArguments>();
+  CLI::App* verb =
+      add_verb(product, name, description, "palmar product " + name + " handle.stl --unit mm");
+  verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
+  verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
+  verb->callback([&context, o, fails_on_error] {
+    context.run = [&context, o, fails_on_error] {
+      Product product;
+      const ProductCheck check = check_of_file(*o, product);
+      for (const std::string& text : product.notes) note(context.common, text);
+      print(context.common.json ? check_json(product, check).dump(2) + "\n"
+                                : check_text(product, check));
+      if (fails_on_error && check.verdict >= Severity::kWarning) {
+        throw CheckFailed(o->product + ": " + check.findings.front().text);
+      }
+      return 0;
+    };
+  });
+}
+
+void add_convert(CLI::App& product, Context& context) {
+  const auto o = std::make_shared<FileArguments>();
+  CLI::App* verb = add_verb(product, "convert", "Another format, in mm, welded and oriented",
+                            "palmar product convert handle.3mf --out handle.stl");
+  verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
+  verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
+  verb->add_option("--out", o->out, "File to write: .stl, .obj or .ply")->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const Product product = load_product(o->product, {.unit = parse_unit(o->unit)});
+      for (const std::string& text : product.notes) note(context.common, text);
+      write_mesh(o->out, product.mesh);
+      note(context.common, "wrote " + o->out + " (unit: mm)");
+      return 0;
+    };
+  });
+}
+
+/// One kind of solid: its options on the command line and the function that makes it.
+template <typename Options>
+void add_kind(CLI::App& make, Context& context, const std::string& kind, const std::string& example,
+              Product (*function)(const Options&),
+              const std::function<void(CLI::App&, Options&)>& add_options) {
+  const auto options = std::make_shared<Options>();
+  const auto out = std::make_shared<std::string>();
+  CLI::App* verb =
+      add_verb(make, kind, "Make this solid", "palmar product make " + kind + " " + example);
+  add_options(*verb, *options);
+  verb->add_option("--chordal-error-mm", options->fineness.chordal_error,
+                   "Largest gap between mesh and solid, mm")
+      ->capture_default_str();
+  verb->add_option("--out", *out, "File to write: .stl, .obj or .ply")->required();
+  verb->callback([&context, options, out, function] {
+    context.run = [&context, options, out, function] {
+      const Product product = function(*options);
+      write_mesh(*out, product.mesh);
+      note(context.common,
+           fmt::format("wrote {} ({} triangles, unit: mm)", *out, product.mesh.triangle_count()));
+      return 0;
+    };
+  });
+}
+
+void add_make(CLI::App& product, Context& context) {
+  CLI::App* make = add_verb(product, "make", "Make a simple solid",
+                            "palmar product make cylinder --diameter-mm 48 --out handle.stl");
+  make->require_subcommand(1);
+  const auto length = [](CLI::App& verb, const std::string& name, double& value) {
+    verb.add_option(name, value, "mm")->capture_default_str();
+  };
+  add_kind<CylinderProductOptions>(*make, context, "cylinder", "--diameter-mm 48 --out c48.stl",
+                                   make_cylinder_product, [&](CLI::App& verb, auto& o) {
+                                     length(verb, "--diameter-mm", o.diameter);
+                                     length(verb, "--length-mm", o.length);
+                                   });
+  add_kind<PrismProductOptions>(*make, context, "prism",
+                                "--width-mm 40 --fillet-mm 3 --out prism.stl", make_prism_product,
+                                [&](CLI::App& verb, auto& o) {
+                                  length(verb, "--width-mm", o.width);
+                                  length(verb, "--depth-mm", o.depth);
+                                  length(verb, "--length-mm", o.length);
+                                  length(verb, "--fillet-mm", o.fillet_radius);
+                                });
+  add_kind<SphereProductOptions>(
+      *make, context, "sphere", "--diameter-mm 60 --out ball.stl", make_sphere_product,
+      [&](CLI::App& verb, auto& o) { length(verb, "--diameter-mm", o.diameter); });
+  add_kind<EllipsoidProductOptions>(*make, context, "ellipsoid",
+                                    "--x-mm 50 --y-mm 60 --z-mm 120 --out egg.stl",
+                                    make_ellipsoid_product, [&](CLI::App& verb, auto& o) {
+                                      length(verb, "--x-mm", o.diameters.x());
+                                      length(verb, "--y-mm", o.diameters.y());
+                                      length(verb, "--z-mm", o.diameters.z());
+                                    });
+  add_kind<PlaneProductOptions>(*make, context, "plane",
+                                "--width-mm 200 --depth-mm 100 --out plate.stl", make_plane_product,
+                                [&](CLI::App& verb, auto& o) {
+                                  length(verb, "--width-mm", o.width);
+                                  length(verb, "--depth-mm", o.depth);
+                                  length(verb, "--thickness-mm", o.thickness);
+                                });
+}
+
+}  // namespace
+
+void add_product_commands(CLI::App& app, Context& context) {
+  CLI::App* product = app.add_subcommand("product", "Check, convert and make products");
+  product->require_subcommand(1);
+  product->fallthrough();
+  add_inspection(*product, context, "info", "Size, area, volume and state of a mesh", false);
+  add_inspection(*product, context, "check", "Like info; exit code 5 if something is wrong", true);
+  add_convert(*product, context);
+  add_make(*product, context);
+}
 
 }  // namespace palmar::cli
