@@ -20,6 +20,8 @@ constexpr double kDipShare = 0.31;      // of the middle phalanx: 7.5 of about 2
 constexpr double kThumbIpShare = 0.13;  // of the thumb's proximal phalanx: 4 of about 32 mm
 constexpr double kTransverse = 9.0;     // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
 constexpr double kAboveWeb = 1.5;       // mm; keeps the base crease a loop around one finger
+constexpr double kBehindWeb = 6.0;      // mm; where palmar skin ends on the first web
+constexpr double kWebWeight = 0.3;      // against the rays; small: the border bends gently
 constexpr double kTypicalWristToMcp = 90.0;  // mm, hand of 185 mm
 
 constexpr std::array<std::array<JointId, 3>, kFingerCount> kJoints{{
@@ -114,8 +116,22 @@ HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
   scale_ = to_mcp.norm() / kTypicalWristToMcp;
   wrist_ = {wrist + kWristShare * to_mcp, Vec3::UnitY()};
   for (int k = 0; k + 1 < kFingerCount; ++k) web_[at(k)] = find_web(skin, k);
+  lay_web();
   lay_finger_creases();
   lay_palm_creases();
+}
+
+void HandCreases::lay_web() {
+  const Ray& thumb = ray_[0];
+  const Ray& index = ray_[1];
+  const Vec3 along_thumb = thumb.node[2] - thumb.node[1];
+  const Vec3 along_index = index.node[1] - index.node[0];
+  web_palmar_ = along_thumb.cross(along_index).normalized();
+  if (web_palmar_.z() < 0.0) web_palmar_ = -web_palmar_;
+  // Palmar skin goes over the ridge of the web and ends a little behind it.
+  const Vec3 behind = -kBehindWeb * scale_ * web_palmar_;
+  web_root_ = 0.5 * (0.5 * (thumb.node[1] + thumb.node[2]) + index.node[0] + 0.6 * along_index);
+  web_end_ = web_[0] + behind;
 }
 
 HandCreases::OnRay HandCreases::project(const Ray& ray, const Vec3& point) const {
@@ -162,6 +178,13 @@ double HandCreases::palmar_height(const Vec3& point) const {
     sum += w * height;
     weight += w;
   }
+  // The first web is a fold of its own, between the rays.
+  const Vec3 spine = web_end_ - web_root_;
+  const double t = std::clamp((point - web_root_).dot(spine) / spine.squaredNorm(), 0.0, 1.0);
+  const Vec3 offset = point - web_root_ - t * spine;
+  const double w = kWebWeight * std::pow(1.0 + offset.squaredNorm(), -3.0);
+  sum += w * offset.dot(web_palmar_);
+  weight += w;
   return sum / weight;
 }
 
@@ -258,8 +281,8 @@ void HandCreases::lay_palm_creases() {
   // ball.
   thenar_ = PlaneCurve({palm(0.80, 1.02), palm(0.52, 0.86), palm(0.26, 0.68), palm(0.10, 0.46),
                         palm(0.04, 0.22), palm(0.03, 0.0)});
-  hypothenar_ = PlaneCurve(
-      {palm(0.10, 0.0), palm(0.0, 0.20), palm(-0.20, 0.46), palm(-0.36, 0.68), palm(-0.46, 0.90)});
+  hypothenar_ = PlaneCurve({palm(0.24, 0.12), palm(0.10, 0.20), palm(-0.08, 0.36),
+                            palm(-0.26, 0.60), palm(-0.42, 0.90)});
   const Vec2 between = 0.5 * (m3 + m4);
   const Vec2 web = in_palm(web_[2]);
   between_pads_ = PlaneCurve({between + 2.0 * down, web});

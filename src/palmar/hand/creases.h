@@ -93,6 +93,7 @@ class HandCreases {
   OnRay project(const Ray& ray, const Vec3& point) const;
   int nearest_ray(const Vec3& point) const;
   Vec3 find_web(const TriangleMesh& skin, int k) const;
+  void lay_web();
   void lay_finger_creases();
   void lay_palm_creases();
   Eigen::Vector2d in_palm(const Vec3& point) const { return {sign_ * point.x(), point.y()}; }
@@ -101,6 +102,8 @@ class HandCreases {
   double scale_ = 1.0;  ///< wrist to third MCP joint over that of a 185 mm hand
   std::array<Ray, kFingerCount> ray_;
   std::array<Vec3, kFingerCount - 1> web_;
+  /// First web: from its root between the metacarpals to its ridge; normal towards the palm.
+  Vec3 web_root_, web_end_, web_palmar_;
   CreasePlane wrist_;
   std::array<std::array<CreasePlane, 3>, kFingerCount> crease_;  ///< base, PIP, DIP (thumb: 2)
   PlaneCurve transverse_, thenar_, hypothenar_, between_pads_;

@@ -3,7 +3,10 @@
 #include "palmar/hand/regions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -11,6 +14,7 @@
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/subdivide.h"
 #include "palmar/hand/creases.h"
 
 namespace palmar {
@@ -26,11 +30,14 @@ auto standing(const SkinLabel& label) {
 
 bool ranks_before(const SkinLabel& a, const SkinLabel& b) { return standing(a) < standing(b); }
 
-// Slides points along the original surface.
+// Slides points along the smooth surface that the skin stands for; sliding along its flat triangles
+// would cut the corners of fingertips.
 class Surface {
  public:
-  explicit Surface(const TriangleMesh& mesh)
-      : mesh_(mesh), normals_(vertex_normals(mesh)), query_(mesh) {}
+  explicit Surface(const TriangleMesh& skin)
+      : mesh_(subdivide(skin, {.scheme = SubdivisionScheme::kFittedLoop, .fit_rounds = 3})),
+        normals_(vertex_normals(mesh_)),
+        query_(mesh_) {}
 
   Vec3 project(const Vec3& point, Vec3* normal = nullptr) const {
     const ClosestPoint nearest = *query_.closest(point);
@@ -44,7 +51,7 @@ class Surface {
   }
 
  private:
-  const TriangleMesh& mesh_;
+  TriangleMesh mesh_;
   std::vector<Vec3> normals_;
   ClosestPointQuery query_;
 };
@@ -122,6 +129,53 @@ double crossing(const HandCreases& creases, const Vec3& a, const Vec3& b, const 
   return 0.5 * (lower + upper);
 }
 
+// The way of a vertex onto a crease.
+struct Offer {
+  bool is_made = false;
+  double distance = std::numeric_limits<double>::max();  // mm
+  Vec3 place = Vec3::Zero();
+};
+
+std::vector<Offer> offers(const TriangleMesh& skin, const MeshTopology& topology,
+                          const HandCreases& creases, const std::vector<SkinLabel>& label) {
+  std::vector<Offer> offer(label.size());
+  for (const auto& [i, j] : topology.edge) {
+    if (label[at(i)] == label[at(j)]) continue;
+    const Vec3& a = skin.vertices[at(i)];
+    const Vec3& b = skin.vertices[at(j)];
+    const double share = crossing(creases, a, b, label[at(i)], label[at(j)]);
+    Offer& nearer = offer[at(share < 0.5 ? i : j)];
+    const double distance = std::min(share, 1.0 - share) * (b - a).norm();
+    nearer.is_made = true;
+    if (distance >= nearer.distance) continue;
+    nearer.distance = distance;
+    nearer.place = a + share * (b - a);
+  }
+  return offer;
+}
+
+// A vertex may stay where it is if the other end of each of its crossing edges moves. The longest
+// ways are spared first.
+void withdraw_needless(const MeshTopology& topology, const std::vector<SkinLabel>& label,
+                       std::vector<Offer>& offer) {
+  std::vector<std::vector<int>> across(label.size());
+  for (const auto& [i, j] : topology.edge) {
+    if (label[at(i)] == label[at(j)]) continue;
+    across[at(i)].push_back(j);
+    across[at(j)].push_back(i);
+  }
+  std::vector<int> order;
+  for (int i = 0; i < static_cast<int>(offer.size()); ++i) {
+    if (offer[at(i)].is_made) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return offer[at(a)].distance > offer[at(b)].distance; });
+  for (const int i : order) {
+    offer[at(i)].is_made = !std::all_of(across[at(i)].begin(), across[at(i)].end(),
+                                        [&](int j) { return offer[at(j)].is_made; });
+  }
+}
+
 // Brings a point back onto all creases that meet in it: Gauss-Newton within the tangent plane, the
 // shortest step where one crease leaves a direction free.
 Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3& start,
@@ -151,6 +205,69 @@ Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3
     point += step.x() * u + step.y() * v;
   }
   return surface.project(point);
+}
+
+double smallest_angle(const TriangleMesh& mesh, const Triangle& t) {
+  double smallest = std::numbers::pi;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& a = mesh.vertices[at(t[k])];
+    const Vec3 u = mesh.vertices[at(t[(k + 1) % 3])] - a;
+    const Vec3 v = mesh.vertices[at(t[(k + 2) % 3])] - a;
+    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)));
+  }
+  return smallest;
+}
+
+Vec3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
+  const Vec3& a = mesh.vertices[at(t[0])];
+  return (mesh.vertices[at(t[1])] - a).cross(mesh.vertices[at(t[2])] - a);
+}
+
+// Three vertices moved onto one crease make a sliver: its longest edge is turned, if both triangles
+// gain by that. `is_fixed` tells edges that must stay.
+template <typename IsFixed>
+void turn_slivers(TriangleMesh& skin, const IsFixed& is_fixed) {
+  constexpr double kSliver = 25.0 * std::numbers::pi / 180.0;
+  for (int pass = 0; pass < 3; ++pass) {
+    const MeshTopology topology = build_topology(skin);
+    const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
+    std::vector<bool> is_touched(skin.vertices.size());
+    bool has_changed = false;
+    for (int t = 0; t < skin.triangle_count(); ++t) {
+      const Triangle mine = skin.triangles[at(t)];
+      if (smallest_angle(skin, mine) >= kSliver) continue;
+      int longest = 0;
+      double length = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const double l = (skin.vertices[at(mine[at(k)])] - skin.vertices[at(mine[at((k + 1) % 3)])])
+                             .squaredNorm();
+        if (l > length) {
+          length = l;
+          longest = k;
+        }
+      }
+      const int twin = topology.twin[at(3 * t + longest)];
+      const int a = mine[at(longest)], b = mine[at((longest + 1) % 3)];
+      const int c = mine[at((longest + 2) % 3)];
+      const Triangle theirs = skin.triangles[at(twin / 3)];
+      const int d = theirs[at((twin % 3 + 2) % 3)];
+      if (is_touched[at(a)] || is_touched[at(b)] || is_touched[at(c)] || is_touched[at(d)])
+        continue;
+      if (is_fixed(a, b)) continue;
+      const auto& round_c = neighbours[at(c)];
+      if (std::binary_search(round_c.begin(), round_c.end(), d)) continue;
+      const Triangle first{a, d, c}, second{d, b, c};
+      const double before = std::min(smallest_angle(skin, mine), smallest_angle(skin, theirs));
+      const double after = std::min(smallest_angle(skin, first), smallest_angle(skin, second));
+      const bool is_folded = area_normal(skin, first).dot(area_normal(skin, second)) <= 0.0;
+      if (after <= before || is_folded) continue;
+      skin.triangles[at(t)] = first;
+      skin.triangles[at(twin / 3)] = second;
+      for (const int i : {a, b, c, d}) is_touched[at(i)] = true;
+      has_changed = true;
+    }
+    if (!has_changed) return;
+  }
 }
 
 // What the creases look like as edges of the mesh.
@@ -217,34 +334,75 @@ std::vector<int> near_creases(const CreaseGraph& graph,
   return list;
 }
 
-void relax(TriangleMesh& skin, const std::vector<std::vector<int>>& neighbours,
-           const CreaseGraph& graph, const HandCreases& creases, const Surface& surface) {
-  constexpr int kRounds = 12;
+// Smallest angle of the triangles round a vertex; negative if one of them is turned over.
+double worst_angle(const TriangleMesh& skin, const MeshTopology& topology, int vertex,
+                   const Vec3& normal) {
+  double worst = std::numbers::pi;
+  for (const int h : topology.outgoing(vertex)) {
+    const Triangle& t = skin.triangles[at(h / 3)];
+    const double angle = smallest_angle(skin, t);
+    worst = std::min(worst, area_normal(skin, t).dot(normal) > 0.0 ? angle : -angle);
+  }
+  return worst;
+}
+
+// Labels whose creases hold a vertex: all that meet in it. Two creases that cross make two corners
+// side by side; only the first of these is put on the crossing, the other stays on the crease next
+// to it, lest they fall into one point.
+std::vector<std::pair<SkinLabel, SkinLabel>> holding_pairs(const CreaseGraph& graph,
+                                                           const HandCreases& creases, int vertex,
+                                                           const Vec3& place) {
+  std::vector<std::pair<SkinLabel, SkinLabel>> pairs;
+  const auto& labels = graph.labels[at(vertex)];
+  for (std::size_t a = 0; a < labels.size(); ++a) {
+    for (std::size_t b = a + 1; b < labels.size(); ++b) pairs.emplace_back(labels[a], labels[b]);
+  }
+  const auto& along = graph.neighbours[at(vertex)];
+  const auto goes_first = [&](int i, int j) {
+    const std::size_t a = graph.labels[at(i)].size(), b = graph.labels[at(j)].size();
+    return a != b ? a > b : i < j;
+  };
+  const bool yields = labels.size() > 2 && std::any_of(along.begin(), along.end(), [&](int j) {
+                        return graph.labels[at(j)].size() > 2 && goes_first(j, vertex);
+                      });
+  if (!yields) return pairs;
+  const auto distance = [&](const std::pair<SkinLabel, SkinLabel>& pair) {
+    return std::abs(creases.boundary_value(place, pair.first, pair.second));
+  };
+  return {*std::min_element(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
+    return distance(a) < distance(b);
+  })};
+}
+
+// Evens out the mesh near the creases. A move is taken if it doesn't spoil the triangles round it.
+void relax(TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& creases,
+           const Surface& surface) {
+  constexpr int kRounds = 8;
   constexpr int kRings = 4;
+  constexpr double kGoodAngle = 25.0 * std::numbers::pi / 180.0;
+  const MeshTopology topology = build_topology(skin);
+  const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
   const std::vector<int> moving = near_creases(graph, neighbours, kRings);
   for (int round = 0; round < kRounds; ++round) {
     for (const int i : moving) {
       const auto& along = graph.neighbours[at(i)];
-      Vec3& p = skin.vertices[at(i)];
-      if (along.empty()) {
-        Vec3 mean = Vec3::Zero();
-        for (const int j : neighbours[at(i)]) mean += skin.vertices[at(j)];
-        mean /= static_cast<double>(neighbours[at(i)].size());
-        p = surface.project(p + 0.6 * (mean - p));
-        continue;
+      // A vertex on a crease follows its neighbours on the crease, others all theirs.
+      const auto& followed = along.empty() ? neighbours[at(i)] : along;
+      Vec3 mean = Vec3::Zero();
+      for (const int j : followed) mean += skin.vertices[at(j)];
+      mean /= static_cast<double>(followed.size());
+      const Vec3 before = skin.vertices[at(i)];
+      const Vec3 target = before + 0.5 * (mean - before);
+      Vec3 after = target;
+      if (!along.empty()) {
+        after = onto_creases(creases, surface, target, holding_pairs(graph, creases, i, before));
       }
-      Vec3 target = p;
-      if (along.size() == 2) {
-        const Vec3 mean = 0.5 * (skin.vertices[at(along[0])] + skin.vertices[at(along[1])]);
-        target += 0.5 * (mean - p);
-      }
-      std::vector<std::pair<SkinLabel, SkinLabel>> pairs;
-      const auto& labels = graph.labels[at(i)];
-      for (std::size_t a = 0; a < labels.size(); ++a) {
-        for (std::size_t b = a + 1; b < labels.size(); ++b)
-          pairs.emplace_back(labels[a], labels[b]);
-      }
-      p = onto_creases(creases, surface, target, pairs);
+      Vec3 normal;
+      after = surface.project(after, &normal);
+      const double was = worst_angle(skin, topology, i, normal);
+      skin.vertices[at(i)] = after;
+      const double is = worst_angle(skin, topology, i, normal);
+      if (is < kGoodAngle && is < was) skin.vertices[at(i)] = before;
     }
   }
 }
@@ -281,22 +439,24 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
 
   // Of each edge across a crease the nearer end moves onto it, by the shortest way it is offered.
   SkinPartition result{.skin = skin, .segment = {}, .region = {}};
+  std::vector<Offer> offer = offers(skin, topology, creases, label);
+  withdraw_needless(topology, label, offer);
   std::vector<bool> is_snapped(label.size());
-  std::vector<double> way(label.size(), 1e9);
-  for (const auto& [i, j] : topology.edge) {
-    if (label[at(i)] == label[at(j)]) continue;
-    const Vec3& a = skin.vertices[at(i)];
-    const Vec3& b = skin.vertices[at(j)];
-    const double share = crossing(creases, a, b, label[at(i)], label[at(j)]);
-    const int end = share < 0.5 ? i : j;
-    const double distance = std::min(share, 1.0 - share) * (b - a).norm();
-    is_snapped[at(end)] = true;
-    if (distance >= way[at(end)]) continue;
-    way[at(end)] = distance;
-    result.skin.vertices[at(end)] = surface.project(a + share * (b - a));
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (!offer[i].is_made) continue;
+    is_snapped[i] = true;
+    result.skin.vertices[i] = surface.project(offer[i].place);
   }
-  const CreaseGraph graph = build_graph(result.skin, topology, creases, label, is_snapped);
-  relax(result.skin, neighbours, graph, creases, surface);
+  turn_slivers(result.skin, [](int, int) { return false; });
+  CreaseGraph graph =
+      build_graph(result.skin, build_topology(result.skin), creases, label, is_snapped);
+  for (int pass = 0; pass < 2; ++pass) {
+    relax(result.skin, graph, creases, surface);
+    turn_slivers(result.skin, [&](int i, int j) {
+      const auto& along = graph.neighbours[at(i)];
+      return std::find(along.begin(), along.end(), j) != along.end();
+    });
+  }
 
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (!graph.labels[i].empty()) label[i] = graph.labels[i].front();

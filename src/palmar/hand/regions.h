@@ -12,8 +12,8 @@ namespace palmar {
 
 /// Skin cut into the 15 segments and the 19 regions (with the dorsum 20).
 struct SkinPartition {
-  /// Same vertices and triangles in the same order; vertices near a crease slid along the surface
-  /// onto it, so that the creases run along edges of the mesh.
+  /// Same vertices in the same order, those near a crease slid along the surface onto it, so that
+  /// the creases run along edges of the mesh; where that made slivers, edges are turned.
   TriangleMesh skin;
   std::vector<Segment> segment;  ///< per vertex
   std::vector<Region> region;    ///< per vertex
