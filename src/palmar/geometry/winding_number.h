@@ -18,7 +18,7 @@ namespace palmar {
 /// solids overlap, -1 inside a mesh turned inside out: orientation must be right, see orient.h.
 ///
 /// Far groups of triangles are replaced by their multipole expansion up to the quadratic moment;
-/// near triangles are exact (van Oosterom, Strackee 1983). Error below 0.01.
+/// near triangles are exact (van Oosterom, Strackee 1983). Error below 0.02.
 ///
 /// Source: Barill, Dickson, Schmidt, Levin, Jacobson 2018, Fast winding numbers for soups and
 /// clouds, eq. (13) to (15).
