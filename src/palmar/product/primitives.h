@@ -23,7 +23,7 @@ struct MeshFineness {
 struct CylinderProductOptions {
   double diameter = 48.0;
   double length = 150.0;  ///< along z
-  MeshFineness fineness;
+  MeshFineness fineness = {};
   void check() const;
 };
 Product make_cylinder_product(const CylinderProductOptions& options);
@@ -34,21 +34,21 @@ struct PrismProductOptions {
   double depth = 30.0;         ///< along y
   double length = 150.0;       ///< along z
   double fillet_radius = 5.0;  ///< of the four long edges; 0 to half of the smaller of both sides
-  MeshFineness fineness;
+  MeshFineness fineness = {};
   void check() const;
 };
 Product make_prism_product(const PrismProductOptions& options);
 
 struct SphereProductOptions {
   double diameter = 60.0;
-  MeshFineness fineness;
+  MeshFineness fineness = {};
   void check() const;
 };
 Product make_sphere_product(const SphereProductOptions& options);
 
 struct EllipsoidProductOptions {
   Vec3 diameters = Vec3(50.0, 60.0, 120.0);  ///< along x, y, z
-  MeshFineness fineness;
+  MeshFineness fineness = {};
   void check() const;
 };
 Product make_ellipsoid_product(const EllipsoidProductOptions& options);
@@ -58,7 +58,7 @@ struct PlaneProductOptions {
   double width = 300.0;     ///< along x
   double depth = 300.0;     ///< along y
   double thickness = 20.0;  ///< the slab reaches from z = -thickness to 0
-  MeshFineness fineness;
+  MeshFineness fineness = {};
   void check() const;
 };
 Product make_plane_product(const PlaneProductOptions& options);
