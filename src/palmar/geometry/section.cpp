@@ -30,8 +30,8 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
   const auto height = [&](int i) {
     return normal.dot(mesh.vertices[static_cast<std::size_t>(i)] - point);
   };
-  // Each crossed triangle is a piece from one of its edges to another: it enters the normal's side
-  // through `to`, when its corners are walked in order.
+  // Each crossed triangle is a piece from the edge through which its corners, walked in order,
+  // leave the normal's side to the edge through which they come back.
   struct Piece {
     Edge from, to;
   };
@@ -46,7 +46,7 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
       const int a = t[k], b = t[(k + 1) % 3];
       const bool is_above_a = height(a) >= 0.0, is_above_b = height(b) >= 0.0;
       if (is_above_a == is_above_b) continue;
-      (is_above_b ? p.from : p.to) = edge(a, b);
+      (is_above_b ? p.to : p.from) = edge(a, b);
       ++crossings;
     }
     if (crossings != 2) continue;

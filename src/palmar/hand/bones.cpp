@@ -308,13 +308,13 @@ void BoneMaker::make_carpals() {
                         0.5 * (base_[at(Finger::kMiddle)].z() - wrist.z()) + palmar * scale_);
   };
   const Vec3 away = (cmc - skeleton_.joint(JointId::kThumbMp).centre).normalized();
-  place_ellipsoid("trapezium", cmc + 7.0 * scale_ * away, scale_ * Vec3(6.0, 6.0, 6.0));
-  place_ellipsoid("trapezoid", below(Finger::kIndex, 0.0, 8.0), scale_ * Vec3(5.0, 6.5, 6.5));
-  place_ellipsoid("capitate", below(Finger::kMiddle, -0.5, 10.5), scale_ * Vec3(5.5, 9.5, 7.5));
-  place_ellipsoid("hamate", below(Finger::kRing, -3.0, 9.0), scale_ * Vec3(6.5, 7.5, 7.0));
-  place_ellipsoid("scaphoid", proximal_row(12.0, 0.30, 1.5), scale_ * Vec3(6.5, 7.5, 6.5));
-  place_ellipsoid("lunate", proximal_row(-1.0, 0.24, 0.0), scale_ * Vec3(6.5, 5.5, 7.0));
-  place_ellipsoid("triquetrum", proximal_row(-13.0, 0.34, 0.0), scale_ * Vec3(5.5, 6.0, 6.0));
+  place_ellipsoid("trapezium", cmc + 7.0 * scale_ * away, scale_ * Vec3(6.5, 6.5, 6.5));
+  place_ellipsoid("trapezoid", below(Finger::kIndex, 0.0, 8.0), scale_ * Vec3(5.5, 7.0, 7.0));
+  place_ellipsoid("capitate", below(Finger::kMiddle, -0.5, 10.5), scale_ * Vec3(6.0, 11.0, 8.0));
+  place_ellipsoid("hamate", below(Finger::kRing, -3.0, 9.0), scale_ * Vec3(7.5, 9.0, 7.5));
+  place_ellipsoid("scaphoid", proximal_row(12.0, 0.30, 1.5), scale_ * Vec3(7.0, 8.5, 6.5));
+  place_ellipsoid("lunate", proximal_row(-1.0, 0.24, 0.0), scale_ * Vec3(7.0, 6.5, 7.5));
+  place_ellipsoid("triquetrum", proximal_row(-13.0, 0.34, 0.0), scale_ * Vec3(6.5, 7.0, 6.5));
   place_ellipsoid("pisiform", proximal_row(-16.0, 0.36, 10.0), scale_ * Vec3(4.0, 4.5, 3.5));
 }
 
@@ -322,13 +322,13 @@ void BoneMaker::make_forearm() {
   // The stub holds only the ends of the two bones.
   const Vec3& wrist = skeleton_.joint(JointId::kWrist).centre;
   const double s = creases_.radial_sign();
-  double stub = 0.0;
-  for (const Vec3& v : skin_.vertices) stub = std::max(stub, wrist.y() - v.y());
-  const double end = stub - 3.0 * scale_;
   const auto make = [&](const char* name, double aside, double gap, double half_width,
                         double half_depth) {
     const Vec3 distal = wrist + Vec3(s * aside * scale_, -gap * scale_, 0.0);
-    const Vec3 proximal(distal.x(), wrist.y() - end, distal.z());
+    // The stub may be cut off at a slant: each bone ends where it would come too near to the cut.
+    const double depth = kLeastSkinOverBone + 0.4 * half_depth * scale_;
+    Vec3 proximal = distal;
+    while (distance_.at(proximal).distance < -depth) proximal.y() -= 0.5;
     if (distal.y() - proximal.y() < 4.0 * scale_) return;  // hardly any forearm
     BoneShape shape{.from = proximal,
                     .to = distal,
