@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
 
 namespace palmar {
@@ -21,7 +22,8 @@ double smooth_step(double t) {
 
 /// Where the skin of a joint turns from steady to moving, mm.
 struct Band {
-  double palmar_half = 9.0, dorsal_half = 8.0;
+  double palmar_half = 9.0;                       ///< set from the depth of the joint
+  double dorsal_half = 1.0;                       ///< first as a multiple of the palmar one
   double palmar_shift = 0.0, dorsal_shift = 0.0;  ///< distally
 };
 
@@ -136,6 +138,7 @@ class WeightMaker {
   WeightMaker(const TriangleMesh& skin, const Skeleton& skeleton)
       : skin_(skin), skeleton_(skeleton), chains_(make_chains(skeleton)) {
     require_closed_manifold(skin, "skin");
+    normal_ = vertex_normals(skin);
     neighbours_ = vertex_neighbours(build_topology(skin));
     find_owners();
   }
@@ -184,13 +187,51 @@ class WeightMaker {
     const double depth = palmar_depth(skin_, axes, share);
     const JointDof& dof = skeleton_.dof(flexion);
     band.palmar_half = slack * 0.5 * depth * (dof.upper - dof.reference);
-    band.dorsal_half = band.palmar_half;
+    // Wider over a knuckle than under it: rounder, and each mm^2 of (dorsal half)^2 - (palmar
+    // half)^2 gives back theta / 6 mm^3 per mm of breadth.
+    band.dorsal_half *= band.palmar_half;
     axes.depth = depth;
     Field w1(skin_.vertices.size());
     for (std::size_t v = 0; v < w1.size(); ++v) {
       w1[v] = share[v] > 0 ? along_bone(axes, band, skin_.vertices[v]) : 0.0;
     }
-    return collect(id, w1, share);
+    JointWeights weights = collect(id, w1, share);
+    add_bulge(axes, band, dof, weights);
+    return weights;
+  }
+
+  /// Volume of the whole skin with one joint bent to its limit and bulged by `amplitude`.
+  double bent_volume(const JointWeights& weights, const JointDof& dof, double amplitude) const {
+    TriangleMesh bent = skin_;
+    const double turn = dof.upper - dof.reference;
+    for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
+      Vec3& v = bent.vertices[static_cast<std::size_t>(weights.vertex[k])];
+      v += amplitude * turn * weights.bulge[k];
+      v = Rigid3::about_axis(dof.axis, dof.centre, weights.w1[k] * weights.w2[k] * turn) * v;
+    }
+    return signed_volume(bent);
+  }
+
+  /// Flesh pressed out of the palmar fold comes out at the sides and over the knuckle, as much as
+  /// keeps the volume at the limit of flexion. (To first order, eq. 2-7 loses theta z A: turn times
+  /// how far palmar of the axis the centroid of the section lies times the section's area.)
+  void add_bulge(const JointAxes& axes, const Band& band, const JointDof& dof,
+                 JointWeights& weights) const {
+    constexpr double kMostBulge = 2.2;  // mm/rad; more would deform the knuckle visibly
+    const double half = std::max(band.palmar_half, band.dorsal_half);
+    for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
+      const auto v = static_cast<std::size_t>(weights.vertex[k]);
+      const Vec3 arm = skin_.vertices[v] - axes.centre;
+      const double t = arm.dot(axes.along) / half;
+      const double bump = t * t < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
+      const double dorsal = smooth_step(0.75 - 0.5 * arm.dot(axes.palmar) / axes.depth);
+      weights.bulge.emplace_back(bump * dorsal * weights.w2[k] * normal_[v]);
+    }
+    const double straight = signed_volume(skin_);
+    const double bent = bent_volume(weights, dof, 0.0);
+    const double gain = bent_volume(weights, dof, 1.0) - bent;
+    const double amplitude = gain > 0 ? std::clamp((straight - bent) / gain, 0.0, kMostBulge) : 0.0;
+    for (Vec3& bulge : weights.bulge) bulge *= amplitude;
   }
 
   void add_finger(int f, std::vector<JointWeights>& result) const {
@@ -200,7 +241,7 @@ class WeightMaker {
     const auto joint = [&](int k) { return static_cast<JointId>(j + k); };
     const Chain& chain = chains_[field];
     result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[field],
-                           1.1, {.palmar_shift = 4.0, .dorsal_shift = 0.0}));
+                           1.1, {.dorsal_half = 1.25, .palmar_shift = 4.0}));
     result.push_back(hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3],
                            hard_[field], 1.1, {}));
     result.push_back(hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4],
@@ -240,6 +281,7 @@ class WeightMaker {
   const Skeleton& skeleton_;
   std::array<Chain, kFingerCount> chains_;
   std::vector<std::vector<int>> neighbours_;
+  std::vector<Vec3> normal_;              ///< of the skin
   std::array<Field, kFingerCount> hard_;  ///< 1 on the vertices of a ray
   std::array<Field, kFingerCount> own_;   ///< the same, smooth in palm and webs
 };

@@ -43,6 +43,9 @@ Hand mirrored(const Hand& hand) {
     mirror(*limit);
   }
   for (Vec3& tip : image.skeleton.fingertips) tip = mirrored(tip);
+  for (JointWeights& weights : image.weights) {
+    for (Vec3& bulge : weights.bulge) bulge = mirrored(bulge);
+  }
   for (Vec3& marker : image.thumb_ball.marker) marker = mirrored(marker);
   for (std::vector<Vec3>& coefficient : image.thumb_ball.coefficient) {
     for (Vec3& d : coefficient) d = mirrored(d);

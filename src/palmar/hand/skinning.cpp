@@ -85,9 +85,29 @@ class JointMotion {
   Vec3 full_translation_;
 };
 
+/// Brings out the skin over bent joints, in the reference posture.
+void bulge_skin(const Hand& hand, const Posture& posture, const std::vector<int>* slot,
+                std::vector<Vec3>& skin) {
+  for (const JointWeights& weights : hand.weights) {
+    if (weights.bulge.empty()) continue;
+    const JointDof& flexion = hand.skeleton.joint(weights.joint).dofs.back();
+    const double turn = posture[flexion.dof] - flexion.reference;
+    if (!(turn > 0)) continue;
+    for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
+      auto v = static_cast<std::size_t>(weights.vertex[k]);
+      if (slot != nullptr) {
+        if ((*slot)[v] < 0) continue;
+        v = static_cast<std::size_t>((*slot)[v]);
+      }
+      skin[v] += turn * weights.bulge[k];
+    }
+  }
+}
+
 /// Moves `skin` (values of the vertices in `slot` terms: slot[v] < 0 = not wanted).
 void move_skin(const Hand& hand, const Posture& posture, const std::vector<int>* slot,
                std::vector<Vec3>& skin) {
+  bulge_skin(hand, posture, slot, skin);
   for (const JointId id : kDistalToProximal) {
     const JointMotion motion(hand.skeleton, id, posture);
     if (motion.is_at_rest()) continue;

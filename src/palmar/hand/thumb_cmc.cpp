@@ -14,8 +14,9 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 // Active flexion-extension arc 53 degrees (Cooney et al. 1981), shared between the two senses as
 // the passive ranges 21.7 and 19.5 degrees are (normative passive range, PMID 28478845).
 constexpr double kFlexionDeg = 27.9, kExtensionDeg = 25.1;
-// From the plane of the palm; 51.1 degrees (PMID 28478845), active arc 51 degrees (Chir Main 2009).
-constexpr double kAbductionDeg = 51.1, kAdductionDeg = 0.0;
+// From the plane of the palm: anteposition 61.2 degrees (Barakat et al., active, 100 healthy
+// adults).
+constexpr double kAbductionDeg = 61.2, kAdductionDeg = 0.0;
 
 CmcLimit limit_about(const JointDof& dof, const Vec3& joint_centre, double angle) {
   CmcLimit limit;
@@ -45,8 +46,8 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes) {
   abduction.lower = std::min(kAdductionDeg * kDeg, abduction.reference);
   abduction.upper = std::max(kAbductionDeg * kDeg, abduction.reference);
   abduction.source =
-      "axis: Mirakhorlo et al. 2016, table 3; range: abduction 51.1 deg from the plane of the palm "
-      "(normative passive range, PMID 28478845; active arc 51 deg, Chir Main 2009)";
+      "axis: Mirakhorlo et al. 2016, table 3; range: plane of the palm to anteposition 61.2 deg "
+      "(Barakat et al., active, 100 healthy adults)";
 
   JointDof flexion;
   flexion.dof = Dof::kThumbCmcFlexion;

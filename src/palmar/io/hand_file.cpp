@@ -124,7 +124,9 @@ class Reader {
     result.vertex = whole(json.at("vertex"), vertex_count, "weighted vertex");
     result.w1 = numbers(json.at("w1"));
     result.w2 = numbers(json.at("w2"));
-    if (result.w1.size() != result.vertex.size() || result.w2.size() != result.vertex.size()) {
+    if (json.contains("bulge_mm_per_rad")) result.bulge = points(json.at("bulge_mm_per_rad"));
+    if (result.w1.size() != result.vertex.size() || result.w2.size() != result.vertex.size() ||
+        (!result.bulge.empty() && result.bulge.size() != result.vertex.size())) {
       fail("joint \"" + std::string(name_of(*id)) +
            "\" has unequal counts of vertices and weights");
     }
@@ -155,10 +157,12 @@ Json write_exact(Glb& glb, const Hand& hand) {
   json["skeleton"] = skeleton_to_json(hand.skeleton);
   json["weights"] = Json::array();
   for (const JointWeights& weights : hand.weights) {
-    json["weights"].push_back({{"joint", name_of(weights.joint)},
-                               {"vertex", write_whole(glb, weights.vertex)},
-                               {"w1", write_numbers(glb, weights.w1)},
-                               {"w2", write_numbers(glb, weights.w2)}});
+    Json entry = {{"joint", name_of(weights.joint)},
+                  {"vertex", write_whole(glb, weights.vertex)},
+                  {"w1", write_numbers(glb, weights.w1)},
+                  {"w2", write_numbers(glb, weights.w2)}};
+    if (!weights.bulge.empty()) entry["bulge_mm_per_rad"] = write_points(glb, weights.bulge);
+    json["weights"].push_back(std::move(entry));
   }
   json["thumb_ball"] = {{"beta_per_mm2", hand.thumb_ball.beta},
                         {"marker_mm", write_points(glb, hand.thumb_ball.marker)},
