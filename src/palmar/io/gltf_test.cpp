@@ -130,7 +130,7 @@ TEST(Gltf, StripsAndFansAreUnrolledWithOneSense) {
 TEST(Gltf, WhatPalmarWritesIsRead) {
   const FieldMesh part{.name = "box",
                        .mesh = box_mesh({10, 20, 30}),
-                       .colour = std::vector<Rgb>(8, {255, 0, 128}),
+                       .colour = std::vector<VertexColour>(8, {255, 0, 128}),
                        .field = {{"pressure_mpa", {0, 1, 2, 3, 4, 5, 6, 7}, 1}}};
   const std::string bytes = format_glb_fields({part});
   const MeshFile file = parse_gltf(bytes, "x.glb");

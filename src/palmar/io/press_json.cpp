@@ -4,10 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/core/version.h"
+
 namespace palmar {
 
 std::string press_json(const std::vector<PressStep>& steps) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
   for (const PressStep& step : steps) {
     list.push_back({{"depth_mm", step.depth},
                     {"force_n", step.force},
@@ -19,7 +22,9 @@ std::string press_json(const std::vector<PressStep>& steps) {
                     {"complementarity_error_n_mm", step.complementarity_error},
                     {"relative_residual", step.relative_residual}});
   }
-  return nlohmann::ordered_json{{"steps", std::move(list)}}.dump(2);
+  const Json json = {{"steps", std::move(list)},
+                     {"versions", {{"palmar", version()}, {"build", build_description()}}}};
+  return json.dump(2);
 }
 
 }  // namespace palmar
