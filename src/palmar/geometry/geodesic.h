@@ -39,8 +39,9 @@ class GeodesicWorkspace {
 /// A circular wave on a plane is exact. In general distances are those of a path on the surface, or
 /// off by the curvature that the wave met before it entered the triangle: 0.1 % of the distance on
 /// a hand of 2.5 mm edges. D(i, j) and D(j, i) differ by as little; geodesic_table() takes the
-/// mean. Paths end at borders and don't cross a cut. Non-manifold edges are allowed, vertices
-/// without a path stay unreached.
+/// mean. Behind a corner of a
+/// border, round which a path bends, they are up to 1 % too long. Paths don't cross a cut.
+/// Non-manifold edges are allowed, vertices without a path stay unreached.
 ///
 /// The wave rule never gives a smaller D(b) for a larger D(v) or D(a), so the order of the updates
 /// can't make a distance too short, and buckets serve instead of a sorted front.

@@ -32,10 +32,10 @@ struct RemeshResult {
 /// changes by legal edge operations alone, so the Euler number stays, and an operation that would
 /// turn a triangle over is left out. Vertices of borders stay; border edges are split only.
 ///
-/// The input should be smooth (subdivide() first) and should not be much coarser than the result;
-/// sharp edges get rounded by up to half an edge. Vertices come in an order that keeps near ones
-/// near in memory. Deterministic. Throws InputError unless the input is 2-manifold, oriented and
-/// finite.
+/// The input should be smooth (subdivide() first) and not much coarser than the result. Sharp edges
+/// are rounded by up to half an edge; the rim of a plate thinner than an edge retreats by about
+/// one. Vertices come in an order that keeps near ones near in memory. Deterministic. Throws
+/// InputError unless the input is 2-manifold, oriented and finite.
 ///
 /// Source: Botsch, Kobbelt 2004, "A remeshing approach to multiresolution modeling", section 4.
 RemeshResult remesh(const TriangleMesh& mesh, const RemeshOptions& options = {});

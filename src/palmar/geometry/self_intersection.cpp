@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
@@ -176,10 +175,23 @@ std::vector<int> number_patches(const MeshTopology& topology, const std::vector<
   return patch;
 }
 
+// Length of the ray from p along the unit vector d to the triangle; infinity if it misses.
+// Source: Moeller, Trumbore 1997.
+double ray_length(const Vec3& p, const Vec3& d, const Corners& t) {
+  constexpr double kMiss = std::numeric_limits<double>::infinity();
+  const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0];
+  const double det = e1.dot(d.cross(e2));
+  if (det == 0.0) return kMiss;
+  const Vec3 s = p - t[0];
+  const double u = s.dot(d.cross(e2)) / det, v = d.dot(s.cross(e1)) / det;
+  const double length = e2.dot(s.cross(e1)) / det;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && length >= 0.0 ? length : kMiss;
+}
+
 // A triangle at the skin of an overlap.
 struct Cover {
+  Triangle vertices;
   Corners corners;
-  Vec3 normal;
   int patch;  // of its inside corners; -1 if it has none
 };
 
@@ -190,13 +202,12 @@ std::vector<Cover> collect_covers(const TriangleMesh& mesh,
   for (const auto& [i, j] : pairs) {
     crosses[static_cast<size_t>(i)] = crosses[static_cast<size_t>(j)] = true;
   }
-  const std::vector<Vec3> normals = triangle_normals(mesh);
   std::vector<Cover> covers;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     int own = -1;
     for (const int v : mesh.triangles[t]) own = std::max(own, patch[static_cast<size_t>(v)]);
     if (own < 0 && !crosses[t]) continue;
-    covers.push_back({corners_of(mesh, static_cast<int>(t)), normals[t], own});
+    covers.push_back({mesh.triangles[t], corners_of(mesh, static_cast<int>(t)), own});
   }
   return covers;
 }
@@ -262,16 +273,21 @@ CrossingDepth crossing_depth(const TriangleMesh& mesh) {
 
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!is_inside[v]) continue;
-    double nearest = std::numeric_limits<double>::infinity();
+    double depth = std::numeric_limits<double>::infinity();
     for (const Cover& cover : covers) {
-      if (cover.patch == patch[v] && cover.normal.dot(normals[v]) >= 0.0) continue;
+      if (std::find(cover.vertices.begin(), cover.vertices.end(), static_cast<int>(v)) !=
+          cover.vertices.end()) {
+        continue;
+      }
+      depth = std::min(depth, ray_length(mesh.vertices[v], -normals[v], cover.corners));
+      if (cover.patch == patch[v]) continue;
       const TrianglePoint foot = closest_point_on_triangle(mesh.vertices[v], cover.corners[0],
                                                            cover.corners[1], cover.corners[2]);
-      nearest = std::min(nearest, foot.squared_distance);
+      depth = std::min(depth, std::sqrt(foot.squared_distance));
     }
-    if (!std::isfinite(nearest)) continue;
+    if (!std::isfinite(depth)) continue;
     result.vertex.push_back(static_cast<int>(v));
-    result.depth.push_back(std::sqrt(nearest));
+    result.depth.push_back(depth);
     result.deepest = std::max(result.deepest, result.depth.back());
   }
   return result;

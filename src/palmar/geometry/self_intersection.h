@@ -29,12 +29,12 @@ struct CrossingDepth {
   double deepest = 0.0;                   ///< largest depth, mm; 0 if nothing crosses
 };
 
-/// A vertex is inside another part if the winding number just outside of it is above 1/2. Its depth
-/// is the distance to the nearest triangle of the overlap's other side: a triangle with a corner
-/// that is inside too, or that crosses, and that belongs to another patch of such vertices or faces
-/// the vertex' normal. So two fingers, and two flanks of a crease, are measured against each other.
-/// Vertices are only looked at if any triangles cross. Requires a closed, oriented mesh (else
-/// InputError).
+/// A vertex is inside another part if the winding number just outside of it is above 1/2. Then its
+/// own body and the other overlap behind it, and its depth is the thickness of that overlap there:
+/// the shorter of the way along its inward normal to the skin of the overlap (triangles that cross
+/// or have a corner inside another part) and the distance to the nearest such triangle of another
+/// patch. So two fingers, and the two flanks of a crease, are measured against each other. Vertices
+/// are only looked at if any triangles cross. Requires a closed, oriented mesh (else InputError).
 CrossingDepth crossing_depth(const TriangleMesh& mesh);
 
 }  // namespace palmar
