@@ -134,7 +134,11 @@ class Loader {
     if (leaves) {
       throw InputError(what + ": " + in_quotes(uri) + " lies outside the file's own folder");
     }
-    return read_file(folder_ / file);
+    try {
+      return read_file(folder_ / file);
+    } catch (const InputError& error) {
+      throw InputError(what + ": " + error.what());
+    }
   }
 
   void join_buffers(bool is_binary) {

@@ -116,7 +116,7 @@ TEST(Stl, AsciiErrorsNameTheLine) {
   EXPECT_EQ(stl_error(ascii("0 0 0\n vertex 0 0 0")),
             "x.stl:7: \"vertex\" where \"endloop\" is expected");
   EXPECT_THAT(stl_error(ascii().substr(0, 70)),
-              HasSubstr("is truncated: ends in facet 1 (line 4)"));
+              HasSubstr("is truncated: ends in facet 1 (line 5)"));
 }
 
 TEST(Stl, WithoutTrianglesIsRefused) {
