@@ -99,6 +99,15 @@ void diffuse(Field& field, const std::vector<std::vector<int>>& neighbours,
   }
 }
 
+/// Diffusion never quite ends; cut its tails off, so that what is far away stays exactly at rest
+/// (or moves exactly rigidly). Symmetric: two shares that add up to 1 still do.
+void cut_tails(Field& share) {
+  constexpr double kTail = 0.02;
+  for (double& value : share) {
+    value = std::clamp((value - kTail) / (1.0 - 2.0 * kTail), 0.0, 1.0);
+  }
+}
+
 JointAxes axes_at(const Skeleton& skeleton, JointId id, const Vec3& proximal, const Vec3& distal,
                   Dof flexion) {
   JointAxes axes;
@@ -178,7 +187,10 @@ class WeightMaker {
     }
     own_ = hard_;
     const std::vector<char> everywhere(n, 1);
-    for (std::size_t f = 0; f < own_.size(); ++f) diffuse(own_[f], neighbours_, everywhere, 12);
+    for (Field& share : own_) {
+      diffuse(share, neighbours_, everywhere, 12);
+      cut_tails(share);
+    }
   }
 
   JointWeights hinge(JointId id, Dof flexion, const Vec3& proximal, const Vec3& distal,
@@ -243,9 +255,9 @@ class WeightMaker {
     result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[field],
                            1.1, {.dorsal_half = 1.25, .palmar_shift = 4.0}));
     result.push_back(hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3],
-                           hard_[field], 1.1, {}));
+                           hard_[field], 1.2, {}));
     result.push_back(hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4],
-                           hard_[field], 1.1, {}));
+                           hard_[field], 1.2, {}));
   }
 
   JointWeights thumb_cmc() const {
@@ -266,6 +278,7 @@ class WeightMaker {
     }
     const std::vector<char> everywhere(w1.size(), 1);
     diffuse(w2, neighbours_, everywhere, 10);
+    cut_tails(w2);
     return collect(JointId::kThumbCmc, w1, w2);
   }
 
