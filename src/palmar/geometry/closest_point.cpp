@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "palmar/geometry/triangle_partition.h"
@@ -80,7 +81,6 @@ using Float4 = Eigen::Array<float, 4, 1>;
 constexpr int kWidth = TrianglePartition::kWidth;
 // Up to this size the box of a group is fitted to its corners, above to the boxes of its parts.
 constexpr int kFittedSize = 64;
-constexpr int kNothing = std::numeric_limits<int>::min();  // child of an empty part
 
 /// Boxes, each turned along its own triangles, of four groups side by side. A group on a smooth
 /// surface gets a flat box, so that few groups near the foot of the point must be opened; upright
@@ -204,7 +204,8 @@ struct Search {
   double margin = 0.0;  ///< mm; bound of the rounding of a distance in float
   float slack2 = 0.0f;  ///< 5001 margin^2, mm^2
   /// Squared distance from which a box or triangle is skipped, mm^2.
-  float limit2 = std::numeric_limits<float>::infinity();
+  /// Finite, so that empty boxes, infinitely far, are always skipped.
+  float limit2 = std::numeric_limits<float>::max();
 
   /// Boxes are in float: look a little beyond the best distance, so that no nearer and no equally
   /// near triangle is lost.
@@ -365,7 +366,7 @@ void ClosestPointQuery::Impl::fit_nodes(const TrianglePartition& partition) {
           for (int j = 0; j < 3; ++j) node.axis[i][j][k] = i == j ? 1.0f : 0.0f;
           node.half[i][k] = 0.0f;
         }
-        node.child[k] = kNothing;
+        node.child[k] = -1;
         continue;
       }
       const int child = parts.child[k];
@@ -416,7 +417,7 @@ std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double
     int child;
   };
   // Each level leaves at most three siblings; depth is log4 of an int.
-  std::array<Entry, 3 * 16 + 1> stack;
+  std::array<Entry, 3 * 16 + kWidth> stack;
   int size = 0;
   stack[size++] = {0.0f, 0};
   // Triangles that may be the nearest; tested in double when no box is left.
@@ -448,18 +449,20 @@ std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double
     const Node& node = m.nodes[entry.child];
     const BoxDistances distances = box_distances(node, p);
     search.lower_limit(distances.farthest.minCoeff());
+    // Without branches, as which boxes are near enough can't be predicted. Only the nearest is sure
+    // to be the next; it goes on top.
     const int start = size;
     for (int k = 0; k < kWidth; ++k) {
-      const float distance2 = distances.nearest[k];
-      if (!(distance2 <= search.limit2) || node.child[k] == kNothing) continue;
-      // Nearest last, so that it is taken first.
-      int at = size++;
-      for (; at > start && stack[at - 1].squared_distance < distance2; --at) {
-        stack[at] = stack[at - 1];
-      }
-      stack[at] = {distance2, node.child[k]};
+      stack[size] = {distances.nearest[k], node.child[k]};
+      size += distances.nearest[k] <= search.limit2 ? 1 : 0;
     }
-    if (size > start) m.prefetch(stack[size - 1].child);
+    if (size == start) continue;
+    int nearest = size - 1;
+    for (int i = start; i < size - 1; ++i) {
+      nearest = stack[i].squared_distance < stack[nearest].squared_distance ? i : nearest;
+    }
+    std::swap(stack[nearest], stack[size - 1]);
+    m.prefetch(stack[size - 1].child);
   }
   test_candidates();
 
