@@ -229,7 +229,7 @@ class WeightMaker {
   /// how far palmar of the axis the centroid of the section lies times the section's area.)
   void add_bulge(const JointAxes& axes, const Band& band, const JointDof& dof,
                  JointWeights& weights) const {
-    constexpr double kMostBulge = 2.2;  // mm/rad; more would deform the knuckle visibly
+    constexpr double kMostBulge = 1.3;  // mm/rad; more makes a visible ball of the joint
     const double half = std::max(band.palmar_half, band.dorsal_half);
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
       const auto v = static_cast<std::size_t>(weights.vertex[k]);
