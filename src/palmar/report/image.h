@@ -49,7 +49,4 @@ std::string encode_png(const Image& image);
 /// white. Throws InputError if they are no PNG.
 Image decode_png(std::string_view bytes);
 
-/// Bytes as base64 (RFC 4648, padded), as data URIs hold them.
-std::string base64(std::string_view bytes);
-
 }  // namespace palmar

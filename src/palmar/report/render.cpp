@@ -26,6 +26,8 @@ constexpr int kMaxLayers = 12;           // surfaces seen through one another
 constexpr int kOcclusionRays = 48;       // per vertex
 constexpr double kOcclusionDepth = 0.8;  // light lost by a point that is closed in on all sides
 
+constexpr float kLeastShare = 0.005F;  // of a field's upper end; less is not shown
+
 float linear_from_byte(std::uint8_t byte) {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> t{};
@@ -52,10 +54,22 @@ Rgb srgb_from(const Vec3f& c) {
   return {byte_from_linear(c.x()), byte_from_linear(c.y()), byte_from_linear(c.z())};
 }
 
+const std::array<Vec3f, 256>& linear_table(Colormap map) {
+  const auto make = [](Colormap m) {
+    std::array<Vec3f, 256> table;
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_from(colour_table(m)[i]);
+    return table;
+  };
+  static const std::array<Vec3f, 256> ember = make(Colormap::kEmber);
+  static const std::array<Vec3f, 256> fern = make(Colormap::kFern);
+  return map == Colormap::kEmber ? ember : fern;
+}
+
 // What shading needs to know about one corner of a triangle.
 struct ShadedCorner {
   Vec3f normal;
   Vec3f colour;        // linear
+  float value = 0.0F;  // of the field, as a share of its upper end
   float light = 1.0F;  // share of the ambient light that reaches it
 };
 
@@ -63,6 +77,7 @@ struct ShadedTriangle {
   std::array<ShadedCorner, 3> corner;
   float opacity = 1.0F;
   int object = 0;
+  const std::array<Vec3f, 256>* table = nullptr;  // colours of the field, linear; null: no field
 };
 
 // All objects in one mesh, so that one ray meets them in order.
@@ -83,6 +98,13 @@ void check_object(const SceneObject& object, std::size_t index) {
     throw UsageError(name + ": " + std::to_string(object.vertex_colours.size()) +
                      " vertex colours for " + std::to_string(object.mesh.vertices.size()) +
                      " vertices");
+  }
+  if (!object.field.empty() &&
+      (object.field.size() != object.mesh.vertices.size() || !(object.field_upper > 0.0))) {
+    throw UsageError(name + ": a field of " + std::to_string(object.field.size()) + " values for " +
+                     std::to_string(object.mesh.vertices.size()) + " vertices, shown up to " +
+                     std::to_string(object.field_upper) +
+                     "; one value per vertex and an upper end above 0 are required");
   }
   for (const Triangle& t : object.mesh.triangles) {
     for (const int v : t) {
@@ -114,6 +136,7 @@ PreparedScene prepare(const Scene& scene, double crease_angle) {
       ShadedTriangle shaded;
       shaded.opacity = static_cast<float>(object.opacity);
       shaded.object = static_cast<int>(i);
+      if (!object.field.empty()) shaded.table = &linear_table(object.map);
       for (std::size_t k = 0; k < 3; ++k) {
         const auto v = static_cast<std::size_t>(object.mesh.triangles[t][k]);
         shaded.corner[k].normal = normals[t][k].cast<float>();
@@ -311,7 +334,12 @@ class Caster {
       cosine = -cosine;
     }
     const float ambient = w * a.light + u * b.light + v * c.light;
-    const Vec3f own = w * a.colour + u * b.colour + v * c.colour;
+    Vec3f own = w * a.colour + u * b.colour + v * c.colour;
+    // The value is interpolated, then coloured: contours stay sharp on coarse triangles.
+    const float value = w * a.value + u * b.value + v * c.value;
+    if (triangle.table != nullptr && value > kLeastShare) {
+      own = (*triangle.table)[static_cast<std::size_t>(255.0F * std::min(value, 1.0F) + 0.5F)];
+    }
     // Grazing surfaces are darkened a little: outlines read without lines.
     const float rim = 0.72F + 0.28F * std::min(1.0F, cosine / 0.35F);
     const float light = std::min(1.25F, rim * view_.light_on(normal, ambient) / view_.facing_light);
@@ -336,6 +364,52 @@ class Caster {
 bool differ(const Sample& a, const Sample& b) {
   return a.object != b.object || (a.colour - b.colour).cwiseAbs().maxCoeff() > 0.02F ||
          (a.normal - b.normal).squaredNorm() > 0.08F;
+}
+
+Image render_view(const PreparedScene& prepared, const EmbreeMesh& mesh, const Camera& camera,
+                  const RenderOptions& options) {
+  Image image(options.width, options.height, options.background);
+  const View view = make_view(camera, options, mesh.origin());
+  const Caster caster(prepared, mesh, view, options.background);
+  const auto across = [&](float x) { return 2.0F * x / static_cast<float>(options.width) - 1.0F; };
+  const auto upward = [&](float y) { return 1.0F - 2.0F * y / static_cast<float>(options.height); };
+  const auto width = static_cast<std::size_t>(options.width);
+
+  std::vector<Sample> first(image.pixels.size());
+  parallel_for(options.height, [&](int y) {
+    for (int x = 0; x < options.width; ++x) {
+      first[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+          caster.cast(across(static_cast<float>(x) + 0.5F), upward(static_cast<float>(y) + 0.5F));
+    }
+  });
+  const auto sample_at = [&](int x, int y) -> const Sample& {
+    return first[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+  };
+  // More rays only where the picture changes: edges, outlines, borders of colour.
+  parallel_for(options.height, [&](int y) {
+    for (int x = 0; x < options.width; ++x) {
+      const Sample& here = sample_at(x, y);
+      const bool is_edge = (x > 0 && differ(here, sample_at(x - 1, y))) ||
+                           (x + 1 < options.width && differ(here, sample_at(x + 1, y))) ||
+                           (y > 0 && differ(here, sample_at(x, y - 1))) ||
+                           (y + 1 < options.height && differ(here, sample_at(x, y + 1)));
+      Vec3f colour = here.colour;
+      if (is_edge && options.samples > 1) {
+        const int n = options.samples;
+        colour = Vec3f::Zero();
+        for (int i = 0; i < n * n; ++i) {
+          const float sx = (static_cast<float>(i % n) + 0.5F) / static_cast<float>(n);
+          const float sy = (static_cast<float>(i / n) + 0.5F) / static_cast<float>(n);
+          const Sample s =
+              caster.cast(across(static_cast<float>(x) + sx), upward(static_cast<float>(y) + sy));
+          colour += s.colour.cwiseMin(1.0F);
+        }
+        colour /= static_cast<float>(n * n);
+      }
+      image.at(x, y) = here.object < 0 && !is_edge ? options.background : srgb_from(colour);
+    }
+  });
+  return image;
 }
 
 }  // namespace
@@ -393,55 +467,25 @@ Camera fit_camera(const Scene& scene, const Vec3& direction, const Vec3& up,
   return camera;
 }
 
-Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& cameras,
+                                const RenderOptions& options) {
   options.check();
-  Image image(options.width, options.height, options.background);
   PreparedScene prepared = prepare(scene, options.crease_angle);
-  if (prepared.all.triangles.empty()) return image;
+  if (prepared.all.triangles.empty()) {
+    return std::vector<Image>(cameras.size(),
+                              Image(options.width, options.height, options.background));
+  }
   add_occlusion(prepared, options.occlusion_range);
-
   const EmbreeMesh mesh(prepared.all);
-  const View view = make_view(camera, options, mesh.origin());
-  const Caster caster(prepared, mesh, view, options.background);
-  const auto across = [&](float x) { return 2.0F * x / static_cast<float>(options.width) - 1.0F; };
-  const auto upward = [&](float y) { return 1.0F - 2.0F * y / static_cast<float>(options.height); };
-  const auto width = static_cast<std::size_t>(options.width);
+  std::vector<Image> images;
+  for (const Camera& camera : cameras) {
+    images.push_back(render_view(prepared, mesh, camera, options));
+  }
+  return images;
+}
 
-  std::vector<Sample> first(image.pixels.size());
-  parallel_for(options.height, [&](int y) {
-    for (int x = 0; x < options.width; ++x) {
-      first[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-          caster.cast(across(static_cast<float>(x) + 0.5F), upward(static_cast<float>(y) + 0.5F));
-    }
-  });
-  const auto sample_at = [&](int x, int y) -> const Sample& {
-    return first[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-  };
-  // More rays only where the picture changes: edges, outlines, borders of colour.
-  parallel_for(options.height, [&](int y) {
-    for (int x = 0; x < options.width; ++x) {
-      const Sample& here = sample_at(x, y);
-      const bool is_edge = (x > 0 && differ(here, sample_at(x - 1, y))) ||
-                           (x + 1 < options.width && differ(here, sample_at(x + 1, y))) ||
-                           (y > 0 && differ(here, sample_at(x, y - 1))) ||
-                           (y + 1 < options.height && differ(here, sample_at(x, y + 1)));
-      Vec3f colour = here.colour;
-      if (is_edge && options.samples > 1) {
-        const int n = options.samples;
-        colour = Vec3f::Zero();
-        for (int i = 0; i < n * n; ++i) {
-          const float sx = (static_cast<float>(i % n) + 0.5F) / static_cast<float>(n);
-          const float sy = (static_cast<float>(i / n) + 0.5F) / static_cast<float>(n);
-          const Sample s =
-              caster.cast(across(static_cast<float>(x) + sx), upward(static_cast<float>(y) + sy));
-          colour += s.colour.cwiseMin(1.0F);
-        }
-        colour /= static_cast<float>(n * n);
-      }
-      image.at(x, y) = here.object < 0 && !is_edge ? options.background : srgb_from(colour);
-    }
-  });
-  return image;
+Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options) {
+  return std::move(render_views(scene, {camera}, options).front());
 }
 
 }  // namespace palmar

@@ -5,16 +5,21 @@
 #include <vector>
 
 #include "palmar/geometry/types.h"
+#include "palmar/report/colormap.h"
 #include "palmar/report/image.h"
 
 namespace palmar {
 
 /// One mesh in a picture.
 struct SceneObject {
-  TriangleMesh mesh;                ///< mm
-  Rgb colour{200, 200, 200};        ///< where vertex_colours is empty
-  std::vector<Rgb> vertex_colours;  ///< one per vertex, or empty
-  double opacity = 1.0;             ///< (0, 1]; below 1 what lies behind shines through
+  TriangleMesh mesh = {};                ///< mm
+  Rgb colour{200, 200, 200};             ///< where vertex_colours is empty
+  std::vector<Rgb> vertex_colours = {};  ///< one per vertex, or empty
+  std::vector<double> field = {};  ///< one per vertex, or empty: shown by `map` where it is above
+                                   ///< 0.5 % of field_upper, over the colours above
+  double field_upper = 1.0;        ///< value at the top of the map
+  Colormap map = Colormap::kEmber;
+  double opacity = 1.0;  ///< (0, 1]; below 1 what lies behind shines through
 };
 
 using Scene = std::vector<SceneObject>;
@@ -65,5 +70,9 @@ struct RenderOptions {
 /// Throws UsageError on bad options, on colours that don't match the vertices, and on vertices that
 /// a triangle misses.
 Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
+
+/// The same scene seen by several cameras; what doesn't depend on the camera is computed once.
+std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& cameras,
+                                const RenderOptions& options = {});
 
 }  // namespace palmar

@@ -1,0 +1,52 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/report/colour_bar.h"
+#include "palmar/study/assessment.h"
+
+namespace palmar {
+
+/// One finished picture.
+struct Picture {
+  std::string name;   ///< "pressure_palm": file name without ending
+  std::string title;  ///< "Pressure on the skin, palm side"
+  std::string alt;    ///< what it shows, in a sentence, for those who can't see it
+  Image image;
+};
+
+struct PictureOptions {
+  int width = 1000;  ///< pixels
+  int height = 700;  ///< pixels
+};
+
+/// Colour scale for pressure [MPa] common to all products of a set: from 0 to the largest peak,
+/// rounded up; 0 to 0.1 MPa if nothing is touched.
+ColourScale pressure_scale(const AssessmentSet& set);
+
+/// Pictures of one grasp; all in the same pressure scale:
+///
+///     map_open_hand           pressure drawn on the hand in its reference posture, palm side
+///     pressure_palm ...       deformed skin coloured by pressure, product hidden
+///     grasp_palm ...          the hand holding the product
+///     footprint_palm ...      the product coloured by pressure
+///
+/// the last three from the palm side, the back, the thumb side and the little finger's side
+/// (suffix palm, back, thumb, little).
+std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
+                                         const ColourScale& scale,
+                                         const PictureOptions& options = {});
+
+/// Deformed skin (product frame, mm), or the posed skin if no contact was solved.
+TriangleMesh deformed_skin(const Hand& hand, const Assessment& assessment);
+/// The same before contact.
+TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment);
+/// Pressure per skin vertex, MPa; all 0 if no contact was solved.
+std::vector<double> skin_pressure(const Hand& hand, const Assessment& assessment);
+/// The product's surface with the pressure on it; plain if there was no contact.
+ProductFootprint footprint_of(const AssessedProduct& assessed);
+
+}  // namespace palmar

@@ -1,0 +1,42 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/pressure_limits.h"
+
+#include <algorithm>
+
+namespace palmar {
+
+double pain_onset_film(Region region) {
+  switch (region) {
+    case Region::kThenar:
+    case Region::kDorsum:
+      return 2.0;
+    case Region::kHypothenar:
+    case Region::kCentralPalm:
+    case Region::kRadialPalm:
+    case Region::kUlnarPalm:
+      return 2.6;
+    default:
+      return 3.0;
+  }
+}
+
+std::optional<NearestToPain> nearest_to_pain(const ContactResult& contact) {
+  std::optional<NearestToPain> nearest;
+  for (const RegionContact& one : contact.regions) {
+    const double limit = pain_onset_film(one.region);
+    const double share = one.peak_pressure / limit;
+    if (!nearest || share > nearest->share) {
+      nearest = NearestToPain{one.region, one.peak_pressure, limit, share};
+    }
+  }
+  return nearest;
+}
+
+int regions_without_blood_flow(const ContactResult& contact) {
+  return static_cast<int>(std::count_if(
+      contact.regions.begin(), contact.regions.end(),
+      [](const RegionContact& one) { return one.peak_pressure_cells > kBloodFlowStop; }));
+}
+
+}  // namespace palmar
