@@ -1,0 +1,108 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "palmar/geometry/remesh.h"
+#include "palmar/geometry/subdivide.h"
+#include "palmar/hand/dimensions.h"
+#include "template_fixture.h"
+
+namespace palmar {
+namespace {
+
+class TemplateDimensions : public TemplateTest {};
+
+const SegmentDimensions& of(const HandDimensions& d, Segment s) {
+  return d.segment[static_cast<std::size_t>(s)];
+}
+
+TEST_F(TemplateDimensions, AreThoseOfAnAdult) {
+  // Within three standard deviations of men or women of ANSUR II (hand length 193.3 +- 10.0 and
+  // 181.1 +- 10.1, circumference 212.3 +- 10.2 and 186.6 +- 8.8, breadth 88.3 +- 4.4 and
+  // 78.2 +- 3.8 mm) and of palm thickness 24 to 33 mm (NASA RP-1024; derived from ANSUR II).
+  const HandDimensions d = measure_hand(hand());
+  EXPECT_GT(d.hand_length, 181.1 - 3 * 10.1);
+  EXPECT_LT(d.hand_length, 193.3 + 3 * 10.0);
+  EXPECT_GT(d.hand_circumference, 186.6 - 3 * 8.8);
+  EXPECT_LT(d.hand_circumference, 212.3 + 3 * 10.2);
+  EXPECT_GT(d.hand_width, 78.2 - 3 * 3.8);
+  EXPECT_LT(d.hand_width, 88.3 + 3 * 4.4);
+  EXPECT_GT(d.hand_thickness, 24.0);
+  EXPECT_LT(d.hand_thickness, 34.0);
+}
+
+TEST_F(TemplateDimensions, CircumferenceLiesBetweenItsOwnEllipseAndRectangle) {
+  const HandDimensions d = measure_hand(hand());
+  // A convex curve of breadth W and thickness T; T at head III may fall short of the greatest.
+  EXPECT_GT(d.hand_circumference, 2.0 * std::hypot(d.hand_width, d.hand_thickness));
+  EXPECT_LT(d.hand_circumference, 2.0 * (d.hand_width + 1.2 * d.hand_thickness));
+}
+
+TEST_F(TemplateDimensions, SegmentsAddUpToTheMiddleFinger) {
+  const HandDimensions d = measure_hand(hand());
+  const double sum = of(d, Segment::kPalm).length + of(d, Segment::kMiddleProximal).length +
+                     of(d, Segment::kMiddleMiddle).length + of(d, Segment::kMiddleDistal).length;
+  // The finger leans in the palm and bends a little, so the parts exceed the whole by a few mm.
+  EXPECT_NEAR(sum, d.hand_length, 0.03 * d.hand_length);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentDimensions& part = d.segment[static_cast<std::size_t>(s)];
+    EXPECT_GT(part.length, 8.0) << name_of(static_cast<Segment>(s));
+    EXPECT_GT(part.width, 8.0) << name_of(static_cast<Segment>(s));
+    EXPECT_GT(part.thickness, 8.0) << name_of(static_cast<Segment>(s));
+  }
+}
+
+TEST_F(TemplateDimensions, GrowWithTheHand) {
+  TriangleMesh skin = hand().skin;
+  Skeleton skeleton = hand().skeleton;
+  const double factor = 1.1;
+  for (Vec3& v : skin.vertices) v *= factor;
+  for (Joint& joint : skeleton.joints) {
+    joint.centre *= factor;
+    for (JointDof& dof : joint.dofs) dof.centre *= factor;
+  }
+  for (Vec3& tip : skeleton.fingertips) tip *= factor;
+  const HandDimensions small = measure_hand(hand());
+  const HandDimensions large = measure_hand(skin, skeleton);
+  EXPECT_NEAR(large.hand_length, factor * small.hand_length, 1e-6);
+  EXPECT_NEAR(large.hand_circumference, factor * small.hand_circumference, 1e-6);
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    // The crease's margin over the web (1.5 mm) does not scale.
+    EXPECT_NEAR(large.segment[s].length, factor * small.segment[s].length, 0.2);
+    EXPECT_NEAR(large.segment[s].width, factor * small.segment[s].width, 0.1);
+  }
+}
+
+TEST_F(TemplateDimensions, AreTheSameOnALeftHand) {
+  const Hand left = mirrored(hand());
+  const HandDimensions a = measure_hand(hand()), b = measure_hand(left);
+  EXPECT_NEAR(a.hand_length, b.hand_length, 1e-9);
+  EXPECT_NEAR(a.hand_circumference, b.hand_circumference, 1e-9);
+  EXPECT_NEAR(a.hand_thickness, b.hand_thickness, 1e-9);
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    EXPECT_NEAR(a.segment[s].length, b.segment[s].length, 1e-9);
+    EXPECT_NEAR(a.segment[s].thickness, b.segment[s].thickness, 1e-9);
+  }
+}
+
+TEST_F(TemplateDimensions, HardlyDependOnTheMesh) {
+  // The same surface cut into smaller triangles, and these thinned out again: corners stay on it.
+  const TriangleMesh fine =
+      subdivide(hand().skin, {.scheme = SubdivisionScheme::kFittedLoop, .fit_rounds = 4});
+  const TriangleMesh again = remesh(fine, {.edge_length = 1.8}).mesh;
+  const HandDimensions a = measure_hand(fine, hand().skeleton);
+  const HandDimensions b = measure_hand(again, hand().skeleton);
+  EXPECT_NEAR(a.hand_length, b.hand_length, 0.05);  // mm
+  EXPECT_NEAR(a.hand_width, b.hand_width, 0.1);
+  EXPECT_NEAR(a.hand_thickness, b.hand_thickness, 0.1);
+  EXPECT_NEAR(a.hand_circumference, b.hand_circumference, 0.3);
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    // Lengths follow the webs, whose ridge a coarser mesh cuts.
+    EXPECT_NEAR(a.segment[s].length, b.segment[s].length, 0.25);
+    EXPECT_NEAR(a.segment[s].width, b.segment[s].width, 0.15);
+    EXPECT_NEAR(a.segment[s].thickness, b.segment[s].thickness, 0.15);
+  }
+}
+
+}  // namespace
+}  // namespace palmar
