@@ -20,7 +20,10 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr double kRow = 0.86602540378443865;  // sqrt(3) / 2: rows of a lattice of spacing 1
 constexpr int kFewestCells = 40;              // penetrating; else the lattice is split
-constexpr double kRimShare = 1.0 / 20.0;      // cell size at the contact's edge / contact radius
+/// Cell size at the contact's edge / contact radius. Pressure ends like sqrt(x) at a smooth contact
+/// but is singular under the edge of a punch, which needs smaller cells for the same error.
+constexpr double kRimShare = 1.0 / 10.0;
+constexpr double kPunchRimShare = 1.0 / 20.0;
 constexpr int kMaxRounds = 7;
 constexpr int kMostCells = 4000;
 constexpr int kCutSamples = 12;  // per side of a cell that the punch's edge cuts
@@ -249,7 +252,8 @@ PressStep press_half_space(const PressOptions& options, double depth) {
       if (solution.force[static_cast<Eigen::Index>(i)] > 0.0) area += cells[i].area;
     }
     const double radius = std::sqrt(area / std::numbers::pi);
-    const std::vector<char> rim = coarse_rim(gap, cells, solution.force, kRimShare * radius);
+    const double share = gap.punch_radius > 0.0 ? kPunchRimShare : kRimShare;
+    const std::vector<char> rim = coarse_rim(gap, cells, solution.force, share * radius);
     if (std::find(rim.begin(), rim.end(), 1) == rim.end()) break;
     cells = split(gap, cells, rim);
     keep_penetrating(gap, cells);

@@ -74,8 +74,8 @@ struct PressStep {
 /// where its normal is tilted, with the curvatures there.
 /// `spacing` is that of the lattice under the middle of the contact; with Kernel::kPatch cells at
 /// the edge of the contact, and all of them if fewer than 40 penetrate, are split until they are a
-/// twentieth of its radius, and cells under the edge of a punch are cut by it. Kernel::kPoint keeps
-/// the lattice as it is.
+/// tenth of its radius (a twentieth under a punch), and cells under the edge of a punch are cut by
+/// it. Kernel::kPoint keeps the lattice as it is.
 ///
 /// Hand region: the skin as in solve_hand_contact(), pressed against the region's mean outward
 /// normal; only that region can touch.

@@ -1,0 +1,191 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/hand_contact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "palmar/contact/contact_test_hand.h"
+#include "palmar/contact/footprint.h"
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+using contact_test::Ball;
+using contact_test::ball_hand;
+using contact_test::HalfSpace;
+using contact_test::Sheet;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 10.0;  // mm, of the ball of skin
+
+/// A ball of skin with 1 300 vertices (edges of 1.4 mm), prepared once.
+const PreparedHand& prepared_ball() {
+  static const PreparedHand hand(ball_hand(kRadius, 3));
+  return hand;
+}
+
+ContactResult press_on_plane(double depth, const ContactOptions& options = {}) {
+  const PreparedHand& hand = prepared_ball();
+  return solve_hand_contact(hand, hand.hand().skin.vertices, {}, HalfSpace(depth - kRadius),
+                            options);
+}
+
+TEST(HandContact, BallOnPlaneMeetsHertz) {
+  ContactOptions options;
+  options.shear_modulus = 0.05;
+  for (const double depth : {1.0, 2.0}) {
+    const ContactResult contact = press_on_plane(depth, options);
+    ASSERT_EQ(contact.status, ContactStatus::kSolved);
+    const double force = 16.0 / 3.0 * 0.05 * std::sqrt(kRadius) * std::pow(depth, 1.5);
+    EXPECT_NEAR(contact.total.force, force, 0.03 * force);
+    const double area = kPi * kRadius * depth;
+    EXPECT_NEAR(contact.total.area, area, 0.10 * area);
+    // The skin pushes the product down, against its outward normal.
+    EXPECT_NEAR(contact.total.force_vector.z(), -contact.total.force, 1e-12);
+    EXPECT_LT(contact.complementarity_error, 1e-12);
+    ASSERT_EQ(contact.regions.size(), 1U);
+    EXPECT_EQ(contact.regions[0].region, Region::kMiddleDistal);
+  }
+}
+
+TEST(HandContact, NothingPenetratesAfterwards) {
+  for (const double depth : {0.5, 2.0, 4.0}) {
+    const ContactResult contact = press_on_plane(depth);
+    EXPECT_LT(contact.residual_penetration_contact, 1e-6);  // mm
+    EXPECT_LT(contact.residual_penetration_other, 0.05);    // mm
+    for (std::size_t v = 0; v < contact.deformed.size(); ++v) {
+      const double gap = contact.deformed[v].z() - (depth - kRadius);
+      EXPECT_GT(gap, contact.force[v] > 0.0 ? -1e-6 : -0.05);
+      if (contact.force[v] > 0.0) {
+        EXPECT_LT(gap, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(HandContact, SkinBulgesAroundTheContact) {
+  ContactOptions options;
+  const ContactResult with = press_on_plane(1.5, options);
+  options.swelling = false;
+  const ContactResult without = press_on_plane(1.5, options);
+  EXPECT_LT(*std::min_element(with.displacement.begin(), with.displacement.end()), -0.3);  // mm
+  EXPECT_GE(*std::min_element(without.displacement.begin(), without.displacement.end()), 0.0);
+  // The bulge is for the shape only: under the contact it is flattened without force.
+  EXPECT_EQ(with.force, without.force);
+}
+
+TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
+  double before = 0.0;
+  for (const double depth : {0.5, 1.0, 2.0, 3.0, 4.0}) {
+    const ContactResult contact = press_on_plane(depth);
+    EXPECT_GT(contact.total.force, before);
+    before = contact.total.force;
+    EXPECT_NEAR(contact.regions[0].max_penetration, depth, 0.02);
+    const RegionTissue& tissue =
+        prepared_ball().hand().tissue.region[static_cast<std::size_t>(Region::kMiddleDistal)];
+    EXPECT_NEAR(contact.regions[0].shear_modulus,
+                tissue.g0 + (tissue.g_limit - tissue.g0) * depth / 4.0, 1e-3);
+  }
+}
+
+TEST(HandContact, RigidMotionOfHandAndProductChangesNothing) {
+  const PreparedHand& hand = prepared_ball();
+  const Rigid3 motion = Rigid3::about_axis(Vec3(1.0, 2.0, -0.5).normalized(), Vec3(3, -4, 9), 1.1);
+  std::vector<Vec3> moved;
+  for (const Vec3& v : hand.hand().skin.vertices) moved.push_back(motion * v);
+  const HalfSpace plane(2.0 - kRadius);
+  const ContactResult here = press_on_plane(2.0);
+  const ContactResult there = solve_hand_contact(hand, moved, motion.inverse(), plane);
+  EXPECT_NEAR(there.total.force, here.total.force, 1e-9);
+  EXPECT_NEAR(there.total.peak_pressure, here.total.peak_pressure, 1e-9);
+  EXPECT_LT((there.total.centre - here.total.centre).norm(), 1e-6);
+}
+
+TEST(HandContact, TheDorsumTouchesToo) {
+  // From above, where the skin is dorsum; its distances are not prepared.
+  const PreparedHand& hand = prepared_ball();
+  const Rigid3 upside_down = Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), kPi);
+  ContactOptions options;
+  options.shear_modulus = 0.05;
+  const ContactResult contact = solve_hand_contact(hand, hand.hand().skin.vertices, upside_down,
+                                                   HalfSpace(1.0 - kRadius), options);
+  ASSERT_EQ(contact.regions.size(), 1U);
+  EXPECT_EQ(contact.regions[0].region, Region::kDorsum);
+  const double force = 16.0 / 3.0 * 0.05 * std::sqrt(kRadius);
+  EXPECT_NEAR(contact.total.force, force, 0.03 * force);
+  EXPECT_LT(contact.residual_penetration_contact, 1e-6);
+}
+
+TEST(HandContact, ThinSheetPushesBackFromTheSideTheSkinCameFrom) {
+  // Depth 2 mm in a sheet of 2.4 mm: the deepest skin is nearer to the far side. The answer must be
+  // that of a thick product.
+  const PreparedHand& hand = prepared_ball();
+  const double top = 2.0 - kRadius;
+  const ContactResult thick = press_on_plane(2.0);
+  const ContactResult thin =
+      solve_hand_contact(hand, hand.hand().skin.vertices, {}, Sheet(top - 2.4, top));
+  EXPECT_NEAR(thin.total.force, thick.total.force, 0.02 * thick.total.force);
+  EXPECT_GT(thin.total.force_vector.z(), -1.01 * thick.total.force);
+  EXPECT_LT(thin.total.force_vector.z(), 0.0);
+  EXPECT_LT(thin.residual_penetration_contact, 1e-6);
+}
+
+TEST(HandContact, SkinFarInsideCarriesNoForceAndIsTold) {
+  // A ball of skin in the middle of a ball of 40 mm: every vertex is 30 mm deep.
+  const PreparedHand& hand = prepared_ball();
+  const ContactResult contact =
+      solve_hand_contact(hand, hand.hand().skin.vertices, {}, Ball(Vec3::Zero(), 40.0));
+  EXPECT_NE(contact.message, "");
+  EXPECT_EQ(contact.total.force, 0.0);
+}
+
+TEST(HandContact, ApartIsNoContact) {
+  const ContactResult contact = press_on_plane(-1.0);
+  EXPECT_EQ(contact.status, ContactStatus::kNoContact);
+  EXPECT_EQ(contact.total.force, 0.0);
+  EXPECT_EQ(contact.deformed, contact.undeformed);
+}
+
+TEST(HandContact, RefusesWrongInput) {
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
+  EXPECT_THAT([] { solve_hand_contact(prepared_ball(), {}, {}, HalfSpace(0.0)); },
+              ThrowsMessage<UsageError>(HasSubstr("posed skin has 0 points")));
+  ContactOptions options;
+  options.cell_area = -24.0;
+  EXPECT_THAT([&] { press_on_plane(1.0, options); },
+              ThrowsMessage<UsageError>(HasSubstr("cell_area is -24")));
+}
+
+TEST(Footprint, CarriesTheForceOfTheSkin) {
+  const ContactResult contact = press_on_plane(2.0);
+  TriangleMesh plate = make_grid_patch(2, 2, 30.0);
+  for (Vec3& v : plate.vertices) v += Vec3(-30.0, -30.0, 2.0 - kRadius);
+  const ProductFootprint footprint = map_to_product(prepared_ball().hand(), contact, plate, 0.7);
+  ASSERT_EQ(footprint.pressure.size(), footprint.surface.vertices.size());
+  double force = 0.0;
+  double area = 0.0;
+  for (const Triangle& t : footprint.surface.triangles) {
+    const Vec3& a = footprint.surface.vertices[t[0]];
+    const Vec3& b = footprint.surface.vertices[t[1]];
+    const Vec3& c = footprint.surface.vertices[t[2]];
+    const double part = 0.5 * (b - a).cross(c - a).norm();
+    area += part;
+    force += part / 3.0 *
+             (footprint.pressure[t[0]] + footprint.pressure[t[1]] + footprint.pressure[t[2]]);
+  }
+  EXPECT_NEAR(area, 3600.0, 1e-6);  // the shape is unchanged
+  // Linear between vertices instead of cell by cell, and on the flattened skin: a few per cent.
+  EXPECT_NEAR(force, contact.total.force, 0.06 * contact.total.force);
+  EXPECT_LE(*std::max_element(footprint.pressure.begin(), footprint.pressure.end()),
+            contact.total.peak_pressure + 1e-12);
+}
+
+}  // namespace
+}  // namespace palmar
