@@ -62,9 +62,9 @@ TEST(ThumbCmc, BaseOfTheMetacarpalStaysOnTheTrapezium) {
   const Vec3 c = skeleton.joint(JointId::kThumbCmc).centre;
   for (const double fe : {-1.0, -0.5, 0.5, 1.0}) {
     for (const double aa : {-1.0, -0.5, 0.5, 1.0}) {
-      // The axes pass the centre by 0 and 6.7 mm and turn by up to 32 degrees: 2 * 6.7 sin 16 deg
-      // = 3.7 mm at most.
-      EXPECT_LT((cmc_displacement(skeleton, {fe, aa}) * c - c).norm(), 3.8) << fe << " " << aa;
+      // The axes pass the centre at 0 and 6.7 mm and turn by up to 36 degrees: at most
+      // 2 * 6.7 mm * sin 18 degrees = 4.1 mm.
+      EXPECT_LT((cmc_displacement(skeleton, {fe, aa}) * c - c).norm(), 4.2) << fe << " " << aa;
     }
   }
 }
