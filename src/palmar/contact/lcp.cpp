@@ -30,8 +30,7 @@ Complementary solve_for_set(const ContactProblem& problem, const std::vector<int
   const Eigen::Index m = problem.distance.size();
   Complementary result{Eigen::VectorXd::Zero(m), problem.distance, true};
   if (contact.empty()) return result;
-  const Eigen::MatrixXd columns = problem.response(Eigen::all, contact);
-  const Eigen::MatrixXd R_FF = columns(contact, Eigen::all);
+  const Eigen::MatrixXd R_FF = problem.response(contact, contact);
   const Eigen::VectorXd d_F = problem.distance(contact);
   Eigen::VectorXd p_F;
   bool solved = false;
@@ -42,12 +41,14 @@ Complementary solve_for_set(const ContactProblem& problem, const std::vector<int
   }
   // An indefinite block can't be factored by Cholesky but may still have an answer.
   if (!solved) p_F = -Eigen::PartialPivLU<Eigen::MatrixXd>(R_FF).solve(d_F);
-  result.is_finite = p_F.allFinite();
-  result.gap.noalias() += columns * p_F;
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    result.gap += p_F[static_cast<Eigen::Index>(k)] * problem.response.col(contact[k]);
+  }
   for (std::size_t k = 0; k < contact.size(); ++k) {
     result.force[contact[k]] = p_F[static_cast<Eigen::Index>(k)];
     result.gap[contact[k]] = 0.0;
   }
+  result.is_finite = p_F.allFinite() && result.gap.allFinite();
   return result;
 }
 
@@ -58,6 +59,14 @@ double largest_magnitude(const Eigen::VectorXd& values) {
 }  // namespace
 
 void ContactProblem::check() const {
+  check_sizes();
+  // One pass that the compiler can vectorise; any infinity or NaN survives the sum.
+  if (response.size() > 0 && !std::isfinite(response.sum())) {
+    throw UsageError("contact problem: the response matrix has an entry that is not finite");
+  }
+}
+
+void ContactProblem::check_sizes() const {
   if (response.rows() != response.cols()) {
     throw UsageError("contact problem: response matrix is " + std::to_string(response.rows()) +
                      " x " + std::to_string(response.cols()) + "; a square one is required");
@@ -72,10 +81,6 @@ void ContactProblem::check() const {
       throw UsageError("contact problem: distance of vertex " + std::to_string(i) +
                        " is not finite; a length in mm is required");
     }
-  }
-  // One pass that the compiler can vectorise; any infinity or NaN survives the sum.
-  if (response.size() > 0 && !std::isfinite(response.sum())) {
-    throw UsageError("contact problem: the response matrix has an entry that is not finite");
   }
 }
 
@@ -109,7 +114,7 @@ void recompute_residual(const ContactProblem& problem, ContactSolution& solution
 }
 
 ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& options) {
-  problem.check();
+  problem.check_sizes();
   options.check();
   const Eigen::Index m = problem.distance.size();
   ContactSolution solution;
@@ -117,8 +122,11 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
   const int max_pivots = options.max_pivots.value_or(100 + 10 * static_cast<int>(m));
   const double d_scale = largest_magnitude(problem.distance);
 
+  // Under a smooth product the contact ends where the penetration is half the deepest (Hertz: at
+  // r^2 = R depth); to start there instead of with all penetrating vertices halves the first block.
   std::vector<char> in_contact(static_cast<std::size_t>(m));
-  for (Eigen::Index i = 0; i < m; ++i) in_contact[i] = problem.distance[i] < 0.0;
+  const double start = m > 0 ? 0.5 * std::min(0.0, problem.distance.minCoeff()) : 0.0;
+  for (Eigen::Index i = 0; i < m; ++i) in_contact[i] = problem.distance[i] < start;
   std::vector<int> contact;
   std::vector<int> infeasible;
   int fewest_infeasible = static_cast<int>(m) + 1;

@@ -25,6 +25,8 @@ struct ContactProblem {
 
   /// Throws UsageError on a non-square R, unequal sizes or an entry that is not finite.
   void check() const;
+  /// As check(), without looking through R.
+  void check_sizes() const;
 };
 
 enum class LcpStatus {
@@ -54,7 +56,8 @@ struct LcpOptions {
 /// progress, exchanges only the one with the largest index (Murty's rule), which ends after a
 /// finite number of pivots for every P-matrix. Two to six pivots are usual for skin contact.
 /// Variables within rounding of zero count as feasible; a matrix that is not a P-matrix may end in
-/// kPivotLimit, then try Lemke's method.
+/// kPivotLimit, then try Lemke's method. Only the columns of R that come into contact are read; one
+/// that is not finite ends in kPivotLimit. Throws UsageError as ContactProblem::check_sizes().
 ///
 /// Source: Judice, Pires 1994 (Computers & Operations Research 21); Kostreva 1978; Murty 1974.
 ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& options = {});

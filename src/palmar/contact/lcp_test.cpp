@@ -99,10 +99,10 @@ TEST(SolveContact, FathisPositiveDefiniteExample) {
 }
 
 TEST(SolveContact, SingleExchangesEndTheCycleOfBlockExchanges) {
-  // Principal minors 1, 2, 2; 1, 11, 4; 11: a P-matrix. Answer by hand: p_1 = 1 alone gives
-  // s = (3 - 1, 0, 3 - 1). Exchanging all infeasible vertices at once runs in a circle.
-  const ContactProblem problem{MatrixXd{{1.0, -1.0, 3.0}, {-1.0, 2.0, 0.0}, {-3.0, 3.0, 2.0}},
-                               VectorXd{{3.0, -2.0, -1.0}}};
+  // Principal minors 2, 1, 1; 2, 1, 10; 10: a P-matrix. Answer by hand: p = (0, 1/2, 1/2) gives
+  // s = (3 - 3/2 + 1/2, 0, 0). Exchanging all infeasible vertices at once runs in a circle.
+  const ContactProblem problem{MatrixXd{{2.0, -3.0, 1.0}, {0.0, 1.0, 3.0}, {1.0, -3.0, 1.0}},
+                               VectorXd{{3.0, -2.0, 1.0}}};
   LcpOptions only_blocks;
   only_blocks.is_symmetric = false;
   only_blocks.max_fruitless_blocks = 1000000;
@@ -113,8 +113,9 @@ TEST(SolveContact, SingleExchangesEndTheCycleOfBlockExchanges) {
   const ContactSolution solution = solve_contact(problem, safeguarded);
   ASSERT_EQ(solution.status, LcpStatus::kSolved);
   EXPECT_NEAR(solution.force[0], 0.0, 1e-12);
-  EXPECT_NEAR(solution.force[1], 1.0, 1e-12);
-  EXPECT_NEAR(solution.force[2], 0.0, 1e-12);
+  EXPECT_NEAR(solution.force[1], 0.5, 1e-12);
+  EXPECT_NEAR(solution.force[2], 0.5, 1e-12);
+  EXPECT_NEAR(solution.gap[0], 2.0, 1e-12);
 }
 
 TEST(SolveContact, UnsolvableProblemIsAStatus) {
