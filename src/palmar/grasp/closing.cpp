@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "palmar/grasp/site_distance.h"
 #include "palmar/grasp/skin_sampling.h"
 
 namespace palmar {
@@ -19,11 +20,17 @@ constexpr double kNeighbourGive = 1.5;  // mm; skin of two fingers pressed toget
 constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coarse there
 constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
-constexpr int kLongestAdvance = 60;     // steps
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
+constexpr double kWideOpen = -20.0 * std::numbers::pi / 180.0;  // MCP when the hand reaches out
+constexpr double kPreshape = 0.8;    // of the bend that fits the handle, before closing
+constexpr double kEndFace = 0.7;     // of the normal along the grip axis: not held, but hooked
+constexpr int kLongestAdvance = 60;  // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
+
+// Whether the sample says more than "far".
+bool is_near(const DistanceSample& sample) { return std::abs(sample.distance) < kRange - 1e-6; }
 
 bool is_palmar(Region region) { return region != Region::kDorsum; }
 
@@ -135,9 +142,9 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
       const double slack = samples[k].distance + limit;
       least = std::min(least, slack);
       const double approach = samples[k].normal.dot(step);
-      const double planar = samples[k].triangle < 0 ? slack
-                            : approach > 0.0        ? 0.9 * slack / approach
-                                                    : std::numeric_limits<double>::infinity();
+      const double planar = !is_near(samples[k]) ? slack
+                            : approach > 0.0     ? 0.9 * slack / approach
+                                                 : std::numeric_limits<double>::infinity();
       advance = std::min(advance, std::max(slack, std::min(planar, kGlide)));
     }
     if (least <= kTolerance) break;
@@ -151,7 +158,8 @@ struct HandCloser::Advance {
   double share = 0.0;  // of the way from `from` to `to`
   bool is_stopped = false;
   bool by_product = false;
-  Segment segment{};  // whose skin was at its limit
+  Segment segment{};                                            // whose skin was at its limit
+  std::array<double, 3> deepest = {-kRange, -kRange, -kRange};  // per phalanx from the palm, mm
 };
 
 HandCloser::Advance HandCloser::advance(const Group& group, const HeldProduct& product,
@@ -223,7 +231,7 @@ HandCloser::Advance HandCloser::advance(const Group& group, const HeldProduct& p
       if (speed < 1e-9) continue;
       const double glide = kGlide / speed;
       double reach = now.slack[k] / speed;
-      if (now.sample[k].triangle >= 0) {
+      if (is_near(now.sample[k])) {
         const Vec3 normal = product.product_from_hand.rotation.conjugate() * now.sample[k].normal;
         const double approach = -normal.dot(velocity[k]);
         const double planar = approach > 0.0 ? 0.95 * now.slack[k] / approach : glide;
@@ -263,7 +271,51 @@ HandCloser::Advance HandCloser::advance(const Group& group, const HeldProduct& p
   result.is_stopped = now.share < 1.0;
   result.by_product = now.by_product;
   if (count > 0) result.segment = group.segment[now.who];
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto finger = finger_of(group.segment[k]);
+    if (!finger) continue;
+    double& deepest = result.deepest[static_cast<std::size_t>(level_of(*finger, group.segment[k]))];
+    deepest = std::max(deepest, -now.sample[k].distance);
+  }
   return result;
+}
+
+Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                              double diameter, double share, const Posture& start) const {
+  const Skeleton& skeleton = hand_->skeleton;
+  const auto segments = segments_of(finger);
+  std::array<double, 3> turn{};  // that each phalanx takes round the handle, half of it
+  for (std::size_t level = 0; level < 3; ++level) {
+    const Vec3& a = skeleton.joint(joint_of(*segments[level])).centre;
+    const Vec3& b = level == 2 ? skeleton.fingertips[static_cast<std::size_t>(finger)]
+                               : skeleton.joint(joint_of(*segments[level + 1])).centre;
+    turn[level] = std::atan((b - a).norm() / (diameter + 2.0 * kHalfFinger));
+  }
+  Posture posture = start;
+  const Dof mcp = flexion_of(finger, 0);
+  posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
+  for (; share > 0.05; share -= 0.25) {
+    for (int level = 1; level < 3; ++level) {
+      const JointDof& dof = skeleton.dof(flexion_of(finger, level));
+      const auto l = static_cast<std::size_t>(level);
+      posture[dof.dof] = std::clamp(share * (turn[l - 1] + turn[l]), dof.lower, dof.upper);
+    }
+    if (is_free(product, limits, finger, posture)) return posture;
+  }
+  return start;
+}
+
+bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                         const Posture& posture) const {
+  const Group& group = groups_[static_cast<std::size_t>(finger) * 3];
+  std::vector<Vec3> points;
+  group.skin.pose(posture, points);
+  for (Vec3& p : points) p = product.product_from_hand * p;
+  std::vector<DistanceSample> samples(points.size());
+  product.distance->sample(points, kRange, samples);
+  return std::all_of(samples.begin(), samples.end(), [&](const DistanceSample& sample) {
+    return sample.distance > -kSharedLimit * limits.finger;
+  });
 }
 
 Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& limits,
@@ -285,6 +337,12 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
     posture = way.posture;
     SegmentStop& stop = stops[index_of(*segments[static_cast<std::size_t>(level)])];
     stop.segment = *segments[static_cast<std::size_t>(level)];
+    if (level == 0) {
+      for (int outer = 0; outer < 2; ++outer) {
+        const Segment segment = *segments[static_cast<std::size_t>(outer)];
+        stops[index_of(segment)].penetration = way.deepest[static_cast<std::size_t>(outer)];
+      }
+    }
     if (!way.is_stopped) {
       stop.reason = StopReason::kRangeOfMotion;
     } else if (!way.by_product) {
@@ -304,7 +362,17 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
   for (int round = 0;; ++round) {
     posture = open;
     for (const Finger finger : kFingers) {
-      posture = close_finger(product, limits, finger, posture, stops);
+      // Bent too much, the fingertip meets the product first and the rest hangs in the air.
+      const Posture before = posture;
+      for (const double share : {kPreshape, 0.5 * kPreshape, 0.0}) {
+        const Posture shaped = preshaped(product, limits, finger, product.diameter, share, before);
+        const bool is_last = share == 0.0;
+        posture = close_finger(product, limits, finger, shaped, stops);
+        const auto segments = segments_of(finger);
+        const SegmentStop& proximal = stops[index_of(*segments[0])];
+        if (is_last || proximal.reason != StopReason::kDistalStop) break;
+        if (proximal.penetration > 0.0 || stops[index_of(*segments[1])].penetration > 0.0) break;
+      }
     }
     if (round == 3) break;
     // Flexing fingers converge; where two would share space, spread them at the knuckle and close
@@ -340,11 +408,12 @@ Posture HandCloser::wrap_thumb(const HeldProduct& product, const DepthLimits& li
                                const Posture& start, double cmc_flexion, double cmc_abduction,
                                std::array<SegmentStop, kSegmentCount>& stops) const {
   const std::vector<Obstacle> obstacles = thumb_obstacles(start);
-  Posture posture = start;
+  // First out of the palm's plane, clear of the product, then across it.
   Posture target = start;
-  target[Dof::kThumbCmcFlexion] = cmc_flexion;
   target[Dof::kThumbCmcAbduction] = cmc_abduction;
-  // The ball of the thumb is counted with the proximal phalanx' group at the CMC joint.
+  Posture posture = advance(groups_[2], product, limits, obstacles, start, target).posture;
+  target = posture;
+  target[Dof::kThumbCmcFlexion] = cmc_flexion;
   posture = advance(groups_[2], product, limits, obstacles, posture, target).posture;
   const std::array<Segment, 2> segments = {Segment::kThumbProximal, Segment::kThumbDistal};
   for (int level = 0; level < 2; ++level) {
@@ -376,14 +445,20 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
   for (std::size_t k = 0; k < posed.size(); ++k) points[k] = product.product_from_hand * posed[k];
   std::vector<DistanceSample> samples(posed.size());
   product.distance->sample(points, kRange, samples);
-  double area = 0.0, other = 0.0, gap = kRange;
+  double area = 0.0, other = 0.0, gap = kRange, reach = 0.0;
   for (std::size_t k = 0; k < posed.size(); ++k) {
     if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k])) {
       gap = std::min(gap, samples[k].distance);
     }
     if (samples[k].distance > 0.0) continue;
     const double weight = group.segment[k] == Segment::kThumbDistal ? 1.5 : 1.0;
-    (is_palmar(group.region[k]) ? area : other) += weight * group.area[k];
+    const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
+    const bool is_on_end = std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
+    (is_palmar(group.region[k]) && !is_on_end ? area : other) += weight * group.area[k];
+    // The further round, the more the product's skin there faces away from the palm.
+    if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k]) && !is_on_end) {
+      reach += group.area[k] * (1.0 + normal.z());
+    }
   }
   // A thumb laid across the handle opposes the fingers; laid along it, it holds next to nothing.
   const PosedSkeleton pose = pose_skeleton(hand_->skeleton, posture);
@@ -392,7 +467,7 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
   const Vec3 base = pose.segment[index_of(Segment::kThumbProximal)] *
                     hand_->skeleton.joint(JointId::kThumbMp).centre;
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
-  return area - other + 150.0 * across - 10.0 * std::max(0.0, gap);
+  return area - 2.0 * other + reach + 150.0 * across - 10.0 * std::max(0.0, gap);
 }
 
 std::vector<HandCloser::Obstacle> HandCloser::thumb_obstacles(const Posture& posture) const {

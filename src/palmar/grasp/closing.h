@@ -23,6 +23,7 @@ struct DepthLimits {
 struct HeldProduct {
   const DistanceField* distance = nullptr;
   Rigid3 product_from_hand;
+  double diameter = 35.0;  ///< of the circle with the grip's girth, mm; fingers preshape to it
 };
 
 /// What a posed hand and a product do to each other, before skin gives way.
@@ -98,6 +99,11 @@ class HandCloser {
                   const std::vector<Obstacle>& obstacles, const Posture& from,
                   const Posture& to) const;
   std::vector<Obstacle> thumb_obstacles(const Posture& posture) const;
+  /// Fingers reach out already bent to the handle's curvature, as far as it is out of the way.
+  Posture preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                    double diameter, double share, const Posture& start) const;
+  bool is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+               const Posture& posture) const;
   Posture close_finger(const HeldProduct& product, const DepthLimits& limits, Finger finger,
                        Posture posture, std::array<SegmentStop, kSegmentCount>& stops) const;
   double thumb_score(const HeldProduct& product, const Posture& posture,

@@ -11,15 +11,24 @@
 #include "palmar/grasp/closing.h"
 #include "palmar/grasp/grip_axis.h"
 #include "palmar/grasp/placement.h"
+#include "palmar/grasp/site_distance.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kCoarse = 5.0;      // mm between the skin points that the search looks at
-constexpr double kHalfRound = 0.46;  // of a turn: contacts from opposite sides, less a little
-                                     // for friction
-constexpr int kSettleRounds = 4;     // product and fingers give way to each other in turn
-constexpr double kAtLimit = 0.1;     // mm; that near to the limit depth counts as there
+constexpr double kCoarse = 5.0;  // mm between the skin points that the search looks at
+constexpr double kRival = 0.75;  // share of the best site's score from which one is tried too
+// Contacts hold from opposite sides if no gap between them exceeds half a turn by more than two
+// friction angles; 30 degrees is a coefficient of 0.58, ordinary for dry skin.
+constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
+constexpr int kSettleRounds = 4;          // product and fingers give way to each other in turn
+constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans from thumb to fingertip
+constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
+constexpr double kShownDepth = 0.05;      // mm into the palm of what is only laid on it
+constexpr int kTrimRounds = 4;
+constexpr double kTrimTolerance = 0.02;  // mm
+constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
+constexpr double kAtLimit = 0.1;         // mm; that near to the limit depth counts as there
 
 std::string format(const char* text, double value) {
   std::array<char, 160> buffer{};
@@ -39,6 +48,30 @@ double lay_turn(const GripSite& site, double asked) {
   const Vec3 facing = Eigen::AngleAxisd(asked, site.axis) * zero;
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   return std::atan2(site.axis.dot(wide.cross(facing)), wide.dot(facing));
+}
+
+// The quick distance is right to a few hundredths of a millimetre: what went too deep by the exact
+// one is opened again at its own joint.
+HoldMeasure trimmed(const HandCloser& closer, const HeldProduct& product, const DepthLimits& limits,
+                    const Vec3& axis_in_hand, Posture& posture) {
+  HoldMeasure measure = closer.measure(product, posture, axis_in_hand);
+  for (int round = 0; round < kTrimRounds; ++round) {
+    bool is_changed = false;
+    for (int s = 1; s < kSegmentCount; ++s) {
+      const auto segment = static_cast<Segment>(s);
+      const double excess = measure.penetration[static_cast<std::size_t>(s)] - limits.finger;
+      if (excess <= kTrimTolerance) continue;
+      const Joint& joint = closer.hand().skeleton.joint(joint_of(segment));
+      for (const JointDof& dof : joint.dofs) {
+        if (dof.dof == abduction_of(*finger_of(segment))) continue;
+        posture[dof.dof] = std::max(dof.lower, posture[dof.dof] - (excess + 0.01) / kTrimArm);
+        is_changed = true;
+      }
+    }
+    if (!is_changed) break;
+    measure = closer.measure(product, posture, axis_in_hand);
+  }
+  return measure;
 }
 
 void finish_stops(const Hand& hand, const HoldMeasure& measure, const DepthLimits& limits,
@@ -65,6 +98,60 @@ void finish_stops(const Hand& hand, const HoldMeasure& measure, const DepthLimit
     }
   }
   (void)hand;
+}
+
+// Names of phalanges without contact, with what stopped them.
+std::string open_segments(const Grasp& grasp) {
+  std::string list;
+  for (std::size_t s = 1; s < grasp.stops.size(); ++s) {
+    const SegmentStop& stop = grasp.stops[s];
+    if (stop.penetration > 0.0) continue;
+    list += list.empty() ? "" : ", ";
+    list += std::string(name_of(stop.segment)) + " (" + name_of(stop.reason) + ")";
+  }
+  return list;
+}
+
+void judge(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp) {
+  const std::string open = open_segments(grasp);
+  const std::string girth = format("its girth at the grip is %.0f mm", site.girth);
+  if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
+    grasp.status = GraspStatus::kTooLarge;
+    grasp.message = girth + format("; contacts span %.0f degrees of it", 360.0 * measure.wrap) +
+                    format(", %.0f degrees are needed to hold it", 360.0 * kHalfRound);
+  } else if (measure.fingers >= 3 && measure.wrap >= kHalfRound) {
+    grasp.status = GraspStatus::kHeld;
+    grasp.message = "held by " + std::to_string(measure.fingers) + " fingers" +
+                    (open.empty() ? "" : "; not touching: " + open);
+  } else if (measure.fingers > 0) {
+    grasp.status = GraspStatus::kPartlyHeld;
+    grasp.message = std::to_string(measure.fingers) + " of 5 fingers touch" +
+                    format(", contacts span %.0f degrees", 360.0 * measure.wrap) +
+                    (open.empty() ? "" : "; not touching: " + open);
+  } else if (site.girth < kLargeGirth * hand.dimensions.hand_length) {
+    grasp.status = GraspStatus::kTooSmall;
+    grasp.message = girth + "; the fingers close without meeting it";
+  } else {
+    grasp.status = GraspStatus::kNotGraspable;
+    grasp.message = girth + "; no finger reaches it";
+  }
+}
+
+// Shapes that skin can't be closed on, told before trying.
+bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Grasp& grasp) {
+  if (site.thickness >= options.finger_limit_depth) return false;
+  const std::string thin = format("it is %.1f mm thick at the best place", site.thickness) +
+                           format(" and %.1f mm wide", site.width);
+  const std::string give = format("thinner than the %.1f mm that the skin of a finger gives",
+                                  options.finger_limit_depth);
+  if (site.width < kSheetWidth * options.finger_limit_depth) {
+    grasp.status = GraspStatus::kTooSmall;
+    grasp.message = thin + ", " + give + ": the fist closes on itself";
+  } else {
+    grasp.status = GraspStatus::kNotGraspable;
+    grasp.message = thin + ", " + give + ": a sheet has nothing to close a hand round";
+  }
+  return true;
 }
 
 }  // namespace
@@ -103,10 +190,24 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   search.palm_breadth = hand.dimensions.hand_width;
   search.at = options.placement.at;
   if (options.placement.axis) search.axis = options.placement.axis->normalized();
-  const std::vector<GripSite> sites = find_grip_sites(product.mesh, search);
+  std::vector<GripSite> sites = find_grip_sites(product.mesh, search);
   if (sites.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
     grasp.message = "no part of the product is bar-like enough for a power grip";
+    return grasp;
+  }
+
+  grasp.grip_point = sites.front().point;
+  grasp.grip_axis = sites.front().axis;
+  grasp.grip_girth = sites.front().girth;
+  if (is_out_of_reach(sites.front(), options, grasp)) {
+    // The open hand is shown with the product on the palm.
+    const HandCloser hint(hand, kCoarse);
+    const GripSite& site = sites.front();
+    const DepthLimits least{kShownDepth, kShownDepth};
+    const auto quick = distance_near(product.distance, site);
+    grasp.posture = hint.open_posture();
+    grasp.product_from_hand = place(hint, *quick, least, site, {}).product_from_hand;
     return grasp;
   }
 
@@ -115,14 +216,24 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   std::optional<double> turn;
   if (options.placement.turn) turn = lay_turn(sites.front(), *options.placement.turn);
   const HandCloser coarse(hand, kCoarse);
-  const auto hold = find_hold(coarse, *product.distance, sites, asked, turn, progress);
+  std::vector<std::unique_ptr<DistanceField>> near;
+  std::vector<const DistanceField*> distances;
+  for (GripSite& candidate : sites) {
+    if (near.size() == 2 || candidate.score < kRival * sites.front().score) break;
+    candidate.wall =
+        wall_at(product.mesh, *product.distance, candidate, hand.dimensions.hand_width);
+    near.push_back(distance_near(product.distance, candidate));
+    distances.push_back(near.back().get());
+  }
+  const auto hold = find_hold(coarse, distances, sites, asked, turn, progress);
   const GripSite& site = sites[hold->site];
-  const DepthLimits limits = limits_for(asked, site.thickness);
+  const DepthLimits limits = limits_for(asked, site);
 
   progress.update(0.6, "closing the hand round " + product.name);
   const HandCloser fine(hand, 0.0);
-  Placement placement = place(fine, *product.distance, limits, site, hold->placement.lay);
-  HeldProduct held{product.distance.get(), placement.product_from_hand};
+  const DistanceField& quick = *distances[hold->site];
+  const Placement placement = place(fine, quick, limits, site, hold->placement.lay);
+  HeldProduct held{&quick, placement.product_from_hand, site.girth / std::numbers::pi};
   HandCloser::ThumbWay way;
   HoldMeasure measure;
   for (int round = 0; round < kSettleRounds; ++round) {
@@ -133,7 +244,8 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     }
     grasp.posture = fine.wrap_thumb(held, limits, grasp.posture, way.cmc_flexion, way.cmc_abduction,
                                     grasp.stops);
-    measure = fine.measure(held, grasp.posture, placement.axis_in_hand);
+    measure = trimmed(fine, {product.distance.get(), held.product_from_hand, held.diameter}, limits,
+                      placement.axis_in_hand, grasp.posture);
     const double excess = measure.penetration[0] - limits.palm;
     if (excess <= 0.02) break;
     // Closing has folded the palm's skin further in: the product gives way.
@@ -146,17 +258,7 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   grasp.grip_girth = site.girth;
   finish_stops(hand, measure, limits, grasp);
 
-  if (measure.fingers >= 3 && measure.wrap >= kHalfRound) {
-    grasp.status = GraspStatus::kHeld;
-  } else if (measure.wrap < kHalfRound && measure.fingers >= 3) {
-    grasp.status = GraspStatus::kTooLarge;
-    grasp.message = format("girth %.0f mm: ", site.girth) +
-                    format("the hand reaches round %.0f % of it", 100.0 * measure.wrap);
-  } else if (measure.fingers > 0) {
-    grasp.status = GraspStatus::kPartlyHeld;
-  } else {
-    grasp.status = GraspStatus::kTooSmall;
-  }
+  judge(hand, measure, site, grasp);
   return grasp;
 }
 

@@ -17,6 +17,8 @@ struct GripSite {
   double girth = 0.0;         ///< convex perimeter of the section, mm
   double thickness = 0.0;     ///< smallest width of the section, mm
   double width = 0.0;         ///< its extent across the thickness, mm
+  double wall = 1e3;          ///< how thick the solid is under the grip's surface (hollow products:
+                              ///< the wall), mm; filled by wall_at()
   double length = 0.0;        ///< length along the axis over which it is handle-like, mm
   std::optional<Vec3> nose;   ///< unit, across the axis: where the working end sticks out
   double score = 0.0;         ///< how handle-like it is, 0 to 1

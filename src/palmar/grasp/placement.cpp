@@ -15,6 +15,9 @@ constexpr double kSegmentCredit = 60.0;  // mm^2 of contact that one more touchi
 constexpr double kWrapCredit = 800.0;    // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
 constexpr double kNoseCredit = 250.0;    // mm^2 for a working end that points away from the wrist
+constexpr double kStrainCost = 5.0;      // mm^2 per degree
+constexpr double kStart = 140.0;  // mm from the palm: nothing that hands hold sticks out more
+constexpr double kLeastProximal = 10.0;  // mm from the knuckles: nearer, the thumb can't reach over
 constexpr int kTurns = 8;
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
@@ -36,10 +39,29 @@ PalmFrame palm_frame(const Skeleton& skeleton) {
   return frame;
 }
 
-double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement) {
+// How far fingers stray from what hands do of themselves, degrees in all: knuckles of neighbours
+// bend alike (within 25-30 degrees at most) and DIP follows PIP at two thirds, within 15 degrees
+// (Rijkpema & Girard 1991).
+double strain_of(const Posture& posture) {
+  double strain = 0.0;
+  for (int f = 1; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    const double mcp = posture[flexion_of(finger, 0)], pip = posture[flexion_of(finger, 1)],
+                 dip = posture[flexion_of(finger, 2)];
+    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / kDeg - 15.0);
+    if (f == 1) continue;
+    const double before = posture[flexion_of(static_cast<Finger>(f - 1), 0)];
+    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / kDeg - 15.0);
+  }
+  return strain;
+}
+
+double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
+                const Posture& posture) {
   double score = measure.contact_area + kSegmentCredit * measure.segments +
                  kWrapCredit * measure.wrap - kClash * measure.other_area -
-                 200.0 * std::max(0.0, measure.deepest_other - 2.0);
+                 200.0 * std::max(0.0, measure.deepest_other - 2.0) -
+                 kStrainCost * strain_of(posture);
   if (site.nose) {
     const Vec3 nose = placement.product_from_hand.rotation.conjugate() * *site.nose;
     score += kNoseCredit * nose.dot(Vec3(0.0, 1.0, 1.0).normalized());
@@ -52,22 +74,23 @@ Hold try_hold(const HandCloser& closer, const DistanceField& product, const Grip
   Hold hold;
   hold.site = site_index;
   hold.placement = place(closer, product, limits, site, lay);
-  const HeldProduct held{&product, hold.placement.product_from_hand};
+  const HeldProduct held{&product, hold.placement.product_from_hand, site.girth / std::numbers::pi};
   std::array<SegmentStop, kSegmentCount> stops;
   hold.posture = closer.close_fingers(held, limits, closer.open_posture(), stops);
   hold.measure = closer.measure(held, hold.posture, hold.placement.axis_in_hand);
-  hold.score = score_of(hold.measure, site, hold.placement);
+  hold.score = score_of(hold.measure, site, hold.placement, hold.posture);
   return hold;
 }
 
 // Larger handles lie further down in the palm.
 double usual_proximal(const GripSite& site) {
-  return std::clamp(8.0 + 0.25 * (site.girth / std::numbers::pi - 30.0), 6.0, 30.0);
+  return std::clamp(15.0 + 0.2 * (site.girth / std::numbers::pi - 30.0), 12.0, 30.0);
 }
 
 }  // namespace
 
-DepthLimits limits_for(const DepthLimits& asked, double thickness) {
+DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
+  const double thickness = std::min(site.thickness, site.wall);
   const double most = kThinShare * 0.5 * thickness;
   return {std::min(asked.palm, most), std::min(asked.finger, most)};
 }
@@ -91,13 +114,11 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   placement.axis_in_hand = axis;
   placement.push_in_hand = -outward;
   placement.product_from_hand.rotation = Quat(in_product * in_hand.transpose()).normalized();
-  // Far enough out that nothing touches: the box of the product as seen from its grip point.
-  const Box3 box = product.bounding_box();
-  const double reach = (box.max() - box.min()).norm() + 120.0;
+  const double reach = std::min((product.bounding_box().sizes()).norm() + 30.0, kStart);
   const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
   const Vec3 grip = site.point + lay.along * site.axis;
   placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
-  const HeldProduct held{&product, placement.product_from_hand};
+  const HeldProduct held{&product, placement.product_from_hand, site.girth / std::numbers::pi};
   const double travel =
       closer.free_travel(held, limits, closer.open_posture(), placement.push_in_hand, 2.0 * reach);
   placement.product_from_hand.translation -=
@@ -105,7 +126,8 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   return placement;
 }
 
-std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& product,
+std::optional<Hold> find_hold(const HandCloser& closer,
+                              const std::vector<const DistanceField*>& distances,
                               const std::vector<GripSite>& sites, const DepthLimits& limits,
                               std::optional<double> turn, const Progress& progress) {
   struct Rated {
@@ -118,15 +140,14 @@ std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& pro
     // A part that is no handle must hold much better to be preferred.
     return hold.score * (0.4 + 0.6 * sites[hold.site].score / best_site);
   };
-  for (std::size_t s = 0; s < std::min<std::size_t>(sites.size(), 2); ++s) {
-    if (s > 0 && sites[s].score < 0.5 * best_site) break;
-    const DepthLimits here = limits_for(limits, sites[s].thickness);
+  for (std::size_t s = 0; s < distances.size(); ++s) {
+    const DepthLimits here = limits_for(limits, sites[s]);
     for (int k = 0; k < (turn ? 1 : kTurns); ++k) {
       progress.throw_if_cancelled();
       Lay lay;
       lay.turn = turn ? *turn : 2.0 * std::numbers::pi * k / kTurns;
       lay.proximal = usual_proximal(sites[s]);
-      const Hold hold = try_hold(closer, product, sites[s], s, here, lay);
+      const Hold hold = try_hold(closer, *distances[s], sites[s], s, here, lay);
       tried.push_back({hold, rank_of(hold)});
     }
   }
@@ -138,7 +159,7 @@ std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& pro
   for (std::size_t k = 0; k < std::min<std::size_t>(tried.size(), 2); ++k) {
     Rated current = tried[k];
     const GripSite& site = sites[current.hold.site];
-    const DepthLimits here = limits_for(limits, site.thickness);
+    const DepthLimits here = limits_for(limits, site);
     const auto improve = [&](double Lay::*what, double low, double high,
                              std::initializer_list<double> steps) {
       const Lay from = current.hold.placement.lay;
@@ -147,16 +168,17 @@ std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& pro
         Lay lay = from;
         lay.*what += step;
         if (lay.*what < low || lay.*what > high) continue;
-        const Hold hold = try_hold(closer, product, site, current.hold.site, here, lay);
+        const Hold hold =
+            try_hold(closer, *distances[current.hold.site], site, current.hold.site, here, lay);
         if (rank_of(hold) > current.rank) current = {hold, rank_of(hold)};
       }
     };
-    improve(&Lay::proximal, 0.0, 45.0, {-8.0, 8.0, 16.0});
+    improve(&Lay::proximal, kLeastProximal, 45.0, {-6.0, 8.0, 16.0});
     improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
     improve(&Lay::oblique, 8 * kDeg, 26 * kDeg, {-4 * kDeg, 6 * kDeg, 12 * kDeg});
     improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
     if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
-    improve(&Lay::proximal, 0.0, 45.0, {-4.0, 4.0});
+    improve(&Lay::proximal, kLeastProximal, 45.0, {-4.0, 4.0});
     if (!best || current.rank > best->rank) best = current;
   }
   return best->hold;

@@ -46,12 +46,15 @@ struct Hold {
 
 /// Searches turns, then offsets and slants, for the hold that most palmar skin takes part in: what
 /// distinguishes a power grip (Napier 1956). Coarse to fine, always in the same order. If `turn` is
-/// set only that turn is used. Empty only for no sites.
-std::optional<Hold> find_hold(const HandCloser& closer, const DistanceField& product,
+/// set only that turn is used. distances[k] is the product's distance as seen near sites[k]; sites
+/// beyond distances.size() are not tried. Empty only for no sites.
+std::optional<Hold> find_hold(const HandCloser& closer,
+                              const std::vector<const DistanceField*>& distances,
                               const std::vector<GripSite>& sites, const DepthLimits& limits,
                               std::optional<double> turn, const Progress& progress);
 
-/// Limits a product this thin can take: skin from two sides must not meet inside it.
-DepthLimits limits_for(const DepthLimits& asked, double thickness);
+/// Limits that a product (its wall, if hollow) can take: skin must not come out on the other side,
+/// nor meet skin from there.
+DepthLimits limits_for(const DepthLimits& asked, const GripSite& site);
 
 }  // namespace palmar
