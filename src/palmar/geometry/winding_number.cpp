@@ -166,7 +166,9 @@ double WindingNumber::Impl::sum(const Vec3& point, float far_factor) const {
     const Node& n = nodes[stack[--size]];
     const Float4 x = n.x - qx, y = n.y - qy, z = n.z - qz;
     const Float4 r2 = x * x + y * y + z * z;
-    const Float4 inverse2 = 1.0f / r2.max(1e-30f);
+    // An empty place counts as far; seen from its own centre 1 / r^3 must stay finite, or 0 times
+    // infinity spoils the sum.
+    const Float4 inverse2 = 1.0f / r2.max(1e-20f);
     const Float4 inverse3 = inverse2 * inverse2.sqrt();
     const Float4 dipole = n.nx * x + n.ny * y + n.nz * z;
     const Float4 quadratic =

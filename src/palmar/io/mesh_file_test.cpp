@@ -121,7 +121,8 @@ TEST(LoadProduct, TheUnitOfTheFileOrOfTheUserTurnsIntoMillimetres) {
   const Product from_user = load_product(folder / "handle.stl", {.unit = LengthUnit::kCentimetre});
   EXPECT_EQ(from_user.unit_source, UnitSource::kUser);
   EXPECT_NEAR(signed_volume(from_user.mesh), 108000.0, 1e-6);
-  // Inside, 7 mm from the nearest side.
+  // Inside: in the very middle, and 7 mm from the nearest side.
+  EXPECT_NEAR(from_user.distance->at(Vec3(60, 15, 15)).distance, -15.0, 1e-9);
   EXPECT_NEAR(from_user.distance->at(Vec3(33, 7, 9)).distance, -7.0, 1e-9);
 }
 
