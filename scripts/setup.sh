@@ -6,8 +6,8 @@
 
 palmar_packages=(
   build-essential cmake ninja-build ccache pkg-config git
-  libeigen3-dev libtbb-dev libembree-dev libpng-dev libassimp-dev zlib1g-dev
-  nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libeigen3-dev libtbb-dev libembree-dev libpng-dev zlib1g-dev
+  nlohmann-json3-dev libcli11-dev libfmt-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format
 )
