@@ -19,6 +19,7 @@ struct Viewpoint {
   const char* key;
   const char* words;
   Vec3 direction;  // into the scene
+  Vec3 up = Vec3::UnitY();
 };
 
 std::array<Viewpoint, 4> viewpoints() {
@@ -28,14 +29,42 @@ std::array<Viewpoint, 4> viewpoints() {
            {"little", "little finger's side", {1.0, -0.30, -0.35}}}};
 }
 
-Camera camera_for(const Scene& scene, const Viewpoint& view, Side side, const Quat& scene_from_hand,
-                  double aspect, double bar_share) {
+// The same eyes in scene axes.
+std::vector<Viewpoint> hand_viewpoints(Side side, const Quat& scene_from_hand) {
   const double mirror = side == Side::kLeft ? -1.0 : 1.0;
-  const Vec3 direction(mirror * view.direction.x(), view.direction.y(), view.direction.z());
+  std::vector<Viewpoint> views;
+  for (Viewpoint view : viewpoints()) {
+    view.direction.x() *= mirror;
+    view.direction = scene_from_hand * view.direction;
+    view.up = scene_from_hand * Vec3::UnitY();
+    views.push_back(view);
+  }
+  return views;
+}
+
+// Four sides of the product about the grip axis, which stands upright with the thumb above: what
+// lies in the palm, under the fingers, and between the two.
+std::vector<Viewpoint> product_viewpoints(const Grasp& grasp) {
+  const Quat& product_from_hand = grasp.product_from_hand.rotation;
+  const Vec3 axis = grasp.grip_axis.normalized();
+  const Vec3 palmar = product_from_hand * Vec3::UnitZ();
+  Vec3 outwards = palmar - palmar.dot(axis) * axis;
+  // A grip axis along the palm's normal leaves no such direction: any will do.
+  outwards = outwards.norm() > 1e-6 ? Vec3(outwards.normalized()) : Vec3(axis.unitOrthogonal());
+  const Vec3 distal = product_from_hand * Vec3::UnitY();
+  Vec3 onwards = outwards.cross(axis);
+  if (onwards.dot(distal) < 0.0) onwards = -onwards;
+  return {{"in_palm", "side in the palm", outwards, axis},
+          {"under_fingers", "side under the fingers", -outwards, axis},
+          {"under_knuckles", "side under the knuckles", -onwards, axis},
+          {"under_fingertips", "side under the fingertips", onwards, axis}};
+}
+
+Camera camera_for(const Scene& scene, const Viewpoint& view, double aspect, double bar_share) {
   // The colour bar takes a strip at the right: fit to what is left, then shift by half of it.
   const double free = 1.0 - bar_share;
-  Camera camera = fit_camera(scene, scene_from_hand * direction, scene_from_hand * Vec3::UnitY(),
-                             {.aspect = aspect * free, .margin = 0.09});
+  Camera camera =
+      fit_camera(scene, view.direction, view.up, {.aspect = aspect * free, .margin = 0.09});
   const Vec3 right = camera.direction.cross(camera.up).normalized();
   camera.position += 0.5 * bar_share * camera.view_height * aspect * right;
   return camera;
@@ -57,15 +86,14 @@ struct Kind {
 };
 
 void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& scene,
-               const std::vector<Viewpoint>& views, Side side, const Quat& scene_from_hand,
-               const std::string& product_name, const ColourScale& scale,
-               const PictureOptions& options) {
+               const std::vector<Viewpoint>& views, const std::string& product_name,
+               const ColourScale& scale, const PictureOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const double bar_share =
       kind.has_bar ? static_cast<double>(colour_bar_width(options.height)) / options.width : 0.0;
   std::vector<Camera> cameras;
   for (const Viewpoint& view : views) {
-    cameras.push_back(camera_for(scene, view, side, scene_from_hand, aspect, bar_share));
+    cameras.push_back(camera_for(scene, view, aspect, bar_share));
   }
   std::vector<Image> images =
       render_views(scene, cameras, {.width = options.width, .height = options.height});
@@ -129,9 +157,8 @@ ColourScale pressure_scale(const AssessmentSet& set) {
 std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
                                          const ColourScale& scale, const PictureOptions& options) {
   const Assessment& assessment = assessed.assessment;
-  const auto views = viewpoints();
-  const std::vector<Viewpoint> all(views.begin(), views.end());
-  const Quat product_from_hand = assessment.grasp.product_from_hand.rotation;
+  const std::vector<Viewpoint> all =
+      hand_viewpoints(hand.side, assessment.grasp.product_from_hand.rotation);
   const std::vector<double> pressure = skin_pressure(hand, assessment);
   const auto coloured = [&](TriangleMesh mesh, const std::vector<double>& field) {
     return SceneObject{.mesh = std::move(mesh),
@@ -143,23 +170,21 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
   };
 
   std::vector<Picture> pictures;
-  const auto add = [&](const Kind& kind, const Scene& scene, const std::vector<Viewpoint>& from,
-                       const Quat& scene_from_hand) {
-    add_views(pictures, kind, scene, from, hand.side, scene_from_hand, assessed.product.name, scale,
-              options);
+  const auto add = [&](const Kind& kind, const Scene& scene, const std::vector<Viewpoint>& from) {
+    add_views(pictures, kind, scene, from, assessed.product.name, scale, options);
   };
   add({"map", "Pressure on the opened hand", "pressure drawn on the opened hand"},
-      {coloured(hand.skin, pressure)}, {{"open_hand", "palm side", {0.0, 0.0, -1.0}}},
-      Quat::Identity());
+      {coloured(hand.skin, pressure)}, {{"open_hand", "palm side", {0.0, 0.0, -1.0}}});
   add({"pressure", "Pressure on the skin", "hand with the product hidden, coloured by pressure"},
-      {coloured(deformed_skin(hand, assessment), pressure)}, all, product_from_hand);
+      {coloured(deformed_skin(hand, assessment), pressure)}, all);
   add({"grasp", "Hand and product", "hand holding the product", false},
       {{.mesh = deformed_skin(hand, assessment), .colour = kSkinColour},
        {.mesh = assessed.product.mesh, .colour = kProductColour}},
-      all, product_from_hand);
+      all);
   ProductFootprint footprint = footprint_of(assessed);
   add({"footprint", "Pressure on the product", "product coloured by the pressure of the hand"},
-      {coloured(std::move(footprint.surface), footprint.pressure)}, all, product_from_hand);
+      {coloured(std::move(footprint.surface), footprint.pressure)},
+      product_viewpoints(assessment.grasp));
   return pictures;
 }
 

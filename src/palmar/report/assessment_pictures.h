@@ -32,10 +32,11 @@ ColourScale pressure_scale(const AssessmentSet& set);
 ///     map_open_hand           pressure drawn on the hand in its reference posture, palm side
 ///     pressure_palm ...       deformed skin coloured by pressure, product hidden
 ///     grasp_palm ...          the hand holding the product
-///     footprint_palm ...      the product coloured by pressure
+///     footprint_in_palm ...   the product coloured by pressure
 ///
-/// the last three from the palm side, the back, the thumb side and the little finger's side
-/// (suffix palm, back, thumb, little).
+/// pressure and grasp from the palm side, the back, the thumb side and the little finger's side
+/// (suffix palm, back, thumb, little); footprint from four sides about the grip axis (in_palm,
+/// under_fingers, under_knuckles, under_fingertips).
 std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
                                          const ColourScale& scale,
                                          const PictureOptions& options = {});

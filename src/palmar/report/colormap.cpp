@@ -92,11 +92,11 @@ ColourTable make_table(const Path& path) {
   return table;
 }
 
-constexpr Path kEmberPath{.lightness_low = 0.24,
+constexpr Path kEmberPath{.lightness_low = 0.30,
                           .lightness_high = 0.95,
                           .hue_low = 292.0,
                           .hue_high = 465.0,
-                          .chroma_low = 0.13,
+                          .chroma_low = 0.15,
                           .chroma_middle = 0.215,
                           .chroma_high = 0.12};
 constexpr Path kFernPath{.lightness_low = 0.28,

@@ -22,7 +22,7 @@ a{color:#7a1743}
 table{border-collapse:collapse;width:100%;font-size:.92rem}
 caption{text-align:left;font-weight:600;padding:.3rem 0}
 th,td{padding:.4rem .6rem;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
-thead th{background:var(--wash);border-bottom:2px solid var(--line);font-weight:600;vertical-align:bottom}
+thead th.n{white-space:normal}thead th{background:var(--wash);border-bottom:2px solid var(--line);font-weight:600;vertical-align:bottom}
 tbody th{font-weight:500}
 .n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 tr.total th,tr.total td{font-weight:700;border-top:2px solid var(--line)}

@@ -212,9 +212,10 @@ std::string pressure_verdict(const ContactResult& contact) {
   const auto nearest = nearest_to_pain(contact);
   if (!nearest) return "<p>Nothing is touched, so there is no pressure to judge.</p>";
   const std::string pain =
-      "<p><strong>Short, firm grip.</strong> The " + html_escaped(plain_words(nearest->region)) +
-      " comes nearest to pain: peak " + short_number(nearest->peak_pressure) + " MPa, " +
-      short_number(100.0 * nearest->share, 2) + " % of the " + short_number(nearest->limit, 2) +
+      "<p><strong>Short, firm grip.</strong> Nearest to pain: " +
+      html_escaped(plain_words(nearest->region)) + ". Its peak of " +
+      short_number(nearest->peak_pressure) + " MPa is " + short_number(100.0 * nearest->share, 2) +
+      " % of the " + short_number(nearest->limit, 2) +
       " MPa at which pain begins there (peak pressure on a film; ISO/TS 15066:2016).</p>";
   const int without = regions_without_blood_flow(contact);
   const std::string flow =

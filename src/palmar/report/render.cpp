@@ -23,7 +23,7 @@ namespace {
 using Vec3f = Eigen::Vector3f;
 
 constexpr int kMaxLayers = 12;           // surfaces seen through one another
-constexpr int kOcclusionRays = 48;       // per vertex
+constexpr int kOcclusionRays = 32;       // per vertex
 constexpr double kOcclusionDepth = 0.8;  // light lost by a point that is closed in on all sides
 
 constexpr float kLeastShare = 0.005F;  // of a field's upper end; less is not shown
@@ -40,10 +40,19 @@ float linear_from_byte(std::uint8_t byte) {
   return table[byte];
 }
 
+// Rounded to the nearest byte by the middle between neighbouring bytes: as exact as the formula,
+// and a search in a table is quicker than a power.
 std::uint8_t byte_from_linear(float linear) {
-  const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * s));
+  static const std::array<float, 255> border = [] {
+    std::array<float, 255> b{};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      const double s = (static_cast<double>(i) + 0.5) / 255.0;
+      b[i] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    }
+    return b;
+  }();
+  return static_cast<std::uint8_t>(std::upper_bound(border.begin(), border.end(), linear) -
+                                   border.begin());
 }
 
 Vec3f linear_from(Rgb c) {
@@ -142,6 +151,9 @@ PreparedScene prepare(const Scene& scene, double crease_angle) {
         shaded.corner[k].normal = normals[t][k].cast<float>();
         shaded.corner[k].colour =
             linear_from(object.vertex_colours.empty() ? object.colour : object.vertex_colours[v]);
+        if (!object.field.empty()) {
+          shaded.corner[k].value = static_cast<float>(object.field[v] / object.field_upper);
+        }
       }
       prepared.triangles.push_back(shaded);
     }

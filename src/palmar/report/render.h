@@ -49,7 +49,7 @@ Camera fit_camera(const Scene& scene, const Vec3& direction, const Vec3& up,
 struct RenderOptions {
   int width = 1000;  ///< pixels
   int height = 700;  ///< pixels
-  int samples = 4;   ///< rays per side of a pixel where something changes: 4 = 16 rays
+  int samples = 3;   ///< rays per side of a pixel where something changes: 3 = 9 rays
   double occlusion_range =
       18.0;                   ///< mm; what is nearer than that keeps ambient light away; 0: none
   double crease_angle = 0.8;  ///< rad; faces meeting at more than that show an edge
