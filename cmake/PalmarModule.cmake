@@ -8,6 +8,13 @@
 # added before it, so the order of add_subdirectory() in src/palmar/CMakeLists.txt is the layering;
 # tests/check_layers.cmake holds the #include lines to the same order.
 
+# One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
+# assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests.
+function(palmar_add_tests program)
+  add_test(NAME ${program} COMMAND ${program})
+  set_tests_properties(${program} PROPERTIES TIMEOUT 1500)
+endfunction()
+
 function(palmar_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LINKS" ${ARGN})
   foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
@@ -25,6 +32,6 @@ function(palmar_module name)
     target_link_libraries(${name}_tests PRIVATE palmar_${name} ${ARG_TEST_LINKS} GTest::gmock GTest::gtest_main)
     target_compile_definitions(${name}_tests PRIVATE PALMAR_DATA_DIR="${CMAKE_SOURCE_DIR}/data"
                                                      PALMAR_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
-    gtest_discover_tests(${name}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+    palmar_add_tests(${name}_tests)
   endif()
 endfunction()
