@@ -72,11 +72,11 @@ ProductCheck check_of_file(const FileArguments& arguments, Product& product) {
                                                      : check_mesh(product.mesh);
 }
 
-void add_inspection(CLI::App& product, Context& context, const std::string& name,
+void add_inspection(CLI::App& noun, Context& context, const std::string& name,
                     const std::string& description, bool fails_on_error) {
   const auto o = std::make_shared<FileArguments>();
   CLI::App* verb =
-      add_verb(product, name, description, "palmar product " + name + " handle.stl --unit mm");
+      add_verb(noun, name, description, "palmar product " + name + " handle.stl --unit mm");
   verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   verb->callback([&context, o, fails_on_error] {
@@ -94,9 +94,9 @@ void add_inspection(CLI::App& product, Context& context, const std::string& name
   });
 }
 
-void add_convert(CLI::App& product, Context& context) {
+void add_convert(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<FileArguments>();
-  CLI::App* verb = add_verb(product, "convert", "Another format, in mm, welded and oriented",
+  CLI::App* verb = add_verb(noun, "convert", "Another format, in mm, welded and oriented",
                             "palmar product convert handle.3mf --out handle.stl");
   verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
