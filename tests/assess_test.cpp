@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Unholdable{"sheet",
                                  "prism --width-mm 200 --depth-mm 1 --length-mm 300 "
                                  "--fillet-mm 0"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 class ScannedProduct : public ::testing::TestWithParam<const char*> {};
 
@@ -199,7 +199,6 @@ TEST_P(ScannedProduct, IsHeldByThreeFingersOrSaysWhatStoppedIt) {
     }
     EXPECT_TRUE(std::isfinite(region.at("force_n").get<double>())) << name;
   }
-  if (fingers.size() < 3) EXPECT_GT(one.at("grasp").at("message").get<std::string>().size(), 10U);
   EXPECT_GE(fingers.size(), 3U) << one.at("grasp").at("message");
 }
 
@@ -208,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(Assess, ScannedProduct,
                                            "mug", "mustard_bottle", "portable_drive",
                                            "portable_speaker", "power_drill", "rubber_mallet",
                                            "screwdriver_phillips"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
 }  // namespace palmar::testing

@@ -82,7 +82,7 @@ TEST(ProductCommand, CheckEndsWithFiveForAMeshWithAHole) {
              "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
   const ProgramRun run = run_palmar("product check open.obj --unit mm", folder);
   EXPECT_EQ(run.exit_code, 5);
-  EXPECT_THAT(run.out + run.err, HasSubstr("boundary"));
+  EXPECT_THAT(run.out + run.err, HasSubstr("1 hole with 3 edges"));
 }
 
 TEST(ContactCommand, PressOfASphereIsHertz) {
