@@ -13,7 +13,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kRange = 30.0;         // mm; farther skin needn't know how far
+constexpr double kRange = kSiteBand;    // mm; farther skin needn't know how far
 constexpr double kTolerance = 0.02;     // mm; how near to a limit counts as there
 constexpr double kGlide = 1.5;          // mm; longest step along a surface between two looks
 constexpr double kNeighbourGive = 1.5;  // mm; skin of two fingers pressed together
@@ -22,9 +22,10 @@ constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
 constexpr double kWideOpen = -20.0 * std::numbers::pi / 180.0;  // MCP when the hand reaches out
-constexpr double kPreshape = 0.8;    // of the bend that fits the handle, before closing
-constexpr double kEndFace = 0.7;     // of the normal along the grip axis: not held, but hooked
-constexpr int kLongestAdvance = 60;  // steps
+constexpr double kPreshape = 0.8;  // of the bend that fits the handle, before closing
+constexpr double kEndFace = 0.7;   // of the normal along the grip axis: not held, but hooked
+constexpr double kStraightIp = 45.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
+constexpr int kLongestAdvance = 60;                              // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
@@ -467,7 +468,9 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
   const Vec3 base = pose.segment[index_of(Segment::kThumbProximal)] *
                     hand_->skeleton.joint(JointId::kThumbMp).centre;
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
-  return area - 2.0 * other + reach + 150.0 * across - 10.0 * std::max(0.0, gap);
+  // A thumb hooked over an edge bends at its tip alone.
+  const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp);
+  return area - 2.0 * other + reach - 250.0 * hooked + 150.0 * across - 10.0 * std::max(0.0, gap);
 }
 
 std::vector<HandCloser::Obstacle> HandCloser::thumb_obstacles(const Posture& posture) const {

@@ -17,7 +17,7 @@ namespace palmar {
 namespace {
 
 constexpr double kCoarse = 5.0;  // mm between the skin points that the search looks at
-constexpr double kRival = 0.75;  // share of the best site's score from which one is tried too
+constexpr double kRival = 0.85;  // share of the best site's score from which one is tried too
 // Contacts hold from opposite sides if no gap between them exceeds half a turn by more than two
 // friction angles; 30 degrees is a coefficient of 0.58, ordinary for dry skin.
 constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
@@ -28,7 +28,8 @@ constexpr double kShownDepth = 0.05;      // mm into the palm of what is only la
 constexpr int kTrimRounds = 4;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
-constexpr double kAtLimit = 0.1;         // mm; that near to the limit depth counts as there
+constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
+constexpr double kAtLimit = 0.1;  // mm; that near to the limit depth counts as there
 
 std::string format(const char* text, double value) {
   std::array<char, 160> buffer{};
@@ -205,7 +206,7 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     const HandCloser hint(hand, kCoarse);
     const GripSite& site = sites.front();
     const DepthLimits least{kShownDepth, kShownDepth};
-    const auto quick = distance_near(product.distance, site);
+    const auto quick = distance_near(product.mesh, product.distance, site);
     grasp.posture = hint.open_posture();
     grasp.product_from_hand = place(hint, *quick, least, site, {}).product_from_hand;
     return grasp;
@@ -222,10 +223,11 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     if (near.size() == 2 || candidate.score < kRival * sites.front().score) break;
     candidate.wall =
         wall_at(product.mesh, *product.distance, candidate, hand.dimensions.hand_width);
-    near.push_back(distance_near(product.distance, candidate));
+    near.push_back(distance_near(product.mesh, product.distance, candidate));
     distances.push_back(near.back().get());
   }
-  const auto hold = find_hold(coarse, distances, sites, asked, turn, progress);
+  const auto hold =
+      find_hold(coarse, distances, sites, asked, turn, options.placement.at.has_value(), progress);
   const GripSite& site = sites[hold->site];
   const DepthLimits limits = limits_for(asked, site);
 
@@ -234,6 +236,7 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   const DistanceField& quick = *distances[hold->site];
   const Placement placement = place(fine, quick, limits, site, hold->placement.lay);
   HeldProduct held{&quick, placement.product_from_hand, site.girth / std::numbers::pi};
+  const auto exact = exact_where_touched(quick, *product.distance, kTouched);
   HandCloser::ThumbWay way;
   HoldMeasure measure;
   for (int round = 0; round < kSettleRounds; ++round) {
@@ -244,13 +247,16 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     }
     grasp.posture = fine.wrap_thumb(held, limits, grasp.posture, way.cmc_flexion, way.cmc_abduction,
                                     grasp.stops);
-    measure = trimmed(fine, {product.distance.get(), held.product_from_hand, held.diameter}, limits,
+    measure = trimmed(fine, {exact.get(), held.product_from_hand, held.diameter}, limits,
                       placement.axis_in_hand, grasp.posture);
     const double excess = measure.penetration[0] - limits.palm;
-    if (excess <= 0.02) break;
+    if (excess <= kTrimTolerance) break;
     // Closing has folded the palm's skin further in: the product gives way.
     held.product_from_hand.translation +=
-        held.product_from_hand.rotation * ((excess + 0.02) * placement.push_in_hand);
+        held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
+    if (round + 1 < kSettleRounds) continue;
+    measure = trimmed(fine, {exact.get(), held.product_from_hand, held.diameter}, limits,
+                      placement.axis_in_hand, grasp.posture);
   }
   grasp.product_from_hand = held.product_from_hand;
   grasp.grip_axis = site.axis;

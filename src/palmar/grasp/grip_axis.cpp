@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -220,6 +221,37 @@ std::vector<Vec3> directions(const PrincipalFrame& frame) {
   return list;
 }
 
+// Third moment of the surface about a point along a direction: a sign that turns with the product.
+double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
+  double moment = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
+    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const double s = direction.dot((a + b + c) / 3.0 - point);
+    moment += (b - a).cross(c - a).norm() * s * s * s;
+  }
+  return moment;
+}
+
+// Mean distance of the surface from the axis beyond the site less that on the other side, mm.
+double flare_of(const TriangleMesh& mesh, const GripSite& site) {
+  std::array<double, 2> moment = {0.0, 0.0}, area = {0.0, 0.0};
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
+    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3 r = (a + b + c) / 3.0 - site.point;
+    const double along = site.axis.dot(r);
+    const std::size_t side = along > 0.0 ? 0 : 1;
+    const double weight = (b - a).cross(c - a).norm();
+    moment[side] += weight * (r - along * site.axis).norm();
+    area[side] += weight;
+  }
+  if (area[0] <= 0.0 || area[1] <= 0.0) return 0.0;
+  return moment[0] / area[0] - moment[1] / area[1];
+}
+
 // Turns the axis to the working end and finds where that end sticks out.
 void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm_breadth,
                       bool is_fixed, GripSite& site) {
@@ -232,8 +264,12 @@ void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm
   const double longer = high + low;  // > 0: more length beyond the positive end
   const double heavier = site.axis.dot(gravity - site.point);
   const bool is_even = std::abs(longer) < 0.1 * (high - low);
-  // Of even length: a vessel stands on its heavier end and is held with the mouth at the thumb.
-  const double forward = is_even && std::abs(heavier) > 1.0 ? -heavier : longer;
+  // Of even length: a vessel stands on its heavier end and is held with the mouth, as a rule the
+  // wider end, at the thumb.
+  double forward = longer;
+  if (is_even) {
+    forward = std::abs(heavier) > 0.03 * (high - low) ? -heavier : flare_of(mesh, site);
+  }
   if (!is_fixed && forward < 0.0) site.axis = -site.axis;
 
   Vec3 moment = Vec3::Zero();
@@ -356,6 +392,7 @@ std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearch
              std::abs(other.axis.dot(site.axis)) > 0.95;
     };
     if (std::any_of(sites.begin(), sites.end(), is_same)) continue;
+    if (third_moment(mesh, site.point, site.wide) < 0.0) site.wide = -site.wide;
     find_working_end(mesh, frame.centre, options.palm_breadth, options.axis.has_value(), site);
     sites.push_back(site);
   }

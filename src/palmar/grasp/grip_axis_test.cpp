@@ -47,7 +47,6 @@ TriangleMesh bar(const std::vector<Ring>& rings) {
     mesh.triangles.push_back({first, next, i});
     mesh.triangles.push_back({first + 1, (count - 1) * kSides + i, (count - 1) * kSides + next});
   }
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
 

@@ -14,9 +14,10 @@ constexpr double kThinShare = 0.8;       // of half the thickness may be filled 
 constexpr double kSegmentCredit = 60.0;  // mm^2 of contact that one more touching phalanx is worth
 constexpr double kWrapCredit = 800.0;    // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
-constexpr double kNoseCredit = 250.0;    // mm^2 for a working end that points away from the wrist
+constexpr double kNoseCredit = 1200.0;   // mm^2 for a working end that points away from the wrist
 constexpr double kStrainCost = 5.0;      // mm^2 per degree
-constexpr double kStart = 140.0;  // mm from the palm: nothing that hands hold sticks out more
+constexpr double kStart =
+    140.0;  // mm between palm and section before the push: room for what sticks out
 constexpr double kLeastProximal = 10.0;  // mm from the knuckles: nearer, the thumb can't reach over
 constexpr int kTurns = 8;
 
@@ -114,7 +115,7 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   placement.axis_in_hand = axis;
   placement.push_in_hand = -outward;
   placement.product_from_hand.rotation = Quat(in_product * in_hand.transpose()).normalized();
-  const double reach = std::min((product.bounding_box().sizes()).norm() + 30.0, kStart);
+  const double reach = kStart + 0.5 * site.width;
   const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
   const Vec3 grip = site.point + lay.along * site.axis;
   placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
@@ -129,7 +130,8 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
 std::optional<Hold> find_hold(const HandCloser& closer,
                               const std::vector<const DistanceField*>& distances,
                               const std::vector<GripSite>& sites, const DepthLimits& limits,
-                              std::optional<double> turn, const Progress& progress) {
+                              std::optional<double> turn, bool is_place_fixed,
+                              const Progress& progress) {
   struct Rated {
     Hold hold;
     double rank = 0.0;
@@ -137,8 +139,9 @@ std::optional<Hold> find_hold(const HandCloser& closer,
   std::vector<Rated> tried;
   const double best_site = sites.empty() ? 1.0 : sites.front().score;
   const auto rank_of = [&](const Hold& hold) {
-    // A part that is no handle must hold much better to be preferred.
-    return hold.score * (0.4 + 0.6 * sites[hold.site].score / best_site);
+    // A part that is less of a handle must hold much better to be preferred.
+    const double share = sites[hold.site].score / best_site;
+    return hold.score * (hold.score > 0.0 ? std::pow(share, 4) : 1.0);
   };
   for (std::size_t s = 0; s < distances.size(); ++s) {
     const DepthLimits here = limits_for(limits, sites[s]);
@@ -176,7 +179,7 @@ std::optional<Hold> find_hold(const HandCloser& closer,
     improve(&Lay::proximal, kLeastProximal, 45.0, {-6.0, 8.0, 16.0});
     improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
     improve(&Lay::oblique, 8 * kDeg, 26 * kDeg, {-4 * kDeg, 6 * kDeg, 12 * kDeg});
-    improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
+    if (!is_place_fixed) improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
     if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
     improve(&Lay::proximal, kLeastProximal, 45.0, {-4.0, 4.0});
     if (!best || current.rank > best->rank) best = current;

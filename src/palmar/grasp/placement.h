@@ -46,12 +46,14 @@ struct Hold {
 
 /// Searches turns, then offsets and slants, for the hold that most palmar skin takes part in: what
 /// distinguishes a power grip (Napier 1956). Coarse to fine, always in the same order. If `turn` is
-/// set only that turn is used. distances[k] is the product's distance as seen near sites[k]; sites
-/// beyond distances.size() are not tried. Empty only for no sites.
+/// set only that turn is used; with is_place_fixed the hand isn't shifted along the axis.
+/// distances[k] is the product's distance as seen near sites[k]; sites beyond distances.size() are
+/// not tried. Empty only for no sites.
 std::optional<Hold> find_hold(const HandCloser& closer,
                               const std::vector<const DistanceField*>& distances,
                               const std::vector<GripSite>& sites, const DepthLimits& limits,
-                              std::optional<double> turn, const Progress& progress);
+                              std::optional<double> turn, bool is_place_fixed,
+                              const Progress& progress);
 
 /// Limits that a product (its wall, if hollow) can take: skin must not come out on the other side,
 /// nor meet skin from there.

@@ -48,21 +48,51 @@ class TurnedField : public DistanceField {
   Box3 window_;
 };
 
+class RefinedField : public DistanceField {
+ public:
+  RefinedField(const DistanceField& quick, const DistanceField& exact, double margin)
+      : quick_(&quick), exact_(&exact), margin_(margin) {}
+
+  void sample(std::span<const Vec3> points, double range,
+              std::span<DistanceSample> samples) const override {
+    quick_->sample(points, range, samples);
+    std::vector<Vec3> touched;
+    std::vector<std::size_t> place;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (samples[i].distance > margin_) continue;
+      touched.push_back(points[i]);
+      place.push_back(i);
+    }
+    std::vector<DistanceSample> found(touched.size());
+    exact_->sample(touched, range, found);
+    for (std::size_t i = 0; i < place.size(); ++i) samples[place[i]] = found[i];
+  }
+  Box3 bounding_box() const override { return exact_->bounding_box(); }
+
+ private:
+  const DistanceField* quick_;
+  const DistanceField* exact_;
+  double margin_;
+};
+
 }  // namespace
 
-std::unique_ptr<DistanceField> distance_near(std::shared_ptr<const DistanceField> product,
+std::unique_ptr<DistanceField> exact_where_touched(const DistanceField& quick,
+                                                   const DistanceField& exact, double margin) {
+  return std::make_unique<RefinedField>(quick, exact, margin);
+}
+
+std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
+                                             std::shared_ptr<const DistanceField> product,
                                              const GripSite& site) {
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   Eigen::Matrix3d axes;
   axes << site.axis, wide, site.axis.cross(wide);
   const Rigid3 product_from_site{Quat(axes), site.point};
   const Rigid3 site_from_product = product_from_site.inverse();
-  // The product's box, seen from the site: its corners are enough for the window.
   const Box3 box = product->bounding_box();
-  Box3 window;
-  for (int corner = 0; corner < 8; ++corner) {
-    window.extend(site_from_product * box.corner(static_cast<Box3::CornerType>(corner)));
-  }
+  Box3 window;  // not from `box`: that would turn with the file's axes
+  for (const Vec3& v : mesh.vertices) window.extend(site_from_product * v);
   const Vec3 reach(kAlong, kSideways, kSideways);
   window = window.intersection(Box3(-reach, reach));
   auto near = std::make_shared<TurnedField>(std::move(product), product_from_site, window);

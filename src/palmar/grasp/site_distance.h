@@ -15,8 +15,14 @@ namespace palmar {
 /// the site's own axes (not the file's), so that a turned product gives the same numbers. Points
 /// farther than a hand from the site count as outside.
 inline constexpr double kSiteBand = 10.0;  // mm
-std::unique_ptr<DistanceField> distance_near(std::shared_ptr<const DistanceField> product,
+std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
+                                             std::shared_ptr<const DistanceField> product,
                                              const GripSite& site);
+
+/// The exact distance wherever `quick` says that a point is less than `margin` [mm] outside or
+/// inside the product; elsewhere the quick one. Both must live longer.
+std::unique_ptr<DistanceField> exact_where_touched(const DistanceField& quick,
+                                                   const DistanceField& exact, double margin);
 
 /// Thickness of the solid under the surface that a hand takes at a site, mm: twice the median of
 /// the largest depth met when going straight in, at most 2 * kSiteBand. For a mug that is its wall.

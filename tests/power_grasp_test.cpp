@@ -1,0 +1,258 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// The power grasp of the template hand. Stands here because reading the hand's asset does not
+// belong to what the grasp module may include.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh_distance.h"
+#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/posable_skin.h"
+#include "palmar/hand/skinning.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/io/hand_asset.h"
+#include "palmar/product/primitives.h"
+
+namespace palmar {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+Product cylinder(double diameter, double length = 160.0) {
+  CylinderProductOptions options;
+  options.diameter = diameter;
+  options.length = length;
+  options.fineness.chordal_error = 0.05;
+  return make_cylinder_product(options);
+}
+
+Product box(const Vec3& size, int divisions = 8) {
+  Product product;
+  product.name = "box";
+  product.mesh = make_box(size, divisions);
+  product.distance = std::make_shared<MeshDistance>(product.mesh);
+  return product;
+}
+
+Product moved(const Product& product, const Rigid3& motion) {
+  Product result = product;
+  for (Vec3& v : result.mesh.vertices) v = motion * v;
+  result.distance = std::make_shared<MeshDistance>(result.mesh);
+  return result;
+}
+
+double penetration(const Grasp& grasp, Segment segment) {
+  return grasp.stops[static_cast<std::size_t>(segment)].penetration;
+}
+
+// Deepest palmar skin of one segment by the product's own distance, mm.
+double deepest(const Hand& hand, const Product& product, const Grasp& grasp, Segment segment) {
+  const std::vector<Vec3> skin = pose_skin(hand, grasp.posture);
+  double depth = -1e9;
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    if (hand.segment[v] != segment || hand.region[v] == Region::kDorsum) continue;
+    depth = std::max(depth, -product.distance->at(grasp.product_from_hand * skin[v]).distance);
+  }
+  return depth;
+}
+
+class PowerGrasp : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(PALMAR_HAND_ASSET)) {
+      GTEST_SKIP() << "the generic hand is not installed (npm ci fetches it)";
+    }
+  }
+  /// Coarser than the default, so that the sanitized build stays quick.
+  static const Hand& hand() {
+    static const Hand made =
+        build_template(read_hand_asset(PALMAR_HAND_ASSET), {.edge_length = 3.5});
+    return made;
+  }
+};
+
+TEST_F(PowerGrasp, CylindersAreHeldByAllFingersWithinTheLimits) {
+  for (const double diameter : {35.0, 48.0, 60.0}) {
+    SCOPED_TRACE(diameter);
+    const Product product = cylinder(diameter);
+    const Grasp grasp = close_power_grasp(hand(), product);
+    ASSERT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+    EXPECT_NEAR(grasp.grip_girth, std::numbers::pi * diameter, 0.5);
+    EXPECT_GT(std::abs(grasp.grip_axis.z()), 0.999);
+    for (int s = 0; s < kSegmentCount; ++s) {
+      const auto segment = static_cast<Segment>(s);
+      const double limit = segment == Segment::kPalm ? 7.0 : 4.0;
+      const double depth = deepest(hand(), product, grasp, segment);
+      EXPECT_LE(depth, limit + 0.05) << name_of(segment);
+      if (depth < -5.0) continue;  // far skin isn't measured
+      EXPECT_NEAR(depth, penetration(grasp, segment), 0.3) << name_of(segment);
+    }
+    EXPECT_GT(penetration(grasp, Segment::kPalm), 3.0);
+    for (const Segment tip : {Segment::kThumbDistal, Segment::kIndexDistal, Segment::kMiddleDistal,
+                              Segment::kRingDistal, Segment::kLittleDistal}) {
+      EXPECT_GT(penetration(grasp, tip), 1.0) << name_of(tip);
+    }
+  }
+}
+
+TEST_F(PowerGrasp, HundredMillimetreCylinderIsStillHeld) {
+  const Grasp grasp = close_power_grasp(hand(), cylinder(100.0));
+  EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+}
+
+TEST_F(PowerGrasp, GripAxisLiesObliquelyAcrossThePalm) {
+  const Grasp grasp = close_power_grasp(hand(), cylinder(35.0));
+  const Vec3 axis = grasp.product_from_hand.rotation.conjugate() * grasp.grip_axis;
+  const Vec3 heads = (hand().skeleton.joint(JointId::kIndexMcp).centre -
+                      hand().skeleton.joint(JointId::kLittleMcp).centre)
+                         .normalized();
+  // 10-25 degrees to the line of the metacarpal heads; the slope of the palm adds some.
+  const double angle = std::acos(std::min(1.0, std::abs(axis.dot(heads)))) / kDeg;
+  EXPECT_GT(angle, 5.0);
+  EXPECT_LT(angle, 32.0);
+  EXPECT_GT(axis.x(), 0.5);  // towards the thumb side of a right hand
+}
+
+TEST_F(PowerGrasp, ThumbAndFingertipsPressFromDifferentSides) {
+  const Product product = cylinder(60.0);
+  const Grasp grasp = close_power_grasp(hand(), product);
+  const PosedSkeleton pose = pose_skeleton(hand().skeleton, grasp.posture);
+  const auto outward = [&](Segment segment, Finger finger) {
+    const Vec3 tip = pose.segment[static_cast<std::size_t>(segment)] *
+                     hand().skeleton.fingertips[static_cast<std::size_t>(finger)];
+    Vec3 r = grasp.product_from_hand * tip - grasp.grip_point;
+    r -= grasp.grip_axis * grasp.grip_axis.dot(r);
+    return Vec3(r.normalized());
+  };
+  const Vec3 thumb = outward(Segment::kThumbDistal, Finger::kThumb);
+  const Vec3 middle = outward(Segment::kMiddleDistal, Finger::kMiddle);
+  EXPECT_GT(std::acos(thumb.dot(middle)) / kDeg, 40.0);
+}
+
+TEST_F(PowerGrasp, PostureStaysInsideTheRangeOfMotion) {
+  for (const double diameter : {20.0, 48.0}) {
+    const Grasp grasp = close_power_grasp(hand(), cylinder(diameter));
+    EXPECT_TRUE(clamp_to_range(hand().skeleton, grasp.posture).clamped.empty());
+  }
+}
+
+TEST_F(PowerGrasp, SmallerLimitsAreKept) {
+  PowerGraspOptions options;
+  options.palm_limit_depth = 3.0;
+  options.finger_limit_depth = 2.0;
+  const Product product = cylinder(40.0);
+  const Grasp grasp = close_power_grasp(hand(), product, options);
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto segment = static_cast<Segment>(s);
+    EXPECT_LE(deepest(hand(), product, grasp, segment), (s == 0 ? 3.0 : 2.0) + 0.05);
+  }
+}
+
+TEST_F(PowerGrasp, AskedPlaceAndAxisAreKept) {
+  PowerGraspOptions options;
+  options.placement.at = Vec3(0.0, 0.0, 30.0);
+  options.placement.axis = Vec3(0.0, 0.0, -2.0);
+  const Grasp grasp = close_power_grasp(hand(), cylinder(40.0, 220.0), options);
+  EXPECT_EQ(grasp.grip_axis, Vec3(0.0, 0.0, -1.0));
+  EXPECT_LT((grasp.grip_point - *options.placement.at).norm(), 1e-9);
+}
+
+TEST_F(PowerGrasp, AskedTurnFacesThePalm) {
+  const Product product = box({30.0, 40.0, 150.0});
+  PowerGraspOptions options;
+  options.placement.axis = Vec3::UnitZ();
+  for (const double turn : {0.0, std::numbers::pi / 2}) {
+    options.placement.turn = turn;
+    const Grasp grasp = close_power_grasp(hand(), product, options);
+    // At zero the product's x axis points to the palm, that is against the palmar direction.
+    const Vec3 facing = Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Vec3::UnitX();
+    const Vec3 in_hand = grasp.product_from_hand.rotation.conjugate() * facing;
+    EXPECT_LT(in_hand.z(), -0.9);
+  }
+}
+
+TEST_F(PowerGrasp, HugeSphereIsTooLarge) {
+  SphereProductOptions options;
+  options.diameter = 300.0;
+  options.fineness.chordal_error = 1.0;
+  options.fineness.longest_edge = 15.0;
+  const Grasp grasp = close_power_grasp(hand(), make_sphere_product(options));
+  EXPECT_EQ(grasp.status, GraspStatus::kTooLarge) << grasp.message;
+  EXPECT_THAT(grasp.message, HasSubstr("girth"));
+}
+
+TEST_F(PowerGrasp, WireIsTooSmall) {
+  const Grasp grasp = close_power_grasp(hand(), cylinder(2.0, 300.0));
+  EXPECT_EQ(grasp.status, GraspStatus::kTooSmall) << grasp.message;
+  EXPECT_THAT(grasp.message, HasSubstr("mm thick"));
+}
+
+TEST_F(PowerGrasp, SheetIsNotGraspable) {
+  const Grasp grasp = close_power_grasp(hand(), box({300.0, 200.0, 1.0}, 1));
+  EXPECT_EQ(grasp.status, GraspStatus::kNotGraspable) << grasp.message;
+  EXPECT_THAT(grasp.message, HasSubstr("sheet"));
+}
+
+TEST_F(PowerGrasp, SameInputGivesTheSameGrasp) {
+  const Product product = cylinder(42.0);
+  const Grasp a = close_power_grasp(hand(), product);
+  const Grasp b = close_power_grasp(hand(), product);
+  EXPECT_EQ(a.posture.angle, b.posture.angle);
+  EXPECT_EQ(a.product_from_hand.translation, b.product_from_hand.translation);
+  EXPECT_EQ(a.product_from_hand.rotation.coeffs(), b.product_from_hand.rotation.coeffs());
+}
+
+TEST_F(PowerGrasp, MovedProductIsHeldTheSameWay) {
+  // A tapered bar, so that the way it is held is not free by symmetry.
+  Product product = box({26.0, 36.0, 150.0});
+  for (Vec3& v : product.mesh.vertices) v.head<2>() *= 1.0 + 0.001 * (v.z() + 0.4 * v.x());
+  product = moved(product, {});
+  const Rigid3 motion{Quat(Eigen::AngleAxisd(0.9, Vec3(0.2, 0.7, -0.4).normalized())),
+                      Vec3(40.0, -90.0, 15.0)};
+  const Grasp a = close_power_grasp(hand(), product);
+  const Grasp b = close_power_grasp(hand(), moved(product, motion));
+  for (std::size_t d = 0; d < a.posture.angle.size(); ++d) {
+    EXPECT_NEAR(a.posture.angle[d], b.posture.angle[d], 0.5 * kDeg) << name_of(static_cast<Dof>(d));
+  }
+  EXPECT_LT((motion * a.grip_point - b.grip_point).norm(), 0.05);
+}
+
+TEST_F(PowerGrasp, BadLimitIsRefusedByName) {
+  PowerGraspOptions options;
+  options.finger_limit_depth = -1.0;
+  try {
+    close_power_grasp(hand(), cylinder(40.0), options);
+    FAIL() << "a negative depth was taken";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("finger limit depth is -1 mm"));
+  }
+}
+
+TEST_F(PowerGrasp, QuickPosingMovesSkinAsSkinningDoes) {
+  Posture posture = reference_posture(hand().skeleton);
+  for (int d = 3; d < kDofCount; ++d) {
+    const JointDof& dof = hand().skeleton.dof(static_cast<Dof>(d));
+    posture[dof.dof] = 0.3 * dof.lower + 0.7 * dof.upper;
+  }
+  std::vector<int> some;
+  for (int v = 0; v < hand().skin.vertex_count(); v += 3) some.push_back(v);
+  std::vector<Vec3> posed;
+  PosableSkin(hand(), some).pose(posture, posed);
+  const std::vector<Vec3> expected = pose_skin_vertices(hand(), posture, some);
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    EXPECT_LT((posed[k] - expected[k]).norm(), 1e-9) << "vertex " << some[k];
+  }
+}
+
+}  // namespace
+}  // namespace palmar
