@@ -64,8 +64,9 @@ Camera camera_for(const Scene& scene, const Viewpoint& view, double aspect, doub
   // The colour bar takes a strip at the right: fit to what is left, then shift by half of it.
   const double free = 1.0 - bar_share;
   Camera camera =
-      fit_camera(scene, view.direction, view.up, {.aspect = aspect * free, .margin = 0.09});
+      fit_camera(scene, view.direction, view.up, {.aspect = aspect * free, .margin = 0.12});
   const Vec3 right = camera.direction.cross(camera.up).normalized();
+  camera.position += 0.035 * camera.view_height * right.cross(camera.direction);  // room for titles
   camera.position += 0.5 * bar_share * camera.view_height * aspect * right;
   return camera;
 }

@@ -51,7 +51,7 @@ details{margin:.8rem 0}summary{cursor:pointer;font-weight:600}
 pre{white-space:pre-wrap;font-size:.8rem;background:var(--wash);padding:.8rem;overflow-x:auto}
 footer{color:var(--soft);font-size:.88rem;padding-bottom:40px}
 @media(max-width:720px){.pictures{grid-template-columns:1fr}.view-body{grid-template-columns:1fr}}
-@media print{body{font-size:11pt}main,header,footer{max-width:none;padding:0}.view{display:none}h2{break-before:page}h2.first{break-before:auto}figure,table{break-inside:avoid}details>*{display:block}}
+@media print{body{font-size:11pt}main,header,footer{max-width:none;padding:0}.view{display:none}h2{break-before:page}h2.first{break-before:auto}figure,table{break-inside:avoid}}
 )";
 
 }  // namespace palmar
