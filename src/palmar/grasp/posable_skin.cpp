@@ -55,6 +55,17 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
   for (const int v : hand.thumb_ball.vertex) {
     has_thumb_ball_ = has_thumb_ball_ || slot[static_cast<std::size_t>(v)] >= 0;
   }
+  for (const JointWeights& weights : hand.weights) {
+    if (weights.bulge.empty()) continue;
+    JointBulge bulge{weights.joint, {}, {}};
+    for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
+      const int s = slot[static_cast<std::size_t>(weights.vertex[k])];
+      if (s < 0 || weights.bulge[k] == Vec3::Zero()) continue;
+      bulge.slot.push_back(s);
+      bulge.bulge.push_back(weights.bulge[k]);
+    }
+    if (!bulge.slot.empty()) bulges_.push_back(std::move(bulge));
+  }
   for (const JointId id : kDistalToProximal) {
     JointShare share{id, {}, {}, {}};
     for (const JointWeights& weights : hand.weights) {
@@ -82,6 +93,14 @@ void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
   }
   posed = reference_;
   const Skeleton& skeleton = hand_->skeleton;
+  for (const JointBulge& bulge : bulges_) {
+    const JointDof& flexion = skeleton.joint(bulge.joint).dofs.back();
+    const double turn = posture[flexion.dof] - flexion.reference;
+    if (!(turn > 0.0)) continue;
+    for (std::size_t k = 0; k < bulge.slot.size(); ++k) {
+      posed[static_cast<std::size_t>(bulge.slot[k])] += turn * bulge.bulge[k];
+    }
+  }
   for (const JointShare& share : shares_) {
     if (is_at_rest(skeleton, share.joint, posture)) continue;
     const Rigid3 whole = displacement(skeleton, share.joint, posture, 1.0);

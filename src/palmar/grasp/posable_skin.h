@@ -28,10 +28,16 @@ class PosableSkin {
     std::vector<int> part;       ///< slots that follow it in part ...
     std::vector<double> weight;  ///< ... by w1 w2
   };
+  struct JointBulge {
+    JointId joint{};
+    std::vector<int> slot;
+    std::vector<Vec3> bulge;  ///< mm per rad of flexion
+  };
   const Hand* hand_ = nullptr;
   std::vector<int> vertices_;
   std::vector<Vec3> reference_;
   std::vector<JointShare> shares_;  ///< distal to proximal
+  std::vector<JointBulge> bulges_;
   bool has_thumb_ball_ = false;
 };
 
