@@ -14,7 +14,7 @@ constexpr double kThinShare = 0.8;       // of half the thickness may be filled 
 constexpr double kSegmentCredit = 60.0;  // mm^2 of contact that one more touching phalanx is worth
 constexpr double kWrapCredit = 800.0;    // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
-constexpr double kNoseCredit = 1200.0;   // mm^2 for a working end that points away from the wrist
+constexpr double kNoseCredit = 3000.0;   // mm^2 for a working end that points away from the wrist
 constexpr double kStrainCost = 5.0;      // mm^2 per degree
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
