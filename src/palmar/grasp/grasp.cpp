@@ -21,11 +21,11 @@ constexpr double kRival = 0.85;  // share of the best site's score from which on
 // Contacts hold from opposite sides if no gap between them exceeds half a turn by more than two
 // friction angles; 30 degrees is a coefficient of 0.58, ordinary for dry skin.
 constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
-constexpr int kSettleRounds = 4;          // product and fingers give way to each other in turn
+constexpr int kSettleRounds = 6;          // product and fingers give way to each other in turn
 constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans from thumb to fingertip
 constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
 constexpr double kShownDepth = 0.05;      // mm into the palm of what is only laid on it
-constexpr int kTrimRounds = 4;
+constexpr int kTrimRounds = 8;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
