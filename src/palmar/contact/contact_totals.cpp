@@ -9,15 +9,13 @@
 namespace palmar {
 
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                const std::vector<double>& shear_modulus,
+                const std::vector<double>& gap, const std::vector<double>& shear_modulus,
                 const std::array<double, kRegionCount>& d_max,
                 const std::array<double, kRegionCount>& modulus, double cell_area,
                 ContactResult& result) {
   const std::size_t n = result.force.size();
-  std::vector<double> gap(n);
   std::array<std::vector<int>, kRegionCount> loaded;
   for (std::size_t v = 0; v < n; ++v) {
-    gap[v] = skin.sample[v].distance + result.displacement[v];
     if (result.force[v] <= 0.0) continue;
     loaded[static_cast<std::size_t>(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }

@@ -5,34 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "palmar/contact/contact_totals.h"
+#include "palmar/contact/deformed_skin.h"
 #include "palmar/contact/lcp.h"
 #include "palmar/contact/lemke.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/response.h"
 #include "palmar/contact/skin_product.h"
+#include "palmar/contact/sub_active_region.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kRoundingGap = 1e-9;  // mm; skin this deep still counts as on the surface
-
-/// One region's share of the penetrating skin.
-struct SubActiveRegion {
-  Region region{};
-  std::vector<int> collision;   ///< penetrating vertices, ascending
-  RegionResponse own_response;  ///< dorsum only
-  const RegionResponse* response = nullptr;
-  std::vector<int> columns;    ///< of the collision vertices in the response
-  double d_max = 0.0;          ///< mm
-  double shear_modulus = 0.0;  ///< MPa
-  Eigen::VectorXd force;       ///< of the collision vertices, N
-  Eigen::VectorXd gap;         ///< of the collision vertices, mm
-};
 
 /// Splits the collision region by the 19 regions, and the dorsum by connected patches.
 std::vector<SubActiveRegion> split_by_region(const PreparedHand::Impl& prepared,
@@ -102,46 +88,6 @@ bool solve_part(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   return solution.status == LcpStatus::kSolved;
 }
 
-/// Adds one part's displacement to the skin around it (not to penetrating skin, which has its own).
-void add_displacement_around(const PreparedHand::Impl& prepared, const ContactOptions& options,
-                             const SubActiveRegion& part, const std::vector<char>& is_colliding,
-                             const std::vector<float>& fade, std::vector<double>& displacement) {
-  const RegionResponse& response = *part.response;
-  const auto rows = static_cast<Eigen::Index>(response.vertex.size());
-  Eigen::VectorXf u = Eigen::VectorXf::Zero(rows);
-  Eigen::VectorXf bulge = Eigen::VectorXf::Zero(rows);
-  for (std::size_t k = 0; k < part.columns.size(); ++k) {
-    const double p = part.force[static_cast<Eigen::Index>(k)];
-    if (p <= 0.0) continue;
-    u += static_cast<float>(p / part.shear_modulus) * response.bou.col(part.columns[k]);
-    if (options.swelling) bulge += static_cast<float>(p) * response.gau.col(part.columns[k]);
-  }
-  const float highest = options.swelling ? bulge.maxCoeff() : 0.0F;
-  if (highest > 0.0F) {
-    const double height = swelling_height_at(prepared.tissue(part.region), part.force.sum());
-    u -= bulge * (static_cast<float>(height) / highest);
-  }
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const int v = response.vertex[i];
-    if (!is_colliding[v]) displacement[v] += static_cast<double>(fade[v] * u[i]);
-  }
-}
-
-/// 1 near the collision region, 0 from the growth distance on, smooth over its last third.
-std::vector<float> fade_around(const PreparedHand::Impl& prepared, const SkinOnProduct& skin) {
-  double widest = 0.0;
-  for (const RegionTissue& tissue : prepared.hand->tissue.region) {
-    widest = std::max(widest, tissue.neighbourhood);
-  }
-  std::vector<float> fade(skin.sample.size(), 0.0F);
-  for (const GrownVertex& g : grow(prepared.skin, skin.collision, widest)) {
-    const double end = prepared.tissue(prepared.hand->region[g.vertex]).neighbourhood;
-    const double t = std::clamp(3.0 * (1.0 - g.distance / end), 0.0, 1.0);
-    fade[g.vertex] = static_cast<float>(t * t * (3.0 - 2.0 * t));
-  }
-  return fade;
-}
-
 }  // namespace
 
 void ContactOptions::check() const {
@@ -170,7 +116,6 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
   for (const Vec3& v : posed_skin) result.undeformed.push_back(product_from_hand * v);
   SkinOnProduct skin = find_skin_on_product(*prepared.hand, result.undeformed, product, only);
   result.message = skin.message;
-  result.displacement.assign(n, 0.0);
   result.force.assign(n, 0.0);
   result.pressure.assign(n, 0.0);
 
@@ -190,28 +135,17 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
       const double p = part.force[static_cast<Eigen::Index>(k)];
       result.force[v] = p;
       result.pressure[v] = p / prepared.skin.area[v];
-      const double d = skin.sample[v].distance;
-      result.displacement[v] = p > 0.0 ? -d : part.gap[static_cast<Eigen::Index>(k)] - d;
     }
   }
-  if (!parts.empty()) {
-    std::vector<char> is_colliding(n, 0);
-    for (const int v : skin.collision) is_colliding[v] = 1;
-    const std::vector<float> fade = fade_around(prepared, skin);
-    for (const SubActiveRegion& part : parts) {
-      add_displacement_around(prepared, options, part, is_colliding, fade, result.displacement);
-    }
-    for (std::size_t v = 0; v < n; ++v) {
-      // A bulge that meets the product lies flat against it.
-      const double d = skin.sample[v].distance;
-      if (d > kRoundingGap) result.displacement[v] = std::max(result.displacement[v], -d);
-    }
-  }
-  deform_skin(skin, product, result);
+  const SkinDisplacement u = skin_displacement(prepared, skin, parts, options.swelling);
+  result.displacement = u.with_bulge;
+  deform_skin(prepared.skin, skin, product, u.is_active, result);
 
   result.distance.reserve(n);
   for (const DistanceSample& sample : skin.sample) result.distance.push_back(sample.distance);
   std::vector<double> shear_modulus(n, 0.0);
+  std::vector<double> gap(n);
+  for (std::size_t v = 0; v < n; ++v) gap[v] = result.distance[v] + u.elastic[v];
   std::array<double, kRegionCount> d_max{};
   std::array<double, kRegionCount> modulus{};
   for (const SubActiveRegion& part : parts) {
@@ -222,7 +156,7 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
       modulus[r] = part.shear_modulus;
     }
   }
-  add_totals(prepared, skin, shear_modulus, d_max, modulus, options.cell_area, result);
+  add_totals(prepared, skin, gap, shear_modulus, d_max, modulus, options.cell_area, result);
   return result;
 }
 

@@ -12,24 +12,11 @@
 namespace palmar {
 namespace {
 
-constexpr double kNearRange = 6.0;  // mm; beyond the limit depth of the fingers and every bulge
 /// Product and skin normal of a contact point against each other; when they agree by more than
 /// this (cosine), the nearest surface is one that the skin can't have come through.
 constexpr double kSameSide = 0.5;
 constexpr double kOnSurface = 1e-7;  // mm; a trace ends here
 constexpr int kMaxTraceSteps = 60;
-
-/// Samples some vertices into their places.
-void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
-                     const std::vector<int>& vertices, double range,
-                     std::vector<DistanceSample>& samples) {
-  std::vector<Vec3> points;
-  points.reserve(vertices.size());
-  for (const int v : vertices) points.push_back(positions[v]);
-  std::vector<DistanceSample> found(vertices.size());
-  product.sample(points, range, found);
-  for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
-}
 
 /// Looks for the surface from an inner point against the skin's normal by sphere tracing. Nothing
 /// if there is none within kMaxContactDepth or if it faces the wrong way.
@@ -58,6 +45,17 @@ std::string one_decimal(double value) {
 }
 
 }  // namespace
+
+void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+                     const std::vector<int>& vertices, double range,
+                     std::vector<DistanceSample>& samples) {
+  std::vector<Vec3> points;
+  points.reserve(vertices.size());
+  for (const int v : vertices) points.push_back(positions[v]);
+  std::vector<DistanceSample> found(vertices.size());
+  product.sample(points, range, found);
+  for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
+}
 
 SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                                    const DistanceField& product, std::optional<Region> only) {
@@ -123,61 +121,6 @@ SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& po
                     "carry no force";
   }
   return skin;
-}
-
-void deform_skin(const SkinOnProduct& skin, const DistanceField& product, ContactResult& result) {
-  const std::size_t n = result.undeformed.size();
-  result.deformed = result.undeformed;
-  std::vector<char> is_colliding(n, 0);
-  for (const int v : skin.collision) is_colliding[v] = 1;
-  std::vector<int> loaded;
-  std::vector<int> doubtful;  // not loaded, and the distance before doesn't prove them outside
-  for (std::size_t i = 0; i < n; ++i) {
-    const int v = static_cast<int>(i);
-    const DistanceSample& sample = skin.sample[i];
-    const double u = result.displacement[i];
-    if (result.force[i] > 0.0) {
-      result.deformed[i] = sample.closest;
-      loaded.push_back(v);
-    } else if (is_colliding[i]) {
-      result.deformed[i] = sample.closest + (sample.distance + u) * sample.normal;
-      doubtful.push_back(v);
-    } else if (u != 0.0) {
-      result.deformed[i] = result.undeformed[i] - u * skin.normal[i];
-    }
-  }
-  for (const int v : skin.near) {
-    if (!is_colliding[v] && skin.sample[v].distance <= std::abs(result.displacement[v])) {
-      doubtful.push_back(v);
-    }
-  }
-  std::sort(doubtful.begin(), doubtful.end());
-
-  std::vector<DistanceSample> after(n);
-  // Two rounds are enough on smooth products; the third helps in sharp inner corners.
-  for (int round = 0; round < 3; ++round) {
-    sample_vertices(product, result.deformed, doubtful, kNearRange, after);
-    bool all_outside = true;
-    for (const int v : doubtful) {
-      const DistanceSample& sample = after[v];
-      if (sample.distance >= 0.0) continue;
-      if (sample.distance <= -kNearRange) continue;  // left out: nowhere to go
-      all_outside = false;
-      result.displacement[v] -= sample.distance;
-      result.deformed[v] = sample.closest;
-    }
-    if (all_outside) break;
-  }
-  sample_vertices(product, result.deformed, doubtful, kNearRange, after);
-  sample_vertices(product, result.deformed, loaded, 1.0, after);
-  for (const int v : doubtful) {
-    result.residual_penetration_other =
-        std::max(result.residual_penetration_other, -after[v].distance);
-  }
-  for (const int v : loaded) {
-    result.residual_penetration_contact =
-        std::max(result.residual_penetration_contact, std::abs(after[v].distance));
-  }
 }
 
 }  // namespace palmar

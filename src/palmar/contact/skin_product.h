@@ -28,8 +28,13 @@ struct SkinOnProduct {
 SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                                    const DistanceField& product, std::optional<Region> only);
 
-/// Sets result.deformed and the residual penetrations from result.displacement and result.force.
-/// Skin that the displacement leaves inside the product is put on the surface.
-void deform_skin(const SkinOnProduct& skin, const DistanceField& product, ContactResult& result);
+/// Skin farther from the product than this does not matter; beyond the limit depth of the fingers
+/// and every bulge.
+constexpr double kNearRange = 6.0;  // mm
+
+/// Samples the product at some vertices into their places in `samples`.
+void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+                     const std::vector<int>& vertices, double range,
+                     std::vector<DistanceSample>& samples);
 
 }  // namespace palmar
