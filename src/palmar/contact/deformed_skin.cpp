@@ -26,24 +26,28 @@ void average_once(const SkinGeometry& geometry, const std::vector<int>& vertices
   for (std::size_t k = 0; k < vertices.size(); ++k) values[vertices[k]] = scratch[k];
 }
 
-/// Puts vertices that lie inside the product on its surface.
-void push_out(const SkinOnProduct& skin, const DistanceField& product,
-              const std::vector<int>& vertices, ContactResult& result,
-              std::vector<DistanceSample>& after) {
+/// Puts vertices that lie inside the product on its surface. Returns the deepest that stays, mm.
+double push_out(const SkinOnProduct& skin, const DistanceField& product,
+                const std::vector<int>& vertices, ContactResult& result,
+                std::vector<DistanceSample>& after) {
   std::vector<int> inside;
   for (const int v : vertices) {
     // Skin cannot have come nearer than by what it moved.
     const double moved = (result.deformed[v] - result.undeformed[v]).norm();
     if (skin.sample[v].distance <= moved) inside.push_back(v);
   }
-  for (int round = 0; round < kPushRounds && !inside.empty(); ++round) {
+  for (int round = 0;; ++round) {
     sample_vertices(product, result.deformed, inside, kNearRange, after);
     std::erase_if(inside, [&](int v) {
       // Deeper than the range: left out, nowhere to go.
       return after[v].distance >= 0.0 || after[v].distance <= -kNearRange;
     });
+    if (inside.empty() || round == kPushRounds) break;
     for (const int v : inside) result.deformed[v] = after[v].closest;
   }
+  double deepest = 0.0;
+  for (const int v : inside) deepest = std::max(deepest, -after[v].distance);
+  return deepest;
 }
 
 }  // namespace
@@ -62,7 +66,6 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
       free.push_back(static_cast<int>(v));
     }
   }
-  std::vector<DistanceSample> after(n);
   std::vector<Vec3> scratch;
 
   std::vector<Vec3> direction(n);
@@ -76,30 +79,26 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
     direction[v] = length > 0.1 ? Vec3(direction[v] / length) : Vec3(-skin.normal[v]);
   }
 
-  for (const int v : loaded) result.deformed[v] = skin.sample[v].closest;
-  for (const int v : free) result.deformed[v] += result.displacement[v] * direction[v];
-  push_out(skin, product, free, result, after);
-
-  std::vector<Vec3> motion(n);
-  for (std::size_t v = 0; v < n; ++v) motion[v] = result.deformed[v] - result.undeformed[v];
+  std::vector<Vec3> motion(n, Vec3::Zero());
+  for (const int v : loaded) motion[v] = skin.sample[v].closest - result.undeformed[v];
+  for (const int v : free) {
+    motion[v] = result.displacement[v] * direction[v];
+    // Out of the product, as far as its tangent plane tells; the rest is left to push_out().
+    const DistanceSample& sample = skin.sample[v];
+    if (sample.distance >= kNearRange) continue;
+    motion[v] += std::max(0.0, -sample.distance - motion[v].dot(sample.normal)) * sample.normal;
+  }
   for (int round = 0; round < kRelaxationRounds; ++round) {
     average_once(geometry, free, 0.3, motion, scratch);
   }
-  for (const int v : free) result.deformed[v] = result.undeformed[v] + motion[v];
-  push_out(skin, product, free, result, after);
-
+  for (const int v : loaded) result.deformed[v] = skin.sample[v].closest;
+  for (const int v : free) result.deformed[v] += motion[v];
+  std::vector<DistanceSample> after(n);
+  result.residual_penetration_other = push_out(skin, product, free, result, after);
   for (const int v : free) {
     result.displacement[v] = (result.deformed[v] - result.undeformed[v]).dot(direction[v]);
   }
-  for (auto* group : {&free, &loaded}) {
-    sample_vertices(product, result.deformed, *group, kNearRange, after);
-  }
-  for (const int v : free) {
-    if (after[v].distance > -kNearRange) {
-      result.residual_penetration_other =
-          std::max(result.residual_penetration_other, -after[v].distance);
-    }
-  }
+  sample_vertices(product, result.deformed, loaded, kNearRange, after);
   for (const int v : loaded) {
     result.residual_penetration_contact =
         std::max(result.residual_penetration_contact, std::abs(after[v].distance));
