@@ -1,0 +1,55 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "run_program.h"
+
+// The commands that the documents show are run as they stand, on stand-ins for the files they name.
+
+namespace palmar::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Indented lines "    palmar ..." of the README and of everything below docs/.
+std::vector<std::pair<std::string, std::string>> shown_commands() {
+  std::vector<fs::path> pages = {fs::path(PALMAR_SOURCE_DIR) / "README.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(PALMAR_SOURCE_DIR) / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  std::sort(pages.begin(), pages.end());
+  std::vector<std::pair<std::string, std::string>> commands;
+  for (const fs::path& page : pages) {
+    std::istringstream text(read_text(page.string()));
+    for (std::string line; std::getline(text, line);) {
+      if (line.rfind("    palmar ", 0) != 0) continue;
+      commands.emplace_back(page.filename().string(), line.substr(11));
+    }
+  }
+  return commands;
+}
+
+TEST(Documents, EveryShownCommandWorks) {
+  const auto commands = shown_commands();
+  ASSERT_GE(commands.size(), 8U);
+  const std::string folder = temporary_folder();
+  for (const std::string name : {"handle", "old-handle", "new-handle", "drill", "old", "new"}) {
+    ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 40 --out " + name + ".stl", folder)
+                  .exit_code,
+              0);
+  }
+  for (const auto& [page, command] : commands) {
+    // Pictures take the time and are tested with the main job.
+    const bool assesses = command.rfind("assess ", 0) == 0;
+    const ProgramRun run = run_palmar(command + (assesses ? " --no-pictures" : ""), folder);
+    EXPECT_EQ(run.exit_code, 0) << page << ": palmar " << command << "\n" << run.err;
+  }
+}
+
+}  // namespace
+}  // namespace palmar::testing
