@@ -14,9 +14,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
-constexpr double kFacing = 0.3;  // cosine; skin and product normals must not agree by more
-constexpr int kMaxRounds = 16;   // halves 65 m to 1 mm
+constexpr double kReach = 1.0;     // mm; the skin's facets stand off a curved product by less
+constexpr double kFacing = 0.3;    // cosine; skin and product normals must not agree by more
+constexpr int kMaxRounds = 16;     // halves 65 m to 1 mm
+constexpr double kMaxRatio = 2.0;  // of areas; skin folded into a crease has next to none left
 
 /// Loaded points sorted along x, for finding those near a triangle.
 class LoadedPoints {
@@ -133,6 +134,30 @@ bool refine_once(const LoadedPoints& loaded, double edge_length, TriangleMesh& m
   return true;
 }
 
+/// Pressure per area of the skin as it lies on the product, MPa. ContactResult counts per area of
+/// the reference posture; bent and flattened skin covers more or less of the product than that.
+std::vector<double> pressure_on_product(const Hand& hand, const ContactResult& contact) {
+  std::vector<double> now(contact.force.size(), 0.0);
+  std::vector<double> before(contact.force.size(), 0.0);
+  for (const Triangle& t : hand.skin.triangles) {
+    if (std::none_of(t.begin(), t.end(), [&](int v) { return contact.force[v] > 0.0; })) continue;
+    const auto area = [&](const std::vector<Vec3>& at) {
+      return (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]).norm();
+    };
+    const double area_now = area(contact.deformed);
+    const double area_before = area(hand.skin.vertices);
+    for (const int v : t) {
+      now[v] += area_now;
+      before[v] += area_before;
+    }
+  }
+  std::vector<double> pressure = contact.pressure;
+  for (std::size_t v = 0; v < pressure.size(); ++v) {
+    if (contact.force[v] > 0.0) pressure[v] *= before[v] / std::max(now[v], before[v] / kMaxRatio);
+  }
+  return pressure;
+}
+
 }  // namespace
 
 ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
@@ -161,6 +186,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   box.max().array() += kReach;
   const ClosestPointQuery query(skin);
   const std::vector<Vec3> normals = vertex_normals(surface.vertices, surface.triangles);
+  const std::vector<double> pressure = pressure_on_product(hand, contact);
   footprint.pressure.assign(surface.vertices.size(), 0.0);
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!box.contains(surface.vertices[i])) continue;
@@ -172,7 +198,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
                        .normalized();
     // Not through a thin wall: the skin must face this side.
     if (n.dot(normals[i]) > kFacing) continue;
-    for (int k = 0; k < 3; ++k) footprint.pressure[i] += found->weights[k] * contact.pressure[t[k]];
+    for (int k = 0; k < 3; ++k) footprint.pressure[i] += found->weights[k] * pressure[t[k]];
   }
   return footprint;
 }

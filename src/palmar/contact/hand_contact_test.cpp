@@ -181,10 +181,12 @@ TEST(Footprint, CarriesTheForceOfTheSkin) {
              (footprint.pressure[t[0]] + footprint.pressure[t[1]] + footprint.pressure[t[2]]);
   }
   EXPECT_NEAR(area, 3600.0, 1e-6);  // the shape is unchanged
-  // Linear between vertices instead of cell by cell, and on the flattened skin: a few per cent.
-  EXPECT_NEAR(force, contact.total.force, 0.06 * contact.total.force);
-  EXPECT_LE(*std::max_element(footprint.pressure.begin(), footprint.pressure.end()),
-            contact.total.peak_pressure + 1e-12);
+  // Linear on the plate's triangles instead of the skin's.
+  EXPECT_NEAR(force, contact.total.force, 0.01 * contact.total.force);
+  // A cap of 2 mm height on a ball of 10 mm loses a tenth of its area when it is flattened, at its
+  // rim; in the middle, where the pressure is highest, nothing.
+  EXPECT_NEAR(*std::max_element(footprint.pressure.begin(), footprint.pressure.end()),
+              contact.total.peak_pressure, 0.03 * contact.total.peak_pressure);
 }
 
 }  // namespace
