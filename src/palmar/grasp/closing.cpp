@@ -17,6 +17,8 @@ constexpr double kRange = kSiteBand;    // mm; farther skin needn't know how far
 constexpr double kTolerance = 0.02;     // mm; how near to a limit counts as there
 constexpr double kGlide = 1.5;          // mm; longest step along a surface between two looks
 constexpr double kNeighbourGive = 1.5;  // mm; skin of two fingers pressed together
+constexpr double kWidestGap = 12.0;     // mm between neighbours that one round closes
+constexpr double kUsualGap = 0.5;       // mm; fingers round a handle lie side by side
 constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coarse there
 constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
@@ -380,7 +382,8 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
     // again. The middle finger stays, the others give way outwards.
     const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, posture);
     const auto crossing = [&](Finger a, Finger b) {
-      double deepest = 0.0, arm = 60.0;
+      double deepest = -kWidestGap;
+      const double arm = 60.0;
       for (const RoundCone& p : cones) {
         if (p.finger != a || p.level == 0) continue;
         for (const RoundCone& q : cones) {
@@ -388,7 +391,8 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
           deepest = std::max(deepest, overlap(p, q));
         }
       }
-      return deepest > 0.5 * kNeighbourGive ? deepest / arm : 0.0;
+      if (deepest > 0.5 * kNeighbourGive) return deepest / arm;
+      return deepest < -kUsualGap ? (deepest + kUsualGap) / arm : 0.0;
     };
     const double index = crossing(Finger::kIndex, Finger::kMiddle);
     const double ring = crossing(Finger::kMiddle, Finger::kRing);
@@ -452,13 +456,15 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
       gap = std::min(gap, samples[k].distance);
     }
     if (samples[k].distance > 0.0) continue;
-    const double weight = group.segment[k] == Segment::kThumbDistal ? 1.5 : 1.0;
+    // Full from half a millimetre: no steps as the thumb moves on.
+    const double share = std::min(1.0, -2.0 * samples[k].distance);
+    const double weight = share * (group.segment[k] == Segment::kThumbDistal ? 1.5 : 1.0);
     const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
     const bool is_on_end = std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
     (is_palmar(group.region[k]) && !is_on_end ? area : other) += weight * group.area[k];
     // The further round, the more the product's skin there faces away from the palm.
     if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k]) && !is_on_end) {
-      reach += group.area[k] * (1.0 + normal.z());
+      reach += share * group.area[k] * (1.0 + normal.z());
     }
   }
   // A thumb laid across the handle opposes the fingers; laid along it, it holds next to nothing.
@@ -506,7 +512,7 @@ HandCloser::ThumbWay HandCloser::find_thumb_way(const HeldProduct& product,
   for (const double f : {0.1, 0.4, 0.7, 1.0}) {
     for (const double a : {0.1, 0.4, 0.7, 1.0}) try_at(f, a);
   }
-  for (const double step : {0.15, 0.075}) {
+  for (const double step : {0.15, 0.075, 0.04}) {
     const double f = best_flexion, a = best_abduction;
     for (const auto& [df, da] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
       try_at(f + df, a + da);
@@ -538,7 +544,8 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const Posture& postu
     }
     deepest = std::max(deepest, depth);
     if (depth <= 0.0) continue;
-    measure.contact_area += all_.area[k];
+    // Full from half a millimetre, so that the area of a sparse sample changes without steps.
+    measure.contact_area += std::min(1.0, 2.0 * depth) * all_.area[k];
     if (finger_of(all_.segment[k]) == Finger::kThumb || all_.region[k] == Region::kThenar) {
       measure.thumb_area += all_.area[k];
     }
@@ -549,6 +556,7 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const Posture& postu
   }
   std::array<bool, kFingerCount> touches{};
   for (std::size_t s = 1; s < measure.penetration.size(); ++s) {
+    measure.touching += std::clamp(0.5 * (measure.penetration[s] + 1.0), 0.0, 1.0);
     if (measure.penetration[s] <= 0.0) continue;
     ++measure.segments;
     touches[static_cast<std::size_t>(*finger_of(static_cast<Segment>(s)))] = true;

@@ -33,6 +33,7 @@ struct HoldMeasure {
   double other_area = 0.0;     ///< dorsal or side skin inside the product, mm^2
   double deepest_other = 0.0;  ///< how deep that goes, mm
   int segments = 0;            ///< phalanges whose palmar skin touches
+  double touching = 0.0;       ///< the same without steps: from 0 to 1 each over 2 mm of approach
   int fingers = 0;             ///< fingers (thumb included) with such a segment
   std::array<double, kSegmentCount> penetration{};  ///< deepest palmar skin, mm; negative: gap
   double wrap = 0.0;  ///< share of a turn about the grip axis between the outermost contacts

@@ -11,11 +11,17 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kThinShare = 0.8;       // of half the thickness may be filled with skin
-constexpr double kSegmentCredit = 60.0;  // mm^2 of contact that one more touching phalanx is worth
-constexpr double kWrapCredit = 800.0;    // mm^2 for reaching all the way round
+constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
+constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
 constexpr double kNoseCredit = 3000.0;   // mm^2 for a working end that points away from the wrist
 constexpr double kStrainCost = 5.0;      // mm^2 per degree
+// Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small changes
+// of a product then change its grasp a little, not from one lay to another.
+constexpr double kLeaveCost = 2500.0;  // mm^2
+constexpr double kProximalUnit = 6.0;  // mm
+constexpr double kAlongUnit = 12.0;    // mm
+constexpr double kSlantUnit = 6.0 * kDeg;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
 constexpr double kLeastProximal = 10.0;  // mm from the knuckles: nearer, the thumb can't reach over
@@ -57,12 +63,21 @@ double strain_of(const Posture& posture) {
   return strain;
 }
 
+double leave_cost(const Lay& lay) {
+  const Lay usual;
+  const auto square = [](double x) { return x * x; };
+  return kLeaveCost * (square((lay.oblique - usual.oblique) / kSlantUnit) +
+                       square((lay.tilt - usual.tilt) / kSlantUnit) +
+                       square((lay.proximal - usual.proximal) / kProximalUnit) +
+                       square(lay.along / kAlongUnit));
+}
+
 double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
                 const Posture& posture) {
-  double score = measure.contact_area + kSegmentCredit * measure.segments +
+  double score = measure.contact_area + kSegmentCredit * measure.touching +
                  kWrapCredit * measure.wrap - kClash * measure.other_area -
                  200.0 * std::max(0.0, measure.deepest_other - 2.0) -
-                 kStrainCost * strain_of(posture);
+                 kStrainCost * strain_of(posture) - leave_cost(placement.lay);
   if (site.nose) {
     const Vec3 nose = placement.product_from_hand.rotation.conjugate() * *site.nose;
     score += kNoseCredit * nose.dot(Vec3(0.0, 1.0, 1.0).normalized());
@@ -83,10 +98,6 @@ Hold try_hold(const HandCloser& closer, const DistanceField& product, const Grip
   return hold;
 }
 
-// Larger handles lie further down in the palm.
-double usual_proximal(const GripSite& site) {
-  return std::clamp(15.0 + 0.2 * (site.girth / std::numbers::pi - 30.0), 12.0, 30.0);
-}
 
 }  // namespace
 
@@ -149,7 +160,6 @@ std::optional<Hold> find_hold(const HandCloser& closer,
       progress.throw_if_cancelled();
       Lay lay;
       lay.turn = turn ? *turn : 2.0 * std::numbers::pi * k / kTurns;
-      lay.proximal = usual_proximal(sites[s]);
       const Hold hold = try_hold(closer, *distances[s], sites[s], s, here, lay);
       tried.push_back({hold, rank_of(hold)});
     }
@@ -176,9 +186,9 @@ std::optional<Hold> find_hold(const HandCloser& closer,
         if (rank_of(hold) > current.rank) current = {hold, rank_of(hold)};
       }
     };
-    improve(&Lay::proximal, kLeastProximal, 45.0, {-6.0, 8.0, 16.0});
+    improve(&Lay::proximal, kLeastProximal, 45.0, {6.0, 12.0, 20.0});
     improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
-    improve(&Lay::oblique, 8 * kDeg, 26 * kDeg, {-4 * kDeg, 6 * kDeg, 12 * kDeg});
+    improve(&Lay::oblique, 4 * kDeg, 26 * kDeg, {-6 * kDeg, 6 * kDeg});
     if (!is_place_fixed) improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
     if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
     improve(&Lay::proximal, kLeastProximal, 45.0, {-4.0, 4.0});
