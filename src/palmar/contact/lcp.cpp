@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/lcp.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "palmar/contact/packed_cholesky.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -20,34 +22,47 @@ constexpr double kRounding = 1e-13;
 /// p and s for a guess of which variables are in contact.
 struct Complementary {
   Eigen::VectorXd force;  ///< m; zero outside the contact set
-  Eigen::VectorXd gap;    ///< m; zero inside the contact set
+  Eigen::VectorXd gap;    ///< m; R p + d, so but for rounding zero inside the contact set
   bool is_finite = false;
 };
 
+/// d + R p. Four columns at a time: the sum is read and written less often.
+Eigen::VectorXd gap_of(const ContactProblem& problem, const Eigen::VectorXd& force) {
+  const Eigen::MatrixXd& R = problem.response;
+  Eigen::VectorXd gap = problem.distance;
+  int next[4];
+  int count = 0;
+  for (int j = 0; j < static_cast<int>(force.size()); ++j) {
+    if (force[j] == 0.0) continue;
+    next[count++] = j;
+    if (count < 4) continue;
+    gap += force[next[0]] * R.col(next[0]) + force[next[1]] * R.col(next[1]) +
+           force[next[2]] * R.col(next[2]) + force[next[3]] * R.col(next[3]);
+    count = 0;
+  }
+  for (int k = 0; k < count; ++k) gap += force[next[k]] * R.col(next[k]);
+  return gap;
+}
+
 /// Solves R_FF p_F = -d_F and s = R_:F p_F + d, where F is the contact set.
 Complementary solve_for_set(const ContactProblem& problem, const std::vector<int>& contact,
-                            bool is_symmetric) {
+                            bool is_symmetric, PackedCholesky& factor) {
   const Eigen::Index m = problem.distance.size();
   Complementary result{Eigen::VectorXd::Zero(m), problem.distance, true};
   if (contact.empty()) return result;
-  const Eigen::MatrixXd R_FF = problem.response(contact, contact);
   const Eigen::VectorXd d_F = problem.distance(contact);
   Eigen::VectorXd p_F;
-  bool solved = false;
-  if (is_symmetric) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(R_FF);
-    solved = factor.info() == Eigen::Success;
-    if (solved) p_F = -factor.solve(d_F);
-  }
-  // An indefinite block can't be factored by Cholesky but may still have an answer.
-  if (!solved) p_F = -Eigen::PartialPivLU<Eigen::MatrixXd>(R_FF).solve(d_F);
-  for (std::size_t k = 0; k < contact.size(); ++k) {
-    result.gap += p_F[static_cast<Eigen::Index>(k)] * problem.response.col(contact[k]);
+  if (is_symmetric && factor.factor(problem.response, contact)) {
+    p_F = -factor.solve(d_F);
+  } else {
+    // An indefinite block can't be factored by Cholesky but may still have an answer.
+    const Eigen::MatrixXd R_FF = problem.response(contact, contact);
+    p_F = -Eigen::PartialPivLU<Eigen::MatrixXd>(R_FF).solve(d_F);
   }
   for (std::size_t k = 0; k < contact.size(); ++k) {
     result.force[contact[k]] = p_F[static_cast<Eigen::Index>(k)];
-    result.gap[contact[k]] = 0.0;
   }
+  result.gap = gap_of(problem, result.force);
   result.is_finite = p_F.allFinite() && result.gap.allFinite();
   return result;
 }
@@ -94,14 +109,13 @@ void LcpOptions::check() const {
   }
 }
 
-void recompute_residual(const ContactProblem& problem, ContactSolution& solution) {
-  solution.gap = problem.distance;
+namespace {
+
+/// Fills the errors of a solution from its force and gap.
+void measure_residual(const ContactProblem& problem, ContactSolution& solution) {
   solution.complementarity_error = 0.0;
   solution.relative_residual = 0.0;
   if (problem.distance.size() == 0) return;
-  for (Eigen::Index j = 0; j < solution.force.size(); ++j) {
-    if (solution.force[j] != 0.0) solution.gap += solution.force[j] * problem.response.col(j);
-  }
   const double p_scale = std::max(largest_magnitude(solution.force), 1e-300);
   const double d_scale = std::max(largest_magnitude(problem.distance), 1e-300);
   for (Eigen::Index i = 0; i < solution.gap.size(); ++i) {
@@ -111,6 +125,13 @@ void recompute_residual(const ContactProblem& problem, ContactSolution& solution
     solution.relative_residual =
         std::max(solution.relative_residual, std::abs(std::min(s / d_scale, p / p_scale)));
   }
+}
+
+}  // namespace
+
+void recompute_residual(const ContactProblem& problem, ContactSolution& solution) {
+  solution.gap = gap_of(problem, solution.force);
+  measure_residual(problem, solution);
 }
 
 ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& options) {
@@ -127,16 +148,25 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
   std::vector<char> in_contact(static_cast<std::size_t>(m));
   const double start = m > 0 ? 0.5 * std::min(0.0, problem.distance.minCoeff()) : 0.0;
   for (Eigen::Index i = 0; i < m; ++i) in_contact[i] = problem.distance[i] < start;
+  // The deepest first: what is exchanged stands near the end, so that most of the factor stays.
+  std::vector<int> by_depth(static_cast<std::size_t>(m));
+  std::iota(by_depth.begin(), by_depth.end(), 0);
+  std::sort(by_depth.begin(), by_depth.end(), [&](int i, int j) {
+    const double a = problem.distance[i];
+    const double b = problem.distance[j];
+    return a < b || (a == b && i < j);
+  });
+  PackedCholesky factor;
   std::vector<int> contact;
   std::vector<int> infeasible;
   int fewest_infeasible = static_cast<int>(m) + 1;
   int fruitless_left = options.max_fruitless_blocks;
   while (true) {
     contact.clear();
-    for (Eigen::Index i = 0; i < m; ++i) {
-      if (in_contact[i]) contact.push_back(static_cast<int>(i));
+    for (const int i : by_depth) {
+      if (in_contact[i]) contact.push_back(i);
     }
-    const Complementary trial = solve_for_set(problem, contact, options.is_symmetric);
+    Complementary trial = solve_for_set(problem, contact, options.is_symmetric, factor);
     if (!trial.is_finite) break;
     const double p_rounding = kRounding * largest_magnitude(trial.force);
     infeasible.clear();
@@ -147,8 +177,11 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
     }
     if (infeasible.empty()) {
       solution.status = LcpStatus::kSolved;
-      solution.force = trial.force.cwiseMax(0.0);
-      break;
+      const bool is_clipped = (trial.force.array() < 0.0).any();  // by rounding
+      solution.force = is_clipped ? Eigen::VectorXd(trial.force.cwiseMax(0.0)) : trial.force;
+      solution.gap = is_clipped ? gap_of(problem, solution.force) : std::move(trial.gap);
+      measure_residual(problem, solution);
+      return solution;
     }
     if (solution.pivots >= max_pivots) break;
     ++solution.pivots;
