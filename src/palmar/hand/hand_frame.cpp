@@ -58,4 +58,24 @@ HandAsset in_hand_frame(const HandAsset& asset) {
   return moved;
 }
 
+std::string frame_name(Finger finger, const char* bone) {
+  if (finger == Finger::kThumb) return std::string("thumb-") + bone;
+  const std::string_view name = finger == Finger::kLittle ? "pinky" : name_of(finger);
+  return std::string(name) + "-finger-" + bone;
+}
+
+Vec3 fingertip(const HandAsset& asset, Finger finger) {
+  constexpr double kFingerRadius = 12.0;  // mm; more than half a thumb, less than to a neighbour
+  const Vec3 joint = frame_named(asset, frame_name(finger, "phalanx-distal")).translation;
+  const Vec3 tip = frame_named(asset, frame_name(finger, "tip")).translation;
+  const Vec3 along = (tip - joint).normalized();
+  Vec3 best = tip;
+  for (const Vec3& v : asset.skin.vertices) {
+    const double y = (v - joint).dot(along);
+    if (y <= (best - joint).dot(along)) continue;
+    if ((v - joint - y * along).norm() < kFingerRadius) best = v;
+  }
+  return best;
+}
+
 }  // namespace palmar

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "palmar/hand/template_hand.h"
@@ -22,5 +23,11 @@ HandAsset in_hand_frame(const HandAsset& asset);
 
 /// Frame of that name. Throws InputError naming it if the asset has none.
 const Rigid3& frame_named(const HandAsset& asset, std::string_view name);
+
+/// Name of a joint frame of a finger: (kLittle, "tip") -> "pinky-finger-tip".
+std::string frame_name(Finger finger, const char* bone);
+
+/// The skin point farthest along the finger among those within a finger's width of its distal bone.
+Vec3 fingertip(const HandAsset& asset, Finger finger);
 
 }  // namespace palmar

@@ -274,7 +274,7 @@ class WeightMaker {
       }
       w2[v] = smooth_step((to_palm / (to_palm + to_thumb) - 0.36) / 0.26);
       const double y = (p - cmc).dot(along);
-      w1[v] = smooth_step((y + 18.0) / 36.0);
+      w1[v] = smooth_step((y + 8.0) / 34.0);  // the thumb ball takes up the turn
     }
     const std::vector<char> everywhere(w1.size(), 1);
     diffuse(w2, neighbours_, everywhere, 10);

@@ -39,8 +39,10 @@ class Surface {
         normals_(vertex_normals(mesh_)),
         query_(mesh_) {}
 
+  // Not from several threads at once.
   Vec3 project(const Vec3& point, Vec3* normal = nullptr) const {
-    const ClosestPoint nearest = *query_.closest(point);
+    const ClosestPoint nearest = *query_.closest(point, kAnywhere, last_);
+    last_ = nearest.triangle;
     if (normal != nullptr) {
       *normal = Vec3::Zero();
       const Triangle& t = mesh_.triangles[at(nearest.triangle)];
@@ -51,9 +53,11 @@ class Surface {
   }
 
  private:
+  static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   TriangleMesh mesh_;
   std::vector<Vec3> normals_;
   ClosestPointQuery query_;
+  mutable int last_ = 0;  ///< hint only: points come in runs that lie close together
 };
 
 // One vertex label component that is not the largest of its label falls to the label most common
@@ -460,6 +464,9 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
 
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (!graph.labels[i].empty()) label[i] = graph.labels[i].front();
+  }
+  remove_islands(vertex_neighbours(build_topology(result.skin)), label);
+  for (std::size_t i = 0; i < label.size(); ++i) {
     result.segment.push_back(label[i].segment);
     result.region.push_back(label[i].region);
   }

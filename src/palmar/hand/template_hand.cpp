@@ -13,6 +13,7 @@
 #include "palmar/geometry/weld.h"
 #include "palmar/hand/bones.h"
 #include "palmar/hand/dimensions.h"
+#include "palmar/hand/forearm_cut.h"
 #include "palmar/hand/hand_frame.h"
 #include "palmar/hand/joint_weights.h"
 #include "palmar/hand/regions.h"
@@ -38,7 +39,7 @@ Hand build_template(const HandAsset& asset, const TemplateOptions& options) {
   hand.side = Side::kRight;
   hand.skeleton = build_skeleton(placed);
   // The asset's edges of 6.7 mm become 1.7 mm, finer than the mesh that is laid over them.
-  const TriangleMesh smooth = subdivide(placed.skin, {.levels = 2});
+  const TriangleMesh smooth = subdivide(with_even_cut(placed.skin), {.levels = 2});
   const TriangleMesh even = remesh(smooth, {.edge_length = options.edge_length}).mesh;
   SkinPartition partition = partition_skin(even, hand.skeleton);
   hand.skin = std::move(partition.skin);

@@ -10,6 +10,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/hand/hand_frame.h"
+#include "palmar/hand/joint_placement.h"
 #include "palmar/hand/thumb_cmc.h"
 
 namespace palmar {
@@ -71,12 +72,6 @@ JointDof make_dof(Dof dof, const Vec3& axis, const Vec3& centre, double referenc
 }
 
 constexpr const char* kFrameAxis = "axis: joint frame of the template asset";
-
-std::string frame_name(Finger finger, const char* bone) {
-  if (finger == Finger::kThumb) return std::string("thumb-") + bone;
-  const std::string_view name = finger == Finger::kLittle ? "pinky" : name_of(finger);
-  return std::string(name) + "-finger-" + bone;
-}
 
 /// Flexion axis of a joint: -x of the frame of the bone distal to it, made square to that bone.
 Vec3 flexion_axis(const Rigid3& frame, const Vec3& bone) {
@@ -157,34 +152,18 @@ void add_wrist(Skeleton& skeleton) {
   skeleton.joints[static_cast<std::size_t>(JointId::kWrist)] = wrist;
 }
 
-/// The skin point farthest along the finger among those within a finger's width of the distal bone.
-Vec3 fingertip(const TriangleMesh& skin, const Vec3& distal_joint, const Vec3& tip) {
-  constexpr double kFingerRadius = 12.0;  // mm; more than half a thumb, less than to a neighbour
-  const Vec3 along = (tip - distal_joint).normalized();
-  Vec3 best = tip;
-  for (const Vec3& v : skin.vertices) {
-    const double y = (v - distal_joint).dot(along);
-    if (y <= (best - distal_joint).dot(along)) continue;
-    if ((v - distal_joint - y * along).norm() < kFingerRadius) best = v;
-  }
-  return best;
-}
-
 }  // namespace
 
 Skeleton build_skeleton(const HandAsset& asset_in_hand) {
+  const HandAsset asset = with_published_links(asset_in_hand);
   Skeleton skeleton;
   add_wrist(skeleton);
-  add_thumb(skeleton, asset_in_hand);
+  add_thumb(skeleton, asset);
   for (const Finger finger : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
-    add_finger(skeleton, asset_in_hand, finger);
+    add_finger(skeleton, asset, finger);
   }
   for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    skeleton.fingertips[static_cast<std::size_t>(f)] =
-        fingertip(asset_in_hand.skin,
-                  frame_named(asset_in_hand, frame_name(finger, "phalanx-distal")).translation,
-                  frame_named(asset_in_hand, frame_name(finger, "tip")).translation);
+    skeleton.fingertips[static_cast<std::size_t>(f)] = fingertip(asset, static_cast<Finger>(f));
   }
   return skeleton;
 }
