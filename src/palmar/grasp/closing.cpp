@@ -163,6 +163,12 @@ struct HandCloser::Advance {
   bool by_product = false;
   Segment segment{};                                            // whose skin was at its limit
   std::array<double, 3> deepest = {-kRange, -kRange, -kRange};  // per phalanx from the palm, mm
+
+  StopReason reason_for(Segment moved) const {
+    if (!is_stopped) return StopReason::kRangeOfMotion;
+    if (!by_product) return StopReason::kOtherFinger;
+    return segment == moved ? StopReason::kLimitDepth : StopReason::kDistalStop;
+  }
 };
 
 HandCloser::Advance HandCloser::advance(const Group& group, const HeldProduct& product,
@@ -346,13 +352,7 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
         stops[index_of(segment)].penetration = way.deepest[static_cast<std::size_t>(outer)];
       }
     }
-    if (!way.is_stopped) {
-      stop.reason = StopReason::kRangeOfMotion;
-    } else if (!way.by_product) {
-      stop.reason = StopReason::kOtherFinger;
-    } else {
-      stop.reason = way.segment == stop.segment ? StopReason::kLimitDepth : StopReason::kDistalStop;
-    }
+    stop.reason = way.reason_for(stop.segment);
   }
   return posture;
 }
@@ -430,13 +430,7 @@ Posture HandCloser::wrap_thumb(const HeldProduct& product, const DepthLimits& li
     posture = way.posture;
     SegmentStop& stop = stops[index_of(segments[static_cast<std::size_t>(level)])];
     stop.segment = segments[static_cast<std::size_t>(level)];
-    if (!way.is_stopped) {
-      stop.reason = StopReason::kRangeOfMotion;
-    } else if (!way.by_product) {
-      stop.reason = StopReason::kOtherFinger;
-    } else {
-      stop.reason = way.segment == stop.segment ? StopReason::kLimitDepth : StopReason::kDistalStop;
-    }
+    stop.reason = way.reason_for(stop.segment);
   }
   return posture;
 }
@@ -460,7 +454,11 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
     const double share = std::min(1.0, -2.0 * samples[k].distance);
     const double weight = share * (group.segment[k] == Segment::kThumbDistal ? 1.5 : 1.0);
     const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
-    const bool is_on_end = std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
+    // Over a rim the thumb would meet the inside of a vessel.
+    Vec3 out = points[k] - product.grip_point;
+    out -= product.grip_axis * product.grip_axis.dot(out);
+    const bool is_inside = samples[k].normal.dot(out) < 0.0;
+    const bool is_on_end = is_inside || std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
     (is_palmar(group.region[k]) && !is_on_end ? area : other) += weight * group.area[k];
     // The further round, the more the product's skin there faces away from the palm.
     if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k]) && !is_on_end) {
@@ -476,7 +474,7 @@ double HandCloser::thumb_score(const HeldProduct& product, const Posture& postur
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
   // A thumb hooked over an edge bends at its tip alone.
   const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp);
-  return area - 2.0 * other + reach - 250.0 * hooked + 150.0 * across - 10.0 * std::max(0.0, gap);
+  return area - 2.0 * other + reach - 250.0 * hooked + 500.0 * across - 10.0 * std::max(0.0, gap);
 }
 
 std::vector<HandCloser::Obstacle> HandCloser::thumb_obstacles(const Posture& posture) const {

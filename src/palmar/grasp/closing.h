@@ -23,6 +23,8 @@ struct DepthLimits {
 struct HeldProduct {
   const DistanceField* distance = nullptr;
   Rigid3 product_from_hand;
+  Vec3 grip_point = Vec3::Zero();  ///< on the grip axis, product frame, mm
+  Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
   double diameter = 35.0;  ///< of the circle with the grip's girth, mm; fingers preshape to it
 };
 

@@ -101,16 +101,36 @@ void finish_stops(const Hand& hand, const HoldMeasure& measure, const DepthLimit
   (void)hand;
 }
 
-// Names of phalanges without contact, with what stopped them.
+std::string words_of(Segment segment) {
+  static constexpr std::array<const char*, 3> kPart = {"base", "middle part", "tip"};
+  const Finger finger = *finger_of(segment);
+  const auto segments = segments_of(finger);
+  std::size_t level = 0;
+  while (segments[level] != segment) ++level;
+  if (finger == Finger::kThumb) return std::string("the thumb's ") + kPart[2 * level];
+  return std::string("the ") + kPart[level] + " of the " + std::string(name_of(finger)) + " finger";
+}
+
+// A clause about the phalanges without contact; empty if all touch.
 std::string open_segments(const Grasp& grasp) {
-  std::string list;
+  std::vector<std::string> list;
   for (std::size_t s = 1; s < grasp.stops.size(); ++s) {
-    const SegmentStop& stop = grasp.stops[s];
-    if (stop.penetration > 0.0) continue;
-    list += list.empty() ? "" : ", ";
-    list += std::string(name_of(stop.segment)) + " (" + name_of(stop.reason) + ")";
+    if (grasp.stops[s].penetration <= 0.0) list.push_back(words_of(grasp.stops[s].segment));
   }
-  return list;
+  if (list.empty()) return "";
+  std::string clause = "; ";
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const bool is_last = i + 1 == list.size();
+    clause += (i == 0 ? "" : is_last ? " and " : ", ") + list[i];
+  }
+  return clause + (list.size() == 1 ? " does not touch" : " do not touch");
+}
+
+std::string count_words(int fingers) {
+  static constexpr std::array<const char*, 6> kNumber = {"no",    "one",  "two",
+                                                         "three", "four", "five"};
+  return std::string(kNumber[static_cast<std::size_t>(fingers)]) +
+         (fingers == 1 ? " finger" : " fingers");
 }
 
 void judge(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp) {
@@ -118,17 +138,16 @@ void judge(const Hand& hand, const HoldMeasure& measure, const GripSite& site, G
   const std::string girth = format("its girth at the grip is %.0f mm", site.girth);
   if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
     grasp.status = GraspStatus::kTooLarge;
-    grasp.message = girth + format("; contacts span %.0f degrees of it", 360.0 * measure.wrap) +
+    grasp.message = girth +
+                    format("; the hand reaches %.0f degrees round it", 360.0 * measure.wrap) +
                     format(", %.0f degrees are needed to hold it", 360.0 * kHalfRound);
   } else if (measure.fingers >= 3 && measure.wrap >= kHalfRound) {
     grasp.status = GraspStatus::kHeld;
-    grasp.message = "held by " + std::to_string(measure.fingers) + " fingers" +
-                    (open.empty() ? "" : "; not touching: " + open);
+    grasp.message = "held by " + count_words(measure.fingers) + open;
   } else if (measure.fingers > 0) {
     grasp.status = GraspStatus::kPartlyHeld;
-    grasp.message = std::to_string(measure.fingers) + " of 5 fingers touch" +
-                    format(", contacts span %.0f degrees", 360.0 * measure.wrap) +
-                    (open.empty() ? "" : "; not touching: " + open);
+    grasp.message = "touched by " + count_words(measure.fingers) +
+                    format(", which reach %.0f degrees round it", 360.0 * measure.wrap) + open;
   } else if (site.girth < kLargeGirth * hand.dimensions.hand_length) {
     grasp.status = GraspStatus::kTooSmall;
     grasp.message = girth + "; the fingers close without meeting it";
@@ -235,8 +254,13 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   const HandCloser fine(hand, 0.0);
   const DistanceField& quick = *distances[hold->site];
   const Placement placement = place(fine, quick, limits, site, hold->placement.lay);
-  HeldProduct held{&quick, placement.product_from_hand, site.girth / std::numbers::pi};
+  HeldProduct held{&quick, placement.product_from_hand, site.point, site.axis,
+                   site.girth / std::numbers::pi};
   const auto exact = exact_where_touched(quick, *product.distance, kTouched);
+  const auto exact_held = [&exact](HeldProduct seen) {
+    seen.distance = exact.get();
+    return seen;
+  };
   HandCloser::ThumbWay way;
   HoldMeasure measure;
   for (int round = 0; round < kSettleRounds; ++round) {
@@ -247,16 +271,14 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     }
     grasp.posture = fine.wrap_thumb(held, limits, grasp.posture, way.cmc_flexion, way.cmc_abduction,
                                     grasp.stops);
-    measure = trimmed(fine, {exact.get(), held.product_from_hand, held.diameter}, limits,
-                      placement.axis_in_hand, grasp.posture);
+    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
     const double excess = measure.penetration[0] - limits.palm;
     if (excess <= kTrimTolerance) break;
     // Closing has folded the palm's skin further in: the product gives way.
     held.product_from_hand.translation +=
         held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
     if (round + 1 < kSettleRounds) continue;
-    measure = trimmed(fine, {exact.get(), held.product_from_hand, held.diameter}, limits,
-                      placement.axis_in_hand, grasp.posture);
+    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
   }
   grasp.product_from_hand = held.product_from_hand;
   grasp.grip_axis = site.axis;

@@ -270,7 +270,11 @@ void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm
   if (is_even) {
     forward = std::abs(heavier) > 0.03 * (high - low) ? -heavier : flare_of(mesh, site);
   }
-  if (!is_fixed && forward < 0.0) site.axis = -site.axis;
+  site.ahead = high;
+  if (!is_fixed && forward < 0.0) {
+    site.axis = -site.axis;
+    site.ahead = -low;
+  }
 
   Vec3 moment = Vec3::Zero();
   double area = 0.0;

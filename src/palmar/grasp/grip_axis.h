@@ -20,6 +20,7 @@ struct GripSite {
   double wall = 1e3;          ///< how thick the solid is under the grip's surface (hollow products:
                               ///< the wall), mm; filled by wall_at()
   double length = 0.0;        ///< length along the axis over which it is handle-like, mm
+  double ahead = 1e3;         ///< from the point to the product's end on the thumb side, mm
   std::optional<Vec3> nose;   ///< unit, across the axis: where the working end sticks out
   double score = 0.0;         ///< how handle-like it is, 0 to 1
 };

@@ -10,21 +10,27 @@ namespace palmar {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kThinShare = 0.8;       // of half the thickness may be filled with skin
+constexpr double kThinShare = 0.8;        // of half the thickness may be filled with skin
 constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
 constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
-constexpr double kClash = 3.0;           // mm^2 per mm^2 of skin outside the palm in the product
-constexpr double kNoseCredit = 3000.0;   // mm^2 for a working end that points away from the wrist
-constexpr double kStrainCost = 5.0;      // mm^2 per degree
-// Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small changes
-// of a product then change its grasp a little, not from one lay to another.
+constexpr double kClash = 3.0;            // mm^2 per mm^2 of skin outside the palm in the product
+constexpr double kNoseCredit = 3000.0;    // mm^2 for a working end that points away from the wrist
+constexpr double kStrainCost = 5.0;       // mm^2 per degree
+// Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small
+// changes of a product then change its grasp a little, not from one lay to another.
 constexpr double kLeaveCost = 2500.0;  // mm^2
 constexpr double kProximalUnit = 6.0;  // mm
 constexpr double kAlongUnit = 12.0;    // mm
+constexpr double kMostAlong = 15.0;    // mm from the site along its axis
 constexpr double kSlantUnit = 6.0 * kDeg;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
 constexpr double kLeastProximal = 10.0;  // mm from the knuckles: nearer, the thumb can't reach over
+// A slab is held by its edges with the palm behind it, if the hand spans it: as one holds a phone.
+constexpr double kFlat = 0.35;          // thickness / width up to which a section is a slab
+constexpr double kSpan = 0.55;          // hand lengths between its edges that a hand spans
+constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
+constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
 constexpr int kTurns = 8;
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
@@ -63,21 +69,31 @@ double strain_of(const Posture& posture) {
   return strain;
 }
 
-double leave_cost(const Lay& lay) {
-  const Lay usual;
+// A short product moves towards the little finger, so that the thumb meets it and not its rim.
+Lay usual_lay(const GripSite& site, bool is_place_fixed) {
+  Lay lay;
+  if (!is_place_fixed) lay.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
+  return lay;
+}
+
+double leave_cost(const Lay& lay, const Lay& usual) {
   const auto square = [](double x) { return x * x; };
   return kLeaveCost * (square((lay.oblique - usual.oblique) / kSlantUnit) +
                        square((lay.tilt - usual.tilt) / kSlantUnit) +
                        square((lay.proximal - usual.proximal) / kProximalUnit) +
-                       square(lay.along / kAlongUnit));
+                       square((lay.along - usual.along) / kAlongUnit));
 }
 
 double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
-                const Posture& posture) {
+                const Lay& usual, double hand_length, const Posture& posture) {
   double score = measure.contact_area + kSegmentCredit * measure.touching +
                  kWrapCredit * measure.wrap - kClash * measure.other_area -
                  200.0 * std::max(0.0, measure.deepest_other - 2.0) -
-                 kStrainCost * strain_of(posture) - leave_cost(placement.lay);
+                 kStrainCost * strain_of(posture) - leave_cost(placement.lay, usual);
+  if (site.thickness < kFlat * site.width && site.width < kSpan * hand_length) {
+    const Vec3 palm = placement.product_from_hand.rotation * placement.push_in_hand;
+    score += kFlatCredit * std::abs(palm.dot(site.axis.cross(site.wide).normalized()));
+  }
   if (site.nose) {
     const Vec3 nose = placement.product_from_hand.rotation.conjugate() * *site.nose;
     score += kNoseCredit * nose.dot(Vec3(0.0, 1.0, 1.0).normalized());
@@ -86,18 +102,19 @@ double score_of(const HoldMeasure& measure, const GripSite& site, const Placemen
 }
 
 Hold try_hold(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-              std::size_t site_index, const DepthLimits& limits, const Lay& lay) {
+              std::size_t site_index, const DepthLimits& limits, const Lay& lay, const Lay& usual) {
   Hold hold;
   hold.site = site_index;
   hold.placement = place(closer, product, limits, site, lay);
-  const HeldProduct held{&product, hold.placement.product_from_hand, site.girth / std::numbers::pi};
+  const HeldProduct held{&product, hold.placement.product_from_hand, site.point, site.axis,
+                         site.girth / std::numbers::pi};
   std::array<SegmentStop, kSegmentCount> stops;
   hold.posture = closer.close_fingers(held, limits, closer.open_posture(), stops);
   hold.measure = closer.measure(held, hold.posture, hold.placement.axis_in_hand);
-  hold.score = score_of(hold.measure, site, hold.placement, hold.posture);
+  hold.score = score_of(hold.measure, site, hold.placement, usual,
+                        closer.hand().dimensions.hand_length, hold.posture);
   return hold;
 }
-
 
 }  // namespace
 
@@ -130,7 +147,8 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
   const Vec3 grip = site.point + lay.along * site.axis;
   placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
-  const HeldProduct held{&product, placement.product_from_hand, site.girth / std::numbers::pi};
+  const HeldProduct held{&product, placement.product_from_hand, site.point, site.axis,
+                         site.girth / std::numbers::pi};
   const double travel =
       closer.free_travel(held, limits, closer.open_posture(), placement.push_in_hand, 2.0 * reach);
   placement.product_from_hand.translation -=
@@ -158,9 +176,10 @@ std::optional<Hold> find_hold(const HandCloser& closer,
     const DepthLimits here = limits_for(limits, sites[s]);
     for (int k = 0; k < (turn ? 1 : kTurns); ++k) {
       progress.throw_if_cancelled();
-      Lay lay;
+      const Lay usual = usual_lay(sites[s], is_place_fixed);
+      Lay lay = usual;
       lay.turn = turn ? *turn : 2.0 * std::numbers::pi * k / kTurns;
-      const Hold hold = try_hold(closer, *distances[s], sites[s], s, here, lay);
+      const Hold hold = try_hold(closer, *distances[s], sites[s], s, here, lay, usual);
       tried.push_back({hold, rank_of(hold)});
     }
   }
@@ -173,6 +192,7 @@ std::optional<Hold> find_hold(const HandCloser& closer,
     Rated current = tried[k];
     const GripSite& site = sites[current.hold.site];
     const DepthLimits here = limits_for(limits, site);
+    const Lay usual = usual_lay(site, is_place_fixed);
     const auto improve = [&](double Lay::*what, double low, double high,
                              std::initializer_list<double> steps) {
       const Lay from = current.hold.placement.lay;
@@ -181,15 +201,15 @@ std::optional<Hold> find_hold(const HandCloser& closer,
         Lay lay = from;
         lay.*what += step;
         if (lay.*what < low || lay.*what > high) continue;
-        const Hold hold =
-            try_hold(closer, *distances[current.hold.site], site, current.hold.site, here, lay);
+        const Hold hold = try_hold(closer, *distances[current.hold.site], site, current.hold.site,
+                                   here, lay, usual);
         if (rank_of(hold) > current.rank) current = {hold, rank_of(hold)};
       }
     };
     improve(&Lay::proximal, kLeastProximal, 45.0, {6.0, 12.0, 20.0});
     improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
     improve(&Lay::oblique, 4 * kDeg, 26 * kDeg, {-6 * kDeg, 6 * kDeg});
-    if (!is_place_fixed) improve(&Lay::along, -15.0, 15.0, {-8.0, 8.0});
+    if (!is_place_fixed) improve(&Lay::along, -kMostAlong, kMostAlong, {-8.0, 8.0});
     if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
     improve(&Lay::proximal, kLeastProximal, 45.0, {-4.0, 4.0});
     if (!best || current.rank > best->rank) best = current;

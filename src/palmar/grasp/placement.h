@@ -13,12 +13,12 @@ namespace palmar {
 
 /// How a handle lies in a hand, as few numbers. The hand frame's z is palmar, y distal.
 struct Lay {
-  double turn = 0.0;     ///< of the product about the grip axis, rad (0: `wide` faces the palm)
-  double oblique = 0.25; ///< of the grip axis against the line of the metacarpal heads, its ulnar
-                         ///< end towards the wrist, rad; people use 10-25 degrees
-  double tilt = 0.05;    ///< radial end out of the palm, rad
-  double proximal = 11;  ///< of the grip axis from the metacarpal heads towards the wrist, mm
-  double along = 0.0;    ///< shift of the hand along the product's axis, mm
+  double turn = 0.0;      ///< of the product about the grip axis, rad (0: `wide` faces the palm)
+  double oblique = 0.25;  ///< of the grip axis against the line of the metacarpal heads, its ulnar
+                          ///< end towards the wrist, rad; people use 10-25 degrees
+  double tilt = 0.05;     ///< radial end out of the palm, rad
+  double proximal = 11;   ///< of the grip axis from the metacarpal heads towards the wrist, mm
+  double along = 0.0;     ///< shift of the hand along the product's axis, mm
 };
 
 /// Product and hand before fingers close: the product pressed into the palm.
