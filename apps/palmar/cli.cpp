@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -28,7 +29,16 @@ void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
 }
 
+/// The first Ctrl-C asks to stop, the second stops at once.
+void install_interrupt_handler() {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
 double parse_number(const std::string& option, const std::string& text) {
+  if (text.empty()) throw UsageError(option + ": a number is missing");
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -87,14 +97,17 @@ Vec3 parse_vector(const std::string& option, const std::string& text) {
 
 std::optional<LengthUnit> parse_unit(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  if (text == "mm") return LengthUnit::kMillimetre;
-  if (text == "cm") return LengthUnit::kCentimetre;
-  if (text == "m") return LengthUnit::kMetre;
-  if (text == "inch" || text == "in") return LengthUnit::kInch;
+  std::string name = text;
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (name == "mm") return LengthUnit::kMillimetre;
+  if (name == "cm") return LengthUnit::kCentimetre;
+  if (name == "m") return LengthUnit::kMetre;
+  if (name == "inch" || name == "in") return LengthUnit::kInch;
   throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
 }
 
 Progress make_progress(const CommonOptions& common) {
+  install_interrupt_handler();
   Progress progress;
   progress.cancel = &interrupted;
   if (common.quiet || common.json || isatty(STDERR_FILENO) == 0) return progress;
@@ -116,14 +129,6 @@ Progress make_progress(const CommonOptions& common) {
 void finish_progress() {
   if (progress_line_open) std::fprintf(stderr, "\r\033[K");
   progress_line_open = false;
-}
-
-void install_interrupt_handler() {
-  struct sigaction action = {};
-  action.sa_handler = on_interrupt;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
 }
 
 void note(const CommonOptions& common, const std::string& text) {

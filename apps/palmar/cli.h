@@ -58,13 +58,11 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
 std::optional<LengthUnit> parse_unit(const std::string& text);
 
 /// Progress for this command: a line on a terminal's stderr (none with --quiet, --json or a pipe),
-/// cancelled by Ctrl-C.
+/// cancelled by the first Ctrl-C; the second ends the program at once. Commands that never ask for
+/// a Progress have nothing to keep: Ctrl-C simply ends them.
 Progress make_progress(const CommonOptions& common);
 /// Ends the progress line, so that other messages start on a line of their own.
 void finish_progress();
-/// Installs the Ctrl-C handler: the first press asks to stop, the second stops at once.
-void install_interrupt_handler();
-
 /// A note for the user on stderr, silent with --quiet.
 void note(const CommonOptions& common, const std::string& text);
 /// Text on stdout; throws OutputError if it can't be written (a full disk, say).

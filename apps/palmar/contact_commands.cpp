@@ -30,9 +30,12 @@ std::pair<std::string, std::string> split_kind(const std::string& text) {
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 
-double one_number(const std::string& option, const std::string& text) {
-  const std::vector<double> values = parse_list(option, text);
-  if (values.size() != 1) throw UsageError(option + ": \"" + text + "\" is not one number");
+double one_radius(const std::string& kind, const std::string& text) {
+  const std::vector<double> values =
+      text.empty() ? std::vector<double>() : parse_list("--indenter", text);
+  if (values.size() != 1) {
+    throw UsageError("--indenter: " + kind + " needs one radius in mm, as in " + kind + ":5");
+  }
   return values.front();
 }
 
@@ -42,7 +45,8 @@ PressSpecimen parse_specimen(const std::string& text, std::string& hand) {
   const auto [kind, rest] = split_kind(text);
   if (text == "plane") return specimen;
   if (kind == "ellipsoid") {
-    const std::vector<double> radii = parse_list("--specimen", rest);
+    const std::vector<double> radii =
+        rest.empty() ? std::vector<double>() : parse_list("--specimen", rest);
     if (radii.size() != 2) {
       throw UsageError("--specimen: \"" + text +
                        "\"; ellipsoid:RX,RY with two radii in mm is needed");
@@ -76,7 +80,7 @@ PressIndenter parse_indenter(const std::string& text) {
     indenter.kind = kind == "sphere"  ? PressIndenter::Kind::kSphere
                     : kind == "punch" ? PressIndenter::Kind::kPunch
                                       : PressIndenter::Kind::kCylinder;
-    indenter.radius = one_number("--indenter", rest);
+    indenter.radius = one_radius(kind, rest);
   } else {
     throw UsageError("--indenter: \"" + text +
                      "\" is not known; sphere:R, punch:A, cylinder:R (mm) or plane is allowed");
@@ -97,6 +101,17 @@ std::string press_text(const std::vector<PressStep>& steps) {
 
 int run_press(const PressArguments& arguments, const CommonOptions& common) {
   std::string hand_name;
+  if (arguments.depths.empty() == arguments.forces.empty()) {
+    throw UsageError("either --depth-mm or --force-n is needed, and only one of them");
+  }
+  if (arguments.shear_modulus_kpa && !(*arguments.shear_modulus_kpa > 0.0)) {
+    throw UsageError(fmt::format("--shear-modulus-kpa is {}; more than 0 kPa is required",
+                                 *arguments.shear_modulus_kpa));
+  }
+  if (!(arguments.cell > 0.0 && arguments.cell <= 30.0)) {
+    throw UsageError(
+        fmt::format("--cell-mm is {}; more than 0 and at most 30 mm is required", arguments.cell));
+  }
   PressOptions options;
   options.specimen = parse_specimen(arguments.specimen, hand_name);
   options.indenter = parse_indenter(arguments.indenter);

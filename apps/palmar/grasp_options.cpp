@@ -48,6 +48,10 @@ ContactOptions ContactArguments::options() const {
   ContactOptions result;
   result.kernel = parse_kernel(kernel);
   result.swelling = !no_swelling;
+  if (shear_modulus_kpa && !(*shear_modulus_kpa > 0.0)) {
+    throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa) +
+                     "; more than 0 kPa is required");
+  }
   if (shear_modulus_kpa) result.shear_modulus = *shear_modulus_kpa / 1000.0;
   result.check();
   return result;

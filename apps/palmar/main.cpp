@@ -1,5 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include <signal.h>
+
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -87,7 +89,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(explain(app, error), 2);
   }
-  install_interrupt_handler();
+  signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
   set_thread_count(context.common.threads);
   const int code = context.run();
   finish_progress();
