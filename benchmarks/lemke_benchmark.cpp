@@ -90,7 +90,7 @@ void compare(const std::vector<Block>& blocks) {
     const ContactSolution ours = solve_contact(block.problem);
     const ContactSolution lemke = solve_contact_lemke(block.problem);
     const double ours_ms = milliseconds(40, [&] { solve_contact(block.problem); });
-    const double lemke_ms = milliseconds(5, [&] { solve_contact_lemke(block.problem); });
+    const double lemke_ms = milliseconds(15, [&] { solve_contact_lemke(block.problem); });
     ours_all += ours_ms;
     lemke_all += lemke_ms;
     std::cout << std::left << std::setw(18) << block.region << std::right << std::setw(8)

@@ -151,7 +151,9 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
   // The deepest first: what is exchanged stands near the end, so that most of the factor stays.
   std::vector<int> by_depth(static_cast<std::size_t>(m));
   std::iota(by_depth.begin(), by_depth.end(), 0);
-  std::sort(by_depth.begin(), by_depth.end(), [&](int i, int j) {
+  const auto outside = std::stable_partition(by_depth.begin(), by_depth.end(),
+                                             [&](int i) { return problem.distance[i] < 0.0; });
+  std::sort(by_depth.begin(), outside, [&](int i, int j) {
     const double a = problem.distance[i];
     const double b = problem.distance[j];
     return a < b || (a == b && i < j);

@@ -7,6 +7,31 @@
 
 namespace palmar {
 
+namespace {
+
+/// block -= A B^T over `count` columns; A, B are panels. Written so that the sums stay in
+/// registers.
+void subtract_product(const double* a, const double* b, int count, double (&block)[4][4]) {
+  using Column = Eigen::Array4d;
+  Column sum0 = Eigen::Map<const Column>(block[0]);
+  Column sum1 = Eigen::Map<const Column>(block[1]);
+  Column sum2 = Eigen::Map<const Column>(block[2]);
+  Column sum3 = Eigen::Map<const Column>(block[3]);
+  for (int k = 0; k < count; ++k, a += 4, b += 4) {
+    const Column column = Eigen::Map<const Column>(a);
+    sum0 -= column * b[0];
+    sum1 -= column * b[1];
+    sum2 -= column * b[2];
+    sum3 -= column * b[3];
+  }
+  Eigen::Map<Column>{block[0]} = sum0;
+  Eigen::Map<Column>{block[1]} = sum1;
+  Eigen::Map<Column>{block[2]} = sum2;
+  Eigen::Map<Column>{block[3]} = sum3;
+}
+
+}  // namespace
+
 bool PackedCholesky::factor_panel(int i) {
   double* const rows = panel(i);
   for (int j = 0; j <= i; ++j) {
@@ -15,11 +40,7 @@ bool PackedCholesky::factor_panel(int i) {
     for (int c = 0; c < 4; ++c) {
       for (int r = 0; r < 4; ++r) block[c][r] = rows[4 * (4 * j + c) + r];
     }
-    for (int k = 0; k < 4 * j; ++k) {
-      for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) block[c][r] -= rows[4 * k + r] * above[4 * k + c];
-      }
-    }
+    subtract_product(rows, above, 4 * j, block);
     const double* const corner = above + 16 * j;
     for (int c = 0; c < 4; ++c) {
       for (int k = 0; k < c; ++k) {

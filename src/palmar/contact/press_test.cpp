@@ -52,7 +52,7 @@ TEST(Press, FineLatticeMeetsHertzToHalfAPercent) {
 
 TEST(Press, FlatPunchHasTheStiffnessOfTheClosedForm) {
   // F = 8 G a depth = 2 N per mm for a = 5 mm, G = 50 kPa.
-  for (const double spacing : {2.5, 1.25, 0.5}) {
+  for (const double spacing : {2.5, 0.5}) {
     PressOptions options = sphere_on_plane(5.0, spacing);
     options.indenter.kind = PressIndenter::Kind::kPunch;
     options.depths = {1.0};
