@@ -11,6 +11,7 @@
 
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/footprint.h"
+#include "palmar/contact/prepared_hand.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -78,6 +79,22 @@ TEST(HandContact, SkinBulgesAroundTheContact) {
   EXPECT_GE(*std::min_element(without.displacement.begin(), without.displacement.end()), 0.0);
   // The bulge is for the shape only: under the contact it is flattened without force.
   EXPECT_EQ(with.force, without.force);
+}
+
+TEST(HandContact, DeformedSkinHasNoStepAroundTheContact) {
+  // Neighbours' motions differ at most by the slope of the deformed ball times the edge (1.5 mm).
+  // The steepest slopes are those under the contact's edge, where the ball itself rises by
+  // tan(acos(8 / 10)) = 0.75, and at the bulge's flank, 2 mm over about b / 2 = 4 mm: less than 1.
+  const ContactResult contact = press_on_plane(2.0);
+  const SkinGeometry& skin = prepared_ball().impl().skin;
+  for (int v = 0; v < skin.vertex_count(); ++v) {
+    for (const int w : skin.neighbours(v)) {
+      const Vec3 motion_v = contact.deformed[v] - contact.undeformed[v];
+      const Vec3 motion_w = contact.deformed[w] - contact.undeformed[w];
+      const double edge = (contact.undeformed[v] - contact.undeformed[w]).norm();
+      EXPECT_LT((motion_v - motion_w).norm(), 1.0 * edge) << "vertices " << v << ", " << w;
+    }
+  }
 }
 
 TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
