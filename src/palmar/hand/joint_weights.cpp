@@ -25,6 +25,7 @@ struct Band {
   double palmar_half = 9.0;                       ///< set from the depth of the joint
   double dorsal_half = 1.0;                       ///< first as a multiple of the palmar one
   double palmar_shift = 0.0, dorsal_shift = 0.0;  ///< distally
+  double most_bulge = 1.4;  ///< mm/rad; more makes a visible ball of an interphalangeal joint
 };
 
 /// Axes of a joint in the reference posture.
@@ -229,7 +230,6 @@ class WeightMaker {
   /// how far palmar of the axis the centroid of the section lies times the section's area.)
   void add_bulge(const JointAxes& axes, const Band& band, const JointDof& dof,
                  JointWeights& weights) const {
-    constexpr double kMostBulge = 1.3;  // mm/rad; more makes a visible ball of the joint
     const double half = std::max(band.palmar_half, band.dorsal_half);
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
       const auto v = static_cast<std::size_t>(weights.vertex[k]);
@@ -242,7 +242,8 @@ class WeightMaker {
     const double straight = signed_volume(skin_);
     const double bent = bent_volume(weights, dof, 0.0);
     const double gain = bent_volume(weights, dof, 1.0) - bent;
-    const double amplitude = gain > 0 ? std::clamp((straight - bent) / gain, 0.0, kMostBulge) : 0.0;
+    const double amplitude =
+        gain > 0 ? std::clamp((straight - bent) / gain, 0.0, band.most_bulge) : 0.0;
     for (Vec3& bulge : weights.bulge) bulge *= amplitude;
   }
 
@@ -253,7 +254,7 @@ class WeightMaker {
     const auto joint = [&](int k) { return static_cast<JointId>(j + k); };
     const Chain& chain = chains_[field];
     result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[field],
-                           1.1, {.dorsal_half = 1.25, .palmar_shift = 4.0}));
+                           1.1, {.dorsal_half = 1.25, .palmar_shift = 4.0, .most_bulge = 3.0}));
     result.push_back(hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3],
                            hard_[field], 1.2, {}));
     result.push_back(hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4],

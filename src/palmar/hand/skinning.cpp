@@ -11,14 +11,6 @@
 namespace palmar {
 namespace {
 
-/// Joints from distal to proximal; within a web two fingers' MCP joints act on the same vertex, one
-/// after the other in this order.
-constexpr std::array<JointId, kJointCount> kDistalToProximal = {
-    JointId::kIndexDip, JointId::kMiddleDip, JointId::kRingDip,  JointId::kLittleDip,
-    JointId::kIndexPip, JointId::kMiddlePip, JointId::kRingPip,  JointId::kLittlePip,
-    JointId::kIndexMcp, JointId::kMiddleMcp, JointId::kRingMcp,  JointId::kLittleMcp,
-    JointId::kThumbIp,  JointId::kThumbMp,   JointId::kThumbCmc, JointId::kWrist};
-
 /// Rotation of a point by angle [cos, sin] about a unit axis through a centre (Rodrigues).
 Vec3 turned(const Vec3& point, const Vec3& axis, const Vec3& centre, double angle) {
   const Vec3 arm = point - centre;

@@ -2,11 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "palmar/hand/hand.h"
 
 namespace palmar {
+
+/// Joints from distal to proximal, the order in which they move skin; within a web two fingers' MCP
+/// joints act on the same vertex, one after the other in this order.
+inline constexpr std::array<JointId, kJointCount> kDistalToProximal = {
+    JointId::kIndexDip, JointId::kMiddleDip, JointId::kRingDip,  JointId::kLittleDip,
+    JointId::kIndexPip, JointId::kMiddlePip, JointId::kRingPip,  JointId::kLittlePip,
+    JointId::kIndexMcp, JointId::kMiddleMcp, JointId::kRingMcp,  JointId::kLittleMcp,
+    JointId::kThumbIp,  JointId::kThumbMp,   JointId::kThumbCmc, JointId::kWrist};
 
 /// Skin of a hand in a posture, vertex for vertex, in the hand frame (fixed to the palm), mm.
 ///
