@@ -19,7 +19,9 @@
 #include "palmar/hand/skinning.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/hand_asset.h"
+#include "palmar/io/product_file.h"
 #include "palmar/product/primitives.h"
+#include "palmar/study/assessment.h"
 
 namespace palmar {
 namespace {
@@ -171,7 +173,7 @@ TEST_F(PowerGrasp, AskedTurnFacesThePalm) {
   const Product product = box({30.0, 40.0, 150.0});
   PowerGraspOptions options;
   options.placement.axis = Vec3::UnitZ();
-  for (const double turn : {0.0, std::numbers::pi / 2}) {
+  for (const double turn : {0.0, std::numbers::pi / 2, -std::numbers::pi / 2}) {
     options.placement.turn = turn;
     const Grasp grasp = close_power_grasp(hand(), product, options);
     // At zero the product's x axis points to the palm, that is against the palmar direction.
@@ -201,6 +203,91 @@ TEST_F(PowerGrasp, SheetIsNotGraspable) {
   const Grasp grasp = close_power_grasp(hand(), box({300.0, 200.0, 1.0}, 1));
   EXPECT_EQ(grasp.status, GraspStatus::kNotGraspable) << grasp.message;
   EXPECT_THAT(grasp.message, HasSubstr("sheet"));
+}
+
+TEST_F(PowerGrasp, ForceAndAreaFollowTheDiameterWithoutJumps) {
+  const PreparedHand prepared(std::make_shared<const Hand>(hand()));
+  for (const double first : {36.0, 56.0}) {
+    double force = 0.0, area = 0.0;
+    for (double diameter = first; diameter < first + 5.0; diameter += 2.0) {
+      SCOPED_TRACE(diameter);
+      const RegionContact total = assess(prepared, cylinder(diameter)).contact.total;
+      if (diameter > first) {
+        EXPECT_NEAR(total.force / force, 1.0, 0.12);
+        EXPECT_NEAR(total.area / area, 1.0, 0.12);
+      }
+      force = total.force;
+      area = total.area;
+    }
+  }
+}
+
+TEST_F(PowerGrasp, ProximalPhalangesCarryLessOfALargerHandle) {
+  // Manugraphy of 152 adults on handles of 100, 150 and 200 mm girth: the share of the proximal
+  // phalanges falls as the handle grows.
+  const PreparedHand prepared(std::make_shared<const Hand>(hand()));
+  double before = 1.0;
+  for (const double diameter : {32.0, 48.0, 64.0}) {
+    const ContactResult contact = assess(prepared, cylinder(diameter)).contact;
+    double proximal = 0.0, all = 0.0;
+    for (const RegionContact& region : contact.regions) {
+      all += region.force;
+      for (const Region r : {Region::kIndexProximal, Region::kMiddleProximal, Region::kRingProximal,
+                             Region::kLittleProximal}) {
+        if (region.region == r) proximal += region.force;
+      }
+    }
+    EXPECT_LT(proximal / all, before) << diameter;
+    before = proximal / all;
+  }
+}
+
+TEST_F(PowerGrasp, DrillIsHeldAtItsPistolHandle) {
+  const std::filesystem::path file =
+      std::filesystem::path(PALMAR_SHARED_DIR) / "products" / "power_drill.obj";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the scanned products are not here";
+  const Product drill = load_product(file.string(), {.unit = LengthUnit::kMillimetre});
+  const Grasp grasp = close_power_grasp(hand(), drill);
+  EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+  // The list of the products: the handle is 35 to 100 mm above the foot.
+  const double height = grasp.grip_point.y() - drill.distance->bounding_box().min().y();
+  EXPECT_GT(height, 35.0);
+  EXPECT_LT(height, 100.0);
+  EXPECT_GT(grasp.grip_axis.y(), 0.7);  // the gearbox lies beyond the thumb
+}
+
+TEST_F(PowerGrasp, LeftHandHoldsAMirroredProductInTheMirroredWay) {
+  Product product = box({26.0, 36.0, 150.0});
+  for (Vec3& v : product.mesh.vertices) v.head<2>() *= 1.0 + 0.001 * (v.z() + 0.4 * v.x());
+  product = moved(product, {});
+  Product mirror = product;
+  for (Vec3& v : mirror.mesh.vertices) v.x() = -v.x();
+  for (Triangle& t : mirror.mesh.triangles) std::swap(t[1], t[2]);
+  mirror.distance = std::make_shared<MeshDistance>(mirror.mesh);
+  const Grasp right = close_power_grasp(hand(), product);
+  const Grasp left = close_power_grasp(mirrored(hand()), mirror);
+  EXPECT_EQ(left.status, right.status);
+  for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
+    EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d], 1.5 * kDeg)
+        << name_of(static_cast<Dof>(d));
+  }
+  const Vec3 point = right.grip_point.cwiseProduct(Vec3(-1.0, 1.0, 1.0));
+  EXPECT_LT((left.grip_point - point).norm(), 0.05);
+}
+
+TEST_F(PowerGrasp, SlabLiesWithItsFaceInThePalm) {
+  const Grasp grasp = close_power_grasp(hand(), box({14.0, 78.0, 130.0}));
+  EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+  const Vec3 face = grasp.product_from_hand.rotation.conjugate() * Vec3::UnitX();
+  EXPECT_GT(std::abs(face.z()), 0.7);
+}
+
+TEST_F(PowerGrasp, MessageIsInPlainWords) {
+  for (const double diameter : {20.0, 100.0}) {
+    const Grasp grasp = close_power_grasp(hand(), cylinder(diameter));
+    EXPECT_THAT(grasp.message, HasSubstr("held by five fingers"));
+    EXPECT_THAT(grasp.message, ::testing::Not(HasSubstr("_")));
+  }
 }
 
 TEST_F(PowerGrasp, SameInputGivesTheSameGrasp) {

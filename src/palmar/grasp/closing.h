@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "palmar/geometry/distance_field.h"
@@ -10,23 +11,10 @@
 #include "palmar/grasp/finger_cones.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/posable_skin.h"
+#include "palmar/grasp/skin_advance.h"
+#include "palmar/grasp/thumb_closing.h"
 
 namespace palmar {
-
-/// How deep skin may go into the product, mm.
-struct DepthLimits {
-  double palm = 7.0;
-  double finger = 4.0;
-};
-
-/// Where the product stands and what it is, seen from a closing hand.
-struct HeldProduct {
-  const DistanceField* distance = nullptr;
-  Rigid3 product_from_hand;
-  Vec3 grip_point = Vec3::Zero();  ///< on the grip axis, product frame, mm
-  Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
-  double diameter = 35.0;  ///< of the circle with the grip's girth, mm; fingers preshape to it
-};
 
 /// What a posed hand and a product do to each other, before skin gives way.
 struct HoldMeasure {
@@ -51,6 +39,8 @@ class HandCloser {
  public:
   /// Looks at skin vertices `spacing` [mm] apart (0: at all of them). Keeps a pointer to `hand`.
   HandCloser(const Hand& hand, double spacing);
+  HandCloser(const HandCloser&) = delete;
+  HandCloser& operator=(const HandCloser&) = delete;
 
   const Hand& hand() const { return *hand_; }
 
@@ -66,42 +56,13 @@ class HandCloser {
   Posture close_fingers(const HeldProduct& product, const DepthLimits& limits, Posture start,
                         std::array<SegmentStop, kSegmentCount>& stops) const;
 
-  /// Opposes the thumb: of several ways for its metacarpal the one after which its pads hold most.
-  /// Answers the CMC angles to ask wrap_thumb() for.
-  struct ThumbWay {
-    double cmc_flexion = 0.0;    ///< rad
-    double cmc_abduction = 0.0;  ///< rad
-  };
-  ThumbWay find_thumb_way(const HeldProduct& product, const DepthLimits& limits,
-                          const Posture& start, const Vec3& grip_axis_in_hand) const;
-
-  /// Brings the thumb's metacarpal as far as it can go towards the given CMC angles [rad], then
-  /// bends MP and IP.
-  Posture wrap_thumb(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-                     double cmc_flexion, double cmc_abduction,
-                     std::array<SegmentStop, kSegmentCount>& stops) const;
+  const ThumbCloser& thumb() const { return *thumb_; }
 
   /// Contact and penetrations in a posture. `axis_in_hand`: grip axis, unit.
   HoldMeasure measure(const HeldProduct& product, const Posture& posture,
                       const Vec3& axis_in_hand) const;
 
  private:
-  struct Group {
-    PosableSkin skin;
-    std::vector<Segment> segment;
-    std::vector<Region> region;
-    std::vector<double> area;  ///< skin that the vertex stands for, mm^2
-  };
-  struct Advance;
-  struct Obstacle {
-    RoundCone cone;
-    double give = 0.0;  ///< mm
-  };
-
-  Advance advance(const Group& group, const HeldProduct& product, const DepthLimits& limits,
-                  const std::vector<Obstacle>& obstacles, const Posture& from,
-                  const Posture& to) const;
-  std::vector<Obstacle> thumb_obstacles(const Posture& posture) const;
   /// Fingers reach out already bent to the handle's curvature, as far as it is out of the way.
   Posture preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
                     double diameter, double share, const Posture& start) const;
@@ -109,23 +70,18 @@ class HandCloser {
                const Posture& posture) const;
   Posture close_finger(const HeldProduct& product, const DepthLimits& limits, Finger finger,
                        Posture posture, std::array<SegmentStop, kSegmentCount>& stops) const;
-  double thumb_score(const HeldProduct& product, const Posture& posture,
-                     const Vec3& grip_axis_in_hand) const;
 
   const Hand* hand_;
-  std::vector<Group> groups_;  ///< per finger and joint level: what the joint moves
-  Group palm_;                 ///< palmar skin of the whole hand
-  Group all_;
+  /// Per finger and joint level: what the joint moves; the thumb's third is the CMC's.
+  std::array<std::array<SkinGroup, 3>, kFingerCount> groups_;
+  SkinGroup palm_;  ///< palmar skin of the whole hand
+  SkinGroup all_;
   FingerCones cones_;
+  std::optional<ThumbCloser> thumb_;
 };
 
 /// Range of one degree of freedom.
 inline double lower_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).lower; }
 inline double upper_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).upper; }
-
-/// The flexion of a finger's joint at level 0 (MCP, thumb MP), 1 (PIP, thumb IP), 2 (DIP).
-Dof flexion_of(Finger finger, int level);
-/// Abduction of a finger's MCP joint; of the CMC joint for the thumb.
-Dof abduction_of(Finger finger);
 
 }  // namespace palmar

@@ -261,16 +261,17 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     seen.distance = exact.get();
     return seen;
   };
-  HandCloser::ThumbWay way;
+  ThumbWay way;
   HoldMeasure measure;
   for (int round = 0; round < kSettleRounds; ++round) {
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, fine.open_posture(), grasp.stops);
     if (round == 0) {
-      way = coarse.find_thumb_way(held, limits, grasp.posture, placement.axis_in_hand);
+      way = fine.thumb().best_of(
+          coarse.thumb().find_ways(held, limits, grasp.posture, placement.axis_in_hand), held,
+          limits, grasp.posture, placement.axis_in_hand);
     }
-    grasp.posture = fine.wrap_thumb(held, limits, grasp.posture, way.cmc_flexion, way.cmc_abduction,
-                                    grasp.stops);
+    grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
     measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
     const double excess = measure.penetration[0] - limits.palm;
     if (excess <= kTrimTolerance) break;

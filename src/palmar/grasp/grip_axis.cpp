@@ -210,17 +210,6 @@ Straightened straighten(const TriangleMesh& mesh, Window window, Vec3 axis, cons
   return {window, axis};
 }
 
-std::vector<Vec3> directions(const PrincipalFrame& frame) {
-  std::vector<Vec3> list = {frame.axes.col(0), frame.axes.col(1), frame.axes.col(2)};
-  const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < kDirections; ++i) {  // Fibonacci spiral on the half sphere
-    const double z = (i + 0.5) / kDirections;
-    const double r = std::sqrt(1.0 - z * z);
-    list.push_back(frame.axes * Vec3(r * std::cos(golden * i), r * std::sin(golden * i), z));
-  }
-  return list;
-}
-
 // Third moment of the surface about a point along a direction: a sign that turns with the product.
 double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
   double moment = 0.0;
@@ -232,6 +221,20 @@ double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& dir
     moment += (b - a).cross(c - a).norm() * s * s * s;
   }
   return moment;
+}
+
+std::vector<Vec3> directions(const TriangleMesh& mesh, const PrincipalFrame& frame) {
+  // A mirrored product must be looked at from mirrored directions: the third axis has its own sign.
+  Eigen::Matrix3d axes = frame.axes;
+  if (third_moment(mesh, frame.centre, axes.col(2)) < 0.0) axes.col(2) = -axes.col(2);
+  std::vector<Vec3> list = {axes.col(0), axes.col(1), axes.col(2)};
+  const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < kDirections; ++i) {  // Fibonacci spiral on the half sphere
+    const double z = (i + 0.5) / kDirections;
+    const double r = std::sqrt(1.0 - z * z);
+    list.push_back(axes * Vec3(r * std::cos(golden * i), r * std::sin(golden * i), z));
+  }
+  return list;
 }
 
 // Mean distance of the surface from the axis beyond the site less that on the other side, mm.
@@ -352,7 +355,7 @@ std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearch
   };
   std::vector<Candidate> candidates;
   const std::vector<Vec3> tried =
-      options.axis ? std::vector<Vec3>{*options.axis} : directions(frame);
+      options.axis ? std::vector<Vec3>{*options.axis} : directions(mesh, frame);
   for (const Vec3& axis : tried) {
     const double spacing = spacing_for(mesh, axis);
     for (const Bar& bar : bars_in(sections_along(mesh, axis, spacing), axis, spacing)) {

@@ -31,6 +31,7 @@ constexpr double kFlat = 0.35;          // thickness / width up to which a secti
 constexpr double kSpan = 0.55;          // hand lengths between its edges that a hand spans
 constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
+constexpr double kAlike = 0.005;        // share of the score within which holds are the same
 constexpr int kTurns = 8;
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
@@ -190,6 +191,11 @@ std::optional<Hold> find_hold(const HandCloser& closer,
   std::optional<Rated> best;
   for (std::size_t k = 0; k < std::min<std::size_t>(tried.size(), 2); ++k) {
     Rated current = tried[k];
+    // Round handles lie alike whichever way they are turned.
+    if (k > 0 && current.hold.site == tried[0].hold.site &&
+        current.rank > (1.0 - kAlike) * tried[0].rank) {
+      break;
+    }
     const GripSite& site = sites[current.hold.site];
     const DepthLimits here = limits_for(limits, site);
     const Lay usual = usual_lay(site, is_place_fixed);

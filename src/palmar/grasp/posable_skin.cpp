@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/posable_skin.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,13 +9,6 @@
 
 namespace palmar {
 namespace {
-
-// Within a web two fingers' joints act on one vertex: the same order as in pose_skin().
-constexpr std::array<JointId, kJointCount> kDistalToProximal = {
-    JointId::kIndexDip, JointId::kMiddleDip, JointId::kRingDip,  JointId::kLittleDip,
-    JointId::kIndexPip, JointId::kMiddlePip, JointId::kRingPip,  JointId::kLittlePip,
-    JointId::kIndexMcp, JointId::kMiddleMcp, JointId::kRingMcp,  JointId::kLittleMcp,
-    JointId::kThumbIp,  JointId::kThumbMp,   JointId::kThumbCmc, JointId::kWrist};
 
 Rigid3 displacement(const Skeleton& skeleton, JointId id, const Posture& posture, double weight) {
   if (id == JointId::kThumbCmc) {

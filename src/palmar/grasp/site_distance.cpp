@@ -95,9 +95,13 @@ std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
   for (const Vec3& v : mesh.vertices) window.extend(site_from_product * v);
   const Vec3 reach(kAlong, kSideways, kSideways);
   window = window.intersection(Box3(-reach, reach));
-  auto near = std::make_shared<TurnedField>(std::move(product), product_from_site, window);
   GridDistanceOptions options;
   options.spacing = std::clamp(site.girth / std::numbers::pi / kPerDiameter, kFinest, kCoarsest);
+  // Nodes in mirrored places for a mirrored product: there the third axis points the other way.
+  const double side = std::max(-window.min().z(), window.max().z());
+  window.max().z() = std::ceil(side / options.spacing) * options.spacing;
+  window.min().z() = -window.max().z();
+  auto near = std::make_shared<TurnedField>(std::move(product), product_from_site, window);
   options.band = kSiteBand;
   auto grid = std::make_shared<GridDistance>(std::move(near), options);
   return std::make_unique<TurnedField>(std::move(grid), site_from_product, box);

@@ -1,0 +1,147 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/thumb_closing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace palmar {
+namespace {
+
+constexpr double kEndFace = 0.7;  // of the normal along the grip axis: not held, but hooked
+constexpr double kStraightIp = 45.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
+constexpr std::size_t kKeptWays = 2;                             // looked at more closely
+
+}  // namespace
+
+Posture ThumbCloser::wrap(const HeldProduct& product, const DepthLimits& limits,
+                          const Posture& start, const ThumbWay& way,
+                          std::array<SegmentStop, kSegmentCount>& stops) const {
+  const std::vector<Obstacle> fingers = obstacles(start);
+  // First out of the palm's plane, clear of the product, then across it.
+  Posture target = start;
+  target[Dof::kThumbCmcAbduction] = way.cmc_abduction;
+  Posture posture = advance_skin((*groups_)[2], product, limits, fingers, start, target).posture;
+  target = posture;
+  target[Dof::kThumbCmcFlexion] = way.cmc_flexion;
+  posture = advance_skin((*groups_)[2], product, limits, fingers, posture, target).posture;
+  const std::array<Segment, 2> segments = {Segment::kThumbProximal, Segment::kThumbDistal};
+  for (int level = 0; level < 2; ++level) {
+    const Dof dof = flexion_of(Finger::kThumb, level);
+    target = posture;
+    target[dof] = hand_->skeleton.dof(dof).upper;
+    const Advance moved = advance_skin((*groups_)[static_cast<std::size_t>(level)], product, limits,
+                                       fingers, posture, target);
+    posture = moved.posture;
+    SegmentStop& stop = stops[static_cast<std::size_t>(segments[static_cast<std::size_t>(level)])];
+    stop.segment = segments[static_cast<std::size_t>(level)];
+    stop.reason = moved.reason_for(stop.segment);
+  }
+  return posture;
+}
+
+double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
+                          const Vec3& grip_axis_in_hand) const {
+  const SkinGroup& group = (*groups_)[2];
+  const SkinLook look = look_at_skin(group, product, posture);
+  const std::vector<DistanceSample>& samples = look.sample;
+  double area = 0.0, other = 0.0, gap = kSkinRange, reach = 0.0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k])) {
+      gap = std::min(gap, samples[k].distance);
+    }
+    if (samples[k].distance > 0.0) continue;
+    // Full from half a millimetre: no steps as the thumb moves on.
+    const double share = std::min(1.0, -2.0 * samples[k].distance);
+    const double weight = share * (group.segment[k] == Segment::kThumbDistal ? 1.5 : 1.0);
+    const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
+    // Over a rim the thumb would meet the inside of a vessel.
+    Vec3 out = look.in_product[k] - product.grip_point;
+    out -= product.grip_axis * product.grip_axis.dot(out);
+    const bool is_inside = samples[k].normal.dot(out) < 0.0;
+    const bool is_on_end = is_inside || std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
+    (is_palmar(group.region[k]) && !is_on_end ? area : other) += weight * group.area[k];
+    // The further round, the more the product's skin there faces away from the palm.
+    if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k]) && !is_on_end) {
+      reach += share * group.area[k] * (1.0 + normal.z());
+    }
+  }
+  // A thumb laid across the handle opposes the fingers; laid along it, it holds next to nothing.
+  const PosedSkeleton pose = pose_skeleton(hand_->skeleton, posture);
+  const Vec3 tip = pose.segment[static_cast<std::size_t>(Segment::kThumbDistal)] *
+                   hand_->skeleton.fingertips[static_cast<std::size_t>(Finger::kThumb)];
+  const Vec3 base = pose.segment[static_cast<std::size_t>(Segment::kThumbProximal)] *
+                    hand_->skeleton.joint(JointId::kThumbMp).centre;
+  const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
+  // A thumb hooked over an edge bends at its tip alone.
+  const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp);
+  return area - 2.0 * other + reach - 250.0 * hooked + 500.0 * across - 10.0 * std::max(0.0, gap);
+}
+
+std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
+  std::vector<Obstacle> list;
+  for (const RoundCone& cone : cones_->posed(hand_->skeleton, posture)) {
+    if (cone.finger != Finger::kThumb && cone.level > 0) list.push_back({cone, kNeighbourGive});
+  }
+  return list;
+}
+
+std::vector<ThumbWay> ThumbCloser::find_ways(const HeldProduct& product, const DepthLimits& limits,
+                                             const Posture& start,
+                                             const Vec3& grip_axis_in_hand) const {
+  const JointDof& flexion = hand_->skeleton.dof(Dof::kThumbCmcFlexion);
+  const JointDof& abduction = hand_->skeleton.dof(Dof::kThumbCmcAbduction);
+  const auto at = [](const JointDof& dof, double share) {
+    return dof.lower + share * (dof.upper - dof.lower);
+  };
+  struct Rated {
+    double flexion = 0.5, abduction = 0.5;  // shares of the range
+    double score = 0.0;
+  };
+  std::array<SegmentStop, kSegmentCount> stops;
+  const auto rated = [&](double f, double a) {
+    const Posture posture = wrap(product, limits, start, {at(flexion, f), at(abduction, a)}, stops);
+    return Rated{f, a, score(product, posture, grip_axis_in_hand)};
+  };
+  std::vector<Rated> tried;
+  for (const double f : {0.1, 0.4, 0.7, 1.0}) {
+    for (const double a : {0.1, 0.4, 0.7, 1.0}) tried.push_back(rated(f, a));
+  }
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Rated& a, const Rated& b) { return a.score > b.score; });
+  tried.resize(kKeptWays);
+  std::vector<ThumbWay> ways;
+  for (Rated best : tried) {
+    for (const double step : {0.15, 0.075}) {
+      const Rated from = best;
+      for (const auto& [df, da] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
+        const double f = from.flexion + df, a = from.abduction + da;
+        if (f < 0.0 || f > 1.0 || a < 0.0 || a > 1.0) continue;
+        const Rated next = rated(f, a);
+        if (next.score > best.score) best = next;
+      }
+    }
+    ways.push_back({at(flexion, best.flexion), at(abduction, best.abduction)});
+  }
+  return ways;
+}
+
+ThumbWay ThumbCloser::best_of(const std::vector<ThumbWay>& ways, const HeldProduct& product,
+                              const DepthLimits& limits, const Posture& start,
+                              const Vec3& grip_axis_in_hand) const {
+  ThumbWay best;
+  double best_score = -std::numeric_limits<double>::infinity();
+  std::array<SegmentStop, kSegmentCount> stops;
+  for (const ThumbWay& way : ways) {
+    const double here = score(product, wrap(product, limits, start, way, stops), grip_axis_in_hand);
+    if (here <= best_score) continue;
+    best_score = here;
+    best = way;
+  }
+  return best;
+}
+
+}  // namespace palmar
