@@ -100,6 +100,38 @@ TEST(ContactCommand, PressOfASphereIsHertz) {
   EXPECT_NEAR(steps[2].at("peak_pressure_mpa").get<double>(), 0.04026, 0.05 * 0.04026);
 }
 
+TEST(ContactCommand, PunchOnSkinPressesHarderTheDeeperItGoes) {
+  for (const std::string region : {"thenar", "middle_distal", "central_palm"}) {
+    const ProgramRun run = run_palmar("contact press --specimen template:" + region +
+                                      " --indenter punch:4 --depth-mm 0.5,1,2,3,4 --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    double before = 0.0;
+    for (const Json& step : Json::parse(run.out).at("steps")) {
+      const double force = step.at("force_n");
+      EXPECT_GT(force, before) << region << " at " << step.at("depth_mm") << " mm";
+      EXPECT_NEAR(
+          force,
+          step.at("mean_pressure_mpa").get<double>() * step.at("contact_area_mm2").get<double>(),
+          1e-9 + 1e-6 * force);
+      before = force;
+    }
+  }
+}
+
+TEST(ContactCommand, MeanPressureNeverExceedsThePeak) {
+  // Patches of one or two vertices are the hard case.
+  for (const std::string indenter : {"sphere:7", "plane", "cylinder:10"}) {
+    const ProgramRun run = run_palmar("contact press --specimen template:central_palm --indenter " +
+                                      indenter + " --depth-mm 0.05,0.1,0.2,0.5,1,2 --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const Json& step : Json::parse(run.out).at("steps")) {
+      EXPECT_LE(step.at("mean_pressure_mpa").get<double>(),
+                step.at("peak_pressure_mpa").get<double>() * (1 + 1e-9))
+          << indenter << " at " << step.at("depth_mm") << " mm";
+    }
+  }
+}
+
 TEST(ContactCommand, PressRefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run_palmar("contact press --indenter cone:3 --depth-mm 1").exit_code, 2);
   EXPECT_EQ(run_palmar("contact press --indenter sphere:-3 --depth-mm 1").exit_code, 2);

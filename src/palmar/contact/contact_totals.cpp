@@ -19,8 +19,8 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     if (result.force[v] <= 0.0) continue;
     loaded[static_cast<std::size_t>(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }
-  const std::vector<double> area = contact_area(
-      prepared.skin.position, prepared.hand->skin.triangles, result.pressure, gap, shear_modulus);
+  std::vector<double> area = contact_area(prepared.skin.position, prepared.hand->skin.triangles,
+                                          result.pressure, gap, shear_modulus);
 
   RegionContact& total = result.total;
   std::vector<int> all_loaded;
@@ -33,11 +33,16 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.shear_modulus = modulus[r];
     Vec3 moment = Vec3::Zero();
     for (const int v : loaded[r]) {
+      part.peak_pressure = std::max(part.peak_pressure, result.pressure[v]);
+    }
+    for (const int v : loaded[r]) {
+      // A patch of few vertices is finer than the mesh: its edge correction would leave an area on
+      // which the mean exceeds the peak. No vertex gets less than its force needs at the peak.
+      area[v] = std::max(area[v], result.force[v] / part.peak_pressure);
       part.force += result.force[v];
       // The skin pushes the product inwards, against the product's outward normal.
       part.force_vector -= result.force[v] * skin.sample[v].normal;
       part.area += area[v];
-      part.peak_pressure = std::max(part.peak_pressure, result.pressure[v]);
       moment += result.force[v] * result.deformed[v];
     }
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;

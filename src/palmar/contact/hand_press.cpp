@@ -65,11 +65,9 @@ class IndenterField : public DistanceField {
     }
     const double rho = std::hypot(q.x(), q.y());
     const Vec3 out = rho > 0.0 ? Vec3(q.x() / rho, q.y() / rho, 0.0) : Vec3(Vec3::UnitX());
-    if (rho <= radius && (q.z() <= 0.0 || q.z() < radius - rho)) {
-      return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
-    }
+    // Skin under the punch came in through its face, however near the edge it lies.
+    if (rho <= radius) return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
     const Vec3 side = radius * out + std::clamp(q.z(), 0.0, kPunchLength) * Vec3::UnitZ();
-    if (rho <= radius) return {rho - radius, side, out, -1};
     const Vec3 from_side = q - side;
     return {from_side.norm(), side, from_side.normalized(), -1};
   }
@@ -175,7 +173,7 @@ PressStep press_hand_region(const PressOptions& options, const PreparedHand& han
   step.area = contact.total.area;
   step.peak_pressure = contact.total.peak_pressure;
   step.peak_pressure_cells = contact.total.peak_pressure_cells;
-  step.mean_pressure = contact.total.mean_pressure;
+  step.mean_pressure = step.area > 0.0 ? step.force / step.area : 0.0;
   step.complementarity_error = contact.complementarity_error;
   for (const RegionContact& region : contact.regions) step.shear_modulus = region.shear_modulus;
   return step;

@@ -84,6 +84,10 @@ void PressOptions::check() const {
   }
   for (const double d : depths) {
     require(d > 0.0 && d <= kDeepest, "press: depth", d, "mm", "more than 0 and at most 30 mm");
+    if (indenter.kind == PressIndenter::Kind::kSphere ||
+        indenter.kind == PressIndenter::Kind::kCylinder) {
+      require(d <= indenter.radius, "press: depth", d, "mm", "at most the indenter's radius");
+    }
   }
   for (const double f : forces) {
     require(f > 0.0 && f <= 1000.0, "press: force", f, "N", "more than 0 and at most 1000 N");
