@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cli.h"
@@ -9,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/io/assessment_json.h"
 #include "palmar/io/product_file.h"
+#include "palmar/product/check.h"
 #include "palmar/report/assessment_report.h"
 #include "palmar/study/assessment.h"
 #include "text.h"
@@ -38,6 +40,29 @@ std::string summary(const Product& product, const Assessment& assessment) {
                      contact_text(assessment.contact));
 }
 
+/// Above this, finding crossing triangles would take longer than the grasp.
+constexpr int kMostTrianglesForCrossings = 200'000;
+
+/// The product with what a check of its mesh has found added to its notes.
+Product load_checked(const std::string& path, std::optional<LengthUnit> unit) {
+  Product product = load_product(path, {.unit = unit});
+  const bool is_small = product.mesh.triangle_count() <= kMostTrianglesForCrossings;
+  for (const Finding& finding : check_mesh(product.mesh, is_small).findings) {
+    const bool is_known = std::any_of(
+        product.notes.begin(), product.notes.end(),
+        [&](const std::string& note) { return note.find(finding.text) != std::string::npos; });
+    if (finding.severity != Severity::kOk && !is_known) product.notes.push_back(finding.text);
+  }
+  return product;
+}
+
+Cancelled cancelled_with(std::size_t done, std::size_t asked, const std::string& folder) {
+  if (done == 0) return Cancelled("cancelled before anything was finished; nothing written");
+  return Cancelled(fmt::format(
+      "cancelled; {} of {} product{} assessed, {}", done, asked, asked == 1 ? "" : "s",
+      folder.empty() ? "printed" : "written to " + folder + " (pictures may be missing)"));
+}
+
 int run_assess(const AssessArguments& arguments, const Context& context) {
   AssessOptions options;
   options.grasp = arguments.grasp.options();
@@ -45,20 +70,21 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   options.seed = context.common.seed;
   const Progress progress = make_progress(context.common);
 
+  if (!arguments.out.empty()) check_report_folder(arguments.out);
+
   // Every product is read before the first is grasped: a mistyped name costs no waiting.
   std::vector<Product> products;
   for (const std::string& path : arguments.products) {
-    progress.throw_if_cancelled();
-    products.push_back(load_product(path, {.unit = parse_unit(arguments.grasp.unit)}));
+    if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
+    products.push_back(load_checked(path, parse_unit(arguments.grasp.unit)));
     for (const std::string& text : products.back().notes) note(context.common, path + ": " + text);
   }
 
-  progress.update(0.0, "preparing the hand");
+  if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(arguments.grasp.hand);
   const PreparedHand prepared(hand, options.contact.kernel);
 
   std::vector<AssessedProduct> done;
-  std::optional<Cancelled> cancelled;
   int code = 0;
   for (std::size_t i = 0; i < products.size(); ++i) {
     Progress part = progress;
@@ -72,8 +98,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     }
     try {
       done.push_back({products[i], assess(prepared, products[i], options, part)});
-    } catch (const Cancelled& stop) {
-      cancelled = stop;
+    } catch (const Cancelled&) {
       break;
     }
     const ContactResult& contact = done.back().assessment.contact;
@@ -83,18 +108,29 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     }
   }
 
+  bool is_cancelled = done.size() < products.size();
   const AssessmentSet set{
       .hand = hand, .assessments = std::move(done), .command_line = context.command_line};
   const bool writes = !arguments.out.empty() || !context.common.json;
   std::string folder = arguments.out;
   if (writes && !set.assessments.empty()) {
     if (folder.empty()) folder = default_folder();
-    // What is done is written even when the user has cancelled; a second Ctrl-C ends that too.
-    const Progress writing{.report = progress.report,
-                           .cancel = cancelled ? nullptr : progress.cancel};
-    write_report(folder, set, {.pictures = !arguments.no_pictures}, writing);
+    // What is done is written even when the user has cancelled, but for pictures; a second Ctrl-C
+    // ends that too.
+    Progress writing = progress;
+    if (progress.report) {
+      writing.report = [&](double share, const std::string& activity) {
+        progress.report(0.7 + 0.3 * share, activity);
+      };
+    }
+    try {
+      write_report(folder, set, {.pictures = !arguments.no_pictures}, writing);
+    } catch (const Cancelled&) {
+      is_cancelled = true;
+    }
   }
   finish_progress();
+  if (is_cancelled && set.assessments.empty()) throw cancelled_with(0, products.size(), "");
   if (context.common.json) {
     print(assessment_json(set) + "\n");
   } else {
@@ -103,7 +139,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     }
     if (writes && !set.assessments.empty()) print("Report: " + folder + "/report.html\n");
   }
-  if (cancelled) throw *cancelled;
+  if (is_cancelled) throw cancelled_with(set.assessments.size(), products.size(), folder);
   return code;
 }
 

@@ -162,6 +162,12 @@ Json settings_object(const AssessOptions& options) {
 
 std::string grasp_json(const Grasp& grasp) { return dumped(grasp_object(grasp)); }
 
+bool is_assessment_json(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_object() && json.contains("assessments") && json.contains("versions") &&
+         json["versions"].is_object() && json["versions"].contains("palmar");
+}
+
 std::string assessment_json(const AssessmentSet& set) {
   Json assessments = Json::array();
   for (const AssessedProduct& one : set.assessments) {

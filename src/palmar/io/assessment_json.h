@@ -14,6 +14,9 @@ namespace palmar {
 /// exactly. Without times_s the text depends on input and seed alone.
 std::string assessment_json(const AssessmentSet& set);
 
+/// Whether a file's content is an assessment.json that Palmar wrote.
+bool is_assessment_json(const std::string& text);
+
 /// One grasp: status, message, posture in degrees, placement, what stopped each segment.
 std::string grasp_json(const Grasp& grasp);
 

@@ -2,13 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/csv.h"
 
+#include <nlohmann/json.hpp>
+
 #include "palmar/core/error.h"
 #include "palmar/io/text_scan.h"
 
 namespace palmar {
 namespace {
 
-std::string cell(const std::string& text) {
+/// As in JSON: bytes that are no UTF-8 become U+FFFD, the same ones as in assessment.json.
+std::string valid_utf8(const std::string& text) {
+  using nlohmann::json;
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+std::string cell(const std::string& raw) {
+  const std::string text = valid_utf8(raw);
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string result = "\"";
   for (const char c : text) {
@@ -27,14 +36,15 @@ std::string line(const std::vector<std::string>& cells) {
   return result + '\n';
 }
 
-std::vector<std::string> region_row(const std::string& product, const std::string& hand,
-                                    const std::string& region, const RegionContact& contact) {
-  std::vector<std::string> row = {product, hand, region};
+std::vector<std::string> region_row(const AssessedProduct& one, const std::string& region,
+                                    const RegionContact& contact) {
+  std::vector<std::string> row = {one.product.name, one.assessment.hand_name, region};
   for (const double value : {contact.force, contact.area, contact.peak_pressure,
                              contact.peak_pressure_cells, contact.mean_pressure, contact.centre.x(),
                              contact.centre.y(), contact.centre.z(), contact.max_penetration}) {
     row.push_back(shortest(value));
   }
+  row.push_back(one.product.source);
   return row;
 }
 
@@ -66,15 +76,14 @@ CsvTable region_table(const AssessmentSet& set) {
                   "centre_x_mm",
                   "centre_y_mm",
                   "centre_z_mm",
-                  "max_penetration_mm"};
+                  "max_penetration_mm",
+                  "source"};
   for (const AssessedProduct& one : set.assessments) {
     const ContactResult& contact = one.assessment.contact;
-    const std::string& hand = one.assessment.hand_name;
     for (const RegionContact& region : contact.regions) {
-      table.rows.push_back(
-          region_row(one.product.name, hand, std::string(name_of(region.region)), region));
+      table.rows.push_back(region_row(one, std::string(name_of(region.region)), region));
     }
-    table.rows.push_back(region_row(one.product.name, hand, "total", contact.total));
+    table.rows.push_back(region_row(one, "total", contact.total));
   }
   return table;
 }

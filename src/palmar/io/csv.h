@@ -16,11 +16,13 @@ struct CsvTable {
 };
 
 /// The table as RFC 4180 has it, lines ended by LF; cells with comma, quote or line break are
-/// quoted. Throws Error if a row is longer or shorter than the header.
+/// quoted, bytes that are no UTF-8 replaced by U+FFFD. Throws Error if a row is longer or shorter
+/// than the header.
 std::string format_csv(const CsvTable& table);
 
 /// One row per product and region in contact, then one per product named "total": force, area,
-/// pressures, centre of pressure, penetration.
+/// pressures, centre of pressure, penetration, and the product's source, which tells products of
+/// one name apart.
 CsvTable region_table(const AssessmentSet& set);
 
 }  // namespace palmar

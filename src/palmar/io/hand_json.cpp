@@ -60,7 +60,7 @@ std::string hand_info_json(const Hand& hand) {
                      {"bones", std::move(bones)},
                      {"tissue_source", hand.tissue.source},
                      {"provenance", hand.provenance}};
-  return info.dump(2);
+  return info.dump(2, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
 }
 
 }  // namespace palmar

@@ -13,6 +13,7 @@
 #include "palmar/io/assessment_json.h"
 #include "palmar/io/bytes.h"
 #include "palmar/io/csv.h"
+#include "palmar/io/hand_json.h"
 #include "palmar/io/press_json.h"
 #include "palmar/io/test_files.h"
 #include "palmar/io/vtk.h"
@@ -215,6 +216,39 @@ TEST(RegionTable, HasOneRowPerRegionAndATotal) {
   EXPECT_EQ(table.header[3], "force_n");
   EXPECT_THAT(format_csv(table), HasSubstr(",template,index_distal,0.30000000000000004,100,0.25,"));
   EXPECT_EQ(table.rows[1][2], "total");
+}
+
+TEST(RegionTable, TellsProductsOfOneNameApartBySource) {
+  AssessmentSet set = example();
+  set.assessments.push_back(set.assessments[0]);
+  set.assessments[0].product.source = "old/handle.stl";
+  set.assessments[1].product.source = "new/handle, 2.stl";
+  const CsvTable table = region_table(set);
+  EXPECT_EQ(table.header.back(), "source");
+  EXPECT_EQ(table.rows.front().back(), "old/handle.stl");
+  EXPECT_THAT(format_csv(table), HasSubstr(",\"new/handle, 2.stl\"\n"));
+}
+
+TEST(Csv, BrokenBytesAreReplacedAsInJson) {
+  const std::string text = format_csv(region_table(example()));
+  EXPECT_THAT(text, HasSubstr("\nhandle \xef\xbf\xbd,template,"));
+  EXPECT_EQ(text.find('\xff'), text.npos);
+  const Json json = Json::parse(assessment_json(example()));
+  EXPECT_EQ(json["assessments"][0]["product"]["name"], "handle \xef\xbf\xbd");
+}
+
+TEST(HandJson, TakesNamesThatAreNoUtf8) {
+  Hand hand;
+  hand.name = "hand \xff";
+  EXPECT_EQ(Json::parse(hand_info_json(hand))["name"], "hand \xef\xbf\xbd");
+}
+
+TEST(AssessmentJson, IsToldFromOtherJson) {
+  EXPECT_TRUE(is_assessment_json(assessment_json(example())));
+  for (const char* other :
+       {"", "{", "[]", "{\"versions\": {\"palmar\": 1}}", "{\"versions\": 3}"}) {
+    EXPECT_FALSE(is_assessment_json(other)) << other;
+  }
 }
 
 }  // namespace

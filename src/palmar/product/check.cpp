@@ -153,7 +153,7 @@ std::string name_of(Severity severity) {
   return "";
 }
 
-ProductCheck check_mesh(const TriangleMesh& mesh) {
+ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
   ProductCheck c;
   const TriangleMesh welded = weld(mesh, {.drops_duplicates = false}).mesh;
   c.triangles = welded.triangle_count();
@@ -180,7 +180,9 @@ ProductCheck check_mesh(const TriangleMesh& mesh) {
   c.is_too_small = c.extent.z() < kShortestProduct || c.extent.y() < kThinnestHandle;
   c.tiny_parts =
       count_tiny_parts(welded, triangle_components(welded, topology), c.parts, c.size.norm());
-  c.crossing_pairs = static_cast<int>(find_self_crossings(welded).size());
+  if (looks_for_crossings) {
+    c.crossing_pairs = static_cast<int>(find_self_crossings(welded).size());
+  }
   const OrientResult oriented = orient_outwards(welded);
   c.flipped_patches = oriented.flipped_patches + oriented.mended_patches;
   c.flipped_triangles = static_cast<int>(oriented.flipped_triangles.size());

@@ -52,7 +52,8 @@ struct ProductCheck {
 /// finding; throws InputError only on coordinates that are not finite and corners outside the
 /// vertex list. Limits of size: the widest grip of a power grasp is about 110 mm (a large hand's
 /// span from thumb to fingertips, both curled), the thinnest handle that a closed fist holds 4 mm.
-ProductCheck check_mesh(const TriangleMesh& mesh);
+/// Crossing triangles take by far the longest to find and may be left out.
+ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings = true);
 
 /// The same for a product, whose notes (repairs, unit) are added as findings.
 ProductCheck check_product(const Product& product);

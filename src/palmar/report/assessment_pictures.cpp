@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "palmar/core/error.h"
+#include "palmar/report/pressure_limits.h"
 #include "palmar/report/render.h"
 #include "palmar/report/stroke_text.h"
 
@@ -88,7 +90,7 @@ struct Kind {
 
 void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& scene,
                const std::vector<Viewpoint>& views, const std::string& product_name,
-               const ColourScale& scale, const PictureOptions& options) {
+               const ColourScale& scale, const PictureOptions& options, const Progress& progress) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const double bar_share =
       kind.has_bar ? static_cast<double>(colour_bar_width(options.height)) / options.width : 0.0;
@@ -96,8 +98,13 @@ void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& sc
   for (const Viewpoint& view : views) {
     cameras.push_back(camera_for(scene, view, aspect, bar_share));
   }
-  std::vector<Image> images =
-      render_views(scene, cameras, {.width = options.width, .height = options.height});
+  std::vector<Image> images;
+  try {
+    images =
+        render_views(scene, cameras, {.width = options.width, .height = options.height}, progress);
+  } catch (const Cancelled&) {
+    return;
+  }
   for (std::size_t i = 0; i < views.size(); ++i) {
     Picture picture;
     picture.name = kind.key + "_" + views[i].key;
@@ -144,19 +151,30 @@ ProductFootprint footprint_of(const AssessedProduct& assessed) {
 }
 
 ColourScale pressure_scale(const AssessmentSet& set) {
+  const bool any_in_hand =
+      std::any_of(set.assessments.begin(), set.assessments.end(),
+                  [](const AssessedProduct& one) { return is_in_hand(one.assessment); });
+  double cells = 0.0;
   double peak = 0.0;
   for (const AssessedProduct& one : set.assessments) {
-    peak = std::max(peak, one.assessment.contact.total.peak_pressure);
+    const RegionContact& total = one.assessment.contact.total;
+    peak = std::max(peak, total.peak_pressure);
+    if (any_in_hand && !is_in_hand(one.assessment)) continue;
+    cells = std::max(cells, total.peak_pressure_cells);
   }
-  return {.map = Colormap::kEmber,
-          .upper = peak > 0.0 && std::isfinite(peak) ? rounded_up(peak) : 0.1,
-          .quantity = "Pressure",
-          .unit = "MPa",
-          .neutral = kNeutralColour};
+  if (!(cells > 0.0)) cells = peak;
+  ColourScale scale{.map = Colormap::kEmber,
+                    .upper = cells > 0.0 && std::isfinite(cells) ? rounded_up(cells) : 0.1,
+                    .quantity = "Pressure",
+                    .unit = "MPa",
+                    .neutral = kNeutralColour};
+  scale.is_open_ended = peak > scale.upper;
+  return scale;
 }
 
 std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
-                                         const ColourScale& scale, const PictureOptions& options) {
+                                         const ColourScale& scale, const PictureOptions& options,
+                                         const Progress& progress) {
   const Assessment& assessment = assessed.assessment;
   const std::vector<Viewpoint> all =
       hand_viewpoints(hand.side, assessment.grasp.product_from_hand.rotation);
@@ -172,7 +190,8 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
 
   std::vector<Picture> pictures;
   const auto add = [&](const Kind& kind, const Scene& scene, const std::vector<Viewpoint>& from) {
-    add_views(pictures, kind, scene, from, assessed.product.name, scale, options);
+    if (progress.is_cancelled()) return;
+    add_views(pictures, kind, scene, from, assessed.product.name, scale, options, progress);
   };
   add({"map", "Pressure on the opened hand", "pressure drawn on the opened hand"},
       {coloured(hand.skin, pressure)}, {{"open_hand", "palm side", {0.0, 0.0, -1.0}}});

@@ -23,8 +23,10 @@ struct PictureOptions {
   int height = 700;  ///< pixels
 };
 
-/// Colour scale for pressure [MPa] common to all products of a set: from 0 to the largest peak,
-/// rounded up; 0 to 0.1 MPa if nothing is touched.
+/// Colour scale for pressure [MPa] common to all products of a set: from 0 to the largest peak on
+/// sensor cells of the products in the hand, rounded up; 0 to 0.1 MPa if nothing is touched. The
+/// peak at a single vertex may lie far above and would darken every picture: such values take the
+/// colour of the upper end, and the scale says so.
 ColourScale pressure_scale(const AssessmentSet& set);
 
 /// Pictures of one grasp; all in the same pressure scale:
@@ -36,10 +38,11 @@ ColourScale pressure_scale(const AssessmentSet& set);
 ///
 /// pressure and grasp from the palm side, the back, the thumb side and the little finger's side
 /// (suffix palm, back, thumb, little); footprint from four sides about the grip axis (in_palm,
-/// under_fingers, under_knuckles, under_fingertips).
+/// under_fingers, under_knuckles, under_fingertips). When cancelled, those that are finished.
 std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
                                          const ColourScale& scale,
-                                         const PictureOptions& options = {});
+                                         const PictureOptions& options = {},
+                                         const Progress& progress = {});
 
 /// Deformed skin (product frame, mm), or the posed skin if no contact was solved.
 TriangleMesh deformed_skin(const Hand& hand, const Assessment& assessment);

@@ -20,6 +20,8 @@ namespace palmar {
 
 namespace {
 
+constexpr int kEmbeddedWidth = 720;  // pixels; the page shows pictures about 540 wide
+
 // A folder name that every file system takes, different from those already used.
 std::string folder_name(const std::string& product, std::set<std::string>& used) {
   std::string name;
@@ -78,6 +80,41 @@ std::string grasp_glb(const Hand& hand, const AssessedProduct& one, const Colour
                              {{"pressure_mpa", footprint.pressure}}}});
 }
 
+void write_fields(const std::filesystem::path& folder, const Hand& hand, const AssessedProduct& one,
+                  const ColourScale& scale, const Progress& progress) {
+  const auto write = [&](const char* name, const auto& make) {
+    if (!progress.is_cancelled()) write_file(folder / name, make());
+  };
+  write("hand.vtp", [&] { return hand_vtp(hand, one.assessment); });
+  write("product.vtp", [&] {
+    const ProductFootprint footprint = footprint_of(one);
+    return format_vtp(footprint.surface, {{"pressure_mpa", footprint.pressure}});
+  });
+  write("grasp.glb", [&] { return grasp_glb(hand, one, scale); });
+}
+
+// Writes the pictures at full size and gives them back at the size in which report.html shows them.
+std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, const Hand& hand,
+                                           const AssessedProduct& one, const ColourScale& scale,
+                                           const ReportOptions& options, const Progress& progress) {
+  const std::vector<Picture> pictures = assessment_pictures(
+      hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
+      progress);
+  std::vector<EncodedPicture> embedded(pictures.size());
+  std::vector<std::string> full(pictures.size());
+  parallel_for(static_cast<int>(pictures.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Picture& picture = pictures[i];
+    full[i] = encode_png(picture.image);
+    embedded[i] = {picture.name, picture.title, picture.alt,
+                   encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall)};
+  });
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    write_file(folder / (pictures[i].name + ".png"), full[i]);
+  }
+  return embedded;
+}
+
 }  // namespace
 
 void ReportOptions::check() const {
@@ -90,10 +127,38 @@ void ReportOptions::check() const {
   }
 }
 
+void check_report_folder(const std::string& folder) {
+  const std::filesystem::path root(folder);
+  std::error_code error;
+  const auto status = std::filesystem::status(root, error);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_directory(status)) {
+    throw OutputError(folder + ": is a file; a report needs a folder");
+  }
+  const auto refuse_unless = [&](const char* name, bool (*is_ours)(const std::string&)) {
+    const std::filesystem::path path = root / name;
+    if (!std::filesystem::exists(path)) return;
+    // An empty file holds nothing that could be lost.
+    if (std::filesystem::is_regular_file(path)) {
+      if (std::filesystem::file_size(path) == 0 || is_ours(read_file(path))) return;
+    }
+    throw UsageError(path.string() +
+                     ": was not written by Palmar and would be overwritten; choose another folder "
+                     "or move the file");
+  };
+  refuse_unless("assessment.json", is_assessment_json);
+  refuse_unless("report.html", [](const std::string& text) {
+    return text.find("<meta name=\"generator\" content=\"Palmar ") != std::string::npos;
+  });
+  refuse_unless("regions.csv",
+                [](const std::string& text) { return text.starts_with("product,hand,region,"); });
+}
+
 void write_report(const std::string& folder, const AssessmentSet& set, const ReportOptions& options,
                   const Progress& progress) {
   options.check();
   if (!set.hand) throw UsageError("report: the set has no hand");
+  check_report_folder(folder);
   const Hand& hand = *set.hand;
   const std::filesystem::path root(folder);
   create_folder(root);
@@ -104,33 +169,22 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   const ColourScale scale = pressure_scale(set);
   std::vector<std::vector<EncodedPicture>> embedded(set.assessments.size());
   std::set<std::string> used;
-  for (std::size_t i = 0; i < set.assessments.size(); ++i) {
+  for (std::size_t i = 0; i < set.assessments.size() && !progress.is_cancelled(); ++i) {
     const AssessedProduct& one = set.assessments[i];
-    progress.update(static_cast<double>(i) / static_cast<double>(set.assessments.size()),
-                    "pictures and fields of " + one.product.name);
+    if (progress.report) {
+      progress.report(static_cast<double>(i) / static_cast<double>(set.assessments.size()),
+                      "pictures and fields of " + one.product.name);
+    }
     const std::filesystem::path own = root / folder_name(one.product.name, used);
     create_folder(own);
-    const ProductFootprint footprint = footprint_of(one);
-    write_file(own / "hand.vtp", hand_vtp(hand, one.assessment));
-    write_file(own / "product.vtp",
-               format_vtp(footprint.surface, {{"pressure_mpa", footprint.pressure}}));
-    write_file(own / "grasp.glb", grasp_glb(hand, one, scale));
-    if (!options.pictures) continue;
-    const std::vector<Picture> pictures = assessment_pictures(
-        hand, one, scale, {.width = options.picture_width, .height = options.picture_height});
-    progress.throw_if_cancelled();
-    embedded[i].resize(pictures.size());
-    parallel_for(static_cast<int>(pictures.size()), [&](int k) {
-      const Picture& picture = pictures[static_cast<std::size_t>(k)];
-      embedded[i][static_cast<std::size_t>(k)] = {picture.name, picture.title, picture.alt,
-                                                  encode_png(picture.image)};
-    });
-    for (const EncodedPicture& picture : embedded[i]) {
-      write_file(own / (picture.name + ".png"), picture.png);
-    }
+    write_fields(own, hand, one, scale, progress);
+    if (options.pictures) embedded[i] = write_pictures(own, hand, one, scale, options, progress);
   }
-  progress.update(0.98, "report.html");
-  write_file(root / "report.html", html_report(set, embedded, scale, json));
+  const bool is_cut_short = progress.is_cancelled();
+  if (progress.report) progress.report(0.98, "report.html");
+  write_file(root / "report.html", html_report(set, embedded, scale, json, is_cut_short));
+  if (is_cut_short)
+    throw Cancelled("cancelled; " + folder + "/report.html holds what was finished");
 }
 
 }  // namespace palmar

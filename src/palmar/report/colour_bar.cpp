@@ -54,6 +54,12 @@ Ticks ticks_to(double upper) {
   return ticks;
 }
 
+Ticks ticks_of(const ColourScale& scale) {
+  Ticks ticks = ticks_to(scale.upper);
+  if (scale.is_open_ended) ticks.text.back() = "\u2265 " + ticks.text.back();
+  return ticks;
+}
+
 int colour_bar_width(int image_height) {
   return static_cast<int>(std::lround(118.0 * scale_of(image_height)));
 }
@@ -75,7 +81,7 @@ void draw_colour_bar(Image& image, const ColourScale& scale) {
     const double share = (bottom - 0.5 - y) / (bottom - top);
     fill_rectangle(image, left, y, width, 1, map_colour(scale.map, share));
   }
-  const Ticks ticks = ticks_to(scale.upper);
+  const Ticks ticks = ticks_of(scale);
   for (std::size_t i = 0; i < ticks.value.size(); ++i) {
     const int y =
         static_cast<int>(std::lround(bottom - (bottom - top) * ticks.value[i] / scale.upper));

@@ -16,6 +16,7 @@ struct ColourScale {
   std::string quantity;          ///< "Pressure"
   std::string unit;              ///< "MPa"
   Rgb neutral = kNeutralColour;  ///< nothing there
+  bool is_open_ended = false;    ///< some values are above `upper` and shown in its colour
 };
 
 /// A number above 0 rounded up to 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 x 10^n: end of a readable scale.
@@ -28,6 +29,8 @@ struct Ticks {
   std::vector<std::string> text;
 };
 Ticks ticks_to(double upper);
+/// Those of a scale; the text at an open end is "≥ 0.25".
+Ticks ticks_of(const ColourScale& scale);
 
 /// Draws the bar with ticks, quantity and unit along the right edge of a picture, and a swatch that
 /// says which colour means no contact.

@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/version.h"
 #include "palmar/io/vtk.h"
+#include "palmar/report/html_comparison.h"
 #include "palmar/report/html_style.h"
 #include "palmar/report/html_tables.h"
 #include "palmar/report/html_text.h"
@@ -37,7 +38,7 @@ std::string svg_colour_bar(const ColourScale& scale) {
            "\" width=\"22\" height=\"" + short_number(band + 0.5, 4) + "\" fill=\"" +
            hex_colour(map_colour(scale.map, (i + 0.5) / kBands)) + "\"/>";
   }
-  const Ticks ticks = ticks_to(scale.upper);
+  const Ticks ticks = ticks_of(scale);
   for (std::size_t i = 0; i < ticks.value.size(); ++i) {
     const double y = kTop + kHeight * (1.0 - ticks.value[i] / scale.upper);
     svg += "<path d=\"M22 " + short_number(y, 5) + "h5\" stroke=\"#47515b\"/><text x=\"31\" y=\"" +
@@ -101,29 +102,46 @@ std::string gallery(const std::vector<EncodedPicture>& pictures) {
   return html + "</div>\n";
 }
 
+std::string notes_of(const AssessedProduct& one) {
+  const ContactResult& contact = one.assessment.contact;
+  const GraspStatus status = one.assessment.grasp.status;
+  std::string html = "<p class=\"note " + status_class(status) + "\"><strong>" +
+                     html_escaped(plain_words(status)) + ".</strong> " +
+                     html_escaped(one.assessment.grasp.message) + "</p>\n";
+  if (!contact.message.empty()) {
+    html += "<p class=\"note fair\"><strong>Contact.</strong> " + html_escaped(contact.message) +
+            "</p>\n";
+  }
+  if (one.product.notes.empty()) return html;
+  html += "<p class=\"note\"><strong>About the mesh.</strong> ";
+  for (std::size_t i = 0; i < one.product.notes.size(); ++i) {
+    html += (i > 0 ? "<br>" : "") + html_escaped(one.product.notes[i]);
+  }
+  return html + "</p>\n";
+}
+
 std::string product_section(const Hand& hand, const AssessedProduct& one,
                             const std::vector<EncodedPicture>& pictures, const ColourScale& scale,
                             std::size_t index) {
   const Assessment& assessment = one.assessment;
   const ContactResult& contact = assessment.contact;
   std::string html = "<h2 id=\"product-" + std::to_string(index) + "\">" +
-                     html_escaped(one.product.name) + "</h2>\n<p class=\"note\"><strong>" +
-                     html_escaped(plain_words(assessment.grasp.status)) + ".</strong> " +
-                     html_escaped(assessment.grasp.message) + "</p>\n";
-  if (contact.status == ContactStatus::kNotConverged || !contact.message.empty()) {
-    html +=
-        "<p class=\"note\"><strong>Contact.</strong> " + html_escaped(contact.message) + "</p>\n";
-  }
-  html += pressure_verdict(contact);
-  if (contact.total.force > 0.0) {
+                     html_escaped(one.product.name) + "</h2>\n" + notes_of(one) +
+                     pressure_verdict(assessment);
+  const bool is_judged = is_in_hand(assessment);
+  if (is_judged) {
     html += "<p>The forces of the skin on the product add up to " +
             short_number(contact.total.force_vector.norm()) + " N as a vector, against " +
             short_number(contact.total.force) +
             " N as a sum of amounts: what is left over is not balanced by this grasp alone.</p>\n";
   }
   html += scene_view(hand, one, scale, "scene-" + std::to_string(index));
-  if (!contact.regions.empty()) html += charts(contact);
-  html += region_contact_table(contact);
+  if (is_judged) {
+    html += charts(contact) + region_contact_table(contact);
+  } else if (!contact.regions.empty()) {
+    html += "<details><summary>What the hand touches all the same</summary>" +
+            region_contact_table(contact) + "</details>\n";
+  }
   html += gallery(pictures);
   html += "<details><summary>What stopped each segment</summary>" + stop_table(assessment.grasp) +
           "</details>\n<details><summary>Posture and placement</summary>" +
@@ -133,7 +151,6 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
           html_escaped(one.product.source) + "; unit " + name_of(one.product.unit) + " (" +
           name_of(one.product.unit_source) + "); " +
           std::to_string(one.product.mesh.triangle_count()) + " triangles.</p>";
-  for (const std::string& note : one.product.notes) html += "<p>" + html_escaped(note) + "</p>";
   return html + "</details>\n";
 }
 
@@ -169,7 +186,7 @@ std::string provenance(const AssessmentSet& set) {
 
 std::string html_report(const AssessmentSet& set,
                         const std::vector<std::vector<EncodedPicture>>& pictures,
-                        const ColourScale& scale, const std::string& json) {
+                        const ColourScale& scale, const std::string& json, bool is_cut_short) {
   if (!set.hand) throw UsageError("report: the set has no hand");
   if (pictures.size() != set.assessments.size()) {
     throw UsageError("report: pictures of " + std::to_string(pictures.size()) + " products for " +
@@ -189,12 +206,24 @@ std::string html_report(const AssessmentSet& set,
       "</h1><p>How a " + std::string(name_of(set.hand->side)) + " hand of " +
       short_number(set.hand->dimensions.hand_length) +
       " mm length holds it in a power grip: where it presses and how hard.</p></header>\n<main>\n";
-  html += "<h2 class=\"first\" id=\"summary\">Summary</h2>\n" + summary_table(set);
+  html += "<h2 class=\"first\" id=\"summary\">Summary</h2>\n";
+  html +=
+      "<p class=\"note\"><strong>How to read it.</strong> The fingers close to a set depth, as in "
+      "a "
+      "firm grip; nobody measured a force. Compare designs with each other; don't take the figures "
+      "as absolute.</p>\n";
+  if (is_cut_short) {
+    html +=
+        "<p class=\"note fair\"><strong>Cut short.</strong> This run was cancelled: pictures, and "
+        "perhaps whole products, are missing. The numbers shown are complete.</p>\n";
+  }
+  html += summary_table(set) + plain_summary(set) + comparison(set, pictures);
   html +=
       "<p>Peak pressure is the largest at one vertex of the skin; the peak on sensor cells is "
       "averaged over the area of a pressure mat's cell and is the figure to compare with "
       "measurements. All pictures share one colour scale, 0 to " +
       short_number(scale.upper) + " " + html_escaped(scale.unit) +
+      (scale.is_open_ended ? "; single vertices above that have the colour of its end" : "") +
       " (1 MPa = 1 N/mm² = 1000 kPa). Numbers are shortened for reading; assessment.json holds "
       "them in full.</p>\n";
   for (std::size_t i = 0; i < count; ++i) {

@@ -23,9 +23,11 @@ struct EncodedPicture {
 /// view; then method limits, provenance and licences; assessment.json stands inside, too.
 ///
 /// `pictures[i]` belongs to set.assessments[i] and may be empty. `json` is assessment_json(set).
+/// `is_cut_short`: some pictures are missing because the user cancelled, and the report says so.
 /// Throws UsageError if the counts differ or set.hand is missing.
 std::string html_report(const AssessmentSet& set,
                         const std::vector<std::vector<EncodedPicture>>& pictures,
-                        const ColourScale& scale, const std::string& json);
+                        const ColourScale& scale, const std::string& json,
+                        bool is_cut_short = false);
 
 }  // namespace palmar

@@ -15,6 +15,7 @@ namespace palmar {
 
 namespace {
 
+constexpr const char* kNothing = "–";
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string cell(const std::string& text) { return "<td>" + html_escaped(text) + "</td>"; }
@@ -44,14 +45,8 @@ std::string table(const std::string& caption, std::initializer_list<Column> colu
   return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
-std::string status_class(GraspStatus status) {
-  return status == GraspStatus::kHeld         ? "good"
-         : status == GraspStatus::kPartlyHeld ? "fair"
-                                              : "bad";
-}
-
 std::string pain_words(const std::optional<NearestToPain>& nearest) {
-  if (!nearest) return "no contact";
+  if (!nearest) return kNothing;
   const std::string share = short_number(100.0 * nearest->share, 2) + " % of pain onset";
   if (nearest->share >= 1.0) return "Above pain onset: " + share;
   return (nearest->share >= 0.5 ? "Near: " : "Below: ") + share;
@@ -72,7 +67,32 @@ std::string setting(const std::string& name, const std::string& value) {
   return "<tr>" + head_cell(name) + cell(value) + "</tr>";
 }
 
+std::string result_cells(const ContactResult& contact) {
+  const auto hottest = std::max_element(contact.regions.begin(), contact.regions.end(),
+                                        [](const RegionContact& a, const RegionContact& b) {
+                                          return a.peak_pressure_cells < b.peak_pressure_cells;
+                                        });
+  return number_cell(contact.total.force) + number_cell(contact.total.area) +
+         number_cell(contact.total.peak_pressure) + number_cell(contact.total.peak_pressure_cells) +
+         cell(plain_words(hottest->region)) + cell(pain_words(nearest_to_pain(contact))) +
+         cell(std::to_string(regions_without_blood_flow(contact)) + " of " +
+              std::to_string(contact.regions.size()) + " regions above 0.05 MPa");
+}
+
+// A posture that holds nothing has forces, too, but they say nothing about holding.
+std::string cells_without_result() {
+  std::string cells;
+  for (int i = 0; i < 4; ++i) cells += "<td class=\"n\">" + std::string(kNothing) + "</td>";
+  return cells + cell(kNothing) + "<td colspan=\"2\">not in the hand: nothing to judge</td>";
+}
+
 }  // namespace
+
+std::string status_class(GraspStatus status) {
+  return status == GraspStatus::kHeld         ? "good"
+         : status == GraspStatus::kPartlyHeld ? "fair"
+                                              : "bad";
+}
 
 std::string summary_table(const AssessmentSet& set) {
   std::string rows;
@@ -80,24 +100,11 @@ std::string summary_table(const AssessmentSet& set) {
     const AssessedProduct& one = set.assessments[i];
     const Grasp& grasp = one.assessment.grasp;
     const ContactResult& contact = one.assessment.contact;
-    const auto nearest = nearest_to_pain(contact);
-    const auto hottest = std::max_element(contact.regions.begin(), contact.regions.end(),
-                                          [](const RegionContact& a, const RegionContact& b) {
-                                            return a.peak_pressure < b.peak_pressure;
-                                          });
     rows += "<tr><th scope=\"row\"><a href=\"#product-" + std::to_string(i) + "\">" +
             html_escaped(one.product.name) + "</a></th><td><span class=\"badge " +
             status_class(grasp.status) + "\">" + html_escaped(plain_words(grasp.status)) +
-            "</span></td>" + number_cell(contact.total.force) + number_cell(contact.total.area) +
-            number_cell(contact.total.peak_pressure) +
-            number_cell(contact.total.peak_pressure_cells) +
-            cell(hottest == contact.regions.end() ? "–" : plain_words(hottest->region)) +
-            cell(pain_words(nearest)) +
-            cell(contact.regions.empty()
-                     ? "no contact"
-                     : std::to_string(regions_without_blood_flow(contact)) + " of " +
-                           std::to_string(contact.regions.size()) + " regions above 0.05 MPa") +
-            "</tr>";
+            "</span></td>" +
+            (is_in_hand(one.assessment) ? result_cells(contact) : cells_without_result()) + "</tr>";
   }
   return table("Results at a glance",
                {{"Product"},
@@ -107,8 +114,8 @@ std::string summary_table(const AssessmentSet& set) {
                 {"Peak pressure, MPa", true},
                 {"Peak on sensor cells, MPa", true},
                 {"Hottest region"},
-                {"Short grip (pain onset, film)"},
-                {"Long grip (blood flow)"}},
+                {"Firm grip for a moment: pain (film peak)"},
+                {"Grip held long: blood flow (sensor cells)"}},
                rows);
 }
 
@@ -208,9 +215,42 @@ std::string settings_table(const AssessOptions& options) {
           setting("Seed", std::to_string(options.seed)));
 }
 
-std::string pressure_verdict(const ContactResult& contact) {
+std::string plain_verdict(const Assessment& assessment) {
+  if (!is_in_hand(assessment)) {
+    return "It is not held, so there are no pressures of a grip to judge.";
+  }
+  const ContactResult& contact = assessment.contact;
+  const double share = nearest_to_pain(contact)->share;
+  const int without = regions_without_blood_flow(contact);
+  const std::string moment = share >= 1.0 ? "A firm grip for a moment would hurt, first at the " +
+                                                plain_words(nearest_to_pain(contact)->region)
+                             : share >= 0.5
+                                 ? "A firm grip for a moment comes near to pain at the " +
+                                       plain_words(nearest_to_pain(contact)->region)
+                                 : std::string("A firm grip for a moment stays far below pain");
+  if (without == 0) return moment + "; held for minutes, blood would still flow in the skin.";
+  return moment + "; held just as firmly for minutes, the skin would go short of blood in " +
+         std::to_string(without) + " of the " + std::to_string(contact.regions.size()) +
+         " regions it touches, and the hand would have to loosen or shift.";
+}
+
+std::string plain_summary(const AssessmentSet& set) {
+  std::string html = "<ul class=\"plain\">";
+  for (const AssessedProduct& one : set.assessments) {
+    html += "<li><strong>" + html_escaped(one.product.name) + ".</strong> " +
+            html_escaped(plain_verdict(one.assessment)) + "</li>";
+  }
+  return html + "</ul>\n";
+}
+
+std::string pressure_verdict(const Assessment& assessment) {
+  const ContactResult& contact = assessment.contact;
+  if (contact.regions.empty()) {
+    return "<p>Nothing is touched, so there is no pressure to judge.</p>";
+  }
+  const std::string plain = "<p>" + html_escaped(plain_verdict(assessment)) + "</p>";
+  if (!is_in_hand(assessment)) return plain;
   const auto nearest = nearest_to_pain(contact);
-  if (!nearest) return "<p>Nothing is touched, so there is no pressure to judge.</p>";
   const std::string pain =
       "<p><strong>Short, firm grip.</strong> Nearest to pain: " +
       html_escaped(plain_words(nearest->region)) + ". Its peak of " +
@@ -224,9 +264,10 @@ std::string pressure_verdict(const ContactResult& contact) {
                     : std::to_string(without) + " of " + std::to_string(contact.regions.size()) +
                           " regions exceed") +
       " 0.05 MPa (50 kPa) averaged on a sensor cell, above which the skin's blood flow stops"
-      " (Chalmers thesis 2004). This is a limit of its own family, for sustained grips; it is never"
-      " compared with the film values above.</p>";
-  return pain + flow;
+      " (Chalmers thesis 2004). A limit of its own family, for sustained grips: it is lower than "
+      "the "
+      "film values above because it asks another question.</p>";
+  return plain + pain + flow;
 }
 
 }  // namespace palmar

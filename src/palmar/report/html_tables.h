@@ -11,7 +11,11 @@ namespace palmar {
 /// Tables of the HTML report. Every number stands shortened for reading and in full, as in
 /// assessment.json, in the cell's data-value.
 
-/// One row per product: held or not, force, area, peaks, hottest region, verdicts.
+/// "good", "fair" or "bad": style class of a grasp's outcome.
+std::string status_class(GraspStatus status);
+
+/// One row per product: held or not, force, area, peaks, hottest region, verdicts;
+/// dashes where it is not in the hand.
 std::string summary_table(const AssessmentSet& set);
 /// One row per region in contact and one for all.
 std::string region_contact_table(const ContactResult& contact);
@@ -24,7 +28,12 @@ std::string placement_table(const Grasp& grasp);
 /// Settings of the assessment.
 std::string settings_table(const AssessOptions& options);
 
-/// Both verdicts on the pressures as a sentence each (a paragraph); limits and family named.
-std::string pressure_verdict(const ContactResult& contact);
+/// What both limits mean together for this grip, in one sentence for people.
+std::string plain_verdict(const Assessment& assessment);
+/// That sentence for every product, as a list.
+std::string plain_summary(const AssessmentSet& set);
+
+/// The sentence, then both verdicts on the pressures as a paragraph each; limits and family named.
+std::string pressure_verdict(const Assessment& assessment);
 
 }  // namespace palmar

@@ -47,5 +47,18 @@ TEST(Image, SizeOutOfRangeIsNamed) {
 
 TEST(HexColour, IsWrittenAsInHtml) { EXPECT_EQ(hex_colour({255, 0, 10}), "#ff000a"); }
 
+TEST(Narrowed, PixelsAreMeansOfWhatTheyCover) {
+  Image image(3, 3, Rgb{0, 0, 0});
+  for (int y = 0; y < 3; ++y) image.at(0, y) = {240, 90, 0};
+  // 3 pixels on 2: the left one covers all of column 0 and half of column 1.
+  const Image small = narrowed(image, 2);
+  ASSERT_EQ(small.width, 2);
+  ASSERT_EQ(small.height, 2);
+  EXPECT_EQ(small.at(0, 0), (Rgb{160, 60, 0}));
+  EXPECT_EQ(small.at(1, 1), (Rgb{0, 0, 0}));
+  EXPECT_EQ(narrowed(image, 8).width, 3);
+  EXPECT_EQ(narrowed(Image(1000, 700, Rgb{7, 8, 9}), 720).at(719, 503), (Rgb{7, 8, 9}));
+}
+
 }  // namespace
 }  // namespace palmar

@@ -50,7 +50,7 @@ std::string plain_words(Segment segment) {
 std::string plain_words(Region region) {
   switch (region) {
     case Region::kDorsum:
-      return "back of the hand";
+      return "back and sides of hand and fingers";
     case Region::kThenar:
       return "ball of the thumb (thenar)";
     case Region::kHypothenar:

@@ -33,6 +33,12 @@ std::optional<NearestToPain> nearest_to_pain(const ContactResult& contact) {
   return nearest;
 }
 
+bool is_in_hand(const Assessment& assessment) {
+  const GraspStatus status = assessment.grasp.status;
+  return (status == GraspStatus::kHeld || status == GraspStatus::kPartlyHeld) &&
+         !assessment.contact.regions.empty();
+}
+
 int regions_without_blood_flow(const ContactResult& contact) {
   return static_cast<int>(std::count_if(
       contact.regions.begin(), contact.regions.end(),

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "palmar/contact/contact.h"
+#include "palmar/study/assessment.h"
 
 namespace palmar {
 
@@ -31,6 +32,10 @@ struct NearestToPain {
   double share = 0.0;          ///< peak_pressure / limit
 };
 std::optional<NearestToPain> nearest_to_pain(const ContactResult& contact);
+
+/// Whether the product is held, at least partly, and presses on the skin: only then do its forces
+/// and pressures say how it feels to hold it.
+bool is_in_hand(const Assessment& assessment);
 
 /// Regions whose peak on sensor cells is above kBloodFlowStop.
 int regions_without_blood_flow(const ContactResult& contact);

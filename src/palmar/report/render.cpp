@@ -198,7 +198,7 @@ float free_share(RTCScene scene, const Vec3f& point, const Vec3f& normal, float 
 
 // Ambient occlusion at the corners. Light is interpolated over a triangle, which would smear it
 // over triangles larger than the range: those are left fully lit.
-void add_occlusion(PreparedScene& prepared, double range) {
+void add_occlusion(PreparedScene& prepared, double range, const Progress& progress) {
   if (range <= 0.0 || prepared.opaque.triangles.empty()) return;
   const EmbreeMesh opaque(prepared.opaque);
   // Corners of one vertex mostly share their normal: the last answer at a vertex often serves.
@@ -216,6 +216,7 @@ void add_occlusion(PreparedScene& prepared, double range) {
     }
   }
   parallel_for(static_cast<int>(vertex_count), [&](int v) {
+    if (progress.is_cancelled()) return;
     const Vec3& x = prepared.all.vertices[static_cast<std::size_t>(v)];
     const Vec3f point = (x - opaque.origin()).cast<float>();
     Known& last = known[static_cast<std::size_t>(v)];
@@ -379,7 +380,7 @@ bool differ(const Sample& a, const Sample& b) {
 }
 
 Image render_view(const PreparedScene& prepared, const EmbreeMesh& mesh, const Camera& camera,
-                  const RenderOptions& options) {
+                  const RenderOptions& options, const Progress& progress) {
   Image image(options.width, options.height, options.background);
   const View view = make_view(camera, options, mesh.origin());
   const Caster caster(prepared, mesh, view, options.background);
@@ -397,9 +398,11 @@ Image render_view(const PreparedScene& prepared, const EmbreeMesh& mesh, const C
   // Every other pixel of every other row first. Where the neighbours agree, those in between need
   // no ray of their own: three rays of four are saved inside smooth surfaces.
   parallel_for((options.height + 1) / 2, [&](int half) {
+    if (progress.is_cancelled()) return;
     for (int x = 0; x < options.width; x += 2) pixel(x, 2 * half) = cast_centre(x, 2 * half);
   });
   parallel_for(options.height, [&](int y) {
+    if (progress.is_cancelled()) return;
     for (int x = 0; x < options.width; ++x) {
       if (x % 2 == 0 && y % 2 == 0) continue;
       const int x0 = x - x % 2, x1 = x + x % 2, y0 = y - y % 2, y1 = y + y % 2;
@@ -420,6 +423,7 @@ Image render_view(const PreparedScene& prepared, const EmbreeMesh& mesh, const C
   });
   // More rays only where the picture changes: edges, outlines, borders of colour.
   parallel_for(options.height, [&](int y) {
+    if (progress.is_cancelled()) return;
     for (int x = 0; x < options.width; ++x) {
       const Sample& here = pixel(x, y);
       const bool is_edge = (x > 0 && differ(here, pixel(x - 1, y))) ||
@@ -501,19 +505,22 @@ Camera fit_camera(const Scene& scene, const Vec3& direction, const Vec3& up,
 }
 
 std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& cameras,
-                                const RenderOptions& options) {
+                                const RenderOptions& options, const Progress& progress) {
   options.check();
   PreparedScene prepared = prepare(scene, options.crease_angle);
   if (prepared.all.triangles.empty()) {
     return std::vector<Image>(cameras.size(),
                               Image(options.width, options.height, options.background));
   }
-  add_occlusion(prepared, options.occlusion_range);
+  progress.throw_if_cancelled();
+  add_occlusion(prepared, options.occlusion_range, progress);
   const EmbreeMesh mesh(prepared.all);
   std::vector<Image> images;
   for (const Camera& camera : cameras) {
-    images.push_back(render_view(prepared, mesh, camera, options));
+    progress.throw_if_cancelled();
+    images.push_back(render_view(prepared, mesh, camera, options, progress));
   }
+  progress.throw_if_cancelled();  // the last picture may be half done
   return images;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
 #include "palmar/report/colormap.h"
 #include "palmar/report/image.h"
@@ -72,7 +73,8 @@ struct RenderOptions {
 Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// The same scene seen by several cameras; what doesn't depend on the camera is computed once.
+/// Throws Cancelled within a few rows of pixels after the user asked to stop.
 std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& cameras,
-                                const RenderOptions& options = {});
+                                const RenderOptions& options = {}, const Progress& progress = {});
 
 }  // namespace palmar

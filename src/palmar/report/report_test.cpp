@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -172,6 +173,92 @@ TEST_F(ReportFolder, NothingTouchedIsReportedToo) {
   EXPECT_THAT(html, HasSubstr("Nothing is touched"));
 }
 
+TEST_F(ReportFolder, WhatIsNotHeldHasDashesInsteadOfVerdicts) {
+  AssessmentSet set = ball_set();
+  set.assessments[1].assessment.grasp.status = GraspStatus::kTooSmall;
+  write_report(folder_.string(), set, {.pictures = false});
+  const std::string html = read_file(folder_ / "report.html");
+  const auto row = html.find("href=\"#product-1\"");
+  const std::string cells = html.substr(row, html.find("</tr>", row) - row);
+  EXPECT_THAT(cells, HasSubstr("badge bad"));
+  EXPECT_THAT(cells, HasSubstr("not in the hand"));
+  EXPECT_THAT(cells, Not(HasSubstr("pain")));
+  EXPECT_THAT(cells, Not(HasSubstr("data-value")));
+  const auto held = html.find("href=\"#product-0\"");
+  EXPECT_THAT(html.substr(held, row - held), HasSubstr("badge fair"));
+  EXPECT_THAT(html, HasSubstr("<p class=\"note bad\"><strong>Too small"));
+  EXPECT_THAT(html, HasSubstr("<p class=\"note fair\"><strong>Partly held"));
+}
+
+TEST_F(ReportFolder, TwoProductsStandSideBySideWithTheirDifferences) {
+  AssessmentSet set = ball_set();
+  ContactResult& second = set.assessments[1].assessment.contact;
+  second.regions[0].force = 10.0;
+  second.total.force = 10.0;
+  second.regions.push_back({.region = Region::kThenar, .force = 1.5, .area = 20.0});
+  write_report(folder_.string(), set, {.picture_width = 100, .picture_height = 80});
+  std::string html = read_file(folder_ / "report.html");
+  EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
+  const auto from = html.find("id=\"difference\"");
+  ASSERT_NE(from, std::string::npos);
+  const std::string table = html.substr(from, html.find("</table>", from) - from);
+  EXPECT_THAT(table, HasSubstr("data-value=\"" + exact_number(10.0 - 12.3456789) + "\""));
+  EXPECT_THAT(table, HasSubstr(">+1.50<"));  // only the second touches the thenar
+  set.assessments.resize(1);
+  write_report(folder_.string(), set, {.pictures = false});
+  EXPECT_THAT(read_file(folder_ / "report.html"), Not(HasSubstr("Side by side")));
+  set = ball_set();
+  set.assessments.push_back(set.assessments[0]);
+  write_report(folder_.string(), set, {.pictures = false});
+  html = read_file(folder_ / "report.html");
+  EXPECT_THAT(html, HasSubstr("Side by side"));
+  EXPECT_THAT(html, Not(HasSubstr("id=\"difference\"")));
+}
+
+TEST_F(ReportFolder, CancelledKeepsTheNumbersAndAReport) {
+  std::atomic<bool> stop{true};
+  const Progress progress{.report = {}, .cancel = &stop};
+  EXPECT_THROW(write_report(folder_.string(), ball_set(), {}, progress), Cancelled);
+  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
+  EXPECT_EQ(json["assessments"].size(), 2U);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "regions.csv"));
+  const std::string html = read_file(folder_ / "report.html");
+  EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
+  EXPECT_THAT(html, HasSubstr("Cut short"));
+}
+
+TEST_F(ReportFolder, CancelledBetweenProductsKeepsThePicturesOfTheFirst) {
+  std::atomic<bool> stop{false};
+  int calls = 0;
+  const Progress progress{.report = [&](double, const std::string&) { stop = ++calls == 2; },
+                          .cancel = &stop};
+  EXPECT_THROW(write_report(folder_.string(), ball_set(),
+                            {.picture_width = 100, .picture_height = 80}, progress),
+               Cancelled);
+  const std::string html = read_file(folder_ / "report.html");
+  EXPECT_THAT(html, HasSubstr("alt=\"box &amp; &quot;co&quot;: pressure drawn"));
+  EXPECT_THAT(html, HasSubstr("Cut short"));
+}
+
+TEST_F(ReportFolder, NeverOverwritesWhatPalmarDidNotWrite) {
+  std::filesystem::create_directories(folder_);
+  for (const char* name : {"report.html", "assessment.json", "regions.csv"}) {
+    write_file(folder_ / name, "{\"mine\": 1}");
+    try {
+      write_report(folder_.string(), ball_set(), {.pictures = false});
+      ADD_FAILURE() << name << " was overwritten";
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(name));
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << name;
+    std::filesystem::remove(folder_ / name);
+  }
+  write_report(folder_.string(), ball_set(), {.pictures = false});
+  EXPECT_NO_THROW(check_report_folder(folder_.string()));  // its own report may be renewed
+  EXPECT_NO_THROW(check_report_folder((folder_ / "new").string()));
+  EXPECT_THROW(check_report_folder((folder_ / "report.html").string()), OutputError);
+}
+
 TEST_F(ReportFolder, UnwritableFolderIsAnOutputError) {
   std::filesystem::create_directories(folder_);
   const auto file = folder_ / "taken";
@@ -183,7 +270,7 @@ TEST_F(ReportFolder, UnwritableFolderIsAnOutputError) {
 TEST(AssessmentPictures, PressedPoleIsColouredInTheCommonScale) {
   const AssessmentSet set = ball_set();
   const ColourScale scale = pressure_scale(set);
-  EXPECT_DOUBLE_EQ(scale.upper, 0.15);  // MPa; next round number above 0.123
+  EXPECT_DOUBLE_EQ(scale.upper, 0.1);  // MPa; next round number above 0.0988 on cells
   const auto pictures =
       assessment_pictures(*set.hand, set.assessments[0], scale, {.width = 300, .height = 210});
   ASSERT_EQ(pictures.size(), 13U);
@@ -195,6 +282,27 @@ TEST(AssessmentPictures, PressedPoleIsColouredInTheCommonScale) {
                     [](Rgb c) { return c.r > c.g + 60; });
   EXPECT_GT(coloured, 200);
   EXPECT_THAT(palm->alt, HasSubstr("palm side"));
+}
+
+TEST(PressureScale, OneBadVertexDoesNotDarkenThePictures) {
+  AssessmentSet set = ball_set();
+  set.assessments[1].assessment.contact.total.peak_pressure = 9.0;
+  const ColourScale scale = pressure_scale(set);
+  EXPECT_DOUBLE_EQ(scale.upper, 0.1);
+  ASSERT_TRUE(scale.is_open_ended);
+  EXPECT_EQ(ticks_of(scale).text.back(), "\u2265 0.10");
+  for (AssessedProduct& one : set.assessments) {
+    one.assessment.contact.total.peak_pressure = 0.0987;
+  }
+  EXPECT_FALSE(pressure_scale(set).is_open_ended);
+  EXPECT_EQ(ticks_of(pressure_scale(set)).text.back(), "0.10");
+}
+
+TEST(PressureScale, IsSetByTheProductsThatAreHeld) {
+  AssessmentSet set = ball_set();
+  set.assessments[1].assessment.grasp.status = GraspStatus::kTooLarge;
+  set.assessments[1].assessment.contact.total.peak_pressure_cells = 5.0;
+  EXPECT_DOUBLE_EQ(pressure_scale(set).upper, 0.1);
 }
 
 TEST(PressureLimits, FilmValuesOfTheStandardAreHeldAgainstPeaks) {

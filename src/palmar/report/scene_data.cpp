@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scene_data.h"
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "palmar/io/vtk.h"
 #include "palmar/report/assessment_pictures.h"
@@ -14,38 +14,14 @@ namespace palmar {
 
 namespace {
 
-void append_little_endian(std::string& bytes, std::uint32_t word) {
-  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xffU);
+void append_16(std::string& bytes, std::uint32_t word) {
+  bytes += static_cast<char>(word & 0xffU);
+  bytes += static_cast<char>(word >> 8 & 0xffU);
 }
 
-std::string floats(const std::vector<double>& values) {
-  std::string bytes;
-  bytes.reserve(4 * values.size());
-  for (const double v : values) {
-    append_little_endian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(v)));
-  }
-  return base64(bytes);
-}
-
-std::string positions(const TriangleMesh& mesh) {
-  std::vector<double> values;
-  values.reserve(3 * mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) values.insert(values.end(), {v.x(), v.y(), v.z()});
-  return floats(values);
-}
-
-std::string indices(const TriangleMesh& mesh) {
-  std::string bytes;
-  bytes.reserve(12 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) append_little_endian(bytes, static_cast<std::uint32_t>(v));
-  }
-  return base64(bytes);
-}
-
-std::string mesh_object(const TriangleMesh& mesh, const std::vector<double>& pressure) {
-  return "{\"position\":\"" + positions(mesh) + "\",\"index\":\"" + indices(mesh) +
-         "\",\"pressure\":\"" + floats(pressure) + "\"}";
+// Share of [0, 1] as a 16 bit number.
+std::uint32_t share_16(double share) {
+  return static_cast<std::uint32_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
 }
 
 std::string triple(double a, double b, double c) {
@@ -54,6 +30,45 @@ std::string triple(double a, double b, double c) {
 
 std::string triple(const Vec3& v) { return triple(v.x(), v.y(), v.z()); }
 std::string triple(Rgb c) { return triple(c.r, c.g, c.b); }
+
+// {"low": corner of the box, "size": its sides, "data": positions as shares of the sides}
+std::string positions(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const Vec3& v : mesh.vertices) box.extend(v);
+  const Vec3 low = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.min());
+  const Vec3 size = (box.isEmpty() ? Vec3(Vec3::Ones()) : Vec3(box.sizes())).cwiseMax(1e-9);
+  std::string bytes;
+  bytes.reserve(6 * mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) append_16(bytes, share_16((v[k] - low[k]) / size[k]));
+  }
+  return "{\"low\":" + triple(low) + ",\"size\":" + triple(size) + ",\"data\":\"" + base64(bytes) +
+         "\"}";
+}
+
+// uint16 where that is enough for the number of vertices, else uint32; the viewer decides alike.
+std::string indices(const TriangleMesh& mesh) {
+  const bool is_short = mesh.vertices.size() <= 65536;
+  std::string bytes;
+  bytes.reserve((is_short ? 6 : 12) * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) {
+      append_16(bytes, static_cast<std::uint32_t>(v) & 0xffffU);
+      if (!is_short) append_16(bytes, static_cast<std::uint32_t>(v) >> 16);
+    }
+  }
+  return base64(bytes);
+}
+
+// Pressures as shares of the scale's upper end: what is above has the colour of the end anyway.
+std::string mesh_object(const TriangleMesh& mesh, const std::vector<double>& pressure,
+                        double upper) {
+  std::string shares;
+  shares.reserve(2 * pressure.size());
+  for (const double p : pressure) append_16(shares, share_16(p / upper));
+  return "{\"position\":" + positions(mesh) + ",\"index\":\"" + indices(mesh) + "\",\"share\":\"" +
+         base64(shares) + "\"}";
+}
 
 }  // namespace
 
@@ -67,15 +82,15 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
   const Quat& rotation = assessment.grasp.product_from_hand.rotation;
   const double radial = hand.side == Side::kLeft ? -1.0 : 1.0;
   const ProductFootprint footprint = footprint_of(assessed);
-  return "{\"upper\":" + exact_number(scale.upper) + ",\"table\":\"" + base64(table) +
-         "\",\"neutral\":" + triple(scale.neutral) + ",\"skinColour\":" + triple(kSkinColour) +
-         ",\"productColour\":" + triple(kProductColour) +
+  return "{\"table\":\"" + base64(table) + "\",\"neutral\":" + triple(scale.neutral) +
+         ",\"skinColour\":" + triple(kSkinColour) + ",\"productColour\":" + triple(kProductColour) +
          ",\"palmward\":" + triple(rotation * Vec3::UnitZ()) +
          ",\"distal\":" + triple(rotation * Vec3::UnitY()) +
          ",\"radial\":" + triple(rotation * (radial * Vec3::UnitX())) + ",\"skin\":" +
-         mesh_object(deformed_skin(hand, assessment), skin_pressure(hand, assessment)) +
-         ",\"undeformed\":\"" + positions(undeformed_skin(hand, assessment)) +
-         "\",\"product\":" + mesh_object(footprint.surface, footprint.pressure) + "}";
+         mesh_object(deformed_skin(hand, assessment), skin_pressure(hand, assessment),
+                     scale.upper) +
+         ",\"undeformed\":" + positions(undeformed_skin(hand, assessment)) +
+         ",\"product\":" + mesh_object(footprint.surface, footprint.pressure, scale.upper) + "}";
 }
 
 }  // namespace palmar

@@ -11,14 +11,20 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
+// Arrays are base64 of little-endian numbers.
+interface Positions {
+  low: [number, number, number]; // corner of the box, mm
+  size: [number, number, number]; // its sides, mm
+  data: string; // uint16, 3 per vertex: share of the side, 65535 = all of it
+}
+
 interface MeshData {
-  position: string; // base64, little-endian float32, 3 per vertex, mm
-  index: string; // base64, little-endian uint32, 3 per triangle
-  pressure: string; // base64, little-endian float32, 1 per vertex, MPa
+  position: Positions;
+  index: string; // 3 per triangle; uint16 up to 65536 vertices, else uint32
+  share: string; // uint16, 1 per vertex: pressure, 65535 = the scale's upper end or more
 }
 
 interface SceneData {
-  upper: number; // MPa at the top of the colour scale
   table: string; // base64, 256 x RGB
   neutral: [number, number, number];
   skinColour: [number, number, number];
@@ -27,7 +33,7 @@ interface SceneData {
   distal: [number, number, number]; // towards the fingertips
   radial: [number, number, number]; // towards the thumb
   skin: MeshData;
-  undeformed: string; // positions of the skin before contact
+  undeformed: Positions; // positions of the skin before contact
   product: MeshData;
 }
 
@@ -60,14 +66,18 @@ function scaleTexture(data: SceneData): DataTexture {
   return texture;
 }
 
-function geometryOf(mesh: MeshData, position: string, upper: number): BufferGeometry {
+function geometryOf(mesh: MeshData, position: Positions): BufferGeometry {
+  const shares = new Uint16Array(bytes(position.data));
+  const xyz = new Float32Array(shares.length);
+  for (let i = 0; i < xyz.length; ++i) xyz[i] = position.low[i % 3] + (position.size[i % 3] * shares[i]) / 65535;
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(bytes(position)), 3));
-  geometry.setIndex(new BufferAttribute(new Uint32Array(bytes(mesh.index)), 1));
-  const pressure = new Float32Array(bytes(mesh.pressure));
+  geometry.setAttribute("position", new BufferAttribute(xyz, 3));
+  const index = bytes(mesh.index);
+  geometry.setIndex(new BufferAttribute(xyz.length <= 3 * 65536 ? new Uint16Array(index) : new Uint32Array(index), 1));
+  const pressure = new Uint16Array(bytes(mesh.share));
   const uv = new Float32Array(2 * pressure.length);
   for (let i = 0; i < pressure.length; ++i) {
-    uv[2 * i] = Math.min(1, pressure[i] / upper);
+    uv[2 * i] = pressure[i] / 65535;
     uv[2 * i + 1] = 0.5;
   }
   geometry.setAttribute("uv", new BufferAttribute(uv, 2));
@@ -102,12 +112,12 @@ class View {
 
     this.texture = scaleTexture(data);
     this.skinShapes = {
-      deformed: geometryOf(data.skin, data.skin.position, data.upper),
-      undeformed: geometryOf(data.skin, data.undeformed, data.upper),
+      deformed: geometryOf(data.skin, data.skin.position),
+      undeformed: geometryOf(data.skin, data.undeformed),
     };
     const material = () => new MeshStandardMaterial({ roughness: 0.85, metalness: 0, side: DoubleSide });
     this.skin = new Mesh(this.skinShapes.deformed, material());
-    this.product = new Mesh(geometryOf(data.product, data.product.position, data.upper), material());
+    this.product = new Mesh(geometryOf(data.product, data.product.position), material());
     this.scene.add(this.skin, this.product, new HemisphereLight(0xffffff, 0xb8b4ae, 1.5), this.lights);
     const key = new DirectionalLight(0xffffff, 1.6);
     key.position.set(-0.6, 0.8, 1);
