@@ -78,7 +78,8 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
   // A thumb hooked over an edge bends at its tip alone.
   const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp);
-  return area - 2.0 * other + reach - 250.0 * hooked + 500.0 * across - 10.0 * std::max(0.0, gap);
+  return area - 2.0 * other + reach - 250.0 * hooked +
+         800.0 * across * std::clamp(1.0 - gap / 3.0, 0.0, 1.0) - 10.0 * std::max(0.0, gap);
 }
 
 std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
