@@ -40,8 +40,8 @@ std::string summary(const Product& product, const Assessment& assessment) {
                      contact_text(assessment.contact));
 }
 
-/// Above this, finding crossing triangles would take longer than the grasp.
-constexpr int kMostTrianglesForCrossings = 200'000;
+/// Above this, finding crossing triangles takes more than a few tenths of a second.
+constexpr int kMostTrianglesForCrossings = 100'000;
 
 /// The product with what a check of its mesh has found added to its notes.
 Product load_checked(const std::string& path, std::optional<LengthUnit> unit) {

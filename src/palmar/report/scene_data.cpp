@@ -8,11 +8,14 @@
 
 #include "palmar/io/vtk.h"
 #include "palmar/report/assessment_pictures.h"
+#include "palmar/report/display_mesh.h"
 #include "palmar/report/plain_words.h"
 
 namespace palmar {
 
 namespace {
+
+constexpr int kMostProductTriangles = 60000;  // some 0.7 MB in the page
 
 void append_16(std::string& bytes, std::uint32_t word) {
   bytes += static_cast<char>(word & 0xffU);
@@ -82,6 +85,8 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
   const Quat& rotation = assessment.grasp.product_from_hand.rotation;
   const double radial = hand.side == Side::kLeft ? -1.0 : 1.0;
   const ProductFootprint footprint = footprint_of(assessed);
+  const DisplayMesh product =
+      display_mesh(footprint.surface, footprint.pressure, kMostProductTriangles);
   return "{\"table\":\"" + base64(table) + "\",\"neutral\":" + triple(scale.neutral) +
          ",\"skinColour\":" + triple(kSkinColour) + ",\"productColour\":" + triple(kProductColour) +
          ",\"palmward\":" + triple(rotation * Vec3::UnitZ()) +
@@ -90,7 +95,7 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
          mesh_object(deformed_skin(hand, assessment), skin_pressure(hand, assessment),
                      scale.upper) +
          ",\"undeformed\":" + positions(undeformed_skin(hand, assessment)) +
-         ",\"product\":" + mesh_object(footprint.surface, footprint.pressure, scale.upper) + "}";
+         ",\"product\":" + mesh_object(product.mesh, product.value, scale.upper) + "}";
 }
 
 }  // namespace palmar

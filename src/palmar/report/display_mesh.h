@@ -1,0 +1,24 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// A mesh to look at, with a value per vertex.
+struct DisplayMesh {
+  TriangleMesh mesh;          ///< mm
+  std::vector<double> value;  ///< one per vertex
+};
+
+/// The mesh with at most `most_triangles` triangles: vertices that fall into one cell of a grid are
+/// joined at their mean and keep their largest value, triangles that shrink to nothing are dropped;
+/// the grid is coarsened until it is enough (vertex clustering; Rossignac and Borrel 1993). A mesh
+/// that is small enough comes back as it is. For display only: not for computing.
+DisplayMesh display_mesh(const TriangleMesh& mesh, const std::vector<double>& value,
+                         int most_triangles);
+
+}  // namespace palmar
