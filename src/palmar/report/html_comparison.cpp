@@ -37,11 +37,13 @@ std::string card(const AssessedProduct& one, const std::vector<EncodedPicture>& 
   std::string html = "<div class=\"card\"><h4><a href=\"#product-" + std::to_string(index) + "\">" +
                      html_escaped(one.product.name) + "</a> <span class=\"badge " +
                      status_class(status) + "\">" + html_escaped(plain_words(status)) +
-                     "</span></h4>" + thumbnail(pictures, "map_open_hand") +
-                     thumbnail(pictures, "grasp_palm");
+                     "</span></h4>";
   if (!is_in_hand(one.assessment)) {
-    return html + "<p>Not in the hand: no forces or pressures to compare.</p></div>";
+    // Seen from the palm's side, what is too large would hide the hand.
+    return html + thumbnail(pictures, "grasp_back") +
+           "<p>Not in the hand: no forces or pressures to compare.</p></div>";
   }
+  html += thumbnail(pictures, "map_open_hand") + thumbnail(pictures, "grasp_palm");
   const RegionContact& total = one.assessment.contact.total;
   return html + "<dl>" + figure("Force", total.force, "N") +
          figure("Contact area", total.area, "mm\u00b2") +

@@ -30,7 +30,7 @@ tr.total th,tr.total td{font-weight:700;border-top:2px solid var(--line)}
 .good{background:#d9efe3;color:#0b4a2b}.fair{background:#fdecc8;color:#5c3a00}.bad{background:#f8d9dc;color:#6e0f1c}
 .swatch{display:inline-block;width:.8em;height:.8em;margin-right:.5em;border:1px solid #6b747d;border-radius:2px}
 .note{background:var(--wash);border-left:4px solid var(--accent);padding:.6rem 1rem;margin:.8rem 0}
-.note.good{border-left-color:#1d7a4a}.note.fair{border-left-color:#b7791f}.note.bad{border-left-color:#b3202f}
+.note.good{border-left-color:#1d7a4a;background:#eef8f2}.note.fair{border-left-color:#b7791f;background:#fdf3dc}.note.bad{border-left-color:#b3202f;background:#fbe7e9}
 .plain{padding-left:1.2rem;margin:.4rem 0}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(240px,1fr));gap:14px;margin:.8rem 0}
 .card{border:1px solid var(--line);border-radius:6px;padding:.6rem .8rem;min-width:0;max-width:540px}.card h4{margin:0 0 .4rem;overflow-wrap:anywhere}
@@ -56,7 +56,7 @@ figcaption{font-size:.85rem;color:var(--soft);padding:.3rem .7rem;border-top:1px
 details{margin:.8rem 0}summary{cursor:pointer;font-weight:600}
 pre{white-space:pre-wrap;font-size:.8rem;background:var(--wash);padding:.8rem;overflow-x:auto}
 footer{color:var(--soft);font-size:.88rem;padding-bottom:40px}
-@media(max-width:720px){main,header,footer{padding:0 14px}.charts{grid-template-columns:1fr}.view-canvas{height:480px}.view-bar{padding:14px 2px}.pictures{grid-template-columns:1fr}.view-body{grid-template-columns:1fr 104px}}
+@media(max-width:720px){main,header,footer{padding:0 14px}.charts{grid-template-columns:1fr}.wide table{min-width:680px}.view-canvas{height:480px}.view-bar{padding:14px 2px}.pictures{grid-template-columns:1fr}.view-body{grid-template-columns:1fr 104px}}
 @media print{body{font-size:11pt}main,header,footer{max-width:none;padding:0}.view{display:none}h2{break-before:page}h2.first{break-before:auto}figure,table{break-inside:avoid}}
 )";
 

@@ -180,7 +180,8 @@ class View {
       little: radial.clone().negate().addScaledVector(palm, 0.3).addScaledVector(distal, 0.25),
     };
     const direction = (from[name] ?? palm).clone().normalize();
-    const distance = 1.15 * this.radius / Math.sin((this.camera.fov * Math.PI) / 360);
+    // A canvas higher than wide sees less to the sides than upwards.
+    const distance = 1.15 * this.radius / (Math.sin((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
     this.controls.target.copy(this.centre);
     this.camera.position.copy(this.centre).addScaledVector(direction, distance);
     this.camera.near = distance / 50;
