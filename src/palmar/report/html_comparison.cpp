@@ -36,7 +36,7 @@ std::string card(const AssessedProduct& one, const std::vector<EncodedPicture>& 
   const GraspStatus status = one.assessment.grasp.status;
   std::string html = "<div class=\"card\"><h4><a href=\"#product-" + std::to_string(index) + "\">" +
                      html_escaped(one.product.name) + "</a> <span class=\"badge " +
-                     status_class(status) + "\">" + html_escaped(plain_words(status)) +
+                     status_class(one.assessment) + "\">" + html_escaped(plain_words(status)) +
                      "</span></h4>";
   if (!is_in_hand(one.assessment)) {
     // Seen from the palm's side, what is too large would hide the hand.

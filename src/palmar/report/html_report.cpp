@@ -105,7 +105,7 @@ std::string gallery(const std::vector<EncodedPicture>& pictures) {
 std::string notes_of(const AssessedProduct& one) {
   const ContactResult& contact = one.assessment.contact;
   const GraspStatus status = one.assessment.grasp.status;
-  std::string html = "<p class=\"note " + status_class(status) + "\"><strong>" +
+  std::string html = "<p class=\"note " + status_class(one.assessment) + "\"><strong>" +
                      html_escaped(plain_words(status)) + ".</strong> " +
                      html_escaped(one.assessment.grasp.message) + "</p>\n";
   if (!contact.message.empty()) {

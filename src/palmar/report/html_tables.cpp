@@ -88,10 +88,15 @@ std::string cells_without_result() {
 
 }  // namespace
 
-std::string status_class(GraspStatus status) {
-  return status == GraspStatus::kHeld         ? "good"
-         : status == GraspStatus::kPartlyHeld ? "fair"
-                                              : "bad";
+std::string status_class(const Assessment& assessment) {
+  switch (assessment.grasp.status) {
+    case GraspStatus::kHeld:
+      return is_in_hand(assessment) ? "good" : "fair";  // held, and yet no contact: doubtful
+    case GraspStatus::kPartlyHeld:
+      return "fair";
+    default:
+      return "bad";
+  }
 }
 
 std::string summary_table(const AssessmentSet& set) {
@@ -102,7 +107,7 @@ std::string summary_table(const AssessmentSet& set) {
     const ContactResult& contact = one.assessment.contact;
     rows += "<tr><th scope=\"row\"><a href=\"#product-" + std::to_string(i) + "\">" +
             html_escaped(one.product.name) + "</a></th><td><span class=\"badge " +
-            status_class(grasp.status) + "\">" + html_escaped(plain_words(grasp.status)) +
+            status_class(one.assessment) + "\">" + html_escaped(plain_words(grasp.status)) +
             "</span></td>" +
             (is_in_hand(one.assessment) ? result_cells(contact) : cells_without_result()) + "</tr>";
   }
@@ -113,7 +118,7 @@ std::string summary_table(const AssessmentSet& set) {
                 {"Contact area, mm²", true},
                 {"Peak pressure, MPa", true},
                 {"Peak on sensor cells, MPa", true},
-                {"Hottest region"},
+                {"Hottest region (sensor cells)"},
                 {"Firm grip for a moment: pain (film peak)"},
                 {"Grip held long: blood flow (sensor cells)"}},
                rows);
@@ -216,6 +221,9 @@ std::string settings_table(const AssessOptions& options) {
 }
 
 std::string plain_verdict(const Assessment& assessment) {
+  if (assessment.contact.regions.empty()) {
+    return "Nothing is touched, so there is no pressure to judge.";
+  }
   if (!is_in_hand(assessment)) {
     return "It is not held, so there are no pressures of a grip to judge.";
   }
@@ -245,9 +253,6 @@ std::string plain_summary(const AssessmentSet& set) {
 
 std::string pressure_verdict(const Assessment& assessment) {
   const ContactResult& contact = assessment.contact;
-  if (contact.regions.empty()) {
-    return "<p>Nothing is touched, so there is no pressure to judge.</p>";
-  }
   const std::string plain = "<p>" + html_escaped(plain_verdict(assessment)) + "</p>";
   if (!is_in_hand(assessment)) return plain;
   const auto nearest = nearest_to_pain(contact);

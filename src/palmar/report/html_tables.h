@@ -12,7 +12,7 @@ namespace palmar {
 /// assessment.json, in the cell's data-value.
 
 /// "good", "fair" or "bad": style class of a grasp's outcome.
-std::string status_class(GraspStatus status);
+std::string status_class(const Assessment& assessment);
 
 /// One row per product: held or not, force, area, peaks, hottest region, verdicts;
 /// dashes where it is not in the hand.
