@@ -3,12 +3,16 @@
 #include "palmar/geometry/closest_point.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "palmar/geometry/triangle_partition.h"
+
+// Vectors of eight are passed between inlined functions only.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace palmar {
 namespace {
@@ -77,80 +81,98 @@ TrianglePoint closest_on_face(const Vec3& p, const Face& f) {
   return result;
 }
 
-using Float4 = Eigen::Array<float, 4, 1>;
-constexpr int kWidth = TrianglePartition::kWidth;
+constexpr int kWidth = 8;
 // Up to this size the box of a group is fitted to its corners, above to the boxes of its parts.
 constexpr int kFittedSize = 64;
 
-/// Boxes, each turned along its own triangles, of four groups side by side. A group on a smooth
+/// Eight numbers side by side. The compiler makes one AVX register of them where a function allows
+/// that and two SSE registers elsewhere; the results are the same to the bit.
+using Float8 = float __attribute__((vector_size(32)));
+using Int8 = int __attribute__((vector_size(32)));
+using Point8 = std::array<Float8, 3>;
+
+[[gnu::always_inline]] inline Float8 larger(const Float8& a, const Float8& b) {
+  return a > b ? a : b;
+}
+[[gnu::always_inline]] inline Float8 smaller(const Float8& a, const Float8& b) {
+  return a < b ? a : b;
+}
+[[gnu::always_inline]] inline Float8 magnitude(const Float8& a) {
+  return std::bit_cast<Float8>(std::bit_cast<Int8>(a) & 0x7FFFFFFF);
+}
+[[gnu::always_inline]] inline Float8 within_01(const Float8& a) {
+  return smaller(larger(a, Float8{}), Float8{} + 1.0f);
+}
+[[gnu::always_inline]] inline float smallest(const Float8& a) {
+  const Float8 b = smaller(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Float8 c = smaller(b, __builtin_shufflevector(b, b, 2, 3, 0, 1, 6, 7, 4, 5));
+  return std::min(c[0], c[1]);
+}
+[[gnu::always_inline]] inline Float8 dot(const Point8& a, const Point8& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+/// p - s a
+[[gnu::always_inline]] inline Point8 rest(const Point8& p, const Float8& s, const Point8& a) {
+  return {p[0] - s * a[0], p[1] - s * a[1], p[2] - s * a[2]};
+}
+
+/// Boxes, each turned along its own triangles, of eight groups side by side. A group on a smooth
 /// surface gets a flat box, so that few groups near the foot of the point must be opened; upright
 /// boxes would be as thick as the group is wide.
 struct alignas(64) Node {
-  std::array<Float4, 3> centre;               ///< mm
-  std::array<std::array<Float4, 3>, 3> axis;  ///< axis[i][k]: component k of unit axis i
-  std::array<Float4, 3> half;                 ///< half length along axis i, mm; negative if empty
-  std::array<int, kWidth> child;              ///< node if >= 0, else leaf -1 - child
+  Point8 centre;                  ///< mm
+  std::array<Point8, 3> axis;     ///< axis[i][k]: component k of unit axis i
+  Point8 half;                    ///< half length along axis i, mm
+  std::array<int, kWidth> child;  ///< node if >= 0, else leaf -1 - child
 };
 
-/// Squared distances of a point to the nearest and to the farthest point of four boxes, mm^2.
+/// Squared distances of a point to the nearest and to the farthest point of eight boxes, mm^2.
 struct BoxDistances {
-  Float4 nearest = Float4::Zero();
-  Float4 farthest = Float4::Zero();
+  Float8 nearest = {};
+  Float8 farthest = {};
 };
 
-BoxDistances box_distances(const Node& node, const Eigen::Vector3f& p) {
-  const Float4 x = p.x() - node.centre[0], y = p.y() - node.centre[1], z = p.z() - node.centre[2];
+[[gnu::always_inline]] inline BoxDistances box_distances(const Node& node,
+                                                         const Eigen::Vector3f& p) {
+  const Point8 x = {p.x() - node.centre[0], p.y() - node.centre[1], p.z() - node.centre[2]};
   BoxDistances d;
   for (int i = 0; i < 3; ++i) {
-    const Float4 along = (node.axis[i][0] * x + node.axis[i][1] * y + node.axis[i][2] * z).abs();
-    const Float4 beyond = (along - node.half[i]).max(0.0f);
-    const Float4 across = along + node.half[i];
+    const Float8 along = magnitude(dot(node.axis[i], x));
+    const Float8 beyond = larger(along - node.half[i], Float8{});
+    const Float8 across = along + node.half[i];
     d.nearest += beyond * beyond;
     d.farthest += across * across;
   }
   return d;
 }
 
-/// Up to four triangles a, a + u, a + v side by side in float, to find out which of them deserve
+/// Up to eight triangles a, a + u, a + v side by side in float, to find out which of them deserve
 /// the test in double.
 struct alignas(64) Leaf {
-  std::array<Float4, 3> a, u, v;              ///< mm
-  Float4 inverse_uu, inverse_vv, inverse_ww;  ///< 1 / squared length of u, v and w = v - u; 0 if 0
-  Float4 vv, uv, uu;                          ///< dot products / (uu vv - uv^2)
-  Float4 trust;                               ///< 0 for needles, which float can't judge, else 1
+  Point8 a, u, v;                             ///< mm
+  Float8 inverse_uu, inverse_vv, inverse_ww;  ///< 1 / squared length of u, v and w = v - u; 0 if 0
+  Float8 vv, uv, uu;                          ///< dot products / (uu vv - uv^2)
+  Float8 trust;                               ///< 0 for needles, which float can't judge, else 1
   int first = 0;                              ///< face of the first triangle
   int count = 0;
   bool is_trusted = true;  ///< no needles
 };
 
-Float4 dot(const std::array<Float4, 3>& a, const std::array<Float4, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// p - s a
-std::array<Float4, 3> rest(const std::array<Float4, 3>& p, const Float4& s,
-                           const std::array<Float4, 3>& a) {
-  return {p[0] - s * a[0], p[1] - s * a[1], p[2] - s * a[2]};
-}
-
-/// Squared distances of a point to four triangles, mm^2; 0 for needles.
-Float4 triangle_distances(const Leaf& f, const Eigen::Vector3f& q) {
-  const std::array<Float4, 3> p = {q.x() - f.a[0], q.y() - f.a[1], q.z() - f.a[2]};
-  const std::array<Float4, 3> w = {f.v[0] - f.u[0], f.v[1] - f.u[1], f.v[2] - f.u[2]};
-  const std::array<Float4, 3> pu = {p[0] - f.u[0], p[1] - f.u[1], p[2] - f.u[2]};
-  const Float4 along_u = dot(p, f.u), along_v = dot(p, f.v);
-  const Float4 share_u = (along_u * f.inverse_uu).max(0.0f).min(1.0f);
-  const Float4 share_v = (along_v * f.inverse_vv).max(0.0f).min(1.0f);
-  const Float4 share_w = (dot(pu, w) * f.inverse_ww).max(0.0f).min(1.0f);
-  const std::array<Float4, 3> ru = rest(p, share_u, f.u);
-  const std::array<Float4, 3> rv = rest(p, share_v, f.v);
-  const std::array<Float4, 3> rw = rest(pu, share_w, w);
-  const Float4 edges = dot(ru, ru).min(dot(rv, rv)).min(dot(rw, rw));
-  const Float4 s = f.vv * along_u - f.uv * along_v;
-  const Float4 t = f.uu * along_v - f.uv * along_u;
-  const std::array<Float4, 3> rf = rest(rest(p, s, f.u), t, f.v);
-  const auto is_over_face = s >= 0.0f && t >= 0.0f && s + t <= 1.0f;
-  return f.trust * is_over_face.select(dot(rf, rf), edges);
+/// Squared distances of a point to eight triangles, mm^2; 0 for needles.
+[[gnu::always_inline]] inline Float8 triangle_distances(const Leaf& f, const Eigen::Vector3f& q) {
+  const Point8 p = {q.x() - f.a[0], q.y() - f.a[1], q.z() - f.a[2]};
+  const Point8 w = {f.v[0] - f.u[0], f.v[1] - f.u[1], f.v[2] - f.u[2]};
+  const Point8 pu = {p[0] - f.u[0], p[1] - f.u[1], p[2] - f.u[2]};
+  const Float8 along_u = dot(p, f.u), along_v = dot(p, f.v);
+  const Point8 ru = rest(p, within_01(along_u * f.inverse_uu), f.u);
+  const Point8 rv = rest(p, within_01(along_v * f.inverse_vv), f.v);
+  const Point8 rw = rest(pu, within_01(dot(pu, w) * f.inverse_ww), w);
+  const Float8 edges = smaller(smaller(dot(ru, ru), dot(rv, rv)), dot(rw, rw));
+  const Float8 s = f.vv * along_u - f.uv * along_v;
+  const Float8 t = f.uu * along_v - f.uv * along_u;
+  const Point8 rf = rest(rest(p, s, f.u), t, f.v);
+  const Int8 is_over_face = (s >= 0.0f) & (t >= 0.0f) & (s + t <= 1.0f);
+  return f.trust * (is_over_face ? dot(rf, rf) : edges);
 }
 
 /// What the box of a group is fitted to.
@@ -251,9 +273,15 @@ struct ClosestPointQuery::Impl {
   std::vector<Leaf> leaves;
 
   explicit Impl(const TriangleMesh& mesh);
+  void walk(Search& search) const;
+  void walk_plainly(Search& search) const;
+#if defined(__x86_64__)
+  __attribute__((target("avx2"))) void walk_avx2(Search& search) const;
+#endif
+  [[gnu::always_inline]] inline void walk_inline(Search& search) const;
   void fit(Node& node, int k, const Spread& spread, std::span<const Vec3> corners) const;
   int add_leaf(int begin, int end);
-  void fit_nodes(const TrianglePartition& partition);
+  void fit_nodes(const WideTrianglePartition<kWidth>& partition);
   /// Asks the processor to load what the search needs next; most of its time is waiting for memory.
   void prefetch(int child) const {
     const char* start = child >= 0 ? reinterpret_cast<const char*>(&nodes[child])
@@ -273,7 +301,7 @@ ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
   origin = box.center();
   reach = 0.5 * box.sizes().maxCoeff();
 
-  const TrianglePartition partition = partition_triangles(mesh, kWidth);
+  const WideTrianglePartition<kWidth> partition = partition_triangles<kWidth>(mesh, kWidth);
   faces.reserve(mesh.triangles.size());
   face.resize(mesh.triangles.size());
   triangle = partition.order;
@@ -350,13 +378,13 @@ int ClosestPointQuery::Impl::add_leaf(int begin, int end) {
   return static_cast<int>(leaves.size()) - 1;
 }
 
-void ClosestPointQuery::Impl::fit_nodes(const TrianglePartition& partition) {
+void ClosestPointQuery::Impl::fit_nodes(const WideTrianglePartition<kWidth>& partition) {
   nodes.resize(partition.nodes.size());
   std::vector<std::array<Spread, kWidth>> spreads(partition.nodes.size());
   std::vector<Vec3> corners;
   // Children stand behind their parents: from the back, parts are ready before the whole.
   for (int n = static_cast<int>(nodes.size()) - 1; n >= 0; --n) {
-    const TrianglePartition::Node& parts = partition.nodes[n];
+    const WideTrianglePartition<kWidth>::Node& parts = partition.nodes[n];
     for (int k = 0; k < kWidth; ++k) {
       Node& node = nodes[n];
       if (parts.size(k) == 0) {
@@ -399,35 +427,23 @@ ClosestPointQuery::~ClosestPointQuery() = default;
 ClosestPointQuery::ClosestPointQuery(ClosestPointQuery&&) noexcept = default;
 ClosestPointQuery& ClosestPointQuery::operator=(ClosestPointQuery&&) noexcept = default;
 
-std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double range,
-                                                       std::optional<int> hint) const {
-  const Impl& m = *impl_;
-  if (m.faces.empty() || !point.allFinite()) return {};
-  Search search{
-      point - m.origin, range * range, -1, {}, 0.0, 0.0f, std::numeric_limits<float>::infinity()};
-  // A distance in float is a sum of some ten products of coordinates of this size.
-  search.margin =
-      8.0 * std::numeric_limits<float>::epsilon() * (m.reach + search.point.cwiseAbs().maxCoeff());
-  search.slack2 = static_cast<float>(5001.0 * search.margin * search.margin);
-  search.set_limit();
-  if (hint) search.test(m.faces[m.face[*hint]], *hint);
-
+void ClosestPointQuery::Impl::walk_inline(Search& search) const {
   struct Entry {
     float squared_distance;
     int child;
   };
-  // Each level leaves at most three siblings; depth is log4 of an int.
-  std::array<Entry, 3 * 16 + kWidth> stack;
+  // Each level leaves at most seven siblings; depth is log8 of an int.
+  std::array<Entry, 7 * 11 + kWidth> stack;
   int size = 0;
   stack[size++] = {0.0f, 0};
   // Triangles that may be the nearest; tested in double when no box is left.
-  std::array<Entry, 32> candidates;
+  std::array<Entry, 7 * 11 + kWidth> candidates;
   int candidate_count = 0;
   const auto test_candidates = [&] {
     for (int i = 0; i < candidate_count; ++i) {
       if (candidates[i].squared_distance > search.limit2) continue;
       const int f = candidates[i].child;
-      search.test(m.faces[f], m.triangle[f]);
+      search.test(faces[f], triangle[f]);
     }
     candidate_count = 0;
   };
@@ -436,19 +452,19 @@ std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double
     const Entry entry = stack[--size];
     if (entry.squared_distance > search.limit2) continue;
     if (entry.child < 0) {
-      const Leaf& leaf = m.leaves[-1 - entry.child];
-      const Float4 distance2 = triangle_distances(leaf, p);
-      if (leaf.is_trusted) search.lower_limit(distance2.minCoeff());
+      const Leaf& leaf = leaves[-1 - entry.child];
+      const Float8 distance2 = triangle_distances(leaf, p);
+      if (leaf.is_trusted) search.lower_limit(smallest(distance2));
       if (candidate_count + kWidth > static_cast<int>(candidates.size())) test_candidates();
-      for (int k = 0; k < leaf.count; ++k) {
+      for (int k = 0; k < kWidth; ++k) {
         candidates[candidate_count] = {distance2[k], leaf.first + k};
-        candidate_count += distance2[k] <= search.limit2 ? 1 : 0;
+        candidate_count += (distance2[k] <= search.limit2) & (k < leaf.count) ? 1 : 0;
       }
       continue;
     }
-    const Node& node = m.nodes[entry.child];
+    const Node& node = nodes[entry.child];
     const BoxDistances distances = box_distances(node, p);
-    search.lower_limit(distances.farthest.minCoeff());
+    search.lower_limit(smallest(distances.farthest));
     // Without branches, as which boxes are near enough can't be predicted. Only the nearest is sure
     // to be the next; it goes on top.
     const int start = size;
@@ -462,9 +478,38 @@ std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double
       nearest = stack[i].squared_distance < stack[nearest].squared_distance ? i : nearest;
     }
     std::swap(stack[nearest], stack[size - 1]);
-    m.prefetch(stack[size - 1].child);
+    prefetch(stack[size - 1].child);
   }
   test_candidates();
+}
+
+void ClosestPointQuery::Impl::walk_plainly(Search& search) const { walk_inline(search); }
+
+#if defined(__x86_64__)
+void ClosestPointQuery::Impl::walk_avx2(Search& search) const { walk_inline(search); }
+
+void ClosestPointQuery::Impl::walk(Search& search) const {
+  static const bool has_avx2 = __builtin_cpu_supports("avx2");
+  has_avx2 ? walk_avx2(search) : walk_plainly(search);
+}
+#else
+void ClosestPointQuery::Impl::walk(Search& search) const { walk_plainly(search); }
+#endif
+
+std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double range,
+                                                       std::optional<int> hint) const {
+  const Impl& m = *impl_;
+  if (m.faces.empty() || !point.allFinite()) return {};
+  Search search{
+      point - m.origin, range * range, -1, {}, 0.0, 0.0f, std::numeric_limits<float>::infinity()};
+  // A distance in float is a sum of some ten products of coordinates of this size.
+  search.margin =
+      8.0 * std::numeric_limits<float>::epsilon() * (m.reach + search.point.cwiseAbs().maxCoeff());
+  search.slack2 = static_cast<float>(5001.0 * search.margin * search.margin);
+  search.set_limit();
+  if (hint) search.test(m.faces[m.face[*hint]], *hint);
+
+  m.walk(search);
 
   if (search.triangle < 0) return {};
   return ClosestPoint{search.triangle, search.nearest.point + m.origin, search.nearest.weights,

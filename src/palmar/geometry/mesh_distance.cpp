@@ -151,14 +151,15 @@ std::vector<int> spatial_order(std::span<const Vec3> points) {
   return order;
 }
 
-/// Points whose side is known. A point whose ball of radius |d| holds another one off the surface
-/// lies on the same side, as nothing is crossed on the way; so most winding numbers are saved. Only
-/// for closed meshes: elsewhere the side also changes in the holes.
+/// Points whose side is known. The open ball of radius |d| about a point holds nothing of the
+/// surface; two points whose balls meet lie on the same side, as nothing is crossed on the way. So
+/// most winding numbers are saved. Only for closed meshes: elsewhere the side also changes in the
+/// holes.
 class KnownSides {
  public:
   std::optional<bool> find(const Vec3& point, double distance) const {
     for (int i = 0; i < count_; ++i) {
-      const double reach = std::max(distance, known_[i].distance) * (1.0 - 1e-6) - kOnSurface;
+      const double reach = (distance + known_[i].distance) * (1.0 - 1e-6) - kOnSurface;
       if (reach > 0.0 && (known_[i].point - point).squaredNorm() < reach * reach) {
         return known_[i].is_inside;
       }

@@ -32,18 +32,23 @@ int split(std::vector<Item>& items, int begin, int end) {
   return middle;
 }
 
-int divide(TrianglePartition& partition, std::vector<Item>& items, int begin, int end,
+template <int kWidth>
+int divide(WideTrianglePartition<kWidth>& partition, std::vector<Item>& items, int begin, int end,
            int leaf_size) {
   const int index = static_cast<int>(partition.nodes.size());
   partition.nodes.emplace_back();
-  const int middle = split(items, begin, end);
-  const int first = split(items, begin, middle);
-  const int second = split(items, middle, end);
-  const std::array<int, 5> cuts = {begin, first, middle, second, end};
-  for (int k = 0; k < TrianglePartition::kWidth; ++k) {
+  std::array<int, kWidth + 1> cuts{};
+  cuts[0] = begin;
+  cuts[kWidth] = end;
+  for (int step = kWidth; step > 1; step /= 2) {
+    for (int k = 0; k < kWidth; k += step) {
+      cuts[k + step / 2] = split(items, cuts[k], cuts[k + step]);
+    }
+  }
+  for (int k = 0; k < kWidth; ++k) {
     const bool is_split = cuts[k + 1] - cuts[k] > leaf_size;
     const int child = is_split ? divide(partition, items, cuts[k], cuts[k + 1], leaf_size) : -1;
-    TrianglePartition::Node& node = partition.nodes[index];
+    typename WideTrianglePartition<kWidth>::Node& node = partition.nodes[index];
     node.begin[k] = cuts[k];
     node.end[k] = cuts[k + 1];
     node.child[k] = child;
@@ -53,8 +58,9 @@ int divide(TrianglePartition& partition, std::vector<Item>& items, int begin, in
 
 }  // namespace
 
-TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size) {
-  TrianglePartition partition;
+template <int kWidth>
+WideTrianglePartition<kWidth> partition_triangles(const TriangleMesh& mesh, int leaf_size) {
+  WideTrianglePartition<kWidth> partition;
   if (mesh.triangles.empty()) return partition;
   std::vector<Item> items(mesh.triangles.size());
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -68,6 +74,8 @@ TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size) {
   for (const Item& item : items) partition.order.push_back(item.triangle);
   return partition;
 }
+template WideTrianglePartition<4> partition_triangles<4>(const TriangleMesh& mesh, int leaf_size);
+template WideTrianglePartition<8> partition_triangles<8>(const TriangleMesh& mesh, int leaf_size);
 
 void check_finite_and_indexed(const TriangleMesh& mesh) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {

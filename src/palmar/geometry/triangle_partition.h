@@ -9,10 +9,11 @@
 
 namespace palmar {
 
-/// The triangles of a mesh divided again and again by four, at the median centroid of the longest
-/// side: the frame that nearest-point search and winding number hang their own data on.
-struct TrianglePartition {
-  static constexpr int kWidth = 4;
+/// The triangles of a mesh divided again and again by kParts (4 or 8), at the median centroid of
+/// the longest side: the frame that nearest-point search and winding number hang their own data on.
+template <int kParts>
+struct WideTrianglePartition {
+  static constexpr int kWidth = kParts;
 
   struct Node {
     std::array<int, kWidth> begin{};  ///< part k holds order[begin[k]] ... order[end[k] - 1]
@@ -26,10 +27,12 @@ struct TrianglePartition {
   std::vector<Node>
       nodes;  ///< the root first, children behind their parent; empty without triangles
 };
+using TrianglePartition = WideTrianglePartition<4>;
 
 /// Parts of at most `leaf_size` triangles are not divided further. Deterministic; degenerate
 /// triangles are kept.
-TrianglePartition partition_triangles(const TriangleMesh& mesh, int leaf_size);
+template <int kParts = 4>
+WideTrianglePartition<kParts> partition_triangles(const TriangleMesh& mesh, int leaf_size);
 
 /// Throws InputError on a coordinate that is not finite and on a corner outside the vertex list.
 void check_finite_and_indexed(const TriangleMesh& mesh);
