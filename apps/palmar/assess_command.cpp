@@ -43,9 +43,8 @@ std::string summary(const Product& product, const Assessment& assessment) {
 /// Above this, finding crossing triangles takes more than a few tenths of a second.
 constexpr int kMostTrianglesForCrossings = 100'000;
 
-/// The product with what a check of its mesh has found added to its notes.
-Product load_checked(const std::string& path, std::optional<LengthUnit> unit) {
-  Product product = load_product(path, {.unit = unit});
+/// Adds what a check of its mesh finds to the product's notes.
+void add_findings(Product& product) {
   const bool is_small = product.mesh.triangle_count() <= kMostTrianglesForCrossings;
   for (const Finding& finding : check_mesh(product.mesh, is_small).findings) {
     const bool is_known = std::any_of(
@@ -53,7 +52,6 @@ Product load_checked(const std::string& path, std::optional<LengthUnit> unit) {
         [&](const std::string& note) { return note.find(finding.text) != std::string::npos; });
     if (finding.severity != Severity::kOk && !is_known) product.notes.push_back(finding.text);
   }
-  return product;
 }
 
 Cancelled cancelled_with(std::size_t done, std::size_t asked, const std::string& folder) {
@@ -76,7 +74,9 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   std::vector<Product> products;
   for (const std::string& path : arguments.products) {
     if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
-    products.push_back(load_checked(path, parse_unit(arguments.grasp.unit)));
+    products.push_back(load_product(path, {.unit = parse_unit(arguments.grasp.unit)}));
+    if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
+    add_findings(products.back());
     for (const std::string& text : products.back().notes) note(context.common, path + ": " + text);
   }
 

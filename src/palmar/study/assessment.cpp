@@ -44,7 +44,8 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
 
   progress.update(0.9, "mapping the pressure to the product");
   result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
-  progress.update(1.0, "assessed");
+  // Finished is finished: who cancels now still gets it.
+  if (progress.report) progress.report(1.0, "assessed");
   return result;
 }
 
