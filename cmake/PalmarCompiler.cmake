@@ -5,13 +5,14 @@
 
 find_program(PALMAR_CCACHE ccache)
 if(PALMAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_C_COMPILER_LAUNCHER ${PALMAR_CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PALMAR_CCACHE})
+  # Relative paths let clones in other folders share the cache.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${PALMAR_CCACHE})
 endif()
 
-# "Dev": quick enough to run the whole test suite under the sanitizers.
-set(CMAKE_CXX_FLAGS_DEV "-O1 -g1" CACHE STRING "")
-set(CMAKE_C_FLAGS_DEV "-O1 -g1" CACHE STRING "")
+# "Dev": optimised enough to run the whole test suite under the sanitizers.
+set(CMAKE_CXX_FLAGS_DEV "-O2 -g1" CACHE STRING "")
+set(CMAKE_C_FLAGS_DEV "-O2 -g1" CACHE STRING "")
 set(CMAKE_EXE_LINKER_FLAGS_DEV "" CACHE STRING "")
 set(CMAKE_SHARED_LINKER_FLAGS_DEV "" CACHE STRING "")
 

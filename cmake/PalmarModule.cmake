@@ -10,9 +10,10 @@
 
 # One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
 # assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests.
+# palmar_add_tests(PROGRAM slow): minutes under the sanitizers, so ./check runs it in Release only.
 function(palmar_add_tests program)
   add_test(NAME ${program} COMMAND ${program})
-  set_tests_properties(${program} PROPERTIES TIMEOUT 1500)
+  set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
 endfunction()
 
 function(palmar_module name)
