@@ -20,9 +20,9 @@ struct JointWeights {
   std::vector<int> vertex;  ///< ascending
   std::vector<double> w1;   ///< 0 on the steady side, 1 on the rigid side, along the bone
   std::vector<double> w2;   ///< 1 inside an inner ellipse about the finger, 0 outside an outer one
-  /// Addition to eq. 2-7: how far the skin over the joint comes out per radian of flexion beyond the
-  /// reference angle, mm/rad, reference frame; keeps the volume of a bent finger. Empty or one per
-  /// vertex.
+  /// Addition to eq. 2-7: how far the skin over the joint comes out per radian of flexion beyond
+  /// the reference angle, mm/rad, reference frame; keeps the volume of a bent finger. Empty or one
+  /// per vertex.
   std::vector<Vec3> bulge;
 };
 
