@@ -158,10 +158,11 @@ std::vector<int> spatial_order(std::span<const Vec3> points) {
 class KnownSides {
  public:
   std::optional<bool> find(const Vec3& point, double distance) const {
-    for (int i = 0; i < count_; ++i) {
-      const double reach = (distance + known_[i].distance) * (1.0 - 1e-6) - kOnSurface;
-      if (reach > 0.0 && (known_[i].point - point).squaredNorm() < reach * reach) {
-        return known_[i].is_inside;
+    for (int age = 1; age <= count_; ++age) {  // the latest is the most likely
+      const Entry& known = known_[(next_ + kSize - age) % kSize];
+      const double reach = (distance + known.distance) * (1.0 - 1e-6) - kOnSurface;
+      if (reach > 0.0 && (known.point - point).squaredNorm() < reach * reach) {
+        return known.is_inside;
       }
     }
     return {};
@@ -178,7 +179,7 @@ class KnownSides {
     double distance;
     bool is_inside;
   };
-  static constexpr int kSize = 12;
+  static constexpr int kSize = 32;
   std::array<Entry, kSize> known_;
   int count_ = 0;
   int next_ = 0;
@@ -223,8 +224,8 @@ void MeshDistance::Impl::sample_in_order(std::span<const Vec3> points, std::span
         is_inside = *side;
       } else {
         is_inside = winding.whole_at(q) > 0;
-        known.add(q, distance, is_inside);
       }
+      if (surface.is_closed) known.add(q, distance, is_inside);
     }
     const double sign = is_inside ? -1.0 : 1.0;
     s.distance = sign * distance;
