@@ -216,6 +216,16 @@ TEST(Assess, TellsWhatIsDoubtfulAboutTheMesh) {
   EXPECT_THAT(product.at("notes").dump(), HasSubstr("too big for a hand"));
 }
 
+TEST(Assess, PointBesideTheProductIsNotHeldAndCarriesNoForce) {
+  const ProgramRun run =
+      run_palmar("assess c48.stl --unit mm --json --at 500,0,0 --axis 0,0,1", cylinder().folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json one = Json::parse(run.out).at("assessments").at(0);
+  EXPECT_EQ(one.at("grasp").at("status"), "not_graspable");
+  EXPECT_THAT(one.at("grasp").at("message").get<std::string>(), HasSubstr("point"));
+  EXPECT_EQ(one.at("contact").at("force_n").get<double>(), 0.0);
+}
+
 struct Unholdable {
   const char* name;
   const char* make;

@@ -28,7 +28,8 @@ std::vector<std::pair<std::string, std::string>> shown_commands() {
     std::istringstream text(read_text(page.string()));
     for (std::string line; std::getline(text, line);) {
       if (line.rfind("    palmar ", 0) != 0) continue;
-      commands.emplace_back(page.filename().string(), line.substr(11));
+      // What follows "  #" explains the command.
+      commands.emplace_back(page.filename().string(), line.substr(11, line.find("  #") - 11));
     }
   }
   return commands;

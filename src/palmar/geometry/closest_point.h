@@ -31,9 +31,9 @@ struct ClosestPoint {
   double distance = 0.0;                            ///< mm, >= 0
 };
 
-/// Answers nearest-point questions about one mesh. Exact to rounding in double (an Embree 3 point
-/// query walks the tree, the triangles are tested in double, and the search radius is held a
-/// relative 1e-6 larger than the best distance because the tree is in float). The mesh is copied;
+/// Answers nearest-point questions about one mesh. Exact to rounding in double: a tree
+/// of eight in float rejects, held a relative 1e-6 too careful, and the triangles that are left are
+/// tested in double. The mesh is copied;
 /// it may be open, non-manifold or degenerate. Queries are independent of their order and may come
 /// from several threads. Throws InputError on a triangle corner outside the vertex list and on
 /// coordinates that are not finite.

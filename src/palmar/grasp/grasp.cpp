@@ -213,7 +213,13 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   std::vector<GripSite> sites = find_grip_sites(product.mesh, search);
   if (sites.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = "no part of the product is bar-like enough for a power grip";
+    grasp.message = options.placement.at
+                        ? "nothing near the given point is bar-like enough for a power grip"
+                        : "no part of the product is bar-like enough for a power grip";
+    // Nobody holds it: the hand is shown beside the product, touching nothing.
+    const Box3 box = product.distance->bounding_box();
+    const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
+    grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
     return grasp;
   }
 

@@ -105,9 +105,13 @@ std::string gallery(const std::vector<EncodedPicture>& pictures) {
 std::string notes_of(const AssessedProduct& one) {
   const ContactResult& contact = one.assessment.contact;
   const GraspStatus status = one.assessment.grasp.status;
+  std::string message = one.assessment.grasp.message;
+  if (!message.empty() && message[0] >= 'a' && message[0] <= 'z') {
+    message[0] = static_cast<char>(message[0] - 'a' + 'A');
+  }
   std::string html = "<p class=\"note " + status_class(one.assessment) + "\"><strong>" +
-                     html_escaped(plain_words(status)) + ".</strong> " +
-                     html_escaped(one.assessment.grasp.message) + "</p>\n";
+                     html_escaped(plain_words(status)) + ".</strong> " + html_escaped(message) +
+                     "</p>\n";
   if (!contact.message.empty()) {
     html += "<p class=\"note fair\"><strong>Contact.</strong> " + html_escaped(contact.message) +
             "</p>\n";
