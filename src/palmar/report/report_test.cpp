@@ -125,7 +125,7 @@ TEST_F(ReportFolder, HoldsEverythingADesignerOpens) {
   const std::string html = read_file(folder_ / "report.html");
   EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
   EXPECT_THAT(html, HasSubstr("box &amp; &quot;co&quot;"));
-  EXPECT_THAT(html, HasSubstr("only the palm &lt;touches&gt;"));
+  EXPECT_THAT(html, HasSubstr("Only the palm &lt;touches&gt;"));
   EXPECT_THAT(html, HasSubstr("Permission is hereby granted"));  // licence of three.js
   EXPECT_THAT(html, HasSubstr("What this does not model"));
 
