@@ -110,9 +110,10 @@ std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
 double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const GripSite& site,
                double palm_breadth) {
   constexpr double kStep = 0.75;            // mm
-  constexpr std::size_t kMostProbes = 150;  // the median of that many is within a few per cent
+  constexpr std::size_t kMostProbes = 150;  // a quartile of that many is within a few per cent
   struct Probe {
     Vec3 start, inward;
+    double area;  // mm^2; twice
   };
   std::vector<Probe> probes;
   for (const Triangle& t : mesh.triangles) {
@@ -127,11 +128,12 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
     const Vec3 normal = (b - a).cross(c - a);
     // Outer faces of the handle only: a bore's face the other way.
     if (normal.dot(across) <= 0.5 * normal.norm() * across.norm()) continue;
-    probes.push_back({centre, -normal.normalized()});
+    probes.push_back({centre, -normal.normalized(), normal.norm()});
   }
   if (probes.empty()) return 2.0 * kSiteBand;
   const std::size_t stride = probes.size() / kMostProbes + 1;
-  std::vector<double> depths;
+  std::vector<std::pair<double, double>> depths;  // mm, and the area it stands for
+  double whole = 0.0;
   std::vector<Vec3> points;
   std::vector<DistanceSample> samples;
   for (std::size_t k = 0; k < probes.size(); k += stride) {
@@ -146,11 +148,18 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
       if (sample.distance > 0.0 || -sample.distance < deepest - kStep) break;  // out again
       deepest = std::max(deepest, -sample.distance);
     }
-    depths.push_back(deepest);
+    depths.emplace_back(deepest, probes[k].area);
+    whole += probes[k].area;
   }
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return 2.0 * *middle;
+  // Close to an edge of a solid bar the next face is near, too: that is no thin wall. Two thirds of
+  // the area would have to be thin.
+  std::sort(depths.begin(), depths.end());
+  double below = 0.0;
+  for (const auto& [depth, area] : depths) {
+    below += area;
+    if (below >= 0.65 * whole) return 2.0 * depth;
+  }
+  return 2.0 * depths.back().first;
 }
 
 }  // namespace palmar

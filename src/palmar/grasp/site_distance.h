@@ -24,8 +24,9 @@ std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
 std::unique_ptr<DistanceField> exact_where_touched(const DistanceField& quick,
                                                    const DistanceField& exact, double margin);
 
-/// Thickness of the solid under the surface that a hand takes at a site, mm: twice the median of
-/// the largest depth met when going straight in, at most 2 * kSiteBand. For a mug that is its wall.
+/// Thickness of the solid under the surface that a hand takes at a site, mm: twice the depth
+/// that 65 % of the area doesn't exceed when going straight in, at most 2 * kSiteBand. For a
+/// mug that is its wall.
 double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const GripSite& site,
                double palm_breadth);
 
