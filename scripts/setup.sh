@@ -53,10 +53,11 @@ palmar_setup() {
   fi
 }
 
-# palmar_build PRESET: configures (when needed) and builds, quietly unless something fails.
+# palmar_build PRESET [OPTION...]: configures (when needed) and builds, quietly unless something fails.
 palmar_build() {
   local preset=$1 log; log=$(mktemp)
-  if ! { cmake --preset "$preset" && cmake --build --preset "$preset"; } >"$log" 2>&1; then
+  shift
+  if ! { cmake --preset "$preset" && cmake --build --preset "$preset" "$@"; } >"$log" 2>&1; then
     tail -n 60 "$log" >&2; rm -f "$log"
     echo "The $preset build failed; the end of its log is above." >&2
     return 1

@@ -3,7 +3,6 @@
 #include "palmar/geometry/closest_point.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -98,7 +97,8 @@ using Point8 = std::array<Float8, 3>;
   return a < b ? a : b;
 }
 [[gnu::always_inline]] inline Float8 magnitude(const Float8& a) {
-  return std::bit_cast<Float8>(std::bit_cast<Int8>(a) & 0x7FFFFFFF);
+  // Casts between vectors of one size keep the bits (std::bit_cast trips UBSan of GCC 12 here).
+  return Float8(Int8(a) & 0x7FFFFFFF);
 }
 [[gnu::always_inline]] inline Float8 within_01(const Float8& a) {
   return smaller(larger(a, Float8{}), Float8{} + 1.0f);
