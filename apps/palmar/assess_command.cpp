@@ -82,7 +82,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(arguments.grasp.hand);
-  const PreparedHand prepared(hand, options.contact.kernel);
+  const PreparedHand prepared(hand, arguments.contact.model());
 
   std::vector<AssessedProduct> done;
   int code = 0;

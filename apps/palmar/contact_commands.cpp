@@ -126,7 +126,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   options.check();
 
   std::optional<PreparedHand> hand;
-  if (!hand_name.empty()) hand.emplace(load_hand(hand_name), options.kernel);
+  if (!hand_name.empty()) hand.emplace(load_hand(hand_name), ContactModel{.kernel = options.kernel});
   const std::vector<PressStep> steps = press(options, hand ? &*hand : nullptr);
   if (!arguments.out.empty()) write_file(arguments.out, press_json(steps) + "\n");
   print(common.json ? press_json(steps) + "\n" : press_text(steps));

@@ -46,7 +46,6 @@ void ContactArguments::add_to(CLI::App& verb) {
 
 ContactOptions ContactArguments::options() const {
   ContactOptions result;
-  result.kernel = parse_kernel(kernel);
   result.swelling = !no_swelling;
   if (shear_modulus_kpa && !(*shear_modulus_kpa > 0.0)) {
     throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa) +
@@ -56,6 +55,8 @@ ContactOptions ContactArguments::options() const {
   result.check();
   return result;
 }
+
+ContactModel ContactArguments::model() const { return {.kernel = parse_kernel(kernel)}; }
 
 Kernel parse_kernel(const std::string& text) {
   if (text == "patch") return Kernel::kPatch;

@@ -33,6 +33,8 @@ struct ContactArguments {
   /// Adds --kernel, --no-swelling and --shear-modulus-kpa to a verb.
   void add_to(CLI::App& verb);
   ContactOptions options() const;
+  /// The equations for PreparedHand. Throws UsageError.
+  ContactModel model() const;
 };
 
 /// "patch" or "point". Throws UsageError naming --kernel.

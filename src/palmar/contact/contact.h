@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palmar/geometry/distance_field.h"
@@ -20,26 +21,82 @@ enum class Kernel {
   kPoint   ///< Xie 2014, eq. (3-1), (3-2): point force, r held at 0.5 mm
 };
 
-struct ContactOptions {
+/// What stands under the skin.
+enum class TissueModel {
+  kHalfSpace,  ///< tissue without end; its stiffening with depth stands for the bone (Xie 2014)
+  kLayered     ///< a layer as thick as the skin's depth over bone, bonded to it
+};
+
+/// Whether the skin of one region lifts that of its neighbours.
+enum class RegionCoupling {
+  kCoupled,     ///< one problem over the whole hand, each row with its own shear modulus
+  kIndependent  ///< every sub-active region alone (Xie 2014)
+};
+
+/// Where the distances on the skin come from.
+enum class SkinDistance {
+  kSurface,  ///< geodesics on the mesh
+  kIsomap    ///< Xie 2014: each region flattened by Isomap, straight lines in the flat picture
+};
+
+/// Law of the bulge's height.
+enum class BulgeLaw {
+  kHeld,    ///< a0 is the height itself, reached at 1 N; rises smoothly from the contact's edge
+  kPrinted  ///< Xie 2014, eq. (3-6), (3-7) as printed: a = a0 G0 / G per newton, cut at the border
+};
+
+/// The equations of the skin. PreparedHand depends on them; the default is the preset `palmar`.
+struct ContactModel {
   Kernel kernel = Kernel::kPatch;
+  TissueModel tissue = TissueModel::kHalfSpace;
+  RegionCoupling coupling = RegionCoupling::kCoupled;
+  SkinDistance distance = SkinDistance::kSurface;
+  BulgeLaw bulge = BulgeLaw::kHeld;
+  bool operator==(const ContactModel&) const = default;
+};
+
+/// Every equation as in Xie 2014: point kernel, half-space, independent regions, Isomap, printed
+/// bulge.
+ContactModel xie2014_model();
+
+/// "palmar" or "xie2014"; nothing for another name.
+std::optional<ContactModel> contact_model_named(const std::string& preset);
+/// "palmar", "xie2014", or the names of what differs from `palmar`, as in "palmar, independent".
+std::string name_of(const ContactModel& model);
+std::string_view name_of(Kernel kernel);            ///< "patch", "point"
+std::string_view name_of(TissueModel tissue);       ///< "halfspace", "layered"
+std::string_view name_of(RegionCoupling coupling);  ///< "coupled", "independent"
+
+/// Elastic cover of a product (rubber sleeve, foam), bonded to a rigid core. The skin meets its
+/// outside; skin and cover give way in series.
+struct Coating {
+  double thickness = 0.0;      ///< mm
+  double shear_modulus = 0.0;  ///< MPa
+  double poisson = 0.5;
+  Box3 where;  ///< product frame, mm; surface in it is covered. Empty: the whole product
+};
+
+struct ContactOptions {
   bool swelling = true;     ///< bulge around the contact, Xie 2014, eq. (3-5) to (3-8)
   double cell_area = 24.0;  ///< mm^2; sensor cell for the averaged peak (Xie 2014: 4.2 cells/cm^2)
-  std::optional<double> shear_modulus;  ///< MPa; replaces G(d_max) everywhere if set
-  void check() const;                   ///< throws UsageError: field, value, allowed range
+  std::optional<double> shear_modulus;  ///< MPa; replaces G everywhere if set
+  std::vector<Coating> coatings;  ///< of the product; the first whose box holds a point counts
+  bool error_band = false;        ///< solve again with low and high tissue: ContactResult::band
+  void check() const;             ///< throws UsageError: field, value, allowed range
 };
 
 /// A hand with its geodesic distances and response matrices; they depend on the hand alone, so
 /// prepare once and solve many. Immutable, shareable between threads.
 class PreparedHand {
  public:
-  /// Throws UsageError on a bad option. Cost: about 1 s for 10 000 vertices on one core.
-  explicit PreparedHand(std::shared_ptr<const Hand> hand, Kernel kernel = Kernel::kPatch);
+  /// Throws UsageError on a bad hand. Cost: about 1 s for 10 000 vertices on one core.
+  explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {});
   ~PreparedHand();
   PreparedHand(PreparedHand&&) noexcept;
   PreparedHand& operator=(PreparedHand&&) noexcept;
 
   const Hand& hand() const;
-  Kernel kernel() const;
+  const ContactModel& model() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }
@@ -62,6 +119,23 @@ struct RegionContact {
   double shear_modulus = 0.0;        ///< G(d_max), MPa
 };
 
+/// Results of low, nominal and high tissue side by side, for one region or the whole hand.
+struct ContactBandRow {
+  Region region{};                                           ///< meaningless in the row of totals
+  double force_low = 0.0, force_high = 0.0;                  ///< N
+  double area_low = 0.0, area_high = 0.0;                    ///< mm^2
+  double peak_pressure_low = 0.0, peak_pressure_high = 0.0;  ///< MPa
+  double peak_pressure_cells_low = 0.0, peak_pressure_cells_high = 0.0;  ///< MPa
+  /// By how much the hand's total force grows with this region's shear modulus, dF / d ln G, N; of
+  /// the whole hand: with all moduli. Exact where the set of loaded vertices stays.
+  double force_per_modulus = 0.0;
+};
+
+struct ContactBand {
+  std::vector<ContactBandRow> regions;  ///< regions in contact at nominal tissue, ascending
+  ContactBandRow total;
+};
+
 enum class ContactStatus {
   kSolved,
   kNoContact,
@@ -77,6 +151,7 @@ constexpr double kMaxContactDepth = 15.0;  // mm
 /// N, MPa.
 struct ContactResult {
   ContactStatus status = ContactStatus::kNoContact;
+  ContactModel model;                  ///< the equations that ran
   std::string message;                 ///< what went wrong, or empty
   std::vector<Vec3> undeformed;        ///< posed skin before contact, product frame
   std::vector<Vec3> deformed;          ///< skin after contact, product frame
@@ -90,6 +165,7 @@ struct ContactResult {
   double residual_penetration_contact = 0.0;  ///< largest |distance| of loaded vertices after, mm
   double residual_penetration_other = 0.0;    ///< deepest other vertex after deformation, mm
   int iterations = 0;
+  std::optional<ContactBand> band;  ///< with ContactOptions::error_band
 };
 
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`
@@ -119,5 +195,25 @@ struct ContactResult {
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
                                  const Rigid3& product_from_hand, const DistanceField& product,
                                  const ContactOptions& options = {});
+
+/// The same along a motion: keeps its memory and the loaded vertices of the last call, from which
+/// the next one starts. The answer is that of solve_hand_contact() but for rounding. One thread at
+/// a time.
+class ContactSolver {
+ public:
+  explicit ContactSolver(const PreparedHand& prepared, const ContactOptions& options = {});
+  ~ContactSolver();
+  ContactSolver(ContactSolver&&) noexcept;
+  ContactSolver& operator=(ContactSolver&&) noexcept;
+
+  /// Arguments as solve_hand_contact(); `result` is overwritten, its memory reused.
+  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+             const DistanceField& product, ContactResult& result);
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace palmar

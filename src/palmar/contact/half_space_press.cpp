@@ -234,7 +234,7 @@ double peak_mean(const std::vector<Cell>& cells, const Eigen::VectorXd& force, d
 PressStep press_half_space(const PressOptions& options, double depth) {
   const Gap gap = gap_of(options, depth);
   const double shear_modulus =
-      options.shear_modulus.value_or(shear_modulus_at(options.tissue, depth));
+      options.shear_modulus.value_or(shear_modulus_at(options.tissue.half_space.nominal, depth));
   std::vector<Cell> cells = first_cells(gap, options.spacing);
   const bool may_split = options.kernel == Kernel::kPatch;
   if (cells.empty() && !may_split) return {.depth = depth, .shear_modulus = shear_modulus};

@@ -74,8 +74,8 @@ bool solve_part(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   for (Eigen::Index k = 0; k < m; ++k)
     problem.distance[k] = skin.sample[part.collision[k]].distance;
   part.d_max = -problem.distance.minCoeff();
-  part.shear_modulus =
-      options.shear_modulus.value_or(shear_modulus_at(prepared.tissue(part.region), part.d_max));
+  part.shear_modulus = options.shear_modulus.value_or(
+      shear_modulus_at(prepared.tissue(part.region).half_space.nominal, part.d_max));
   problem.response =
       part.response->bou(part.columns, part.columns).cast<double>() / part.shear_modulus;
   ContactSolution solution = solve_contact(problem);
@@ -112,6 +112,7 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
                      " points; the hand's skin has " + std::to_string(n) + " vertices");
   }
   ContactResult result;
+  result.model = prepared.model;
   result.undeformed.reserve(n);
   for (const Vec3& v : posed_skin) result.undeformed.push_back(product_from_hand * v);
   SkinOnProduct skin = find_skin_on_product(*prepared.hand, result.undeformed, product, only);
@@ -165,6 +166,25 @@ ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector
                                  const ContactOptions& options) {
   return solve_region_contact(prepared, posed_skin, product_from_hand, product, options,
                               std::nullopt);
+}
+
+struct ContactSolver::Impl {
+  const PreparedHand* prepared = nullptr;
+  ContactOptions options;
+};
+
+ContactSolver::ContactSolver(const PreparedHand& prepared, const ContactOptions& options)
+    : impl_(std::make_unique<Impl>(Impl{&prepared, options})) {
+  options.check();
+}
+ContactSolver::~ContactSolver() = default;
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+void ContactSolver::solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+                          const DistanceField& product, ContactResult& result) {
+  result =
+      solve_hand_contact(*impl_->prepared, posed_skin, product_from_hand, product, impl_->options);
 }
 
 }  // namespace palmar

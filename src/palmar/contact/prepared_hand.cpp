@@ -94,15 +94,15 @@ RegionResponse response_between(const PreparedHand::Impl& prepared, const Region
   const auto distance = [&](int i, int j) {
     return i == j ? 0.0 : arc_distance(prepared.skin, response.vertex[i], response.vertex[j]);
   };
-  fill_matrices(prepared.skin, prepared.kernel, tissue, distance, response);
+  fill_matrices(prepared.skin, prepared.model.kernel, tissue, distance, response);
   return response;
 }
 
-PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, Kernel kernel) {
+PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
   auto impl = std::make_unique<Impl>();
-  impl->kernel = kernel;
+  impl->model = model;
   impl->skin = skin_geometry(hand->skin);
   impl->hand = std::move(hand);
   impl->row.assign(impl->hand->region.size(), 0);
@@ -126,7 +126,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, Kernel kernel) {
     }
     const Eigen::MatrixXf r_ij = geodesic_distances(solver, response);
     const auto distance = [&](int i, int j) { return static_cast<double>(r_ij(i, j)); };
-    fill_matrices(impl->skin, kernel, tissue, distance, response);
+    fill_matrices(impl->skin, model.kernel, tissue, distance, response);
   });
   impl_ = std::move(impl);
 }
@@ -136,6 +136,6 @@ PreparedHand::PreparedHand(PreparedHand&&) noexcept = default;
 PreparedHand& PreparedHand::operator=(PreparedHand&&) noexcept = default;
 
 const Hand& PreparedHand::hand() const { return *impl_->hand; }
-Kernel PreparedHand::kernel() const { return impl_->kernel; }
+const ContactModel& PreparedHand::model() const { return impl_->model; }
 
 }  // namespace palmar

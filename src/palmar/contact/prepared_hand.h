@@ -25,7 +25,7 @@ struct RegionResponse {
 
 struct PreparedHand::Impl {
   std::shared_ptr<const Hand> hand;
-  Kernel kernel = Kernel::kPatch;
+  ContactModel model;
   SkinGeometry skin;
   std::array<RegionResponse, kRegionCount>
       region;  ///< empty for the dorsum: see response_between()

@@ -61,9 +61,9 @@ double gaussian_response(double r, double b, double c) {
   return x * x > 36.0 ? 0.0 : std::exp(-0.5 * x * x);
 }
 
-double shear_modulus_at(const RegionTissue& tissue, double d_max) {
-  const double share = std::clamp(d_max / tissue.limit_depth, 0.0, 1.0);
-  return tissue.g0 + (tissue.g_limit - tissue.g0) * share;
+double shear_modulus_at(const StiffeningLaw& law, double d_max) {
+  const double share = std::clamp(d_max / law.limit_depth, 0.0, 1.0);
+  return law.g0 + (law.g_limit - law.g0) * share;
 }
 
 double swelling_height_at(const RegionTissue& tissue, double force) {

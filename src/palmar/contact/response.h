@@ -35,7 +35,7 @@ double gaussian_response(double r, double b, double c);
 
 /// Shear modulus of a region at the largest penetration d_max [mm] (Xie 2014, eq. 3-3), MPa:
 /// G0 + (G_lim - G0) d_max / d_lim, held at G_lim beyond d_lim.
-double shear_modulus_at(const RegionTissue& tissue, double d_max);
+double shear_modulus_at(const StiffeningLaw& law, double d_max);
 
 /// Height of the bulge around a contact that carries `force` [N] in all, mm: a0 min(1, F / 1 N).
 /// Eq. (3-6), a(d_max) = a0 G0 / G, is meant to keep the height of the bulge while the force grows

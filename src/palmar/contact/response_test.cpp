@@ -55,10 +55,7 @@ TEST(PointResponse, IsHeldBelowHalfAMillimetre) {
 }
 
 TEST(ShearModulus, GrowsLinearlyToItsLimit) {
-  RegionTissue tissue;
-  tissue.g0 = 0.005;
-  tissue.g_limit = 0.085;
-  tissue.limit_depth = 4.0;
+  const StiffeningLaw tissue{.g0 = 0.005, .g_limit = 0.085, .limit_depth = 4.0};
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 0.0), 0.005);
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 2.0), 0.045);
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 9.0), 0.085);
@@ -80,7 +77,7 @@ TEST(ResponseMatrix, IsSymmetricAndPositiveDefiniteOnIrregularSkin) {
     q += 0.35 * Vec3(std::sin(angle), std::cos(1.7 * angle), std::sin(2.9 * angle));
     q = 10.0 * q.normalized();
   }
-  const PreparedHand prepared(hand, Kernel::kPatch);
+  const PreparedHand prepared(hand);
   const RegionResponse& response =
       prepared.impl().region[static_cast<std::size_t>(Region::kMiddleDistal)];
   const Eigen::MatrixXd R = response.bou.topRows(response.columns).cast<double>();

@@ -58,11 +58,33 @@ struct HandDimensions {
   std::array<SegmentDimensions, kSegmentCount> segment;
 };
 
-/// Mechanical class of the skin of a region (Xie 2014, eq. 3-3, Table 3-2). MPa, mm.
+/// Shear modulus that grows with the depth of penetration (Xie 2014, eq. 3-3): linear from g0 at
+/// first touch to g_limit at limit_depth, constant beyond.
+struct StiffeningLaw {
+  double g0 = 0.0;           ///< MPa
+  double g_limit = 0.0;      ///< MPa
+  double limit_depth = 0.0;  ///< d_lim, mm
+};
+
+/// A stiffening law with the range that people and measurements leave open.
+struct TissueStiffness {
+  StiffeningLaw nominal, low, high;
+};
+
+/// Which of the three laws of a TissueStiffness.
+enum class TissueLevel { kLow, kNominal, kHigh };
+
+inline const StiffeningLaw& law_at(const TissueStiffness& stiffness, TissueLevel level) {
+  if (level == TissueLevel::kLow) return stiffness.low;
+  return level == TissueLevel::kHigh ? stiffness.high : stiffness.nominal;
+}
+
+/// Mechanical class of the skin of a region. MPa, mm.
 struct RegionTissue {
-  double g0 = 0.0;               ///< shear modulus at first touch, MPa
-  double g_limit = 0.0;          ///< shear modulus at and beyond the limit depth, MPa
-  double limit_depth = 0.0;      ///< d_lim, mm
+  TissueStiffness half_space;    ///< of skin without end (Xie 2014): stiffening stands for the bone
+  TissueStiffness layered;       ///< of a layer bonded to bone, which stiffens by itself
+  double poisson_layered = 0.5;  ///< Poisson's ratio of that layer
+  // Bulge around the contact, Xie 2014, eq. (3-5), Table 3-2.
   double swelling_height = 0.0;  ///< a0, mm at 1 N and G0
   double swelling_radius = 0.0;  ///< b, mm
   double swelling_width = 0.0;   ///< c, mm

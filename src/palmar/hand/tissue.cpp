@@ -5,9 +5,12 @@
 namespace palmar {
 
 RegionTissue finger_tissue() {
-  return {.g0 = 0.005,
-          .g_limit = 0.095,
-          .limit_depth = 4.0,
+  return {.half_space = {.nominal = {0.005, 0.095, 4.0},
+                         .low = {0.005, 0.070, 4.0},
+                         .high = {0.005, 0.120, 4.0}},
+          .layered = {.nominal = {0.010, 0.010, 4.0},
+                      .low = {0.007, 0.007, 4.0},
+                      .high = {0.014, 0.014, 4.0}},
           .swelling_height = 2.0,
           .swelling_radius = 8.0,
           .swelling_width = 2.0,
@@ -15,9 +18,12 @@ RegionTissue finger_tissue() {
 }
 
 RegionTissue palm_tissue() {
-  return {.g0 = 0.0275,
-          .g_limit = 0.060,
-          .limit_depth = 7.0,
+  return {.half_space = {.nominal = {0.0275, 0.060, 7.0},
+                         .low = {0.005, 0.040, 7.0},
+                         .high = {0.050, 0.080, 7.0}},
+          .layered = {.nominal = {0.010, 0.010, 7.0},
+                      .low = {0.007, 0.007, 7.0},
+                      .high = {0.014, 0.014, 7.0}},
           .swelling_height = 3.0,
           .swelling_radius = 15.0,
           .swelling_width = 3.0,

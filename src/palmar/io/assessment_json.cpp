@@ -144,14 +144,18 @@ Json indices_object(const ContactResult& contact) {
           {"net_force_n", contact.total.force_vector.norm()}};
 }
 
-Json settings_object(const AssessOptions& options) {
+Json settings_object(const Assessment& assessment) {
+  const AssessOptions& options = assessment.options;
   const PlacementRequest& placed = options.grasp.placement;
   return {{"palm_limit_depth_mm", options.grasp.palm_limit_depth},
           {"finger_limit_depth_mm", options.grasp.finger_limit_depth},
           {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
           {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
           {"turn_deg", placed.turn ? Json(*placed.turn * kDegrees) : Json(nullptr)},
-          {"kernel", options.contact.kernel == Kernel::kPatch ? "patch" : "point"},
+          {"contact_model", name_of(assessment.contact.model)},
+          {"kernel", name_of(assessment.contact.model.kernel)},
+          {"tissue_model", name_of(assessment.contact.model.tissue)},
+          {"regions", name_of(assessment.contact.model.coupling)},
           {"swelling", options.contact.swelling},
           {"cell_area_mm2", options.contact.cell_area},
           {"shear_modulus_mpa", or_null(options.contact.shear_modulus)},
@@ -179,7 +183,7 @@ std::string assessment_json(const AssessmentSet& set) {
          {"grasp", grasp_object(assessment.grasp)},
          {"contact", contact_object(assessment.contact)},
          {"indices", indices_object(assessment.contact)},
-         {"settings", settings_object(assessment.options)},
+         {"settings", settings_object(assessment)},
          {"times_s", {{"grasp", assessment.times.grasp}, {"contact", assessment.times.contact}}}});
   }
   const Json json = {{"assessments", std::move(assessments)},

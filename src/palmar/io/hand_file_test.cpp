@@ -119,7 +119,8 @@ TEST(HandFile, ReadBackIsTheIdenticalHand) {
   EXPECT_EQ(back.bones[1].mesh.vertices, hand.bones[1].mesh.vertices);
   EXPECT_EQ(back.dimensions.hand_length, hand.dimensions.hand_length);
   EXPECT_EQ(back.dimensions.segment[3].width, hand.dimensions.segment[3].width);
-  EXPECT_EQ(back.tissue.region[5].g0, hand.tissue.region[5].g0);
+  EXPECT_EQ(back.tissue.region[5].half_space.nominal.g0,
+            hand.tissue.region[5].half_space.nominal.g0);
   EXPECT_EQ(back.tissue.source, hand.tissue.source);
 
   const std::string first = read_file(path);

@@ -57,14 +57,31 @@ struct TissueName {
   const char* name;
   double RegionTissue::*value;
 };
-constexpr std::array<TissueName, 7> kTissue = {
-    {{"g0_mpa", &RegionTissue::g0},
-     {"g_limit_mpa", &RegionTissue::g_limit},
-     {"limit_depth_mm", &RegionTissue::limit_depth},
+constexpr std::array<TissueName, 5> kTissue = {
+    {{"poisson_layered", &RegionTissue::poisson_layered},
      {"swelling_height_mm", &RegionTissue::swelling_height},
      {"swelling_radius_mm", &RegionTissue::swelling_radius},
      {"swelling_width_mm", &RegionTissue::swelling_width},
      {"neighbourhood_mm", &RegionTissue::neighbourhood}}};
+
+Json to_json(const StiffeningLaw& law) {
+  return {{"g0_mpa", law.g0}, {"g_limit_mpa", law.g_limit}, {"limit_depth_mm", law.limit_depth}};
+}
+
+StiffeningLaw law_from(const Json& json) {
+  return {finite(json.at("g0_mpa")), finite(json.at("g_limit_mpa")),
+          finite(json.at("limit_depth_mm"))};
+}
+
+Json to_json(const TissueStiffness& stiffness) {
+  return {{"nominal", to_json(stiffness.nominal)},
+          {"low", to_json(stiffness.low)},
+          {"high", to_json(stiffness.high)}};
+}
+
+TissueStiffness stiffness_from(const Json& json) {
+  return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
+}
 
 JointDof dof_from(const Json& json) {
   JointDof dof;
@@ -184,6 +201,9 @@ Json tissue_to_json(const Tissue& tissue) {
   Json json = {{"source", tissue.source}};
   for (int r = 0; r < kRegionCount; ++r) {
     Json& entry = json["regions"][std::string(name_of(static_cast<Region>(r)))];
+    const RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    entry["half_space"] = to_json(region.half_space);
+    entry["layered"] = to_json(region.layered);
     for (const TissueName& item : kTissue) {
       entry[item.name] = tissue.region[static_cast<std::size_t>(r)].*item.value;
     }
@@ -196,8 +216,11 @@ Tissue tissue_from_json(const Json& json) {
   tissue.source = json.at("source").get<std::string>();
   for (int r = 0; r < kRegionCount; ++r) {
     const Json& entry = json.at("regions").at(std::string(name_of(static_cast<Region>(r))));
+    RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    region.half_space = stiffness_from(entry.at("half_space"));
+    region.layered = stiffness_from(entry.at("layered"));
     for (const TissueName& item : kTissue) {
-      tissue.region[static_cast<std::size_t>(r)].*item.value = finite(entry.at(item.name));
+      region.*item.value = finite(entry.at(item.name));
     }
   }
   return tissue;

@@ -151,7 +151,7 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
           "</details>\n<details><summary>Posture and placement</summary>" +
           posture_table(hand, assessment.grasp) + placement_table(assessment.grasp) +
           "</details>\n<details><summary>Settings and product</summary>" +
-          settings_table(assessment.options) + "<p>Product from " +
+          settings_table(assessment) + "<p>Product from " +
           html_escaped(one.product.source) + "; unit " + name_of(one.product.unit) + " (" +
           name_of(one.product.unit_source) + "); " +
           std::to_string(one.product.mesh.triangle_count()) + " triangles.</p>";

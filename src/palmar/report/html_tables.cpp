@@ -200,7 +200,9 @@ std::string placement_table(const Grasp& grasp) {
           row("About the axis", vector_cell(turn.axis(), 3)));
 }
 
-std::string settings_table(const AssessOptions& options) {
+std::string settings_table(const Assessment& assessment) {
+  const AssessOptions& options = assessment.options;
+  const ContactModel& model = assessment.contact.model;
   const PlacementRequest& placement = options.grasp.placement;
   const bool is_given = placement.at || placement.axis || placement.turn;
   return table(
@@ -209,9 +211,15 @@ std::string settings_table(const AssessOptions& options) {
           setting("Limit depth of the fingers",
                   short_number(options.grasp.finger_limit_depth) + " mm") +
           setting("Placement", is_given ? "as asked" : "found from the product's shape") +
-          setting("Kernel", options.contact.kernel == Kernel::kPatch
+          setting("Equations of the contact", name_of(model)) +
+          setting("Kernel", model.kernel == Kernel::kPatch
                                 ? "patch (uniform pressure on each vertex's area)"
                                 : "point (Xie 2014, r held at 0.5 mm)") +
+          setting("Under the skin", model.tissue == TissueModel::kHalfSpace
+                                        ? "half-space"
+                                        : "layer bonded to the bone") +
+          setting("Regions", model.coupling == RegionCoupling::kCoupled ? "solved together"
+                                                                        : "solved one by one") +
           setting("Swelling of the skin", options.contact.swelling ? "on" : "off") +
           setting("Sensor cell", short_number(options.contact.cell_area) + " mm²") +
           setting("Shear modulus", options.contact.shear_modulus

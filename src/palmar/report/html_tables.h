@@ -26,7 +26,7 @@ std::string posture_table(const Hand& hand, const Grasp& grasp);
 /// Where the product stands in the hand.
 std::string placement_table(const Grasp& grasp);
 /// Settings of the assessment.
-std::string settings_table(const AssessOptions& options);
+std::string settings_table(const Assessment& assessment);
 
 /// What both limits mean together for this grip, in one sentence for people.
 std::string plain_verdict(const Assessment& assessment);

@@ -1,0 +1,47 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/contact.h"
+
+namespace palmar {
+
+ContactModel xie2014_model() {
+  return {.kernel = Kernel::kPoint,
+          .tissue = TissueModel::kHalfSpace,
+          .coupling = RegionCoupling::kIndependent,
+          .distance = SkinDistance::kIsomap,
+          .bulge = BulgeLaw::kPrinted};
+}
+
+std::optional<ContactModel> contact_model_named(const std::string& preset) {
+  if (preset == "palmar") return ContactModel{};
+  if (preset == "xie2014") return xie2014_model();
+  return std::nullopt;
+}
+
+std::string_view name_of(Kernel kernel) { return kernel == Kernel::kPatch ? "patch" : "point"; }
+
+std::string_view name_of(TissueModel tissue) {
+  return tissue == TissueModel::kHalfSpace ? "halfspace" : "layered";
+}
+
+std::string_view name_of(RegionCoupling coupling) {
+  return coupling == RegionCoupling::kCoupled ? "coupled" : "independent";
+}
+
+std::string name_of(const ContactModel& model) {
+  const ContactModel palmar;
+  if (model == xie2014_model()) return "xie2014";
+  std::string name = "palmar";
+  const auto add = [&](bool differs, std::string_view what) {
+    if (differs) name += ", " + std::string(what);
+  };
+  add(model.kernel != palmar.kernel, name_of(model.kernel));
+  add(model.tissue != palmar.tissue, name_of(model.tissue));
+  add(model.coupling != palmar.coupling, name_of(model.coupling));
+  add(model.distance != palmar.distance,
+      model.distance == SkinDistance::kSurface ? "surface distances" : "isomap distances");
+  add(model.bulge != palmar.bulge, model.bulge == BulgeLaw::kHeld ? "held bulge" : "printed bulge");
+  return name;
+}
+
+}  // namespace palmar
