@@ -6,8 +6,8 @@
 #include <map>
 
 #include "cli.h"
-#include "nearest_name.h"
 #include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
 #include "palmar/hand/named_postures.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/skinning.h"

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "cli.h"
-#include "nearest_name.h"
 #include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
 

@@ -64,11 +64,13 @@ struct StiffeningLaw {
   double g0 = 0.0;           ///< MPa
   double g_limit = 0.0;      ///< MPa
   double limit_depth = 0.0;  ///< d_lim, mm
+  bool operator==(const StiffeningLaw&) const = default;
 };
 
 /// A stiffening law with the range that people and measurements leave open.
 struct TissueStiffness {
   StiffeningLaw nominal, low, high;
+  bool operator==(const TissueStiffness&) const = default;
 };
 
 /// Which of the three laws of a TissueStiffness.
@@ -89,6 +91,8 @@ struct RegionTissue {
   double swelling_radius = 0.0;  ///< b, mm
   double swelling_width = 0.0;   ///< c, mm
   double neighbourhood = 0.0;    ///< growth of the collision region to the active region, mm
+  std::string source;            ///< where these numbers come from
+  bool operator==(const RegionTissue&) const = default;
 };
 
 struct Tissue {

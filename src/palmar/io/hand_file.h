@@ -9,7 +9,9 @@
 namespace palmar {
 
 /// Version of the hand files that this program writes; it reads this one and older ones.
-inline constexpr int kHandFileVersion = 1;
+/// Version 1 has one stiffening law per region, that of the half-space: the layered tissue and the
+/// ranges then come from default_tissue().
+inline constexpr int kHandFileVersion = 2;
 
 /// A hand in a `*.hand.glb` file: glTF 2.0 binary that any viewer opens, with Palmar's data beside.
 ///

@@ -119,8 +119,7 @@ TEST(HandFile, ReadBackIsTheIdenticalHand) {
   EXPECT_EQ(back.bones[1].mesh.vertices, hand.bones[1].mesh.vertices);
   EXPECT_EQ(back.dimensions.hand_length, hand.dimensions.hand_length);
   EXPECT_EQ(back.dimensions.segment[3].width, hand.dimensions.segment[3].width);
-  EXPECT_EQ(back.tissue.region[5].half_space.nominal.g0,
-            hand.tissue.region[5].half_space.nominal.g0);
+  EXPECT_EQ(back.tissue.region, hand.tissue.region);
   EXPECT_EQ(back.tissue.source, hand.tissue.source);
 
   const std::string first = read_file(path);
@@ -151,7 +150,42 @@ TEST(HandFile, ANewerVersionIsRefusedByName) {
   Glb glb = read_glb(path);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion + 1;
   write_glb(glb, path);
-  EXPECT_THAT(message_of(path), HasSubstr("version 2; this program reads up to version 1"));
+  EXPECT_THAT(message_of(path), HasSubstr("version 3; this program reads up to version 2"));
+}
+
+/// The tissue of a region as version 1 of the file has it.
+nlohmann::json version_1_tissue(double g0_mpa, double g_limit_mpa) {
+  return {{"g0_mpa", g0_mpa},          {"g_limit_mpa", g_limit_mpa}, {"limit_depth_mm", 3.5},
+          {"swelling_height_mm", 1.5}, {"swelling_radius_mm", 7},    {"swelling_width_mm", 2.5},
+          {"neighbourhood_mm", 11}};
+}
+
+TEST(HandFile, Version1HasTheStiffnessOfTheHalfSpaceAloneTheRestIsTheDefault) {
+  const std::string path = temporary("version1.hand.glb");
+  write_hand(path, small_hand());
+  Glb glb = read_glb(path);
+  glb.json["extras"]["palmar_hand_version"] = 1;
+  nlohmann::json& regions = glb.json["extras"]["palmar_hand"]["tissue"]["regions"];
+  for (auto& region : regions) region = version_1_tissue(0.006, 0.100);
+  regions["thenar"] = version_1_tissue(0.060, 0.090);  // stiffer than the default's high law
+  write_glb(glb, path);
+
+  const Tissue tissue = read_hand(path).tissue;
+  const Tissue standard = default_tissue();
+  const auto of = [](const Tissue& one, Region region) {
+    return one.region[static_cast<std::size_t>(region)];
+  };
+  const RegionTissue index = of(tissue, Region::kIndexDistal);
+  EXPECT_EQ(index.half_space.nominal, (StiffeningLaw{0.006, 0.100, 3.5}));
+  EXPECT_EQ(index.half_space.high.g_limit,
+            of(standard, Region::kIndexDistal).half_space.high.g_limit);
+  EXPECT_EQ(index.layered, of(standard, Region::kIndexDistal).layered);
+  EXPECT_EQ(index.poisson_layered, of(standard, Region::kIndexDistal).poisson_layered);
+  EXPECT_EQ(index.swelling_height, 1.5);
+  EXPECT_EQ(index.neighbourhood, 11);
+  // The range takes in what the file says.
+  EXPECT_EQ(of(tissue, Region::kThenar).half_space.high.g0, 0.060);
+  EXPECT_EQ(of(tissue, Region::kThenar).half_space.high.g_limit, 0.090);
 }
 
 TEST(HandFile, WrongFilesAreNamed) {
@@ -192,6 +226,10 @@ TEST(HandFile, DataThatContradictThemselvesAreInputErrors) {
   EXPECT_THAT(broken("/skeleton/joints/0/dofs/0/axis", {0.3, 0, 0}), HasSubstr("0.3"));
   EXPECT_THAT(broken("/skin/vertices_mm/count", 1000000000000), HasSubstr("broken Palmar hand"));
   EXPECT_THAT(broken("/skin", nullptr), HasSubstr("broken Palmar hand"));
+  EXPECT_THAT(broken("/tissue/regions/thenar/layered/nominal/g0_mpa", -0.01),
+              HasSubstr("tissue of thenar: layered (nominal): G0 is -10 kPa"));
+  EXPECT_THAT(broken("/tissue/regions/thenar/half_space/low/g0_mpa", 0.04),
+              HasSubstr("tissue of thenar"));
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/skeleton_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/hand/tissue.h"
 
 namespace palmar {
 namespace {
@@ -81,6 +83,19 @@ Json to_json(const TissueStiffness& stiffness) {
 
 TissueStiffness stiffness_from(const Json& json) {
   return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
+}
+
+/// Version 1 of the file has one law per region, that of the half-space.
+RegionTissue region_tissue_version_1(const Json& json, const RegionTissue& standard) {
+  RegionTissue region = standard;
+  TissueStiffness& stiffness = region.half_space;
+  stiffness.nominal = law_from(json);
+  for (double StiffeningLaw::*value : {&StiffeningLaw::g0, &StiffeningLaw::g_limit}) {
+    stiffness.low.*value = std::min(stiffness.low.*value, stiffness.nominal.*value);
+    stiffness.high.*value = std::max(stiffness.high.*value, stiffness.nominal.*value);
+  }
+  region.source = "";
+  return region;
 }
 
 JointDof dof_from(const Json& json) {
@@ -204,24 +219,34 @@ Json tissue_to_json(const Tissue& tissue) {
     const RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
     entry["half_space"] = to_json(region.half_space);
     entry["layered"] = to_json(region.layered);
-    for (const TissueName& item : kTissue) {
-      entry[item.name] = tissue.region[static_cast<std::size_t>(r)].*item.value;
-    }
+    for (const TissueName& item : kTissue) entry[item.name] = region.*item.value;
+    entry["source"] = region.source;
   }
   return json;
 }
 
 Tissue tissue_from_json(const Json& json) {
+  const Tissue standard = default_tissue();
   Tissue tissue;
   tissue.source = json.at("source").get<std::string>();
   for (int r = 0; r < kRegionCount; ++r) {
-    const Json& entry = json.at("regions").at(std::string(name_of(static_cast<Region>(r))));
+    const std::string name(name_of(static_cast<Region>(r)));
+    const Json& entry = json.at("regions").at(name);
     RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
-    region.half_space = stiffness_from(entry.at("half_space"));
-    region.layered = stiffness_from(entry.at("layered"));
-    for (const TissueName& item : kTissue) {
-      region.*item.value = finite(entry.at(item.name));
+    const bool is_version_1 = entry.contains("g0_mpa");
+    if (is_version_1) {
+      region = region_tissue_version_1(entry, standard.region[static_cast<std::size_t>(r)]);
+    } else {
+      region.half_space = stiffness_from(entry.at("half_space"));
+      region.layered = stiffness_from(entry.at("layered"));
+      region.source = entry.value("source", "");
     }
+    for (const TissueName& item : kTissue) {
+      const bool is_newer = item.value == &RegionTissue::poisson_layered;
+      if (!(is_version_1 && is_newer)) region.*item.value = finite(entry.at(item.name));
+    }
+    const std::string fault = fault_of(region);
+    if (!fault.empty()) throw InputError("tissue of " + name + ": " + fault);
   }
   return tissue;
 }

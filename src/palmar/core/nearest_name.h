@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace palmar::cli {
+namespace palmar {
 
 /// The candidate with the smallest edit distance to `name`, or "" if none is near (more than a
 /// third of its letters differ). The first one wins a tie.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
-}  // namespace palmar::cli
+}  // namespace palmar

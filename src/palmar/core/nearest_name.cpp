@@ -1,11 +1,11 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "nearest_name.h"
+#include "palmar/core/nearest_name.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace palmar::cli {
+namespace palmar {
 namespace {
 
 /// Levenshtein distance.
@@ -40,4 +40,4 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return *best;
 }
 
-}  // namespace palmar::cli
+}  // namespace palmar
