@@ -54,14 +54,13 @@ std::vector<Block> blocks_of(const PreparedHand& prepared, const ContactResult& 
     const double reach = with_neighbourhood ? impl.tissue(part.region).neighbourhood : 0.0;
     for (const GrownVertex& g : grow(impl.skin, penetrating, reach)) {
       if (impl.hand->region[g.vertex] != part.region) continue;
-      columns.push_back(impl.row[g.vertex]);
+      columns.push_back(g.vertex);
       distance.push_back(contact.distance[g.vertex]);
     }
     Block& block = blocks.emplace_back();
     block.region = std::string(name_of(part.region));
     block.problem.response =
-        impl.region[static_cast<std::size_t>(part.region)].bou(columns, columns).cast<double>() /
-        part.shear_modulus;
+        dense_response(impl.response, columns, impl.hand->region, false) / part.shear_modulus;
     block.problem.distance = Eigen::Map<const Eigen::VectorXd>(
         distance.data(), static_cast<Eigen::Index>(distance.size()));
   }
@@ -114,7 +113,7 @@ int main(int argc, char** argv) {
   }
   set_thread_count(1);
   const auto hand = std::make_shared<const Hand>(build_template(read_hand_asset(argv[1])));
-  const PreparedHand prepared(hand);
+  const PreparedHand prepared(hand, {.coupling = RegionCoupling::kIndependent});
   Product product;
   product.mesh = make_cylinder(
       {.radius = 24.0, .length = 150.0, .segments = 96, .rings = 20, .is_capped = true});

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/prepared_hand.h"
@@ -78,9 +79,9 @@ TEST(ResponseMatrix, IsSymmetricAndPositiveDefiniteOnIrregularSkin) {
     q = 10.0 * q.normalized();
   }
   const PreparedHand prepared(hand);
-  const RegionResponse& response =
-      prepared.impl().region[static_cast<std::size_t>(Region::kMiddleDistal)];
-  const Eigen::MatrixXd R = response.bou.topRows(response.columns).cast<double>();
+  std::vector<int> all(hand->skin.vertices.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::MatrixXd R = dense_response(prepared.impl().response, all, hand->region, true);
   EXPECT_EQ((R - R.transpose()).cwiseAbs().maxCoeff(), 0.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(R, Eigen::EigenvaluesOnly);
   EXPECT_GT(eigen.eigenvalues().minCoeff(), 0.02 * R.diagonal().minCoeff());

@@ -1,13 +1,17 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/skin_displacement.h"
+
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "palmar/contact/response.h"
-#include "palmar/contact/sub_active_region.h"
 
 namespace palmar {
 namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// 0 up to t = 0, 1 from t = 1 on, smooth in between.
 double smooth_step(double t) {
@@ -15,89 +19,182 @@ double smooth_step(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// What one part says about the rows of its response.
-struct PartField {
-  Eigen::VectorXf elastic;  ///< mm
-  Eigen::VectorXf bulge;    ///< mm; positive out of the hand
+/// gaussian_response() by table: an exponential per pair of vertices would cost more than the
+/// solution. Linear between samples 1/128 c apart: error below 1e-5 of the maximum.
+class GaussianTable {
+ public:
+  GaussianTable(double b, double c)
+      : b_(static_cast<float>(b)), per_mm_(kPerWidth / static_cast<float>(c)) {
+    for (int i = 0; i <= kSize; ++i) {
+      value_[static_cast<std::size_t>(i)] =
+          static_cast<float>(gaussian_response(static_cast<double>(i) / kPerWidth, 0.0, 1.0));
+    }
+  }
+  float at(float r) const {
+    const float x = std::abs(r - b_) * per_mm_;
+    if (x >= static_cast<float>(kSize)) return 0.0F;
+    const int i = static_cast<int>(x);
+    const float t = x - static_cast<float>(i);
+    const float* v = value_.data() + i;
+    return v[0] + t * (v[1] - v[0]);
+  }
+
+ private:
+  static constexpr int kPerWidth = 128;
+  static constexpr int kSize = 6 * kPerWidth;
+  float b_, per_mm_;
+  std::array<float, kSize + 1> value_{};
 };
 
-PartField field_of(const PreparedHand::Impl& prepared, const SubActiveRegion& part,
-                   const std::vector<double>& to_loaded, bool swelling) {
-  const RegionResponse& response = *part.response;
-  const auto rows = static_cast<Eigen::Index>(response.vertex.size());
-  PartField field{Eigen::VectorXf::Zero(rows), Eigen::VectorXf::Zero(rows)};
-  for (std::size_t k = 0; k < part.columns.size(); ++k) {
-    const double p = part.force[static_cast<Eigen::Index>(k)];
-    if (p <= 0.0) continue;
-    field.elastic += static_cast<float>(p / part.shear_modulus) * response.bou.col(part.columns[k]);
-    if (swelling) field.bulge += static_cast<float>(p) * response.gau.col(part.columns[k]);
-  }
-  if (!swelling) return field;
+/// What one part does to the vertices around it.
+struct PartField {
+  std::vector<double> elastic;  ///< mm, per vertex of the skin; only `around` is set
+  std::vector<double> bulge;    ///< mm, out of the hand
+};
+
+void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const LoadedPart& part,
+              const std::vector<GrownVertex>& around, const std::vector<double>& to_loaded,
+              bool swelling, PartField& field) {
   const RegionTissue& tissue = prepared.tissue(part.region);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const double r = to_loaded[response.vertex[i]];
-    field.bulge[i] *= static_cast<float>(smooth_step(r / (0.5 * tissue.swelling_radius)));
+  const GaussianTable gaussian(tissue.swelling_radius, tissue.swelling_width);
+  const SkinResponse& response = prepared.response;
+  for (const int k : part.row) {
+    const auto row = static_cast<std::size_t>(k);
+    const auto j = static_cast<std::size_t>(load.vertex[row]);
+    const double p = load.force[row];
+    const double share = p / load.shear_modulus[row];
+    for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
+      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      if (to_loaded[i] == kFar) continue;
+      field.elastic[i] += share * static_cast<double>(response.response[e]);
+      if (swelling) field.bulge[i] += p * static_cast<double>(gaussian.at(response.distance[e]));
+    }
   }
-  const float highest = field.bulge.maxCoeff();
-  if (highest > 0.0F) {
-    field.bulge *= static_cast<float>(swelling_height_at(tissue, part.force.sum())) / highest;
+  if (!swelling) return;
+  double highest = 0.0;
+  for (const GrownVertex& g : around) {
+    double& bulge = field.bulge[static_cast<std::size_t>(g.vertex)];
+    bulge *= smooth_step(g.distance / (0.5 * tissue.swelling_radius));
+    highest = std::max(highest, bulge);
   }
-  return field;
+  if (!(highest > 0.0)) return;
+  const double scale = swelling_height_at(tissue, part.force) / highest;
+  for (const GrownVertex& g : around) field.bulge[static_cast<std::size_t>(g.vertex)] *= scale;
+}
+
+/// Xie 2014, eq. 3-9 to 3-11 with 3-6 and 3-7 as printed.
+void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
+                 const SkinLoad& load, const LoadedPart& part, const std::vector<double>& to_loaded,
+                 bool swelling, PartField& field) {
+  const RegionTissue& tissue = prepared.tissue(part.region);
+  const SkinResponse& response = prepared.response;
+  for (const int k : part.row) {
+    const auto row = static_cast<std::size_t>(k);
+    const auto j = static_cast<std::size_t>(load.vertex[row]);
+    const double G = load.shear_modulus[row];
+    const double a = tissue.swelling_height * prepared.stiffness.law[1][j].g0 / G;
+    for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
+      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      if (to_loaded[i] == kFar || prepared.hand->region[i] != part.region) continue;
+      field.elastic[i] += load.force[row] / G * static_cast<double>(response.response[e]);
+      if (!swelling || skin.sample[i].distance < 0.0) continue;
+      field.bulge[i] += load.force[row] * a *
+                        gaussian_response(static_cast<double>(response.distance[e]),
+                                          tissue.swelling_radius, tissue.swelling_width);
+    }
+  }
 }
 
 }  // namespace
 
+std::vector<LoadedPart> loaded_parts(const PreparedHand::Impl& prepared, const SkinLoad& load) {
+  std::array<std::vector<int>, kRegionCount> rows;
+  std::vector<int> dorsal;
+  std::vector<int> row_of(static_cast<std::size_t>(prepared.skin.vertex_count()), -1);
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    if (!(load.force[k] > 0.0)) continue;
+    const int v = load.vertex[k];
+    const Region region = prepared.hand->region[static_cast<std::size_t>(v)];
+    if (region == Region::kDorsum) {
+      dorsal.push_back(v);
+      row_of[static_cast<std::size_t>(v)] = static_cast<int>(k);
+    } else {
+      rows[static_cast<std::size_t>(region)].push_back(static_cast<int>(k));
+    }
+  }
+  std::vector<LoadedPart> parts;
+  for (const std::vector<int>& patch : connected_parts(prepared.skin, dorsal)) {
+    LoadedPart& part = parts.emplace_back();
+    part.region = Region::kDorsum;
+    for (const int v : patch) part.row.push_back(row_of[static_cast<std::size_t>(v)]);
+  }
+  for (int r = 0; r < kRegionCount; ++r) {
+    if (rows[static_cast<std::size_t>(r)].empty()) continue;
+    parts.push_back({static_cast<Region>(r), std::move(rows[static_cast<std::size_t>(r)]), 0.0});
+  }
+  for (LoadedPart& part : parts) {
+    for (const int k : part.row) part.force += load.force[static_cast<std::size_t>(k)];
+  }
+  return parts;
+}
+
 SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                                   const std::vector<SubActiveRegion>& parts, bool swelling) {
+                                   const SkinLoad& load, const std::vector<LoadedPart>& parts,
+                                   bool swelling) {
   const std::size_t n = skin.sample.size();
+  const bool is_printed = prepared.model.bulge == BulgeLaw::kPrinted;
+  const bool adds_up = prepared.model.coupling == RegionCoupling::kCoupled;
   SkinDisplacement u{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0),
                      std::vector<char>(n, 0)};
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::vector<double> weight_sum(n, 0.0);
+  std::vector<double> bulge(n, 0.0), weight_sum(n, 0.0), best_fade(n, 0.0);
   std::vector<double> to_loaded(n, kFar);
-  std::vector<char> is_loaded(n, 0);
-  for (const SubActiveRegion& part : parts) {
-    std::vector<int> loaded;
-    for (std::size_t k = 0; k < part.collision.size(); ++k) {
-      if (part.force[static_cast<Eigen::Index>(k)] > 0.0) loaded.push_back(part.collision[k]);
-    }
-    for (const int v : loaded) is_loaded[v] = 1;
+  PartField field{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  std::vector<int> loaded;
+  for (const LoadedPart& part : parts) {
+    loaded.clear();
+    for (const int k : part.row) loaded.push_back(load.vertex[static_cast<std::size_t>(k)]);
     const double reach = prepared.tissue(part.region).neighbourhood;
-    const std::vector<GrownVertex> grown = grow(prepared.skin, loaded, reach);
-    for (const GrownVertex& g : grown) to_loaded[g.vertex] = g.distance;
-    const PartField field = field_of(prepared, part, to_loaded, swelling);
-    for (std::size_t i = 0; i < part.response->vertex.size(); ++i) {
-      const int v = part.response->vertex[i];
-      const double r = to_loaded[v];
-      if (!(r < reach)) continue;
-      const double fade = smooth_step(3.0 * (1.0 - r / reach));
-      const double weight = fade / (r * r + 1.0);
-      const auto row = static_cast<Eigen::Index>(i);
-      const double elastic = fade * field.elastic[row];
-      weight_sum[v] += weight;
-      u.elastic[v] += weight * elastic;
-      u.with_bulge[v] += weight * (elastic - fade * field.bulge[row]);
-      u.is_active[v] = 1;
+    const std::vector<GrownVertex> around = grow(prepared.skin, loaded, reach);
+    for (const GrownVertex& g : around) {
+      to_loaded[static_cast<std::size_t>(g.vertex)] = g.distance;
     }
-    for (const GrownVertex& g : grown) to_loaded[g.vertex] = kFar;
+    if (is_printed) {
+      add_printed(prepared, skin, load, part, to_loaded, swelling, field);
+    } else {
+      add_held(prepared, load, part, around, to_loaded, swelling, field);
+    }
+    for (const GrownVertex& g : around) {
+      const auto v = static_cast<std::size_t>(g.vertex);
+      const double fade = is_printed ? 1.0 : smooth_step(3.0 * (1.0 - g.distance / reach));
+      const double weight = fade / (g.distance * g.distance + 1.0);
+      weight_sum[v] += weight;
+      best_fade[v] = std::max(best_fade[v], fade);
+      u.elastic[v] += adds_up ? field.elastic[v] : weight * fade * field.elastic[v];
+      bulge[v] += weight * fade * field.bulge[v];
+      if (g.distance < reach) u.is_active[v] = 1;
+      field.elastic[v] = 0.0;
+      field.bulge[v] = 0.0;
+      to_loaded[v] = kFar;
+    }
   }
   for (std::size_t v = 0; v < n; ++v) {
-    const double d = skin.sample[v].distance;
-    if (weight_sum[v] > 0.0) {
+    if (!(weight_sum[v] > 0.0)) continue;
+    if (adds_up) {
+      u.elastic[v] *= best_fade[v];
+    } else {
       u.elastic[v] /= weight_sum[v];
-      u.with_bulge[v] /= weight_sum[v];
     }
-    if (is_loaded[v]) {
+    u.with_bulge[v] = u.elastic[v] - bulge[v] / weight_sum[v];
+  }
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    // What the solution found is exact.
+    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    const double d = skin.sample[v].distance;
+    if (load.force[k] > 0.0) {
       u.elastic[v] = -d;
       u.with_bulge[v] = -d;
-    }
-  }
-  for (const SubActiveRegion& part : parts) {
-    for (std::size_t k = 0; k < part.collision.size(); ++k) {
-      // What the part itself found is exact; neighbours only add to it in the picture.
-      const int v = part.collision[k];
-      if (is_loaded[v]) continue;
-      u.elastic[v] = part.gap[static_cast<Eigen::Index>(k)] - skin.sample[v].distance;
+    } else if (d < 0.0) {
+      u.elastic[v] = load.gap[k] - d;
       u.is_active[v] = 1;
     }
   }

@@ -1,0 +1,58 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/contact_system.h"
+#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/skin_displacement.h"
+#include "palmar/contact/skin_product.h"
+
+namespace palmar {
+
+/// What stands behind ContactSolver and solve_hand_contact(); the contact of one hand, with its
+/// memory.
+struct ContactSolver::Impl {
+  Impl(const PreparedHand& prepared_hand, const ContactOptions& contact_options);
+
+  /// `only`: the skin of other regions is let through (indentation test of one region).
+  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+             const DistanceField& product, std::optional<Region> only, ContactResult& result);
+
+  const PreparedHand* hand;
+  const PreparedHand::Impl* prepared;
+  ContactOptions options;
+  ContactSystem system;
+  std::vector<char> was_in_contact;  ///< per skin vertex, in the last call; empty before the first
+
+ private:
+  /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
+  /// rows' shear moduli, 1/mm; symmetric.
+  struct CoatingCompliance {
+    std::vector<double> diagonal;               ///< empty without coatings
+    std::vector<ContactSystem::Entry> entries;  ///< row > column
+  };
+
+  void set_depth(const SkinOnProduct& skin, SkinLoad& load) const;
+  std::vector<double> moduli(const SkinLoad& load, TissueLevel level) const;
+  void set_coating(const SkinOnProduct& skin, const SkinLoad& load);
+  void assemble(const SkinOnProduct& skin, const SkinLoad& load);
+  bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  void solve_by_region(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  void solve_load(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  /// Near skin outside the problem that the solution moves into the product.
+  std::vector<int> pressed_in(const SkinOnProduct& skin, const SkinLoad& load) const;
+  std::array<double, kRegionCount> force_per_modulus(const SkinOnProduct& skin,
+                                                     const SkinLoad& load);
+  ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
+                   const ContactResult& nominal);
+
+  CoatingCompliance coating_;
+};
+
+}  // namespace palmar

@@ -1,0 +1,107 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "palmar/contact/skin_response.h"
+
+namespace palmar {
+
+/// Partition of a skin into patches of neighbouring vertices, for preconditioning and for coarse
+/// questions. `patch` per vertex; patches are numbered from 0 in the order of their lowest vertex.
+struct SkinPatches {
+  std::vector<int> patch;
+  int count = 0;
+};
+
+/// Patches of about `size` vertices, grown over edges from the lowest vertex that is left.
+SkinPatches skin_patches(const SkinGeometry& skin, int size);
+
+/// Frictionless contact problem of many coupled skin vertices with sparse symmetric responses:
+///
+///     s = A p + b >= 0,   p >= 0,   s_i p_i = 0
+///
+/// A [1/mm] is positive definite; b_i = G_i d_i [MPa mm]. (s_i / G_i is the gap.) Multiplying row i
+/// by its own shear modulus G_i has made the matrix of the skin symmetric although each row has
+/// its own modulus.
+///
+/// Block principal pivoting (Judice, Pires 1994) over the contact set; each linear system by
+/// conjugate gradients, preconditioned with the Cholesky factors of the diagonal blocks of the skin
+/// patches. While the set still changes a coarse solution is enough; the last one is solved to
+/// 1e-12. Single exchanges (Murty 1974) where block exchanges stall; dense block pivoting and
+/// Lemke's method as the last resort. Keeps its memory from call to call.
+class ContactSystem {
+ public:
+  explicit ContactSystem(const SkinPatches& patches) : patches_(&patches) {}
+
+  /// Takes the responses among `vertices` (ascending). With `region` (per vertex of the skin), only
+  /// those within one region.
+  void assemble(const SkinResponse& response, const std::vector<int>& vertices,
+                const std::vector<Region>* region);
+
+  /// Adds value to the entries (i, j) and (j, i); i != j. Call end_additions() after the last.
+  struct Entry {
+    int row = 0, column = 0;
+    double value = 0.0;
+  };
+  /// Adds to A: `diagonal` per row and the symmetric entries off the diagonal (row > column).
+  void add(const std::vector<double>& diagonal, const std::vector<Entry>& entries);
+
+  struct Outcome {
+    bool is_solved = false;
+    int pivots = 0;                  ///< exchanges of the contact set
+    int iterations = 0;              ///< of conjugate gradients, all together
+    double complementarity = 0;      ///< max |s_i p_i|, recomputed, N MPa mm
+    double relative_residual = 0.0;  ///< max |min(s_i / max|b|, p_i / max p)|, recomputed
+  };
+  /// Solves from the guess in_contact; leaves the contact set there, p in `force` [N] and s in
+  /// `gap` [MPa mm]. Unsolved: both zero.
+  Outcome solve(const std::vector<double>& b, std::vector<char>& in_contact,
+                std::vector<double>& force, std::vector<double>& gap);
+
+  /// x of A_FF x = right_F on the contact set F, zero elsewhere. Nothing if A_FF isn't positive
+  /// definite.
+  std::optional<std::vector<double>> solve_on(const std::vector<char>& in_contact,
+                                              const std::vector<double>& right);
+
+  int size() const { return static_cast<int>(begin_.size()) - 1; }
+  std::size_t entry_count() const { return column_.size(); }
+
+ private:
+  bool set_contact(const std::vector<char>& in_contact);
+  bool conjugate_gradients(double tolerance, int& iterations);
+  void precondition(const std::vector<double>& r, std::vector<double>& z) const;
+  void multiply_all(const std::vector<double>& p, std::vector<double>& s) const;
+  bool solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
+                   std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
+  void measure(const std::vector<double>& b, const std::vector<double>& force,
+               std::vector<double>& gap, Outcome& outcome) const;
+
+  const SkinPatches* patches_;
+  std::vector<int> vertex_;         // of each row
+  std::vector<int> local_;          // per skin vertex: its row, -1 if none
+  std::vector<std::size_t> begin_;  // rows of A
+  std::vector<int> column_;
+  std::vector<float> value_;
+  // The contact set: its rows, and A_FF.
+  std::vector<int> set_;
+  std::vector<int> place_;  // per row: its place in set_, -1 if none
+  std::vector<std::size_t> set_begin_;
+  std::vector<int> set_column_;
+  std::vector<float> set_value_;
+  // Cholesky factors of the diagonal blocks, rows of lower triangles one after the other.
+  struct Block {
+    int first = 0;  // in block_row_
+    int size = 0;
+    std::size_t factor = 0;  // in factor_
+  };
+  std::vector<Block> block_;
+  std::vector<int> block_row_;  // places in set_
+  std::vector<double> factor_;
+  std::vector<double> x_, right_, r_, z_, q_, d_;
+};
+
+}  // namespace palmar

@@ -1,0 +1,55 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/skin_geometry.h"
+
+namespace palmar {
+
+/// How far a vertex force moves the skin around it, for every vertex of a hand (Xie 2014, eq. 3-11:
+/// R_Bou, and the distances that R_Gau is made of). Sparse columns: entries begin[j] to
+/// begin[j + 1] - 1 are the vertices that a force at j moves, ascending, j itself included.
+/// Single precision: the rounding of 6e-8 is far below every other error, and half the memory is
+/// half the time.
+struct SkinResponse {
+  std::vector<std::size_t> begin;    ///< vertex count + 1
+  std::vector<std::int32_t> vertex;  ///< i
+  std::vector<float> response;       ///< normal displacement at i times G per force at j, 1/mm
+  std::vector<float> distance;       ///< on the skin, mm
+
+  std::size_t memory_bytes() const {
+    return begin.size() * sizeof(std::size_t) + vertex.size() * 3 * sizeof(float);
+  }
+};
+
+/// Where two regions' skin is coupled, a force moves skin within this distance; over the last
+/// third its effect is faded out. Skin farther away is held by the bones between.
+constexpr double kResponseReach = 30.0;  // mm
+
+/// Depth of every skin vertex over the nearest bone of the reference posture, mm, smoothed over
+/// 3 mm and kept within 1 to 25 mm; the farthest for a hand without bones.
+std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& skin);
+
+/// Responses of a hand's skin.
+///
+/// RegionCoupling::kCoupled: all pairs within kResponseReach; symmetric.
+/// RegionCoupling::kIndependent: within a region all pairs, symmetric, along paths inside the
+/// region (the dorsum: within kResponseReach); across regions the rows within the neighbourhood of
+/// the column's region (they show how the skin moves, and take no part in the solution).
+///
+/// `depth` per vertex is used by TissueModel::kLayered.
+SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+                           const std::vector<double>& depth);
+
+/// The responses between some vertices (ascending) as a dense matrix, 1/mm; zero where a pair has
+/// none. Without `across`, pairs of different regions have none.
+Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,
+                               const std::vector<Region>& region, bool across);
+
+}  // namespace palmar
