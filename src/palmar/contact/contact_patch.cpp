@@ -4,26 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "palmar/contact/response.h"
 
 namespace palmar {
 namespace {
 
 /// Share x / l of an edge that is in contact; see contact_area(). With k = 1 / K the two laws add
-/// up to p^2 k^2 + (3 E* g / 4)^(2/3) k^(2/3) = l, which grows with k.
+/// up to p^2 k^2 + (3 E* g / 4)^(2/3) k^(2/3) = l. In y = 1 - x / l, which is proportional to
+/// k^(2/3), that is c y^3 + y = 1 with c = (p l / (3 G g))^2.
 double share_in_contact(double pressure, double gap, double shear_modulus, double length) {
   if (gap <= 0.0) return 1.0;
-  const double a = pressure * pressure;
-  const double b = std::cbrt(std::pow(3.0 * shear_modulus * gap, 2));
-  double lower = 0.0;
-  double upper = std::min(std::sqrt(length / a), std::pow(length / b, 1.5));
-  for (int i = 0; i < 40; ++i) {
-    const double k = 0.5 * (lower + upper);
-    (a * k * k + b * std::cbrt(k * k) < length ? lower : upper) = k;
+  const double ratio = pressure * length / (3.0 * shear_modulus * gap);
+  const double c = ratio * ratio;
+  if (!(c < 1e150)) return 1.0;
+  // Newton's method on a convex function, from a bound above the root: falls to it and stays.
+  double y = c > 1.0 ? 1.0 / std::cbrt(c) : 1.0;
+  constexpr int kMaxSteps = 12;  // 5 to 6 are needed
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double next = y - (y * (c * y * y + 1.0) - 1.0) / (3.0 * c * y * y + 1.0);
+    if (!(next < y)) break;
+    y = next;
   }
-  return std::clamp(a * upper * upper / length, 0.0, 1.0);
+  return std::clamp(c * y * y * y, 0.0, 1.0);
 }
 
 }  // namespace
@@ -63,33 +64,32 @@ std::vector<double> contact_area(const std::vector<Vec3>& positions,
   return area;
 }
 
-double peak_over_cells(const SkinGeometry& skin, const std::vector<int>& vertices,
-                       const std::vector<double>& pressure, double cell_area) {
-  const double cell_radius = std::sqrt(cell_area / std::numbers::pi);
-  double peak = 0.0;
-  std::vector<int> near;
-  std::vector<int> mark(skin.position.size(), -1);
-  for (const int centre : vertices) {
-    near.assign(1, centre);
-    mark[centre] = centre;
-    double force = 0.0;
+CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
+                          const std::vector<double>& pressure, const std::vector<Region>& region,
+                          double cell_area) {
+  const bool is_prepared = skin.cells.cell_area == cell_area;
+  SensorCells own_cells;
+  if (!is_prepared) own_cells = sensor_cells(skin, centres, cell_area);
+  const SensorCells& cells = is_prepared ? skin.cells : own_cells;
+  CellPeaks peaks;
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    const std::size_t row = is_prepared ? static_cast<std::size_t>(centres[c]) : c;
+    const Region home = region[centres[c]];
+    double own = 0.0;
+    double all = 0.0;
     double area = 0.0;
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      const int v = near[k];
-      const double shared =
-          disc_overlap(arc_distance(skin, centre, v), cell_radius, skin.radius[v]);
-      if (shared <= 0.0) continue;
-      force += pressure[v] * shared;
-      area += shared;
-      for (const int w : skin.neighbours(v)) {
-        if (mark[w] == centre) continue;
-        mark[w] = centre;
-        near.push_back(w);
-      }
+    for (int k = cells.begin[row]; k < cells.begin[row + 1]; ++k) {
+      const int v = cells.vertex[k];
+      const double force = pressure[v] * cells.shared[k];
+      all += force;
+      if (region[v] == home) own += force;
+      area += cells.shared[k];
     }
-    if (area > 0.0) peak = std::max(peak, force / area);
+    if (!(area > 0.0)) continue;
+    peaks.own = std::max(peaks.own, own / area);
+    peaks.all = std::max(peaks.all, all / area);
   }
-  return peak;
+  return peaks;
 }
 
 }  // namespace palmar

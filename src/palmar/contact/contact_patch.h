@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/contact/skin_geometry.h"
+#include "palmar/hand/anatomy.h"
 
 namespace palmar {
 
@@ -27,10 +28,18 @@ std::vector<double> contact_area(const std::vector<Vec3>& positions,
                                  const std::vector<double>& gap,
                                  const std::vector<double>& shear_modulus);
 
-/// Largest mean pressure over a sensor cell centred on one of `vertices`, MPa. The cell is a disc
-/// of `cell_area` [mm^2] on the skin; each vertex' force spreads evenly over the disc of its
-/// Voronoi area, and the part of it that lies in the cell counts. Skin without load counts as 0.
-double peak_over_cells(const SkinGeometry& skin, const std::vector<int>& vertices,
-                       const std::vector<double>& pressure, double cell_area);
+/// Largest mean pressures over a sensor cell, MPa.
+struct CellPeaks {
+  double own = 0.0;  ///< of the load on the region that the cell is centred on
+  double all = 0.0;  ///< of all load
+};
+
+/// Peaks over the cells centred on `centres`. The cell is a disc of `cell_area` [mm^2] on the skin;
+/// each vertex' force spreads evenly over the disc of its Voronoi area, and the part of it that
+/// lies in the cell counts (SensorCells). Skin without load counts as 0. `pressure` [MPa] and
+/// `region` stand per vertex.
+CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
+                          const std::vector<double>& pressure, const std::vector<Region>& region,
+                          double cell_area);
 
 }  // namespace palmar

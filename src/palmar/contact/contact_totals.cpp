@@ -23,7 +23,6 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                                           result.pressure, gap, shear_modulus);
 
   RegionContact& total = result.total;
-  std::vector<int> all_loaded;
   for (int r = 0; r < kRegionCount; ++r) {
     total.max_penetration = std::max(total.max_penetration, d_max[r]);
     if (loaded[r].empty()) continue;
@@ -48,18 +47,16 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
     part.centre = moment / part.force;
     // A region's own cells see its own load; those of the whole hand see all of it.
-    std::vector<double> own_pressure(n, 0.0);
-    for (const int v : loaded[r]) own_pressure[v] = result.pressure[v];
-    part.peak_pressure_cells = peak_over_cells(prepared.skin, loaded[r], own_pressure, cell_area);
-    all_loaded.insert(all_loaded.end(), loaded[r].begin(), loaded[r].end());
+    const CellPeaks peaks = peak_over_cells(prepared.skin, loaded[r], result.pressure,
+                                            prepared.hand->region, cell_area);
+    part.peak_pressure_cells = peaks.own;
+    total.peak_pressure_cells = std::max(total.peak_pressure_cells, peaks.all);
     total.force += part.force;
     total.force_vector += part.force_vector;
     total.area += part.area;
     total.peak_pressure = std::max(total.peak_pressure, part.peak_pressure);
     total.centre += moment;
   }
-  total.peak_pressure_cells =
-      peak_over_cells(prepared.skin, all_loaded, result.pressure, cell_area);
   if (total.force > 0.0) total.centre /= total.force;
   if (total.area > 0.0) total.mean_pressure = total.force / total.area;
 }

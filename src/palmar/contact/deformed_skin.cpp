@@ -37,7 +37,7 @@ double push_out(const SkinOnProduct& skin, const DistanceField& product,
     if (skin.sample[v].distance <= moved) inside.push_back(v);
   }
   for (int round = 0;; ++round) {
-    sample_vertices(product, result.deformed, inside, kNearRange, after);
+    resample_vertices(product, result.deformed, inside, kNearRange, after);
     std::erase_if(inside, [&](int v) {
       // Deeper than the range: left out, nowhere to go.
       return after[v].distance >= 0.0 || after[v].distance <= -kNearRange;
@@ -93,12 +93,13 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
   }
   for (const int v : loaded) result.deformed[v] = skin.sample[v].closest;
   for (const int v : free) result.deformed[v] += motion[v];
-  std::vector<DistanceSample> after(n);
+  std::vector<DistanceSample> after = skin.sample;
+  for (const int v : skin.traced) after[v] = {};
   result.residual_penetration_other = push_out(skin, product, free, result, after);
   for (const int v : free) {
     result.displacement[v] = (result.deformed[v] - result.undeformed[v]).dot(direction[v]);
   }
-  sample_vertices(product, result.deformed, loaded, kNearRange, after);
+  resample_vertices(product, result.deformed, loaded, kNearRange, after);
   for (const int v : loaded) {
     result.residual_penetration_contact =
         std::max(result.residual_penetration_contact, std::abs(after[v].distance));

@@ -7,8 +7,11 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <queue>
 #include <utility>
+
+#include "palmar/contact/response.h"
 
 namespace palmar {
 
@@ -85,7 +88,39 @@ SkinGeometry skin_geometry(const TriangleMesh& skin) {
   for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
     result.ring_begin[v + 1] += result.ring_begin[v];
   }
+  std::vector<int> all(skin.vertices.size());
+  std::iota(all.begin(), all.end(), 0);
+  result.cells = sensor_cells(result, all, kUsualCellArea);
   return result;
+}
+
+SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area) {
+  const double cell_radius = std::sqrt(cell_area / std::numbers::pi);
+  SensorCells cells;
+  cells.cell_area = cell_area;
+  cells.begin.reserve(centres.size() + 1);
+  cells.begin.push_back(0);
+  std::vector<int> near;
+  std::vector<int> mark(skin.position.size(), -1);
+  for (const int centre : centres) {
+    near.assign(1, centre);
+    mark[centre] = centre;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const int v = near[k];
+      const double shared =
+          disc_overlap(arc_distance(skin, centre, v), cell_radius, skin.radius[v]);
+      if (shared <= 0.0) continue;
+      cells.vertex.push_back(v);
+      cells.shared.push_back(shared);
+      for (const int w : skin.neighbours(v)) {
+        if (mark[w] == centre) continue;
+        mark[w] = centre;
+        near.push_back(w);
+      }
+    }
+    cells.begin.push_back(static_cast<int>(cells.vertex.size()));
+  }
+  return cells;
 }
 
 double arc_distance(const SkinGeometry& skin, int i, int j) {

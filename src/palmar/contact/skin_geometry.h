@@ -9,6 +9,14 @@
 
 namespace palmar {
 
+/// Which skin a pressure sensor's cell, a disc on the skin centred on a vertex, covers.
+struct SensorCells {
+  double cell_area = 0.0;  ///< mm^2
+  std::vector<int> begin;  ///< one more than cells: where a cell's vertices begin in `vertex`
+  std::vector<int> vertex;
+  std::vector<double> shared;  ///< area of the vertex' Voronoi disc that lies in the cell, mm^2
+};
+
 /// What the contact model needs to know about a skin in its reference posture.
 struct SkinGeometry {
   std::vector<Vec3> position;       ///< mm
@@ -18,6 +26,7 @@ struct SkinGeometry {
   std::vector<int> ring_begin;      ///< vertex count + 1: where the neighbours begin in `ring`
   std::vector<int> ring;            ///< neighbours over one edge, ascending
   std::vector<double> edge_length;  ///< of each entry of `ring`, mm
+  SensorCells cells;                ///< centred on every vertex, of kUsualCellArea
 
   int vertex_count() const { return static_cast<int>(position.size()); }
   std::span<const int> neighbours(int vertex) const {
@@ -25,7 +34,14 @@ struct SkinGeometry {
   }
 };
 
+/// Cell of the sensors used by Xie 2014 (4.2 per cm^2); cells of other sizes are made when asked
+/// for.
+constexpr double kUsualCellArea = 24.0;  // mm^2
+
 SkinGeometry skin_geometry(const TriangleMesh& skin);
+
+/// The cells centred on `centres`, in their order; distances by arc_distance().
+SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area);
 
 /// Area-weighted unit vertex normals of a mesh whose vertices have moved.
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,

@@ -57,6 +57,21 @@ void sample_vertices(const DistanceField& product, const std::vector<Vec3>& posi
   for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
 }
 
+void resample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+                       const std::vector<int>& vertices, double range,
+                       std::vector<DistanceSample>& samples) {
+  std::vector<Vec3> points;
+  std::vector<DistanceSample> found;
+  points.reserve(vertices.size());
+  found.reserve(vertices.size());
+  for (const int v : vertices) {
+    points.push_back(positions[v]);
+    found.push_back(samples[v]);
+  }
+  product.resample(points, range, found);
+  for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
+}
+
 SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                                    const DistanceField& product, std::optional<Region> only) {
   SkinOnProduct skin;
@@ -94,6 +109,7 @@ SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& po
         continue;
       }
       sample = *behind;
+      skin.traced.push_back(v);
     }
     if (-sample.distance > kMaxContactDepth) {
       skin.left_out.push_back(v);

@@ -19,8 +19,10 @@ struct SkinOnProduct {
   std::vector<int> collision;          ///< penetrating vertices that take part, ascending
   std::vector<int> left_out;           ///< penetrating vertices without a surface to go to, or too
                                        ///< deep; ascending
-  bool is_too_deep = false;            ///< palmar skin deeper than kMaxContactDepth
-  std::string message;                 ///< what was left out, or empty
+  std::vector<int> traced;   ///< collision vertices whose `sample` isn't the nearest point
+                             ///< but the one the skin came through, ascending
+  bool is_too_deep = false;  ///< palmar skin deeper than kMaxContactDepth
+  std::string message;       ///< what was left out, or empty
 };
 
 /// Samples the product near the skin and decides for each penetrating vertex to which side of the
@@ -36,5 +38,11 @@ constexpr double kNearRange = 6.0;  // mm
 void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
                      const std::vector<int>& vertices, double range,
                      std::vector<DistanceSample>& samples);
+
+/// The same for vertices that have moved a little; `samples` holds what they had before (see
+/// DistanceField::resample()).
+void resample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+                       const std::vector<int>& vertices, double range,
+                       std::vector<DistanceSample>& samples);
 
 }  // namespace palmar

@@ -6,6 +6,11 @@
 
 namespace palmar {
 
+void DistanceField::resample(std::span<const Vec3> points, double range,
+                             std::span<DistanceSample> samples) const {
+  sample(points, range, samples);
+}
+
 DistanceSample DistanceField::at(const Vec3& point) const {
   DistanceSample result;
   sample({&point, 1}, std::numeric_limits<double>::infinity(), {&result, 1});

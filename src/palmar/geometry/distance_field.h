@@ -28,6 +28,11 @@ class DistanceField {
   virtual void sample(std::span<const Vec3> points, double range,
                       std::span<DistanceSample> samples) const = 0;
 
+  /// The same for points whose samples are known from before they moved a little: these come in in
+  /// `samples` and are replaced. They save time and never change the answer.
+  virtual void resample(std::span<const Vec3> points, double range,
+                        std::span<DistanceSample> samples) const;
+
   /// Box around the surface, mm.
   virtual Box3 bounding_box() const = 0;
 

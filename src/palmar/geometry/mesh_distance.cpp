@@ -200,42 +200,36 @@ struct MeshDistance::Impl {
     }
   }
 
-  void sample_in_order(std::span<const Vec3> points, std::span<const int> order, double range,
-                       std::span<DistanceSample> samples) const;
+  /// The sample of one point. `hint`: a triangle believed near. `known`: sides of other points.
+  DistanceSample sample(const Vec3& q, double range, std::optional<int> hint,
+                        KnownSides& known) const;
 };
 
-void MeshDistance::Impl::sample_in_order(std::span<const Vec3> points, std::span<const int> order,
-                                         double range, std::span<DistanceSample> samples) const {
-  std::optional<int> hint;
-  KnownSides known;
-  for (const int i : order) {
-    const Vec3& q = points[i];
-    DistanceSample& s = samples[i];
-    s = {range, q, Vec3::UnitZ(), -1};
-    if (box.isEmpty() || box.squaredExteriorDistance(q) > range * range) continue;
-
-    const std::optional<ClosestPoint> nearest = closest.closest(q, range, hint);
-    const double distance = nearest ? nearest->distance : range;
-    bool is_inside = false;
-    if (box.contains(q)) {
-      if (!surface.is_closed) {
-        is_inside = winding.at(q) > 0.5;
-      } else if (const std::optional<bool> side = known.find(q, distance)) {
-        is_inside = *side;
-      } else {
-        is_inside = winding.whole_at(q) > 0;
-      }
-      if (surface.is_closed) known.add(q, distance, is_inside);
+DistanceSample MeshDistance::Impl::sample(const Vec3& q, double range, std::optional<int> hint,
+                                          KnownSides& known) const {
+  DistanceSample s = {range, q, Vec3::UnitZ(), -1};
+  if (box.isEmpty() || box.squaredExteriorDistance(q) > range * range) return s;
+  const std::optional<ClosestPoint> nearest = closest.closest(q, range, hint);
+  const double distance = nearest ? nearest->distance : range;
+  bool is_inside = false;
+  if (box.contains(q) && distance > kOnSurface) {
+    if (!surface.is_closed) {
+      is_inside = winding.at(q) > 0.5;
+    } else if (const std::optional<bool> side = known.find(q, distance)) {
+      is_inside = *side;
+    } else {
+      is_inside = winding.whole_at(q) > 0;
     }
-    const double sign = is_inside ? -1.0 : 1.0;
-    s.distance = sign * distance;
-    if (!nearest) continue;
-    hint = nearest->triangle;
-    s.closest = nearest->point;
-    s.triangle = nearest->triangle;
-    s.normal = distance > kOnSurface ? Vec3(sign * (q - s.closest) / distance)
-                                     : pseudo_normal(surface, *nearest);
+    if (surface.is_closed) known.add(q, distance, is_inside);
   }
+  const double sign = is_inside ? -1.0 : 1.0;
+  s.distance = sign * distance;
+  if (!nearest) return s;
+  s.closest = nearest->point;
+  s.triangle = nearest->triangle;
+  s.normal = distance > kOnSurface ? Vec3(sign * (q - s.closest) / distance)
+                                   : pseudo_normal(surface, *nearest);
+  return s;
 }
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) : impl_(std::make_unique<const Impl>(mesh)) {}
@@ -245,24 +239,60 @@ Box3 MeshDistance::bounding_box() const { return impl_->box; }
 bool MeshDistance::is_closed() const { return impl_->surface.is_closed; }
 double MeshDistance::winding_number(const Vec3& point) const { return impl_->winding.at(point); }
 
-void MeshDistance::sample(std::span<const Vec3> points, double range,
-                          std::span<DistanceSample> samples) const {
-  if (points.size() != samples.size()) {
-    throw UsageError("distance to a mesh: " + std::to_string(points.size()) +
-                     " points but room for " + std::to_string(samples.size()) +
-                     " samples; the numbers must be equal");
+namespace {
+
+void check_request(std::size_t points, std::size_t samples, double range) {
+  if (points != samples) {
+    throw UsageError("distance to a mesh: " + std::to_string(points) + " points but room for " +
+                     std::to_string(samples) + " samples; the numbers must be equal");
   }
   if (!(range >= 0.0)) {
     throw UsageError("distance to a mesh: range is " + std::to_string(range) +
                      " mm; 0 or more is required");
   }
+}
+
+/// body(begin, end) for chunks of [0, count), side by side.
+template <typename Body>
+void for_chunks(int count, const Body& body) {
+  parallel_for((count + kChunk - 1) / kChunk,
+               [&](int c) { body(c * kChunk, std::min(count, (c + 1) * kChunk)); });
+}
+
+}  // namespace
+
+void MeshDistance::sample(std::span<const Vec3> points, double range,
+                          std::span<DistanceSample> samples) const {
+  check_request(points.size(), samples.size(), range);
   const std::vector<int> order = spatial_order(points);
-  const int count = static_cast<int>(order.size());
-  const int chunks = (count + kChunk - 1) / kChunk;
-  parallel_for(chunks, [&](int c) {
-    const int begin = c * kChunk;
-    const int length = std::min(kChunk, count - begin);
-    impl_->sample_in_order(points, std::span(order).subspan(begin, length), range, samples);
+  for_chunks(static_cast<int>(order.size()), [&](int begin, int end) {
+    std::optional<int> hint;
+    KnownSides known;
+    for (int k = begin; k < end; ++k) {
+      DistanceSample& s = samples[order[k]];
+      s = impl_->sample(points[order[k]], range, hint, known);
+      if (s.triangle >= 0) hint = s.triangle;
+    }
+  });
+}
+
+void MeshDistance::resample(std::span<const Vec3> points, double range,
+                            std::span<DistanceSample> samples) const {
+  check_request(points.size(), samples.size(), range);
+  const int triangles = static_cast<int>(impl_->surface.triangles.size());
+  for_chunks(static_cast<int>(points.size()), [&](int begin, int end) {
+    KnownSides known;
+    for (int k = begin; k < end; ++k) {
+      const DistanceSample before = samples[k];
+      const bool is_usable = before.triangle >= 0 && before.triangle < triangles;
+      // Where the point was before.
+      if (is_usable && impl_->surface.is_closed) {
+        known.add(before.closest + before.distance * before.normal, std::abs(before.distance),
+                  before.distance < 0.0);
+      }
+      samples[k] = impl_->sample(
+          points[k], range, is_usable ? std::optional<int>(before.triangle) : std::nullopt, known);
+    }
   });
 }
 

@@ -15,8 +15,9 @@ namespace palmar {
 ///     d(q) = s(q) min_t |q - x_t|,   s = -1 where w(q) > 0.5, else +1,
 ///
 /// x_t the nearest point of triangle t, exact to rounding, and w the generalised winding number
-/// (winding_number.h). Outside the bounding box s = +1. Near a hole d jumps from -r to +r, r the
-/// distance to its rim, on a surface that closes the hole.
+/// (winding_number.h). Outside the bounding box and nearer than 1e-7 mm, where the side is
+/// rounding, s = +1. Near a hole d jumps from -r to +r, r the distance to its rim, on a surface
+/// that closes the hole.
 ///
 /// The normal is the gradient (q - x) / d; nearer than 1e-7 mm, where that is rounding, it is the
 /// angle-weighted pseudo-normal of the triangle, edge or corner (Baerentzen, Aanaes 2005).
@@ -29,6 +30,8 @@ class MeshDistance : public DistanceField {
 
   void sample(std::span<const Vec3> points, double range,
               std::span<DistanceSample> samples) const override;
+  void resample(std::span<const Vec3> points, double range,
+                std::span<DistanceSample> samples) const override;
   Box3 bounding_box() const override;
 
   /// Whether every edge is used equally often in both directions (corners at the same place count
