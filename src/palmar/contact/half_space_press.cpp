@@ -2,184 +2,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/half_space_press.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "palmar/contact/lcp.h"
 #include "palmar/contact/lemke.h"
+#include "palmar/contact/press_compliance.h"
+#include "palmar/contact/press_lattice.h"
 #include "palmar/contact/response.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-
-constexpr double kRow = 0.86602540378443865;  // sqrt(3) / 2: rows of a lattice of spacing 1
-constexpr int kFewestCells = 40;              // penetrating; else the lattice is split
-/// Cell size at the contact's edge / contact radius. Pressure ends like sqrt(x) at a smooth contact
-/// but is singular under the edge of a punch, which needs smaller cells for the same error.
+constexpr int kFewestCells = 40;     // penetrating; else the lattice is split
+constexpr int kUsualCells = 1200;    // penetrating; beyond, a coarser lattice is as good
+constexpr int kRefinedCells = 2400;  // with the split rim and all candidates
+constexpr int kMostCells = 4000;
+/// Cell size at the contact's edge / its smaller half-width. Pressure ends like sqrt(x) at a smooth
+/// contact but is singular under the edge of a punch, which needs smaller cells for the same error.
 constexpr double kRimShare = 1.0 / 10.0;
 constexpr double kPunchRimShare = 1.0 / 20.0;
 constexpr int kMaxRounds = 7;
-constexpr int kMostCells = 4000;
-constexpr int kCutSamples = 12;  // per side of a cell that the punch's edge cuts
+constexpr double kLayerShare = 0.5;  // largest cell / thickness of a layer, if so many serve
+/// A rim of cells of uniform pressure carries the force of a punch smaller by this share of such a
+/// cell, as splitting it further shows; so the lattice is laid over a punch that much wider.
+constexpr double kLostRim = 0.125;
+/// A layer lifts skin outside the indenter, which then may touch. Candidates are cells with a gap
+/// below these shares of the depth, tried one after the other until no other skin would enter. A
+/// sphere on a thin incompressible layer, where contact spreads farthest, needs 1.
+constexpr double kCandidates[] = {0.0, 0.5, 1.1, 3.0, 10.0};
+constexpr double kTouching = 1e-6;  // of the depth; a cell nearer than that doesn't enter
 
-/// Cell of the lattice: a rhombus of side `size` with its sides along the lattice's rows; split, it
-/// gives four of half the size whose centres form a lattice again.
-struct Cell {
-  Vec2 middle = Vec2::Zero();  ///< mm
-  double size = 1.0;           ///< mm
-  Vec2 centre = Vec2::Zero();  ///< of the part under the indenter, mm
-  double area = 0.0;           ///< of that part, mm^2
+struct Solved {
+  std::vector<PressCell> cells;
+  ContactSolution solution;
+
+  double force(std::size_t i) const { return solution.force[static_cast<Eigen::Index>(i)]; }
 };
 
-Vec2 in_lattice(double u, double v) { return {u + 0.5 * v, kRow * v}; }
-
-/// The gap before contact, and the part of the plane that the indenter covers.
-struct Gap {
-  double curvature_x = 0.0, curvature_y = 0.0;  ///< 1/mm
-  double slope_x = 0.0;
-  double depth = 0.0;         ///< mm
-  double punch_radius = 0.0;  ///< mm; 0 = covers all
-
-  double at(const Vec2& q) const {
-    return 0.5 * (curvature_x * q.x() * q.x() + curvature_y * q.y() * q.y()) + slope_x * q.x() -
-           depth;
-  }
-  /// Penetrating points are no farther than this from the origin, mm.
-  double reach() const {
-    if (punch_radius > 0.0) return punch_radius;
-    return std::sqrt(2.0 * depth / std::min(curvature_x, curvature_y));
-  }
-};
-
-Gap gap_of(const PressOptions& options, double depth) {
-  Gap gap;
-  gap.depth = depth;
-  const PressSpecimen& specimen = options.specimen;
-  if (specimen.kind == PressSpecimen::Kind::kEllipsoid) {
-    const double c = std::sqrt(specimen.radius_x * specimen.radius_y);
-    const double a2 = specimen.radius_x * c;
-    const double b2 = specimen.radius_y * c;
-    // A punch stays centred on the apex.
-    const double tilt = options.indenter.kind == PressIndenter::Kind::kPunch ? 0.0 : options.tilt;
-    const double h2 = a2 * std::pow(std::sin(tilt), 2) + c * c * std::pow(std::cos(tilt), 2);
-    gap.curvature_x = h2 * std::sqrt(h2) / (a2 * c * c);
-    gap.curvature_y = std::sqrt(h2) / b2;
-  }
-  switch (options.indenter.kind) {
-    case PressIndenter::Kind::kSphere:
-      gap.curvature_x += 1.0 / options.indenter.radius;
-      gap.curvature_y += 1.0 / options.indenter.radius;
-      break;
-    case PressIndenter::Kind::kCylinder:
-      gap.curvature_x += 1.0 / options.indenter.radius;
-      break;
-    case PressIndenter::Kind::kPunch:
-      gap.punch_radius = options.indenter.radius;
-      gap.slope_x = std::tan(options.tilt);
-      break;
-    case PressIndenter::Kind::kPlane:
-      break;
-  }
-  return gap;
-}
-
-/// Area and centre of the part of a cell that the indenter covers.
-void cut(const Gap& gap, Cell& cell) {
-  const double whole = cell.size * cell.size * kRow;
-  cell.centre = cell.middle;
-  cell.area = whole;
-  if (gap.punch_radius <= 0.0) return;
-  const double from_axis = cell.middle.norm();
-  if (from_axis + 0.9 * cell.size < gap.punch_radius) return;
-  Vec2 sum = Vec2::Zero();
-  int inside = 0;
-  for (int i = 0; i < kCutSamples; ++i) {
-    for (int j = 0; j < kCutSamples; ++j) {
-      const Vec2 q = cell.middle + cell.size * in_lattice((i + 0.5) / kCutSamples - 0.5,
-                                                          (j + 0.5) / kCutSamples - 0.5);
-      if (q.norm() >= gap.punch_radius) continue;
-      ++inside;
-      sum += q;
-    }
-  }
-  cell.area = whole * inside / (kCutSamples * kCutSamples);
-  if (inside > 0) cell.centre = sum / inside;
-}
-
-std::vector<Cell> split(const Gap& gap, const std::vector<Cell>& cells,
-                        const std::vector<char>& which) {
-  std::vector<Cell> result;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!which[i]) {
-      result.push_back(cells[i]);
-      continue;
-    }
-    for (const double u : {-0.25, 0.25}) {
-      for (const double v : {-0.25, 0.25}) {
-        Cell child;
-        child.size = 0.5 * cells[i].size;
-        child.middle = cells[i].middle + cells[i].size * in_lattice(u, v);
-        cut(gap, child);
-        result.push_back(child);
-      }
-    }
-  }
-  return result;
-}
-
-/// Cells that can carry force: only penetrating ones, as no response is negative.
-void keep_penetrating(const Gap& gap, std::vector<Cell>& cells) {
-  std::erase_if(cells, [&](const Cell& c) { return c.area <= 0.0 || gap.at(c.centre) >= 0.0; });
-}
-
-std::vector<Cell> first_cells(const Gap& gap, double spacing) {
-  const double reach = gap.reach() + spacing;
-  const int rows = static_cast<int>(reach / (spacing * kRow)) + 1;
-  std::vector<Cell> cells;
-  for (int v = -rows; v <= rows; ++v) {
-    const int columns = static_cast<int>(reach / spacing + 0.5 * rows) + 1;
-    for (int u = -columns; u <= columns; ++u) {
-      Cell cell;
-      cell.size = spacing;
-      cell.middle = spacing * in_lattice(u, v);
-      cut(gap, cell);
-      cells.push_back(cell);
-    }
-  }
-  keep_penetrating(gap, cells);
-  return cells;
-}
-
-double disc_radius(const Cell& cell) { return std::sqrt(cell.area / std::numbers::pi); }
-
-ContactSolution solve_cells(const Gap& gap, const std::vector<Cell>& cells, Kernel kernel,
-                            double shear_modulus) {
+ContactSolution solve_cells(const PressGap& gap, const std::vector<PressCell>& cells,
+                            const PressCompliance& compliance) {
   const auto m = static_cast<Eigen::Index>(cells.size());
   if (m > kMostCells) {
     throw UsageError("press: the contact needs " + std::to_string(m) + " vertices, more than " +
                      std::to_string(kMostCells) + "; a larger spacing is required");
   }
   ContactProblem problem;
-  problem.response.resize(m, m);
+  problem.response = compliance.matrix(cells);
   problem.distance.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Cell& a = cells[i];
-    problem.distance[i] = gap.at(a.centre);
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const Cell& b = cells[j];
-      const double r = (a.centre - b.centre).norm();
-      const double response =
-          boussinesq_response(kernel, r, disc_radius(a), disc_radius(b)) / shear_modulus;
-      problem.response(i, j) = response;
-      problem.response(j, i) = response;
-    }
-  }
+  for (Eigen::Index i = 0; i < m; ++i) problem.distance[i] = gap.at(cells[i].centre);
   LcpOptions options;
   options.max_pivots = 200;
   ContactSolution solution = solve_contact(problem, options);
@@ -192,17 +69,63 @@ ContactSolution solve_cells(const Gap& gap, const std::vector<Cell>& cells, Kern
   return solution;
 }
 
+/// True if skin that was no candidate would enter the indenter.
+bool skin_enters_elsewhere(const PressGap& gap, const PressCompliance& compliance,
+                           const Solved& solved, double spacing, double limit, double next_limit) {
+  std::vector<Vec2> outside;
+  for (const PressCell& cell : press_lattice(gap, spacing, next_limit)) {
+    if (gap.at(cell.centre) >= limit) outside.push_back(cell.centre);
+  }
+  const std::vector<double> u =
+      compliance.displacement(outside, solved.cells, solved.solution.force);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    if (gap.at(outside[i]) + u[i] < -kTouching * gap.depth()) return true;
+  }
+  return false;
+}
+
+/// True if a loaded cell lacks a neighbour that could touch.
+bool reaches_last_candidates(const PressGap& gap, const Solved& solved, double limit) {
+  for (std::size_t i = 0; i < solved.cells.size(); ++i) {
+    if (!(solved.force(i) > 0.0)) continue;
+    const PressCell& cell = solved.cells[i];
+    const Vec2 outwards(std::copysign(cell.size, cell.centre.x()),
+                        std::copysign(cell.size, cell.centre.y()));
+    if (gap.at(cell.centre + outwards) >= limit) return true;
+  }
+  return false;
+}
+
+/// Half the width of the loaded cells across their longest axis, as of an ellipse.
+double half_width(const Solved& solved) {
+  double area = 0.0;
+  Vec2 middle = Vec2::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < solved.cells.size(); ++i) {
+    if (!(solved.force(i) > 0.0)) continue;
+    const PressCell& cell = solved.cells[i];
+    area += cell.area;
+    middle += cell.area * cell.centre;
+    second += cell.area * (cell.centre * cell.centre.transpose() +
+                           cell.size * cell.size / 12.0 * Eigen::Matrix2d::Identity());
+  }
+  middle /= area;
+  const Eigen::Matrix2d variance = second / area - middle * middle.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(variance, Eigen::EigenvaluesOnly);
+  return 2.0 * std::sqrt(axes.eigenvalues()[0]);
+}
+
 /// Cells at the edge of the contact that are larger than `size`.
-std::vector<char> coarse_rim(const Gap& gap, const std::vector<Cell>& cells,
-                             const Eigen::VectorXd& force, double size) {
+std::vector<char> coarse_rim(const PressGap& gap, const Solved& solved, double size) {
+  const std::vector<PressCell>& cells = solved.cells;
   std::vector<char> is_rim(cells.size(), 0);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& a = cells[i];
+    const PressCell& a = cells[i];
     if (a.size <= size) continue;
-    const bool is_loaded = force[static_cast<Eigen::Index>(i)] > 0.0;
-    if (gap.punch_radius > 0.0 && a.middle.norm() + 1.5 * a.size > gap.punch_radius) is_rim[i] = 1;
+    const bool is_loaded = solved.force(i) > 0.0;
+    if (gap.is_punch() && gap.inside_edge(a.middle) < 1.5 * a.size) is_rim[i] = 1;
     for (std::size_t j = 0; j < cells.size() && !is_rim[i]; ++j) {
-      if ((force[static_cast<Eigen::Index>(j)] > 0.0) == is_loaded) continue;
+      if ((solved.force(j) > 0.0) == is_loaded) continue;
       const double near = 0.75 * (a.size + cells[j].size);
       is_rim[i] = (a.middle - cells[j].middle).squaredNorm() < near * near;
     }
@@ -211,69 +134,186 @@ std::vector<char> coarse_rim(const Gap& gap, const std::vector<Cell>& cells,
 }
 
 /// Largest mean pressure over a disc of the sensor cell's area; see peak_over_cells().
-double peak_mean(const std::vector<Cell>& cells, const Eigen::VectorXd& force, double cell_area) {
+double peak_mean(const Solved& solved, double cell_area) {
   const double cell_radius = std::sqrt(cell_area / std::numbers::pi);
   double peak = 0.0;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (force[static_cast<Eigen::Index>(c)] <= 0.0) continue;
+  for (std::size_t c = 0; c < solved.cells.size(); ++c) {
+    if (solved.force(c) <= 0.0) continue;
     double sum = 0.0;
     double area = 0.0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const double r = (cells[i].centre - cells[c].centre).norm();
-      const double shared = disc_overlap(r, cell_radius, disc_radius(cells[i]));
+    for (std::size_t i = 0; i < solved.cells.size(); ++i) {
+      const PressCell& cell = solved.cells[i];
+      const double r = (cell.centre - solved.cells[c].centre).norm();
+      const double shared = disc_overlap(r, cell_radius, cell.disc_radius());
       area += shared;
-      sum += force[static_cast<Eigen::Index>(i)] * shared / cells[i].area;
+      sum += solved.force(i) * shared / cell.area;
     }
     peak = std::max(peak, sum / std::max(area, cell_area));
   }
   return peak;
 }
 
+/// Doubles the spacing while it gives more cells than serve the result.
+double at_most(int cells, const PressGap& gap, double limit, double spacing) {
+  const double cell = std::sqrt(0.75);
+  while (gap.area(limit) > cells * cell * spacing * spacing) spacing *= 2.0;
+  return spacing;
+}
+
+/// The spacing that runs: fine enough for a small contact and a thin layer, coarse enough for a
+/// large one.
+double lattice_spacing(const PressGap& gap, const PressCompliance& compliance, double spacing) {
+  spacing = at_most(kUsualCells, gap, 0.0, spacing);
+  while (spacing > kLayerShare * compliance.thinnest() &&
+         at_most(kUsualCells, gap, 0.0, 0.5 * spacing) < spacing) {
+    spacing *= 0.5;
+  }
+  while (press_lattice(gap, spacing, 0.0).size() < kFewestCells) spacing *= 0.5;
+  return spacing;
+}
+
+/// The gap, with a punch as wide as the lattice needs it.
+PressGap lattice_gap(const PressOptions& options, double depth, double spacing) {
+  const PressGap gap(options, depth);
+  if (!gap.is_punch()) return gap;
+  double rim = spacing;
+  while (rim > kPunchRimShare * gap.punch_radius()) rim *= 0.5;
+  return {options, depth, kLostRim * rim};
+}
+
+/// Share of the way from a loaded to a lifted cell, l apart, at which the contact ends: there the
+/// pressure p = K sqrt(x) and the gap g = (4 K / 3 E*) (l - x)^1.5 meet (see contact_area()).
+double contact_end(double p, double g, double l, double contact_modulus) {
+  const double c = std::pow(0.75 * contact_modulus * g, 2.0 / 3.0);
+  // l = p^2 y^3 + c y with y = K^(-2/3) grows with y.
+  double y = std::min(l / c, std::cbrt(l / (p * p)));
+  for (int i = 0; i < 30; ++i) {
+    const double step = (p * p * y * y * y + c * y - l) / (3.0 * p * p * y * y + c);
+    y -= step;
+    if (std::abs(step) <= 1e-12 * y) break;
+  }
+  return std::clamp(p * p * y * y * y / l, 0.0, 1.0);
+}
+
+/// Area of a contact without holes: the polygon through the points where it ends between
+/// neighbouring cells, in the order of their direction from its middle. 0 if there are too few.
+double area_inside_edge(const Solved& solved, double contact_modulus) {
+  const std::vector<PressCell>& cells = solved.cells;
+  Vec2 middle = Vec2::Zero();
+  double force = 0.0;
+  std::vector<Vec2> edge;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!(solved.force(i) > 0.0)) continue;
+    middle += solved.force(i) * cells[i].centre;
+    force += solved.force(i);
+    for (std::size_t j = 0; j < cells.size(); ++j) {
+      if (solved.force(j) > 0.0) continue;
+      const Vec2 way = cells[j].middle - cells[i].middle;
+      const double length = way.norm();
+      if (length > 0.75 * (cells[i].size + cells[j].size)) continue;
+      const double share =
+          contact_end(solved.force(i) / cells[i].area,
+                      std::max(solved.solution.gap[static_cast<Eigen::Index>(j)], 0.0), length,
+                      contact_modulus);
+      edge.push_back(cells[i].middle + share * way);
+    }
+  }
+  if (edge.size() < 6) return 0.0;
+  middle /= force;
+  const auto angle = [&](const Vec2& q) {
+    return std::atan2(q.y() - middle.y(), q.x() - middle.x());
+  };
+  std::sort(edge.begin(), edge.end(),
+            [&](const Vec2& a, const Vec2& b) { return angle(a) < angle(b); });
+  double area = 0.0;
+  for (std::size_t i = 0; i < edge.size(); ++i) {
+    const Vec2 a = edge[i] - middle;
+    const Vec2 b = edge[(i + 1) % edge.size()] - middle;
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area;
+}
+
+/// Solves on the lattice, with as many candidates as it takes that no other skin enters; `spacing`
+/// and `limit` become those that ran. Empty cells: nothing touches.
+Solved solve_lattice(const PressGap& gap, const PressCompliance& compliance, double& spacing,
+                     double& limit) {
+  Solved solved;
+  for (std::size_t i = 0; i < std::size(kCandidates); ++i) {
+    limit = kCandidates[i] * gap.depth();
+    // Under a punch all skin is a candidate, beside it none.
+    if (gap.is_punch() && compliance.may_lift()) limit = std::numeric_limits<double>::infinity();
+    if (compliance.may_lift()) spacing = at_most(kRefinedCells, gap, limit, spacing);
+    solved.cells = press_lattice(gap, spacing, limit);
+    if (solved.cells.empty()) return solved;
+    solved.solution = solve_cells(gap, solved.cells, compliance);
+    if (!compliance.may_lift() || gap.is_punch() || i + 1 == std::size(kCandidates)) break;
+    if (reaches_last_candidates(gap, solved, limit)) continue;
+    const double next_limit = std::max(1.0, 2.0 * kCandidates[i + 1]) * gap.depth();
+    if (!skin_enters_elsewhere(gap, compliance, solved, spacing, limit, next_limit)) break;
+  }
+  return solved;
+}
+
+/// Splits the rim of the contact until it is fine enough.
+void refine_rim(const PressGap& gap, const PressCompliance& compliance, double limit,
+                Solved& solved) {
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const double size =
+        gap.is_punch() ? kPunchRimShare * gap.punch_radius() : kRimShare * half_width(solved);
+    const std::vector<char> rim = coarse_rim(gap, solved, size);
+    const auto split = std::count(rim.begin(), rim.end(), 1);
+    if (split == 0 || solved.cells.size() + 3 * static_cast<std::size_t>(split) > kRefinedCells) {
+      return;
+    }
+    solved.cells = split_cells(gap, solved.cells, rim, limit);
+    solved.solution = solve_cells(gap, solved.cells, compliance);
+  }
+}
+
 }  // namespace
 
 PressStep press_half_space(const PressOptions& options, double depth) {
-  const Gap gap = gap_of(options, depth);
-  const double shear_modulus =
-      options.shear_modulus.value_or(shear_modulus_at(options.tissue.half_space.nominal, depth));
-  std::vector<Cell> cells = first_cells(gap, options.spacing);
+  const TissueStiffness& stiffness =
+      options.layer_thickness ? options.tissue.layered : options.tissue.half_space;
+  const double shear_modulus = options.shear_modulus.value_or(
+      shear_modulus_at(law_at(stiffness, options.tissue_level), depth));
+  const PressCompliance compliance(options, shear_modulus);
   const bool may_split = options.kernel == Kernel::kPatch;
-  if (cells.empty() && !may_split) return {.depth = depth, .shear_modulus = shear_modulus};
-  if (may_split && cells.size() < kFewestCells) {
-    double spacing = options.spacing;
-    while (cells.size() < kFewestCells) {
-      spacing *= 0.5;
-      cells = first_cells(gap, spacing);
-    }
-  }
-  ContactSolution solution = solve_cells(gap, cells, options.kernel, shear_modulus);
-  for (int round = 0; may_split && round < kMaxRounds; ++round) {
-    double area = 0.0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (solution.force[static_cast<Eigen::Index>(i)] > 0.0) area += cells[i].area;
-    }
-    const double radius = std::sqrt(area / std::numbers::pi);
-    const double share = gap.punch_radius > 0.0 ? kPunchRimShare : kRimShare;
-    const std::vector<char> rim = coarse_rim(gap, cells, solution.force, share * radius);
-    if (std::find(rim.begin(), rim.end(), 1) == rim.end()) break;
-    cells = split(gap, cells, rim);
-    keep_penetrating(gap, cells);
-    solution = solve_cells(gap, cells, options.kernel, shear_modulus);
+  PressStep step{.depth = depth, .shear_modulus = shear_modulus};
+  step.spacing = options.spacing;
+  PressGap gap(options, depth);
+  if (may_split) {
+    step.spacing = lattice_spacing(gap, compliance, step.spacing);
+    gap = lattice_gap(options, depth, step.spacing);
   }
 
-  PressStep step{.depth = depth, .shear_modulus = shear_modulus};
-  step.force = solution.force.sum();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const double p = solution.force[static_cast<Eigen::Index>(i)];
+  double limit = 0.0;
+  Solved solved = solve_lattice(gap, compliance, step.spacing, limit);
+  if (solved.cells.empty()) return step;
+  if (may_split) refine_rim(gap, compliance, limit, solved);
+
+  step.vertices = static_cast<int>(solved.cells.size());
+  step.force = solved.solution.force.sum();
+  for (std::size_t i = 0; i < solved.cells.size(); ++i) {
+    const double p = solved.force(i);
+    const PressCell& cell = solved.cells[i];
     if (p <= 0.0) continue;
-    step.area += cells[i].area;
+    step.area += cell.area;
     // The sliver that a punch's edge leaves of a cell says little: pressure is singular there.
-    if (cells[i].area < 0.5 * kRow * cells[i].size * cells[i].size) continue;
-    step.peak_pressure = std::max(step.peak_pressure, p / cells[i].area);
+    if (cell.area < 0.5 * cell.whole_area()) continue;
+    step.peak_pressure = std::max(step.peak_pressure, p / cell.area);
   }
-  step.peak_pressure_cells = peak_mean(cells, solution.force, options.cell_area);
+  if (gap.is_punch()) {
+    step.area *= std::pow(options.indenter.radius / gap.punch_radius(), 2);
+  } else if (may_split) {
+    const double area = area_inside_edge(solved, compliance.contact_modulus());
+    if (area > 0.0) step.area = area;
+  }
+  step.peak_pressure_cells = peak_mean(solved, options.cell_area);
   step.mean_pressure = step.area > 0.0 ? step.force / step.area : 0.0;
-  step.complementarity_error = solution.complementarity_error;
-  step.relative_residual = solution.relative_residual;
+  step.complementarity_error = solved.solution.complementarity_error;
+  step.relative_residual = solved.solution.relative_residual;
   return step;
 }
 

@@ -16,6 +16,11 @@ namespace {
 
 constexpr double kPunchLength = 100.0;  // mm; longer than any part of a hand is thick
 
+/// Two punches stand at x = +- this; one at 0.
+double punch_offset(const PressIndenter& indenter) {
+  return indenter.kind == PressIndenter::Kind::kTwoPunches ? 0.5 * indenter.distance : 0.0;
+}
+
 /// The indenter as a solid in a frame of its own: it presses along -z, its lowest point (of the
 /// punch: its whole face) in the origin, the cylinder's axis along y.
 class IndenterField : public DistanceField {
@@ -32,11 +37,12 @@ class IndenterField : public DistanceField {
     }
   }
   Box3 bounding_box() const override {
-    const double wide = indenter_.kind == PressIndenter::Kind::kSphere ||
-                                indenter_.kind == PressIndenter::Kind::kPunch
-                            ? indenter_.radius
-                            : 1e4;
-    return {Vec3(-wide, -wide, 0.0), Vec3(wide, wide, 1e4)};
+    const bool is_round = indenter_.kind == PressIndenter::Kind::kSphere ||
+                          indenter_.kind == PressIndenter::Kind::kPunch ||
+                          indenter_.kind == PressIndenter::Kind::kTwoPunches;
+    const double y = is_round ? indenter_.radius : 1e4;
+    const double x = y + punch_offset(indenter_);
+    return {Vec3(-x, -y, 0.0), Vec3(x, y, 1e4)};
   }
 
  private:
@@ -61,13 +67,16 @@ class IndenterField : public DistanceField {
       case PressIndenter::Kind::kPlane:
         return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
       case PressIndenter::Kind::kPunch:
+      case PressIndenter::Kind::kTwoPunches:
         break;
     }
-    const double rho = std::hypot(q.x(), q.y());
-    const Vec3 out = rho > 0.0 ? Vec3(q.x() / rho, q.y() / rho, 0.0) : Vec3(Vec3::UnitX());
+    const Vec3 axis(std::copysign(punch_offset(indenter_), q.x()), 0.0, 0.0);
+    const double x = q.x() - axis.x();
+    const double rho = std::hypot(x, q.y());
+    const Vec3 out = rho > 0.0 ? Vec3(x / rho, q.y() / rho, 0.0) : Vec3(Vec3::UnitX());
     // Skin under the punch came in through its face, however near the edge it lies.
     if (rho <= radius) return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
-    const Vec3 side = radius * out + std::clamp(q.z(), 0.0, kPunchLength) * Vec3::UnitZ();
+    const Vec3 side = axis + radius * out + std::clamp(q.z(), 0.0, kPunchLength) * Vec3::UnitZ();
     const Vec3 from_side = q - side;
     return {from_side.norm(), side, from_side.normalized(), -1};
   }
@@ -84,12 +93,18 @@ double touching_height(const PressIndenter& indenter, const Vec3& q) {
     case PressIndenter::Kind::kCylinder:
       across2 = q.x() * q.x();
       break;
-    default:
+    case PressIndenter::Kind::kSphere:
       across2 = q.x() * q.x() + q.y() * q.y();
+      break;
+    case PressIndenter::Kind::kPunch:
+    case PressIndenter::Kind::kTwoPunches: {
+      const double x = std::abs(q.x()) - punch_offset(indenter);
+      const bool is_under = x * x + q.y() * q.y() <= indenter.radius * indenter.radius;
+      return is_under ? q.z() : -std::numeric_limits<double>::infinity();
+    }
   }
   const double inside = indenter.radius * indenter.radius - across2;
   if (inside < 0.0) return -std::numeric_limits<double>::infinity();
-  if (indenter.kind == PressIndenter::Kind::kPunch) return q.z();
   return q.z() - indenter.radius + std::sqrt(inside);
 }
 
@@ -162,6 +177,10 @@ PressStep press_hand_region(const PressOptions& options, const PreparedHand& han
   contact_options.swelling = false;
   contact_options.cell_area = options.cell_area;
   contact_options.shear_modulus = options.shear_modulus;
+  if (options.coating) {
+    contact_options.coatings = {*options.coating};
+    contact_options.coatings.front().where = Box3();
+  }
   const ContactResult contact = solve_region_contact(
       hand, prepared.hand->skin.vertices, hand_from_product.inverse(),
       IndenterField(options.indenter), contact_options, options.specimen.region);
@@ -175,6 +194,12 @@ PressStep press_hand_region(const PressOptions& options, const PreparedHand& han
   step.peak_pressure_cells = contact.total.peak_pressure_cells;
   step.mean_pressure = step.area > 0.0 ? step.force / step.area : 0.0;
   step.complementarity_error = contact.complementarity_error;
+  double largest = 0.0;
+  for (std::size_t v = 0; v < contact.force.size(); ++v) {
+    largest = std::max(largest, contact.force[v]);
+    if (contact.distance[v] < 0.0) ++step.vertices;
+  }
+  if (largest > 0.0) step.relative_residual = step.complementarity_error / (depth * largest);
   for (const RegionContact& region : contact.regions) step.shear_modulus = region.shear_modulus;
   return step;
 }

@@ -23,12 +23,35 @@ void require(bool holds, const std::string& name, double value, const std::strin
              const std::string& allowed) {
   if (holds) return;
   std::ostringstream message;
-  message << name << " is " << value << ' ' << unit << "; " << allowed << " is required";
+  message << name << " is " << value << (unit.empty() ? "" : " ") << unit << "; " << allowed
+          << " is required";
   throw UsageError(message.str());
 }
 
 bool is_between(double value, double lower, double upper) {
   return value >= lower && value <= upper;  // false for NaN
+}
+
+void check_tissue(const PressOptions& options) {
+  if (options.layer_thickness) {
+    require(is_between(*options.layer_thickness, 0.05, 1000.0), "press: thickness of the layer",
+            *options.layer_thickness, "mm", "0.05 to 1000 mm");
+  }
+  if (options.poisson) {
+    require(is_between(*options.poisson, 0.0, 0.5), "press: Poisson's ratio", *options.poisson, "",
+            "0 to 0.5");
+  }
+  if (options.specimen.kind == PressSpecimen::Kind::kHandRegion) {
+    if (!options.layer_thickness && !options.poisson) return;
+    throw UsageError(
+        "press: a hand has its own bones and tissue; thickness of a layer and Poisson's ratio are "
+        "for a plane or ellipsoid (of a hand, take the tissue model \"layered\")");
+  }
+  if (options.kernel == Kernel::kPoint && (options.layer_thickness || options.coating)) {
+    throw UsageError(
+        "press: kernel \"point\" knows neither a layer over bone nor a coating; kernel \"patch\" "
+        "is required");
+  }
 }
 
 /// Depth at which the test gives a force. Between two depths the force grows like a power of the
@@ -74,11 +97,6 @@ PressStep press_to_force(double force, const std::function<PressStep(double)>& p
 PressOptions::PressOptions() : tissue(finger_tissue()) {}
 
 void PressOptions::check() const {
-  if (layer_thickness) {
-    throw UsageError(
-        "press: a layer over bone (--layer-mm) is not available yet; leave it out for a "
-        "half-space");
-  }
   if (depths.empty() == forces.empty()) {
     throw UsageError("press: either depths (mm) or forces (N) are required, not both");
   }
@@ -105,6 +123,20 @@ void PressOptions::check() const {
     require(is_between(indenter.radius, 0.1, 1000.0), "press: radius of the indenter",
             indenter.radius, "mm", "0.1 to 1000 mm");
   }
+  if (indenter.kind == PressIndenter::Kind::kTwoPunches) {
+    require(is_between(indenter.distance, 2.0 * indenter.radius, 1000.0),
+            "press: distance of the punches", indenter.distance, "mm",
+            "at least their diameter and at most 1000 mm");
+  }
+  if (coating) {
+    require(is_between(coating->thickness, 0.01, 1000.0), "press: thickness of the coating",
+            coating->thickness, "mm", "0.01 to 1000 mm");
+    require(is_between(coating->shear_modulus, 1e-6, 1e6), "press: shear modulus of the coating",
+            coating->shear_modulus, "MPa", "0.000001 to 1000000 MPa");
+    require(is_between(coating->poisson, 0.0, 0.5), "press: Poisson's ratio of the coating",
+            coating->poisson, "", "0 to 0.5");
+  }
+  check_tissue(*this);
   if (specimen.kind == PressSpecimen::Kind::kEllipsoid) {
     require(is_between(specimen.radius_x, 0.1, 1000.0), "press: radius x of the ellipsoid",
             specimen.radius_x, "mm", "0.1 to 1000 mm");
@@ -123,6 +155,15 @@ void PressOptions::check() const {
           "ellipsoid or a hand, or use a sphere or a punch");
     }
   }
+}
+
+Hand hand_at_tissue_level(Hand hand, TissueLevel level) {
+  for (RegionTissue& tissue : hand.tissue.region) {
+    for (TissueStiffness* stiffness : {&tissue.half_space, &tissue.layered}) {
+      stiffness->nominal = law_at(*stiffness, level);
+    }
+  }
+  return hand;
 }
 
 std::vector<PressStep> press(const PressOptions& options, const PreparedHand* hand) {

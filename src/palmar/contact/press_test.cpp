@@ -144,8 +144,9 @@ TEST(Press, RefusesWhatItCannotDo) {
   using testing::HasSubstr;
   using testing::ThrowsMessage;
   PressOptions options = sphere_on_plane(20.0, 1.25);
-  options.layer_thickness = 5.0;
-  EXPECT_THAT([&] { press(options); }, ThrowsMessage<UsageError>(HasSubstr("--layer-mm")));
+  options.layer_thickness = 0.0;
+  EXPECT_THAT([&] { press(options); },
+              ThrowsMessage<UsageError>(HasSubstr("thickness of the layer is 0 mm")));
   options = sphere_on_plane(20.0, 1.25);
   options.depths = {-1.0};
   EXPECT_THAT([&] { press(options); }, ThrowsMessage<UsageError>(HasSubstr("depth is -1 mm")));
