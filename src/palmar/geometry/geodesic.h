@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -70,19 +71,22 @@ class GeodesicSolver {
   int vertex_count() const { return static_cast<int>(begin_.size()) - 1; }
 
  private:
-  // Geometry of one triangle seen from one of its vertices, v.
-  struct Corner {
-    int a = 0, b = 0;                 // the other corners
-    int across = -1;                  // apex of the triangle beyond the edge a b
-    double va = 0.0, vb = 0.0;        // lengths, mm
-    double cosine = 1.0, sine = 0.0;  // of the angle at v
-    // |v across| unfolded; infinity if the line misses the edge a b
-    double diagonal = std::numeric_limits<double>::infinity();
+  // Geometry of up to eight triangles side by side, seen from one of their vertices, v. Empty
+  // places have infinite lengths.
+  struct alignas(64) Corners {
+    std::array<double, 8> va, vb;      // lengths, mm
+    std::array<double, 8> inverse_va;  // 1 / va
+    std::array<double, 8> inverse_vb;
+    std::array<double, 8> cosine, sine;  // of the angle at v
+    // |v across| unfolded; infinity if there is none or the line misses the edge a b
+    std::array<double, 8> diagonal;
+    std::array<int, 8> a, b;    // the other corners
+    std::array<int, 8> across;  // apex of the triangle beyond the edge a b
   };
   struct Front;  // one run
 
   std::vector<int> begin_;  // vertex_count + 1: its corners
-  std::vector<Corner> corner_;
+  std::vector<Corners> corners_;
   std::vector<int> needle_begin_;  // vertex_count + 1: edges that only needles have
   std::vector<GeodesicReach> needle_;
   double bucket_width_ = 1.0;
