@@ -11,9 +11,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kLast = 1e-12;  // relative residual of the last solution
-constexpr double kFirst = 1e-3;  // of a solution whose set is going to change
-constexpr int kMostIterations = 2000;
+constexpr double kLast = 1e-12;  // largest gap of a loaded vertex / largest |b| at the end
+constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers the residual
+constexpr double kInner = 1e-5;  // by what each further one does; single precision gives as much
+constexpr int kMostCorrections = 8;
 constexpr int kMaxFruitless = 8;  // exchanges of blocks without progress before single ones
 constexpr int kMostPivots = 400;
 constexpr int kMostDense = 3000;  // rows that the last resort can take
@@ -22,16 +23,6 @@ double largest(const std::vector<double>& values) {
   double most = 0.0;
   for (const double v : values) most = std::max(most, std::abs(v));
   return most;
-}
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum[4] = {};
-  std::size_t i = 0;
-  for (; i + 4 <= a.size(); i += 4) {
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
-  }
-  for (; i < a.size(); ++i) sum[0] += a[i] * b[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// Sum of value[k] x[column[k]] over a row.
@@ -140,128 +131,87 @@ void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<E
 bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
   const int m = size();
   set_.clear();
-  place_.assign(static_cast<std::size_t>(m), -1);
   for (int i = 0; i < m; ++i) {
-    if (!in_contact[static_cast<std::size_t>(i)]) continue;
-    place_[static_cast<std::size_t>(i)] = static_cast<int>(set_.size());
-    set_.push_back(i);
+    if (in_contact[static_cast<std::size_t>(i)]) set_.push_back(i);
   }
-  set_begin_.assign(1, 0);
-  set_column_.resize(column_.size());
-  set_value_.resize(column_.size());
-  std::size_t count = 0;
-  for (const int i : set_) {
-    const std::size_t end = begin_[static_cast<std::size_t>(i) + 1];
-    for (std::size_t k = begin_[static_cast<std::size_t>(i)]; k < end; ++k) {
-      const int place = place_[static_cast<std::size_t>(column_[k])];
-      set_column_[count] = place;
-      set_value_[count] = value_[k];
-      count += place >= 0 ? 1 : 0;
-    }
-    set_begin_.push_back(count);
-  }
-
-  // Rows of one patch, in ascending order of patch.
-  block_row_.resize(set_.size());
-  for (std::size_t k = 0; k < set_.size(); ++k) block_row_[k] = static_cast<int>(k);
-  const auto patch_of = [&](int place) {
-    const int row = set_[static_cast<std::size_t>(place)];
+  const auto patch_of = [&](int row) {
     return patches_->patch[static_cast<std::size_t>(vertex_[static_cast<std::size_t>(row)])];
   };
-  std::stable_sort(block_row_.begin(), block_row_.end(),
+  std::stable_sort(set_.begin(), set_.end(),
                    [&](int a, int b) { return patch_of(a) < patch_of(b); });
-  block_.clear();
-  factor_.clear();
-  std::vector<int> inside(set_.size(), -1);
-  for (std::size_t first = 0; first < block_row_.size();) {
-    std::size_t last = first;
-    const int patch = patch_of(block_row_[first]);
-    while (last < block_row_.size() && patch_of(block_row_[last]) == patch) ++last;
-    const int n = static_cast<int>(last - first);
-    block_.push_back({static_cast<int>(first), n, factor_.size()});
-    factor_.resize(factor_.size() + static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
-    double* const L = factor_.data() + block_.back().factor;
-    for (int i = 0; i < n; ++i) inside[static_cast<std::size_t>(block_row_[first + i])] = i;
-    for (int i = 0; i < n; ++i) {
-      const auto row = static_cast<std::size_t>(block_row_[first + i]);
-      for (std::size_t k = set_begin_[row]; k < set_begin_[row + 1]; ++k) {
-        const int j = inside[static_cast<std::size_t>(set_column_[k])];
-        if (j >= 0 && j <= i) L[i * n + j] = static_cast<double>(set_value_[k]);
-      }
+  // Rows of one patch are a block.
+  place_.assign(static_cast<std::size_t>(m), Place{});
+  std::vector<int> sizes;
+  std::vector<std::size_t> first;  // of each block, in set_
+  int last = -1;
+  for (std::size_t k = 0; k < set_.size(); ++k) {
+    if (k == 0 || patch_of(set_[k]) != last) {
+      sizes.push_back(0);
+      first.push_back(k);
     }
-    for (int i = 0; i < n; ++i) inside[static_cast<std::size_t>(block_row_[first + i])] = -1;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < i; ++j) {
-        double sum = L[i * n + j];
-        for (int k = 0; k < j; ++k) sum -= L[i * n + k] * L[j * n + k];
-        L[i * n + j] = sum * L[j * n + j];
-      }
-      double sum = L[i * n + i];
-      for (int k = 0; k < i; ++k) sum -= L[i * n + k] * L[i * n + k];
-      if (!(sum > 0.0)) return false;
-      L[i * n + i] = 1.0 / std::sqrt(sum);  // the diagonal is inverted
-    }
-    first = last;
+    last = patch_of(set_[k]);
+    place_[static_cast<std::size_t>(set_[k])] = {static_cast<int>(sizes.size()) - 1,
+                                                 sizes.back()++};
   }
-  return true;
-}
-
-void ContactSystem::precondition(const std::vector<double>& r, std::vector<double>& z) const {
-  double y[256];
-  for (const Block& block : block_) {
-    const int n = block.size;
-    const double* const L = factor_.data() + block.factor;
-    const int* const row = block_row_.data() + block.first;
-    for (int i = 0; i < n; ++i) {
-      double sum = r[static_cast<std::size_t>(row[i])];
-      for (int k = 0; k < i; ++k) sum -= L[i * n + k] * y[k];
-      y[i] = sum * L[i * n + i];
-    }
-    for (int i = n - 1; i >= 0; --i) {
-      y[i] *= L[i * n + i];
-      for (int k = 0; k < i; ++k) y[k] -= L[i * n + k] * y[i];
-      z[static_cast<std::size_t>(row[i])] = y[i];
-    }
-  }
-}
-
-bool ContactSystem::conjugate_gradients(double tolerance, int& iterations) {
-  const std::size_t n = set_.size();
-  const auto multiply = [&](const std::vector<double>& x, std::vector<double>& y) {
-    for (std::size_t i = 0; i < n; ++i) {
-      y[i] = row_times(set_column_.data() + set_begin_[i], set_value_.data() + set_begin_[i],
-                       set_begin_[i + 1] - set_begin_[i], x.data());
+  first.push_back(set_.size());
+  matrix_.begin(sizes);
+  const auto for_entries = [&](int block, const auto& visit) {
+    for (std::size_t s = first[static_cast<std::size_t>(block)];
+         s < first[static_cast<std::size_t>(block) + 1]; ++s) {
+      const auto i = static_cast<std::size_t>(set_[s]);
+      for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+        const Place& column = place_[static_cast<std::size_t>(column_[k])];
+        if (column.block >= 0) visit(s - first[static_cast<std::size_t>(block)], column, k);
+      }
     }
   };
-  r_.resize(n);
-  z_.resize(n);
-  q_.resize(n);
-  d_.resize(n);
-  const double goal = tolerance * std::sqrt(dot(right_, right_));
-  multiply(x_, q_);
-  for (std::size_t i = 0; i < n; ++i) r_[i] = right_[i] - q_[i];
-  if (std::sqrt(dot(r_, r_)) <= goal) return true;
-  precondition(r_, z_);
-  d_ = z_;
-  double rz = dot(r_, z_);
-  for (int k = 0; k < kMostIterations; ++k) {
-    ++iterations;
-    multiply(d_, q_);
-    const double curvature = dot(d_, q_);
-    if (!(curvature > 0.0)) return false;
-    const double step = rz / curvature;
-    for (std::size_t i = 0; i < n; ++i) {
-      x_[i] += step * d_[i];
-      r_[i] -= step * q_[i];
+  const int blocks = static_cast<int>(sizes.size());
+  std::vector<char> is_met(sizes.size());
+  for (int block = 0; block < blocks; ++block) {
+    is_met.assign(sizes.size(), 0);
+    for_entries(block, [&](std::size_t, const Place& column, std::size_t) {
+      is_met[static_cast<std::size_t>(column.block)] = 1;
+    });
+    for (int other = 0; other < blocks; ++other) {
+      if (is_met[static_cast<std::size_t>(other)]) matrix_.add_block(block, other);
     }
-    if (std::sqrt(dot(r_, r_)) <= goal) return true;
-    precondition(r_, z_);
-    const double next = dot(r_, z_);
-    const double share = next / rz;
-    rz = next;
-    for (std::size_t i = 0; i < n; ++i) d_[i] = z_[i] + share * d_[i];
   }
-  return false;
+  matrix_.allocate();
+  std::vector<float*> values(sizes.size(), nullptr);
+  for (int block = 0; block < blocks; ++block) {
+    for (int other = 0; other < blocks; ++other) {
+      values[static_cast<std::size_t>(other)] =
+          matrix_.has_block(block, other) ? matrix_.values(block, other) : nullptr;
+    }
+    const std::size_t stride = matrix_.stride(block);
+    for_entries(block, [&](std::size_t i, const Place& column, std::size_t k) {
+      values[static_cast<std::size_t>(column.block)]
+            [static_cast<std::size_t>(column.inside) * stride + i] = value_[k];
+    });
+  }
+  return matrix_.factor();
+}
+
+bool ContactSystem::correct(double tolerance, const std::vector<double>& residual,
+                            std::vector<double>& x, int& iterations) {
+  double scale = 0.0;
+  for (const int i : set_) {
+    scale = std::max(scale, std::abs(residual[static_cast<std::size_t>(i)]));
+  }
+  if (scale == 0.0) return true;
+  right_.assign(matrix_.padded_size(), 0.0F);
+  const auto at = [&](int i) {
+    const Place& place = place_[static_cast<std::size_t>(i)];
+    return matrix_.row(place.block, place.inside);
+  };
+  for (const int i : set_) {
+    right_[at(i)] = static_cast<float>(-residual[static_cast<std::size_t>(i)] / scale);
+  }
+  if (!matrix_.solve(right_, tolerance, step_, iterations)) return false;
+  for (const int i : set_) {
+    x[static_cast<std::size_t>(i)] += scale * static_cast<double>(step_[at(i)]);
+  }
+  return true;
 }
 
 void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<double>& s) const {
@@ -319,51 +269,53 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
                                             std::vector<double>& force, std::vector<double>& gap) {
   const auto m = static_cast<std::size_t>(size());
   Outcome outcome;
-  force.assign(m, 0.0);
-  gap.assign(b.begin(), b.end());
+  if (force.size() != m) force.assign(m, 0.0);
   const double b_scale = largest(b);
   int fewest = static_cast<int>(m) + 1;
   int fruitless_left = kMaxFruitless;
-  double tolerance = kFirst;
-  bool is_new_set = true;
+  bool is_exact = false;  // whether every set is to be solved to the end
   std::vector<int> infeasible;
-  while (outcome.pivots < kMostPivots) {
-    if (is_new_set) {
-      if (!set_contact(in_contact)) break;
-      right_.resize(set_.size());
-      x_.resize(set_.size());
-      for (std::size_t k = 0; k < set_.size(); ++k) {
-        right_[k] = -b[static_cast<std::size_t>(set_[k])];
-        x_[k] = force[static_cast<std::size_t>(set_[k])];
-      }
-    }
-    if (!conjugate_gradients(tolerance, outcome.iterations)) break;
-    force.assign(m, 0.0);
-    for (std::size_t k = 0; k < set_.size(); ++k) {
-      force[static_cast<std::size_t>(set_[k])] = x_[k];
-    }
+  const auto find_gap = [&] {
     multiply_all(force, gap);
-    const double slack = std::max(10.0 * tolerance, 1e-11);
-    const double p_slack = slack * largest(force);
-    infeasible.clear();
+    for (std::size_t i = 0; i < m; ++i) gap[i] += b[i];
+  };
+  const auto error_on_set = [&] {
+    double most = 0.0;
+    for (const int i : set_) most = std::max(most, std::abs(gap[static_cast<std::size_t>(i)]));
+    return most;
+  };
+  bool is_regular = true;
+  while (is_regular && outcome.pivots < kMostPivots) {
+    if (!set_contact(in_contact)) break;
     for (std::size_t i = 0; i < m; ++i) {
-      gap[i] += b[i];
-      const bool ok = in_contact[i] ? force[i] >= -p_slack : gap[i] >= -slack * b_scale;
-      if (!ok) infeasible.push_back(static_cast<int>(i));
+      if (!in_contact[i]) force[i] = 0.0;
     }
-    if (infeasible.empty()) {
-      if (tolerance <= kLast) {
-        outcome.is_solved = true;
-        for (double& p : force) p = std::max(p, 0.0);  // rounding
-        measure(b, force, gap, outcome);
-        return outcome;
+    find_gap();
+    for (int round = 0;; ++round) {
+      is_regular =
+          correct(round == 0 && !is_exact ? kFirst : kInner, gap, force, outcome.iterations);
+      if (!is_regular) break;
+      find_gap();
+      const double error = error_on_set() / b_scale;
+      const bool is_last = error <= kLast || round == kMostCorrections;
+      // What the solution isn't good enough to tell counts as feasible for now.
+      const double slack = std::max(10.0 * error, 1e-11);
+      const double p_slack = slack * largest(force);
+      infeasible.clear();
+      for (std::size_t i = 0; i < m; ++i) {
+        const bool ok = in_contact[i] ? force[i] >= -p_slack : gap[i] >= -slack * b_scale;
+        if (!ok) infeasible.push_back(static_cast<int>(i));
       }
-      tolerance = kLast;
-      is_new_set = false;
-      continue;
+      if (infeasible.empty() ? is_last : (is_last || !is_exact)) break;
+    }
+    if (!is_regular) break;
+    if (infeasible.empty()) {
+      outcome.is_solved = true;
+      for (double& p : force) p = std::max(p, 0.0);  // rounding
+      measure(b, force, gap, outcome);
+      return outcome;
     }
     ++outcome.pivots;
-    is_new_set = true;
     const int count = static_cast<int>(infeasible.size());
     if (count < fewest) {
       fewest = count;
@@ -371,35 +323,38 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
     } else if (fruitless_left > 0) {
       --fruitless_left;
     } else {
-      tolerance = kLast;
+      is_exact = true;
       infeasible = {infeasible.back()};
     }
     for (const int i : infeasible) {
       in_contact[static_cast<std::size_t>(i)] = !in_contact[static_cast<std::size_t>(i)];
     }
-    // A vertex that has let go starts from no force, as does one that has come to touch.
-    for (const int i : infeasible) force[static_cast<std::size_t>(i)] = 0.0;
   }
+  force.assign(m, 0.0);
+  gap.assign(m, 0.0);
   outcome.is_solved = solve_dense(b, in_contact, force, gap, outcome);
-  if (!outcome.is_solved) {
-    force.assign(m, 0.0);
-    gap.assign(m, 0.0);
-  }
   return outcome;
 }
 
 std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<char>& in_contact,
                                                            const std::vector<double>& right) {
   if (!set_contact(in_contact)) return std::nullopt;
-  right_.resize(set_.size());
-  x_.assign(set_.size(), 0.0);
-  for (std::size_t k = 0; k < set_.size(); ++k) {
-    right_[k] = right[static_cast<std::size_t>(set_[k])];
+  const auto m = static_cast<std::size_t>(size());
+  std::vector<double> x(m, 0.0);
+  std::vector<double> residual(m);
+  const double scale = largest(right);
+  for (int round = 0; round <= kMostCorrections; ++round) {
+    multiply_all(x, residual);
+    double error = 0.0;
+    for (const int i : set_) {
+      double& r = residual[static_cast<std::size_t>(i)];
+      r -= right[static_cast<std::size_t>(i)];
+      error = std::max(error, std::abs(r));
+    }
+    if (error <= kLast * scale) break;
+    int iterations = 0;
+    if (!correct(kInner, residual, x, iterations)) return std::nullopt;
   }
-  int iterations = 0;
-  if (!conjugate_gradients(kLast, iterations)) return std::nullopt;
-  std::vector<double> x(static_cast<std::size_t>(size()), 0.0);
-  for (std::size_t k = 0; k < set_.size(); ++k) x[static_cast<std::size_t>(set_[k])] = x_[k];
   return x;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "palmar/contact/block_matrix.h"
 #include "palmar/contact/skin_response.h"
 
 namespace palmar {
@@ -29,10 +30,11 @@ SkinPatches skin_patches(const SkinGeometry& skin, int size);
 /// its own modulus.
 ///
 /// Block principal pivoting (Judice, Pires 1994) over the contact set; each linear system by
-/// conjugate gradients, preconditioned with the Cholesky factors of the diagonal blocks of the skin
-/// patches. While the set still changes a coarse solution is enough; the last one is solved to
-/// 1e-12. Single exchanges (Murty 1974) where block exchanges stall; dense block pivoting and
-/// Lemke's method as the last resort. Keeps its memory from call to call.
+/// conjugate gradients in single precision on a BlockMatrix of the skin's patches, refined in
+/// double precision. While the set still changes a coarse solution is enough; the last one is
+/// refined until no loaded vertex has a gap above 1e-12 of the largest. Single exchanges (Murty
+/// 1974) where block exchanges stall; dense block pivoting and Lemke's method as the last resort.
+/// Keeps its memory from call to call.
 class ContactSystem {
  public:
   explicit ContactSystem(const SkinPatches& patches) : patches_(&patches) {}
@@ -57,8 +59,8 @@ class ContactSystem {
     double complementarity = 0;      ///< max |s_i p_i|, recomputed, N MPa mm
     double relative_residual = 0.0;  ///< max |min(s_i / max|b|, p_i / max p)|, recomputed
   };
-  /// Solves from the guess in_contact; leaves the contact set there, p in `force` [N] and s in
-  /// `gap` [MPa mm]. Unsolved: both zero.
+  /// Solves from the guess in_contact and, if it has the right size, the guess `force`; leaves the
+  /// contact set, p in `force` [N] and s in `gap` [MPa mm]. Unsolved: both zero.
   Outcome solve(const std::vector<double>& b, std::vector<char>& in_contact,
                 std::vector<double>& force, std::vector<double>& gap);
 
@@ -72,8 +74,8 @@ class ContactSystem {
 
  private:
   bool set_contact(const std::vector<char>& in_contact);
-  bool conjugate_gradients(double tolerance, int& iterations);
-  void precondition(const std::vector<double>& r, std::vector<double>& z) const;
+  bool correct(double tolerance, const std::vector<double>& residual, std::vector<double>& x,
+               int& iterations);
   void multiply_all(const std::vector<double>& p, std::vector<double>& s) const;
   bool solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
                    std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
@@ -86,22 +88,15 @@ class ContactSystem {
   std::vector<std::size_t> begin_;  // rows of A
   std::vector<int> column_;
   std::vector<float> value_;
-  // The contact set: its rows, and A_FF.
+  // The contact set, block by block, and A on it.
   std::vector<int> set_;
-  std::vector<int> place_;  // per row: its place in set_, -1 if none
-  std::vector<std::size_t> set_begin_;
-  std::vector<int> set_column_;
-  std::vector<float> set_value_;
-  // Cholesky factors of the diagonal blocks, rows of lower triangles one after the other.
-  struct Block {
-    int first = 0;  // in block_row_
-    int size = 0;
-    std::size_t factor = 0;  // in factor_
+  struct Place {
+    int block = -1;  // in the matrix; -1 outside the set
+    int inside = 0;  // the block
   };
-  std::vector<Block> block_;
-  std::vector<int> block_row_;  // places in set_
-  std::vector<double> factor_;
-  std::vector<double> x_, right_, r_, z_, q_, d_;
+  std::vector<Place> place_;  // per row
+  BlockMatrix matrix_;
+  std::vector<float> right_, step_;
 };
 
 }  // namespace palmar

@@ -37,7 +37,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
   }
   impl->response = skin_response(*impl->hand, impl->skin, model, impl->bone_depth);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
-  impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response, model);
+  impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response, impl->blocks, model);
   impl_ = std::move(impl);
 }
 

@@ -30,7 +30,7 @@ struct SkinResponse {
 
 /// Where two regions' skin is coupled, a force moves skin within this distance; over the last
 /// third its effect is faded out. Skin farther away is held by the bones between.
-constexpr double kResponseReach = 30.0;  // mm
+constexpr double kResponseReach = 20.0;  // mm
 
 /// Depth of every skin vertex over the nearest bone of the reference posture, mm, smoothed over
 /// 3 mm and kept within 1 to 25 mm; the farthest for a hand without bones.

@@ -3,6 +3,7 @@
 #include "palmar/contact/stiffening.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace palmar {
 namespace {
@@ -33,10 +34,24 @@ StiffeningLaw blended(const Hand& hand, const SkinGeometry& skin, const SkinResp
   return {sum.g0 / weights, sum.g_limit / weights, sum.limit_depth / weights};
 }
 
+std::vector<Eigen::Vector3f> centres(const SkinGeometry& skin, const SkinPatches& patches) {
+  std::vector<Eigen::Vector3f> centre(static_cast<std::size_t>(patches.count),
+                                      Eigen::Vector3f::Zero());
+  std::vector<float> members(centre.size(), 0.0F);
+  for (std::size_t v = 0; v < patches.patch.size(); ++v) {
+    const auto s = static_cast<std::size_t>(patches.patch[v]);
+    centre[s] += skin.position[v].cast<float>();
+    members[s] += 1.0F;
+  }
+  for (std::size_t s = 0; s < centre.size(); ++s) centre[s] /= members[s];
+  return centre;
+}
+
 }  // namespace
 
 SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
-                             const SkinResponse& response, const ContactModel& model) {
+                             const SkinResponse& response, const SkinPatches& blocks,
+                             const ContactModel& model) {
   SkinStiffness result;
   const int n = skin.vertex_count();
   const auto count = static_cast<std::size_t>(n);
@@ -53,24 +68,24 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
                        level));
     }
   }
-  result.spots = skin_patches(skin, kSpotSize);
-  std::vector<int> members(static_cast<std::size_t>(result.spots.count), 0);
-  result.spot_centre.assign(members.size(), Eigen::Vector3f::Zero());
-  result.spot_finger.assign(members.size(), -1);
   result.finger.assign(count, -1);
-  for (std::size_t v = 0; v < count; ++v) {
-    if (!hand.segment.empty()) {
-      if (const auto finger = finger_of(hand.segment[v])) {
-        result.finger[v] = static_cast<int>(*finger);
-      }
-    }
-    const auto s = static_cast<std::size_t>(result.spots.patch[v]);
-    result.spot_centre[s] += skin.position[v].cast<float>();
-    if (members[s] == 0) result.spot_finger[s] = result.finger[v];
-    ++members[s];
+  for (std::size_t v = 0; v < count && !hand.segment.empty(); ++v) {
+    if (const auto finger = finger_of(hand.segment[v]))
+      result.finger[v] = static_cast<int>(*finger);
   }
-  for (std::size_t s = 0; s < members.size(); ++s) {
-    result.spot_centre[s] /= static_cast<float>(members[s]);
+  result.spots = skin_patches(skin, kSpotSize);
+  result.spot_centre = centres(skin, result.spots);
+  result.spot_finger.assign(result.spot_centre.size(), -1);
+  for (std::size_t v = count; v-- > 0;) {
+    result.spot_finger[static_cast<std::size_t>(result.spots.patch[v])] = result.finger[v];
+  }
+  result.blocks = blocks;
+  result.block_centre = centres(skin, blocks);
+  result.block_radius.assign(result.block_centre.size(), 0.0F);
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto b = static_cast<std::size_t>(blocks.patch[v]);
+    const float r = (skin.position[v].cast<float>() - result.block_centre[b]).norm();
+    result.block_radius[b] = std::max(result.block_radius[b], r);
   }
   return result;
 }
@@ -86,38 +101,54 @@ std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeomet
     deepest[s] =
         std::max(deepest[s], static_cast<float>(-sample[static_cast<std::size_t>(v)].distance));
   }
-  // Positions apart by coordinate and one spot at a time over all vertices: vector instructions.
+  // Vertices patch by patch, positions apart by coordinate: vector instructions.
   const std::size_t n = vertices.size();
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const auto block_of = [&](int k) {
+    return stiffness.blocks.patch[static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)])];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return block_of(a) < block_of(b); });
   std::vector<float> x(n), y(n), z(n), depth(n, 0.0F);
   std::vector<int> finger(n);
+  std::vector<std::size_t> first;  // of each patch
   for (std::size_t k = 0; k < n; ++k) {
-    const auto v = static_cast<std::size_t>(vertices[k]);
+    const auto v = static_cast<std::size_t>(vertices[static_cast<std::size_t>(order[k])]);
     x[k] = static_cast<float>(skin.position[v].x());
     y[k] = static_cast<float>(skin.position[v].y());
     z[k] = static_cast<float>(skin.position[v].z());
     finger[k] = stiffness.finger[v];
+    if (k == 0 || block_of(order[k]) != block_of(order[k - 1])) first.push_back(k);
   }
+  first.push_back(n);
   constexpr float kSlope = 1.0F / (kEnd * kEnd - kPlateau * kPlateau);
   for (const std::size_t s : touched) {
-    const Eigen::Vector3f& c = stiffness.spot_centre[s];
+    const Eigen::Vector3f c = stiffness.spot_centre[s];
     const float d = deepest[s];
     const int own = stiffness.spot_finger[s];
-    for (std::size_t k = 0; k < n; ++k) {
-      const float dx = x[k] - c.x();
-      const float dy = y[k] - c.y();
-      const float dz = z[k] - c.z();
-      const float phi = std::min(1.0F, (kEnd * kEnd - dx * dx - dy * dy - dz * dz) * kSlope);
-      // Neighbouring fingers are near each other but not of one piece.
-      const bool is_apart = (own >= 0) & (finger[k] >= 0) & (own != finger[k]);
-      const float reach = is_apart ? 0.0F : d * phi;
-      depth[k] = std::max(depth[k], reach);
+    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+      const auto b = static_cast<std::size_t>(block_of(order[first[p]]));
+      const float near = kEnd + stiffness.block_radius[b];
+      if ((c - stiffness.block_centre[b]).squaredNorm() > near * near) continue;
+      for (std::size_t k = first[p]; k < first[p + 1]; ++k) {
+        const float dx = x[k] - c.x();
+        const float dy = y[k] - c.y();
+        const float dz = z[k] - c.z();
+        const float phi = std::min(1.0F, (kEnd * kEnd - dx * dx - dy * dy - dz * dz) * kSlope);
+        // Neighbouring fingers are near each other but not of one piece.
+        const bool is_apart = (own >= 0) & (finger[k] >= 0) & (own != finger[k]);
+        const float reach = is_apart ? 0.0F : d * phi;
+        depth[k] = std::max(depth[k], reach);
+      }
     }
   }
   std::vector<double> result(n);
   for (std::size_t k = 0; k < n; ++k) {
     // A vertex's own penetration is beyond doubt; its spot's centre may be a little away.
-    const auto v = static_cast<std::size_t>(vertices[k]);
-    result[k] = std::max(static_cast<double>(depth[k]), -sample[v].distance);
+    const auto place = static_cast<std::size_t>(order[k]);
+    const auto v = static_cast<std::size_t>(vertices[place]);
+    result[place] = std::max(static_cast<double>(depth[k]), -sample[v].distance);
   }
   return result;
 }

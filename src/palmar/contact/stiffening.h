@@ -20,11 +20,16 @@ struct SkinStiffness {
   SkinPatches spots;
   std::vector<Eigen::Vector3f> spot_centre;  ///< reference posture, mm
   std::vector<int> spot_finger;              ///< 0 to 4; -1 on the palm
-  std::vector<int> finger;                   ///< per vertex
+  // Larger patches, to leave out what is far from a spot.
+  SkinPatches blocks;
+  std::vector<Eigen::Vector3f> block_centre;  ///< mm
+  std::vector<float> block_radius;            ///< mm
+  std::vector<int> finger;                    ///< per vertex
 };
 
 SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
-                             const SkinResponse& response, const ContactModel& model);
+                             const SkinResponse& response, const SkinPatches& blocks,
+                             const ContactModel& model);
 
 /// Depth of the contact around each of `vertices`: the deepest penetration within 8 mm, fading to
 /// nothing at 16 mm (8 mm is the width of a contact at the fingers' limit depth),
