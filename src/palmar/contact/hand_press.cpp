@@ -184,7 +184,7 @@ PressStep press_hand_region(const PressOptions& options, const PreparedHand& han
   const ContactResult contact = solve_region_contact(
       hand, prepared.hand->skin.vertices, hand_from_product.inverse(),
       IndenterField(options.indenter), contact_options, options.specimen.region);
-  if (contact.status == ContactStatus::kNotConverged) {
+  if (contact.status == ContactStatus::kNotConverged || contact.status == ContactStatus::kTooDeep) {
     throw NumericalError("press: " + contact.message);
   }
   PressStep step{.depth = depth};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -54,45 +55,94 @@ void check_tissue(const PressOptions& options) {
   }
 }
 
-/// Depth at which the test gives a force. Between two depths the force grows like a power of the
-/// depth (1.5 for a sphere of fixed G), so the next depth comes from the power through both ends.
-PressStep press_to_force(double force, const std::function<PressStep(double)>& press_at) {
+/// Depth that no test goes beyond, mm.
+double deepest(const PressOptions& options) {
+  switch (options.indenter.kind) {
+    case PressIndenter::Kind::kSphere:
+    case PressIndenter::Kind::kCylinder:
+      return std::min(kDeepest, options.indenter.radius);
+    default:
+      return kDeepest;
+  }
+}
+
+/// Depth at which the test gives a force; the search starts at `depth`. Force grows like a power of
+/// the depth (1.5 for a sphere of fixed G), whose exponent the last two depths give; it stays
+/// between the depths known to give too little and too much.
+PressStep press_to_force(double force, double depth, double deepest,
+                         const std::function<PressStep(double)>& press_at) {
   double lower = 0.0;
-  PressStep below;
-  PressStep step = press_at(0.25);
-  while (step.force < force) {
-    below = step;
-    lower = step.depth;
-    const double upper = 2.0 * lower;
-    if (upper > kDeepest) {
+  double upper = std::numeric_limits<double>::infinity();
+  double exponent = 1.5;
+  PressStep last;
+  PressStep step;
+  for (int i = 0; i < 60; ++i) {
+    step = press_at(depth);
+    if (std::abs(step.force - force) <= kForceTolerance * force) return step;
+    if (step.force < force && depth >= deepest) {
       std::ostringstream message;
-      message << "press: " << force << " N is not reached within " << kDeepest << " mm (force at "
-              << lower << " mm: " << step.force << " N)";
+      message << "press: " << force << " N is not reached within " << deepest
+              << " mm (force there: " << step.force << " N)";
       throw NumericalError(message.str());
     }
-    step = press_at(upper);
-  }
-  PressStep above = step;
-  for (int i = 0; i < 40 && std::abs(step.force - force) > kForceTolerance * force; ++i) {
-    const double width = above.depth - lower;
-    double depth = 0.5 * (lower + above.depth);
-    if (below.force > 0.0 && above.force > below.force && i % 3 != 2) {
-      const double share = std::log(force / below.force) / std::log(above.force / below.force);
-      depth = lower * std::pow(above.depth / lower, share);
+    (step.force < force ? lower : upper) = depth;
+    if (last.force > 0.0 && step.force > 0.0 && step.force != last.force) {
+      const double slope = std::log(step.force / last.force) / std::log(step.depth / last.depth);
+      exponent = std::clamp(slope, 0.5, 8.0);
     }
-    depth = std::clamp(depth, lower + 1e-3 * width, above.depth - 1e-3 * width);
-    step = press_at(depth);
-    if (step.force < force) {
-      below = step;
-      lower = depth;
-    } else {
-      above = step;
-    }
+    double next = 2.0 * depth;
+    if (step.force > 0.0) next = depth * std::pow(force / step.force, 1.0 / exponent);
+    // Every fourth step halves what is left, should the power law not hold.
+    const bool is_outside = !(next > lower && next < upper);
+    if (upper < deepest && (is_outside || i % 4 == 3)) next = 0.5 * (lower + upper);
+    next = std::clamp(next, 0.1 * depth, 5.0 * depth);
+    last = step;
+    depth = std::min(next, deepest);
   }
-  return step;
+  std::ostringstream message;
+  message << "press: " << force << " N is not met to 0.1 %: the force jumps from below to "
+          << step.force << " N at " << step.depth << " mm";
+  throw NumericalError(message.str());
 }
 
 }  // namespace
+
+std::string name_of(const PressSpecimen& specimen) {
+  switch (specimen.kind) {
+    case PressSpecimen::Kind::kPlane:
+      return "plane";
+    case PressSpecimen::Kind::kEllipsoid: {
+      std::ostringstream text;
+      text << "ellipsoid:" << specimen.radius_x << ',' << specimen.radius_y;
+      return text.str();
+    }
+    case PressSpecimen::Kind::kHandRegion:
+      break;
+  }
+  return std::string(name_of(specimen.region));
+}
+
+std::string name_of(const PressIndenter& indenter) {
+  std::ostringstream text;
+  switch (indenter.kind) {
+    case PressIndenter::Kind::kPlane:
+      text << "plane";
+      break;
+    case PressIndenter::Kind::kSphere:
+      text << "sphere:" << indenter.radius;
+      break;
+    case PressIndenter::Kind::kCylinder:
+      text << "cylinder:" << indenter.radius;
+      break;
+    case PressIndenter::Kind::kPunch:
+      text << "punch:" << indenter.radius;
+      break;
+    case PressIndenter::Kind::kTwoPunches:
+      text << "punches:" << indenter.radius << ',' << indenter.distance;
+      break;
+  }
+  return text.str();
+}
 
 PressOptions::PressOptions() : tissue(finger_tissue()) {}
 
@@ -102,10 +152,7 @@ void PressOptions::check() const {
   }
   for (const double d : depths) {
     require(d > 0.0 && d <= kDeepest, "press: depth", d, "mm", "more than 0 and at most 30 mm");
-    if (indenter.kind == PressIndenter::Kind::kSphere ||
-        indenter.kind == PressIndenter::Kind::kCylinder) {
-      require(d <= indenter.radius, "press: depth", d, "mm", "at most the indenter's radius");
-    }
+    require(d <= deepest(*this), "press: depth", d, "mm", "at most the indenter's radius");
   }
   for (const double f : forces) {
     require(f > 0.0 && f <= 1000.0, "press: force", f, "N", "more than 0 and at most 1000 N");
@@ -180,7 +227,11 @@ std::vector<PressStep> press(const PressOptions& options, const PreparedHand* ha
   }
   std::vector<PressStep> steps;
   for (const double depth : options.depths) steps.push_back(press_at(depth));
-  for (const double force : options.forces) steps.push_back(press_to_force(force, press_at));
+  double start = std::min(0.25, deepest(options));
+  for (const double force : options.forces) {
+    steps.push_back(press_to_force(force, start, deepest(options), press_at));
+    start = steps.back().depth;
+  }
   return steps;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "palmar/contact/contact.h"
@@ -35,6 +36,10 @@ struct PressIndenter {
   double radius = 5.0;     ///< of sphere, cylinder or each punch, mm
   double distance = 20.0;  ///< between the axes of two punches, mm
 };
+
+/// As on the command line: "plane", "ellipsoid:8,12", "middle_distal"; "sphere:5", "punches:2,10".
+std::string name_of(const PressSpecimen& specimen);
+std::string name_of(const PressIndenter& indenter);
 
 struct PressOptions {
   PressSpecimen specimen;
