@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "palmar/core/error.h"
@@ -331,41 +332,57 @@ GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> 
   }
   struct Entry {
     int place;
-    double distance;
+    float distance;
   };
   const int count = static_cast<int>(vertices.size());
-  std::vector<std::vector<Entry>> rows(vertices.size());
+  std::vector<std::vector<Entry>> later(vertices.size());  // entries (i, j) with j > i
   // Blocks of sources share a workspace; rows are written apart, so blocks don't show in the
   // result.
   constexpr int kBlock = 64;
   parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
     GeodesicWorkspace workspace;
     for (int i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      auto& row = rows[static_cast<size_t>(i)];
-      for (const auto& r :
-           solver.reach(vertices[static_cast<size_t>(i)], radius, workspace, allowed)) {
-        const int place = place_of[static_cast<size_t>(r.vertex)];
-        if (place >= 0) row.push_back({place, r.distance});
+      const auto reached =
+          solver.reach(vertices[static_cast<size_t>(i)], radius, workspace, allowed);
+      const auto place = [&](const GeodesicReach& r) {
+        return place_of[static_cast<size_t>(r.vertex)];
+      };
+      auto& row = later[static_cast<size_t>(i)];
+      row.reserve(static_cast<size_t>(std::count_if(reached.begin(), reached.end(),
+                                                    [&](const auto& r) { return place(r) > i; })));
+      for (const GeodesicReach& r : reached) {
+        if (place(r) > i) row.push_back({place(r), static_cast<float>(r.distance)});
       }
-      std::sort(row.begin(), row.end(),
-                [](const Entry& x, const Entry& y) { return x.place < y.place; });
     }
   });
 
   GeodesicTable table;
-  table.begin.push_back(0);
+  table.begin.assign(vertices.size() + 1, 0);
+  for (size_t i = 0; i < later.size(); ++i) {
+    table.begin[i + 1] += 1 + static_cast<int>(later[i].size());
+    for (const Entry& entry : later[i]) ++table.begin[static_cast<size_t>(entry.place) + 1];
+  }
+  std::partial_sum(table.begin.begin(), table.begin.end(), table.begin.begin());
+  table.place.resize(static_cast<size_t>(table.begin.back()));
+  table.distance.resize(table.place.size());
+  // Ascending rows without sorting: first what stands before the diagonal, from rows in ascending
+  // order, then from that what stands behind it.
+  std::vector<int> next(table.begin.begin(), table.begin.end() - 1);
+  const auto put = [&](int row, int place, float distance) {
+    const auto k = static_cast<size_t>(next[static_cast<size_t>(row)]++);
+    table.place[k] = place;
+    table.distance[k] = distance;
+  };
   for (int i = 0; i < count; ++i) {
-    for (const Entry& entry : rows[static_cast<size_t>(i)]) {
-      // At the very radius one direction may see the other alone; such pairs are left out, so that
-      // the table stays symmetric.
-      const auto& back = rows[static_cast<size_t>(entry.place)];
-      const auto mirror = std::lower_bound(back.begin(), back.end(), i,
-                                           [](const Entry& x, int p) { return x.place < p; });
-      if (mirror == back.end() || mirror->place != i) continue;
-      table.place.push_back(entry.place);
-      table.distance.push_back(0.5 * (entry.distance + mirror->distance));
+    for (const Entry& entry : later[static_cast<size_t>(i)]) put(entry.place, i, entry.distance);
+    std::vector<Entry>().swap(later[static_cast<size_t>(i)]);
+  }
+  for (int j = 0; j < count; ++j) {
+    const int end = next[static_cast<size_t>(j)];
+    put(j, j, 0.0F);
+    for (int k = table.begin[static_cast<size_t>(j)]; k < end; ++k) {
+      put(table.place[static_cast<size_t>(k)], j, table.distance[static_cast<size_t>(k)]);
     }
-    table.begin.push_back(static_cast<int>(table.place.size()));
   }
   return table;
 }

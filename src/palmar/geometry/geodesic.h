@@ -39,9 +39,8 @@ class GeodesicWorkspace {
 ///             with |Sv| = D(v), |Sa| = D(a); D(b) <= |Sb| where the line S b crosses the edge v a.
 /// A circular wave on a plane is exact. In general distances are those of a path on the surface, or
 /// off by the curvature that the wave met before it entered the triangle: 0.1 % of the distance on
-/// a hand of 2.5 mm edges. D(i, j) and D(j, i) differ by as little; geodesic_table() takes the
-/// mean. Behind a corner of a
-/// border, round which a path bends, they are up to 1 % too long. Paths don't cross a cut.
+/// a hand of 2.5 mm edges. D(i, j) and D(j, i) differ by as little. Behind a corner of a border,
+/// round which a path bends, they are up to 1 % too long. Paths don't cross a cut.
 /// Non-manifold edges are allowed, vertices without a path stay unreached.
 ///
 /// The wave rule never gives a smaller D(b) for a larger D(v) or D(a), so the order of the updates
@@ -94,11 +93,12 @@ class GeodesicSolver {
 
 /// Symmetric table of the distances between given vertices, in rows: entries begin[i] to
 /// begin[i + 1] - 1 hold, ascending, the places j in `vertices` with D(i, j) <= radius, i itself
-/// included. D is the mean of both directions.
+/// included. D is that from the earlier to the later of the two. Single precision: the rounding of
+/// 6e-8 is far below the error of D, and the tables are large.
 struct GeodesicTable {
   std::vector<int> begin;
   std::vector<int> place;
-  std::vector<double> distance;  ///< mm
+  std::vector<float> distance;  ///< mm
 };
 
 /// Table of `vertices` (no vertex twice: UsageError). Runs on the threads of parallel_for(); the
