@@ -11,6 +11,7 @@
 #include "palmar/contact/response.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/geodesic.h"
+#include "palmar/geometry/isomap.h"
 #include "palmar/geometry/mesh_distance.h"
 
 namespace palmar {
@@ -46,8 +47,22 @@ Columns all_within(const GeodesicSolver& solver, double reach) {
   return columns_of(geodesic_table(solver, vertices, reach), vertices, solver.vertex_count());
 }
 
+/// Pairs of one region as straight lines in its flat picture (Xie 2014, A2).
+void add_flat_pairs(const Hand& hand, const std::vector<int>& own, Columns& columns) {
+  const FlatPatch flat = flatten_by_isomap(edge_path_distances(hand.skin, own));
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    std::vector<Pair>& column = columns[static_cast<std::size_t>(own[j])];
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const double distance = (flat.position.row(static_cast<Eigen::Index>(i)) -
+                               flat.position.row(static_cast<Eigen::Index>(j)))
+                                  .norm();
+      column.push_back({own[i], static_cast<float>(distance)});
+    }
+  }
+}
+
 /// Pairs of the same region along paths inside it, and rows of other regions near a column.
-Columns by_region(const Hand& hand, const GeodesicSolver& solver) {
+Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance kind) {
   const int count = solver.vertex_count();
   double widest = 0.0;
   for (const RegionTissue& tissue : hand.tissue.region) {
@@ -73,13 +88,20 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver) {
     }
     if (own.empty()) continue;
     const bool is_dorsum = static_cast<Region>(r) == Region::kDorsum;
-    const GeodesicTable table =
-        geodesic_table(solver, own, is_dorsum ? kResponseReach : kFarthestPair, allowed);
-    Columns inside = columns_of(table, own, count);
+    if (kind == SkinDistance::kIsomap && !is_dorsum) {
+      add_flat_pairs(hand, own, columns);
+    } else {
+      const GeodesicTable table =
+          geodesic_table(solver, own, is_dorsum ? kResponseReach : kFarthestPair, allowed);
+      const Columns inside = columns_of(table, own, count);
+      for (const int v : own) {
+        const std::vector<Pair>& more = inside[static_cast<std::size_t>(v)];
+        std::vector<Pair>& column = columns[static_cast<std::size_t>(v)];
+        column.insert(column.end(), more.begin(), more.end());
+      }
+    }
     for (const int v : own) {
       std::vector<Pair>& column = columns[static_cast<std::size_t>(v)];
-      const std::vector<Pair>& more = inside[static_cast<std::size_t>(v)];
-      column.insert(column.end(), more.begin(), more.end());
       std::sort(column.begin(), column.end(),
                 [](const Pair& a, const Pair& b) { return a.vertex < b.vertex; });
     }
@@ -133,7 +155,8 @@ SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const Con
                            const std::vector<double>& depth) {
   const GeodesicSolver solver(hand.skin);
   const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
-  const Columns columns = is_coupled ? all_within(solver, kResponseReach) : by_region(hand, solver);
+  const Columns columns =
+      is_coupled ? all_within(solver, kResponseReach) : by_region(hand, solver, model.distance);
 
   std::vector<const LayerKernel*> kernel;  // per vertex
   if (model.tissue == TissueModel::kLayered) {
