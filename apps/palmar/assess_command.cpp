@@ -65,6 +65,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   AssessOptions options;
   options.grasp = arguments.grasp.options();
   options.contact = arguments.contact.options();
+  const ContactModel model = arguments.contact.model();
   options.seed = context.common.seed;
   const Progress progress = make_progress(context.common);
 
@@ -82,7 +83,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(arguments.grasp.hand);
-  const PreparedHand prepared(hand, arguments.contact.model());
+  const PreparedHand prepared(hand, model);
 
   std::vector<AssessedProduct> done;
   int code = 0;

@@ -6,6 +6,15 @@
 #include "text.h"
 
 namespace palmar::cli {
+namespace {
+
+RegionCoupling parse_regions(const std::string& text) {
+  if (text == "coupled") return RegionCoupling::kCoupled;
+  if (text == "independent") return RegionCoupling::kIndependent;
+  throw UsageError("--regions: \"" + text + "\" is not known; coupled or independent is allowed");
+}
+
+}  // namespace
 
 void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option("--hand", hand, "\"template\" or a .hand.glb file")->capture_default_str();
@@ -38,10 +47,28 @@ PowerGraspOptions GraspArguments::options() const {
 }
 
 void ContactArguments::add_to(CLI::App& verb) {
-  verb.add_option("--kernel", kernel, "Response of the skin: patch (default) or point (Xie 2014)");
+  verb.add_option("--preset", preset,
+                  "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
+      ->capture_default_str();
+  verb.add_option("--regions", regions,
+                  "coupled (one problem over the whole hand) or independent (each region alone); "
+                  "default: as in the preset");
+  verb.add_option("--tissue-model", tissue_model,
+                  "halfspace (endless tissue) or layered (skin over bone); default: as in the "
+                  "preset");
+  verb.add_option("--kernel", kernel,
+                  "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_flag("--no-swelling", no_swelling, "Leave out the bulge around the contact");
   verb.add_option("--shear-modulus-kpa", shear_modulus_kpa,
                   "One shear modulus instead of the tissue's own G(d), kPa");
+  verb.add_flag("--error-band,!--no-error-band", error_band,
+                "Results for soft and stiff tissue beside the nominal ones; on by default");
+  verb.add_option("--coating", coatings,
+                  "Soft grip sleeve on the product, may be given several times: "
+                  "THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]; Poisson's ratio "
+                  "0.5 if not given; the box (two corners, mm, product's frame) limits it to that "
+                  "part of the surface")
+      ->allow_extra_args(false);
 }
 
 ContactOptions ContactArguments::options() const {
@@ -52,16 +79,69 @@ ContactOptions ContactArguments::options() const {
                      "; more than 0 kPa is required");
   }
   if (shear_modulus_kpa) result.shear_modulus = *shear_modulus_kpa / 1000.0;
+  result.error_band = error_band;
+  for (const std::string& text : coatings) result.coatings.push_back(parse_coating(text));
   result.check();
   return result;
 }
 
-ContactModel ContactArguments::model() const { return {.kernel = parse_kernel(kernel)}; }
+ContactModel ContactArguments::model() const {
+  const std::optional<ContactModel> named = contact_model_named(preset);
+  if (!named) {
+    throw UsageError("--preset: \"" + preset + "\" is not known; palmar or xie2014 is allowed");
+  }
+  ContactModel result = *named;
+  if (!kernel.empty()) result.kernel = parse_kernel(kernel);
+  if (!tissue_model.empty()) result.tissue = parse_tissue_model(tissue_model);
+  if (!regions.empty()) result.coupling = parse_regions(regions);
+  return result;
+}
 
 Kernel parse_kernel(const std::string& text) {
   if (text == "patch") return Kernel::kPatch;
   if (text == "point") return Kernel::kPoint;
   throw UsageError("--kernel: \"" + text + "\" is not known; patch or point is allowed");
+}
+
+TissueModel parse_tissue_model(const std::string& text) {
+  if (text == "halfspace") return TissueModel::kHalfSpace;
+  if (text == "layered") return TissueModel::kLayered;
+  throw UsageError("--tissue-model: \"" + text +
+                   "\" is not known; halfspace or layered is allowed");
+}
+
+Coating parse_coating(const std::string& text) {
+  const std::vector<double> values = parse_list("--coating", text);
+  const std::size_t count = values.size();
+  if (count != 2 && count != 3 && count != 9) {
+    throw UsageError("--coating: \"" + text + "\" has " + std::to_string(count) +
+                     (count == 1 ? " number" : " numbers") +
+                     "; thickness in mm and shear modulus in kPa are needed, then "
+                     "Poisson's ratio, then the two corners of a box in mm (2, 3 or 9 numbers)");
+  }
+  Coating result;
+  result.thickness = values[0];
+  result.shear_modulus = values[1] / 1000.0;
+  if (count > 2) result.poisson = values[2];
+  if (count == 9) {
+    const Vec3 first(values[3], values[4], values[5]);
+    const Vec3 second(values[6], values[7], values[8]);
+    result.where.extend(first).extend(second);
+    if (!((first - second).cwiseAbs().minCoeff() > 0.0)) {
+      throw UsageError("--coating: \"" + text +
+                       "\": the box is flat; its corners have to differ in x, y and z");
+    }
+  }
+  try {
+    ContactOptions only_this;
+    only_this.coatings = {result};
+    only_this.check();
+  } catch (const UsageError& error) {
+    const std::string what = error.what();
+    throw UsageError("--coating: \"" + text + "\": " + what +
+                     (what.find("MPa") == what.npos ? "" : " (1 MPa = 1000 kPa)"));
+  }
+  return result;
 }
 
 }  // namespace palmar::cli

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli.h"
 #include "palmar/contact/contact.h"
@@ -26,12 +27,17 @@ struct GraspArguments {
 
 /// The options of the contact solver, as typed.
 struct ContactArguments {
-  std::string kernel = "patch";
+  std::string preset = "palmar";
+  std::string kernel, regions, tissue_model;  ///< empty: as in the preset
   bool no_swelling = false;
   std::optional<double> shear_modulus_kpa;
+  bool error_band = true;
+  std::vector<std::string> coatings;
 
-  /// Adds --kernel, --no-swelling and --shear-modulus-kpa to a verb.
+  /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
+  /// --error-band and --coating to a verb.
   void add_to(CLI::App& verb);
+  /// Throws UsageError.
   ContactOptions options() const;
   /// The equations for PreparedHand. Throws UsageError.
   ContactModel model() const;
@@ -39,5 +45,10 @@ struct ContactArguments {
 
 /// "patch" or "point". Throws UsageError naming --kernel.
 Kernel parse_kernel(const std::string& text);
+/// "halfspace" or "layered". Throws UsageError naming --tissue-model.
+TissueModel parse_tissue_model(const std::string& text);
+/// THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]: two opposite corners of a box.
+/// Throws UsageError naming --coating.
+Coating parse_coating(const std::string& text);
 
 }  // namespace palmar::cli

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 namespace palmar::cli {
 
@@ -69,8 +71,51 @@ std::string grasp_text(const Grasp& grasp) {
   return text + "\n";
 }
 
+namespace {
+
+/// "2.1 .. 4.2 .. 6.3", a dash for tissue without a solution.
+std::string range_text(double low, double nominal, double high, int decimals, bool is_low,
+                       bool is_high) {
+  return fmt::format("{} .. {:.{}f} .. {}", is_low ? fmt::format("{:.{}f}", low, decimals) : "-",
+                     nominal, decimals, is_high ? fmt::format("{:.{}f}", high, decimals) : "-");
+}
+
+/// Soft, nominal and stiff tissue, and where the total force comes from.
+std::string band_text(const ContactResult& contact) {
+  if (!contact.band) return "";
+  const ContactBandRow& all = contact.band->total;
+  const RegionContact& total = contact.total;
+  const bool is_low = all.force_low > 0.0;
+  const bool is_high = all.force_high > 0.0;
+  std::string text = fmt::format(
+      "low .. nominal .. high tissue: force {} N, area {} mm2,\n"
+      "  peak on cells {} MPa\n",
+      range_text(all.force_low, total.force, all.force_high, 1, is_low, is_high),
+      range_text(all.area_low, total.area, all.area_high, 0, is_low, is_high),
+      range_text(all.peak_pressure_cells_low, total.peak_pressure_cells,
+                 all.peak_pressure_cells_high, 3, is_low, is_high));
+  std::vector<ContactBandRow> rows = contact.band->regions;
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.force_per_modulus > b.force_per_modulus;
+  });
+  text += "10 % stiffer skin in one region adds to the force:";
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i) {
+    text += fmt::format("{} {} {:.2f} N", i == 0 ? "" : ",", name_of(rows[i].region),
+                        0.1 * rows[i].force_per_modulus);
+  }
+  return text + (rows.size() > 3 ? ", ...\n" : "\n");
+}
+
+}  // namespace
+
+std::string equations_text(const ContactModel& model) {
+  return fmt::format("{} ({} kernel, {}, {} regions)", name_of(model), name_of(model.kernel),
+                     name_of(model.tissue), name_of(model.coupling));
+}
+
 std::string contact_text(const ContactResult& contact) {
-  if (contact.status == ContactStatus::kNoContact) return "no contact\n";
+  const std::string equations = "equations: " + equations_text(contact.model) + "\n";
+  if (contact.status == ContactStatus::kNoContact) return "no contact\n" + equations;
   const auto row = [](std::string_view name, const RegionContact& r) {
     return fmt::format("{:<16} {:8.2f} {:9.0f} {:10.3f} {:10.3f} {:10.3f}\n", name, r.force, r.area,
                        r.peak_pressure, r.peak_pressure_cells, r.mean_pressure);
@@ -83,7 +128,7 @@ std::string contact_text(const ContactResult& contact) {
   const Vec3& f = contact.total.force_vector;
   text += fmt::format("sum of the force vectors {:.2f} N (force is the sum of their lengths)\n",
                       f.norm());
-  return text;
+  return text + band_text(contact) + equations;
 }
 
 }  // namespace palmar::cli

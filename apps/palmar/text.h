@@ -18,7 +18,9 @@ std::string hand_text(const Hand& hand);
 std::string dimensions_csv(const Hand& hand);
 /// Status, what stopped each segment, angles.
 std::string grasp_text(const Grasp& grasp);
-/// Totals and one line per region.
+/// The equations that ran: "palmar (patch kernel, halfspace, coupled regions)".
+std::string equations_text(const ContactModel& model);
+/// Totals and one line per region; the error band and the equations that ran.
 std::string contact_text(const ContactResult& contact);
 
 double degrees(double radians);

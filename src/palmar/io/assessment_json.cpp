@@ -86,9 +86,41 @@ std::string name_of_status(ContactStatus status) {
   return "unknown";
 }
 
+/// Low, nominal and high tissue. `is_low`, `is_high`: whether there is a solution for that tissue.
+Json band_object(const ContactBandRow& row, const RegionContact& nominal, bool is_low,
+                 bool is_high) {
+  const auto three = [&](double low, double middle, double high) {
+    return Json{{"low", is_low ? Json(low) : Json(nullptr)},
+                {"nominal", middle},
+                {"high", is_high ? Json(high) : Json(nullptr)}};
+  };
+  return {
+      {"force_n", three(row.force_low, nominal.force, row.force_high)},
+      {"contact_area_mm2", three(row.area_low, nominal.area, row.area_high)},
+      {"peak_pressure_mpa",
+       three(row.peak_pressure_low, nominal.peak_pressure, row.peak_pressure_high)},
+      {"peak_pressure_cells_mpa", three(row.peak_pressure_cells_low, nominal.peak_pressure_cells,
+                                        row.peak_pressure_cells_high)},
+      {"force_per_modulus_n", row.force_per_modulus}};
+}
+
+/// The band of a region, or of the whole hand without one; null if there is none.
+Json band_or_null(const ContactResult& contact, const RegionContact* region) {
+  if (!contact.band) return nullptr;
+  const ContactBand& band = *contact.band;
+  const bool is_low = band.total.force_low > 0.0;
+  const bool is_high = band.total.force_high > 0.0;
+  if (region == nullptr) return band_object(band.total, contact.total, is_low, is_high);
+  for (const ContactBandRow& row : band.regions) {
+    if (row.region == region->region) return band_object(row, *region, is_low, is_high);
+  }
+  return nullptr;
+}
+
 Json contact_object(const ContactResult& contact) {
   Json json = {{"status", name_of_status(contact.status)}, {"message", contact.message}};
   add_totals(json, contact.total);
+  json["band"] = band_or_null(contact, nullptr);
   json["complementarity_error_n_mm"] = contact.complementarity_error;
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
@@ -98,6 +130,7 @@ Json contact_object(const ContactResult& contact) {
     Json one = {{"region", name_of(region.region)}};
     add_totals(one, region);
     one["shear_modulus_mpa"] = region.shear_modulus;
+    one["band"] = band_or_null(contact, &region);
     regions.push_back(std::move(one));
   }
   json["regions"] = std::move(regions);
@@ -144,6 +177,21 @@ Json indices_object(const ContactResult& contact) {
           {"net_force_n", contact.total.force_vector.norm()}};
 }
 
+Json coating_array(const std::vector<Coating>& coatings) {
+  Json array = Json::array();
+  for (const Coating& coating : coatings) {
+    Json box = nullptr;  // the whole product
+    if (!coating.where.isEmpty()) {
+      box = {vector3(coating.where.min()), vector3(coating.where.max())};
+    }
+    array.push_back({{"thickness_mm", coating.thickness},
+                     {"shear_modulus_mpa", coating.shear_modulus},
+                     {"poisson", coating.poisson},
+                     {"box_corners_mm", std::move(box)}});
+  }
+  return array;
+}
+
 Json settings_object(const Assessment& assessment) {
   const AssessOptions& options = assessment.options;
   const PlacementRequest& placed = options.grasp.placement;
@@ -157,6 +205,8 @@ Json settings_object(const Assessment& assessment) {
           {"tissue_model", name_of(assessment.contact.model.tissue)},
           {"regions", name_of(assessment.contact.model.coupling)},
           {"swelling", options.contact.swelling},
+          {"coatings", coating_array(options.contact.coatings)},
+          {"error_band", options.contact.error_band},
           {"cell_area_mm2", options.contact.cell_area},
           {"shear_modulus_mpa", or_null(options.contact.shear_modulus)},
           {"seed", options.seed}};
