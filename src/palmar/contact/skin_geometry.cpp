@@ -17,7 +17,14 @@ namespace palmar {
 
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
                                  const std::vector<Triangle>& triangles) {
-  std::vector<Vec3> normals(positions.size(), Vec3::Zero());
+  std::vector<Vec3> normals;
+  vertex_normals(positions, triangles, normals);
+  return normals;
+}
+
+void vertex_normals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                    std::vector<Vec3>& normals) {
+  normals.assign(positions.size(), Vec3::Zero());
   for (const Triangle& t : triangles) {
     const Vec3 n = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
     for (const int corner : t) normals[corner] += n;
@@ -26,7 +33,6 @@ std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
     const double length = n.norm();
     n = length > 0.0 ? Vec3(n / length) : Vec3::UnitZ();
   }
-  return normals;
 }
 
 std::vector<double> voronoi_areas(const TriangleMesh& mesh) {

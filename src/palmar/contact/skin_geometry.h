@@ -46,6 +46,9 @@ SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres,
 /// Area-weighted unit vertex normals of a mesh whose vertices have moved.
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
                                  const std::vector<Triangle>& triangles);
+/// The same into `normals`, whose memory is reused.
+void vertex_normals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                    std::vector<Vec3>& normals);
 
 /// Voronoi area of every vertex, mm^2; in obtuse triangles the mixed rule, so that they sum to the
 /// surface. Source: Meyer, Desbrun, Schroeder, Barr 2003, section 3.3.

@@ -18,6 +18,10 @@ constexpr double kSameSide = 0.5;
 constexpr double kOnSurface = 1e-7;  // mm; a trace ends here
 constexpr int kMaxTraceSteps = 60;
 
+/// A sampler asks this far, so that skin has some way to go before it must be asked about again.
+constexpr double kWatchRange = 9.0;  // mm
+constexpr double kRounding = 1e-9;   // mm; of a distance and of the way gone
+
 /// Looks for the surface from an inner point against the skin's normal by sphere tracing. Nothing
 /// if there is none within kMaxContactDepth or if it faces the wrong way.
 std::optional<DistanceSample> surface_behind(const DistanceField& product, const Vec3& point,
@@ -72,26 +76,76 @@ void resample_vertices(const DistanceField& product, const std::vector<Vec3>& po
   for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
 }
 
-SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
-                                   const DistanceField& product, std::optional<Region> only) {
-  SkinOnProduct skin;
-  skin.normal = vertex_normals(posed, hand.skin.triangles);
+void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& posed,
+                         const std::vector<int>& near, std::vector<DistanceSample>& samples) {
+  const bool is_new = product.id() != product_ || sample_.size() != posed.size();
+  if (is_new) {
+    product_ = product.id();
+    position_.assign(posed.size(), Vec3::Zero());
+    sample_.assign(posed.size(), {});
+    is_known_.assign(posed.size(), 0);
+  }
+  const bool may_skip = product.is_lipschitz();
+  asked_.clear();
+  points_.clear();
+  found_.clear();
+  for (const int v : near) {
+    if (may_skip && is_known_[v]) {
+      const double least = sample_[v].distance - (posed[v] - position_[v]).norm();
+      if (least > kNearRange + kRounding) continue;
+    }
+    asked_.push_back(v);
+    points_.push_back(posed[v]);
+    found_.push_back(sample_[v]);
+  }
+  if (is_new) {
+    product.sample(points_, kWatchRange, found_);
+  } else {
+    product.resample(points_, kWatchRange, found_);
+  }
+  for (std::size_t k = 0; k < asked_.size(); ++k) {
+    const int v = asked_[k];
+    position_[v] = posed[v];
+    sample_[v] = found_[k];
+    is_known_[v] = 1;
+    samples[v] = found_[k];
+  }
+}
+
+void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
+                          const DistanceField& product, std::optional<Region> only,
+                          SkinSampler* sampler, SkinOnProduct& skin) {
+  vertex_normals(posed, hand.skin.triangles, skin.normal);
   skin.sample.resize(posed.size());
+  skin.near.clear();
+  skin.collision.clear();
+  skin.left_out.clear();
+  skin.traced.clear();
+  skin.is_too_deep = false;
+  skin.message.clear();
   Box3 reach = product.bounding_box();
   if (!reach.isEmpty()) {
     reach.min().array() -= kNearRange;
     reach.max().array() += kNearRange;
   }
   for (std::size_t v = 0; v < posed.size(); ++v) {
-    skin.sample[v].distance = kNearRange;
-    skin.sample[v].closest = posed[v];
+    skin.sample[v] = {kNearRange, posed[v], Vec3::UnitZ(), -1};
     if (only && hand.region[v] != *only) continue;
     if (reach.contains(posed[v])) skin.near.push_back(static_cast<int>(v));
   }
-  sample_vertices(product, posed, skin.near, kNearRange, skin.sample);
+  double range = kNearRange;
+  if (sampler) {
+    sampler->sample(product, posed, skin.near, skin.sample);
+    range = kWatchRange;
+  } else {
+    sample_vertices(product, posed, skin.near, kNearRange, skin.sample);
+  }
   std::vector<int> deep;
   for (const int v : skin.near) {
-    if (skin.sample[v].distance <= -kNearRange) deep.push_back(v);
+    DistanceSample& sample = skin.sample[v];
+    if (sample.distance <= -range) deep.push_back(v);
+    // Fields differ in what they say about far points.
+    if (!(sample.distance < kNearRange)) sample = {kNearRange, posed[v], Vec3::UnitZ(), -1};
   }
   sample_vertices(product, posed, deep, std::numeric_limits<double>::infinity(), skin.sample);
 
@@ -136,6 +190,12 @@ SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& po
                     " skin vertices went right through the product or into it from behind; they "
                     "carry no force";
   }
+}
+
+SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
+                                   const DistanceField& product, std::optional<Region> only) {
+  SkinOnProduct skin;
+  find_skin_on_product(hand, posed, product, only, nullptr, skin);
   return skin;
 }
 

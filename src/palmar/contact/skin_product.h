@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,14 +26,41 @@ struct SkinOnProduct {
   std::string message;       ///< what was left out, or empty
 };
 
+/// Skin farther from the product than this does not matter; beyond the limit depth of the fingers
+/// and every bulge.
+constexpr double kNearRange = 6.0;  // mm
+
+/// Memory of where a hand's skin was when it was last sampled, for motions. A distance changes by
+/// no more than the way a vertex has gone, so skin that was far is still too far without a
+/// question; the others start from what was nearest. The samples are those without it.
+class SkinSampler {
+ public:
+  void clear() { product_ = 0; }
+
+ private:
+  friend void find_skin_on_product(const Hand&, const std::vector<Vec3>&, const DistanceField&,
+                                   std::optional<Region>, SkinSampler*, SkinOnProduct&);
+  void sample(const DistanceField& product, const std::vector<Vec3>& posed,
+              const std::vector<int>& near, std::vector<DistanceSample>& samples);
+
+  std::uint64_t product_ = 0;           // id of the field the rest is about; 0: none
+  std::vector<Vec3> position_;          // where a vertex was last sampled
+  std::vector<DistanceSample> sample_;  // what the field said there
+  std::vector<char> is_known_;
+  std::vector<int> asked_;
+  std::vector<Vec3> points_;
+  std::vector<DistanceSample> found_;
+};
+
 /// Samples the product near the skin and decides for each penetrating vertex to which side of the
 /// product it belongs (see solve_hand_contact()).
 SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                                    const DistanceField& product, std::optional<Region> only);
 
-/// Skin farther from the product than this does not matter; beyond the limit depth of the fingers
-/// and every bulge.
-constexpr double kNearRange = 6.0;  // mm
+/// The same into `skin`, whose memory is reused, with a sampler (or none) kept from call to call.
+void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
+                          const DistanceField& product, std::optional<Region> only,
+                          SkinSampler* sampler, SkinOnProduct& skin);
 
 /// Samples the product at some vertices into their places in `samples`.
 void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,

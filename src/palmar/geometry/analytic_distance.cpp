@@ -48,6 +48,7 @@ class AnalyticDistance : public DistanceField {
     }
   }
   Box3 bounding_box() const override { return box_; }
+  bool is_lipschitz() const override { return true; }
 
  private:
   Function function_;

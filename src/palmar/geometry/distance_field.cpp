@@ -2,9 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/geometry/distance_field.h"
 
+#include <atomic>
 #include <limits>
 
 namespace palmar {
+namespace {
+
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+}  // namespace
+
+DistanceField::DistanceField() : id_(next_id()) {}
+DistanceField::DistanceField(const DistanceField&) : id_(next_id()) {}
+DistanceField& DistanceField::operator=(const DistanceField&) {
+  id_ = next_id();
+  return *this;
+}
 
 void DistanceField::resample(std::span<const Vec3> points, double range,
                              std::span<DistanceSample> samples) const {

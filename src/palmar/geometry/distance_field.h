@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "palmar/geometry/types.h"
@@ -20,7 +21,14 @@ struct DistanceSample {
 /// immutable after construction and may be queried from several threads at once.
 class DistanceField {
  public:
+  DistanceField();
+  DistanceField(const DistanceField& other);
+  DistanceField& operator=(const DistanceField& other);
   virtual ~DistanceField() = default;
+
+  /// Different for every field ever made in this process: tells whether samples kept from an
+  /// earlier call are of this field.
+  std::uint64_t id() const { return id_; }
 
   /// Samples every point. samples.size() must equal points.size(). Points farther than `range`
   /// [mm] from the surface may come back as distance = +range (outside) or -range (inside) with no
@@ -28,16 +36,23 @@ class DistanceField {
   virtual void sample(std::span<const Vec3> points, double range,
                       std::span<DistanceSample> samples) const = 0;
 
-  /// The same for points whose samples are known from before they moved a little: these come in in
-  /// `samples` and are replaced. They save time and never change the answer.
+  /// The same for points whose samples, by this field, are known from before they moved a little:
+  /// these come in in `samples` and are replaced. They save time and never change the answer.
   virtual void resample(std::span<const Vec3> points, double range,
                         std::span<DistanceSample> samples) const;
+
+  /// Whether d(p) and d(q) never differ by more than |p - q|: true of exact distances to a closed
+  /// surface; not where the side jumps in a hole, or of interpolated distances.
+  virtual bool is_lipschitz() const { return false; }
 
   /// Box around the surface, mm.
   virtual Box3 bounding_box() const = 0;
 
   /// One point, unlimited range. Convenience over sample().
   DistanceSample at(const Vec3& point) const;
+
+ private:
+  std::uint64_t id_;
 };
 
 }  // namespace palmar

@@ -33,6 +33,7 @@ class MeshDistance : public DistanceField {
   void resample(std::span<const Vec3> points, double range,
                 std::span<DistanceSample> samples) const override;
   Box3 bounding_box() const override;
+  bool is_lipschitz() const override { return is_closed(); }
 
   /// Whether every edge is used equally often in both directions (corners at the same place count
   /// as one), so that the winding number is a whole number off the surface.
