@@ -3,104 +3,74 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "cli.h"
+#include "contact_fit_command.h"
 #include "grasp_options.h"
 #include "palmar/contact/press.h"
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
 #include "palmar/io/press_json.h"
+#include "palmar/report/press_chart.h"
+#include "press_specimen.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
 
 struct PressArguments {
-  std::string specimen = "plane", indenter, depths, forces, out, kernel = "patch";
+  std::string specimen = "plane", indenter, depths, forces, out;
+  std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal";
   double tilt_deg = 0.0;
-  double spacing = PressOptions{}.spacing;
   double cell = PressOptions{}.cell_area;
-  std::optional<double> shear_modulus_kpa, layer;
+  double coating_poisson = Coating{}.poisson;
+  std::optional<double> spacing, shear_modulus_kpa, layer, poisson, coating, coating_modulus_kpa;
 };
 
-/// "name:rest" in two; rest is empty without a colon.
-std::pair<std::string, std::string> split_kind(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) return {text, ""};
-  return {text.substr(0, colon), text.substr(colon + 1)};
+TissueLevel parse_tissue_level(const std::string& text) {
+  if (text == "low") return TissueLevel::kLow;
+  if (text == "nominal") return TissueLevel::kNominal;
+  if (text == "high") return TissueLevel::kHigh;
+  throw UsageError("--tissue-level: \"" + text +
+                   "\" is not known; low, nominal or high is allowed");
 }
 
-double one_radius(const std::string& kind, const std::string& text) {
-  const std::vector<double> values =
-      text.empty() ? std::vector<double>() : parse_list("--indenter", text);
-  if (values.size() != 1) {
-    throw UsageError("--indenter: " + kind + " needs one radius in mm, as in " + kind + ":5");
+/// The equations; a plane or ellipsoid is layered if a thickness is given.
+ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
+  const auto named = contact_model_named(arguments.preset);
+  if (!named) {
+    throw UsageError("--preset: \"" + arguments.preset +
+                     "\" is not known; palmar or xie2014 is allowed");
   }
-  return values.front();
+  ContactModel model = *named;
+  if (!arguments.kernel.empty()) model.kernel = parse_kernel(arguments.kernel);
+  if (!arguments.tissue_model.empty()) model.tissue = parse_tissue_model(arguments.tissue_model);
+  if (is_hand) return model;
+  const bool is_layered = model.tissue == TissueModel::kLayered;
+  if (arguments.layer && !is_layered && !arguments.tissue_model.empty()) {
+    throw UsageError("--layer-mm and --tissue-model halfspace exclude each other");
+  }
+  if (is_layered && !arguments.layer) {
+    throw UsageError("--tissue-model layered: a plane or ellipsoid needs --layer-mm as well");
+  }
+  if (arguments.layer) model.tissue = TissueModel::kLayered;
+  return model;
 }
 
-/// plane | ellipsoid:RX,RY | HAND:REGION; sets `hand` for the last.
-PressSpecimen parse_specimen(const std::string& text, std::string& hand) {
-  PressSpecimen specimen;
-  const auto [kind, rest] = split_kind(text);
-  if (text == "plane") return specimen;
-  if (kind == "ellipsoid") {
-    const std::vector<double> radii =
-        rest.empty() ? std::vector<double>() : parse_list("--specimen", rest);
-    if (radii.size() != 2) {
-      throw UsageError("--specimen: \"" + text +
-                       "\"; ellipsoid:RX,RY with two radii in mm is needed");
-    }
-    specimen.kind = PressSpecimen::Kind::kEllipsoid;
-    specimen.radius_x = radii[0];
-    specimen.radius_y = radii[1];
-    return specimen;
+std::optional<Coating> parse_coating(const PressArguments& arguments) {
+  if (!arguments.coating && !arguments.coating_modulus_kpa) return std::nullopt;
+  if (!arguments.coating || !arguments.coating_modulus_kpa) {
+    throw UsageError("--coating-mm and --coating-modulus-kpa are needed together");
   }
-  const std::size_t colon = text.rfind(':');
-  const auto region =
-      colon == std::string::npos ? std::nullopt : region_named(text.substr(colon + 1));
-  if (!region) {
-    throw UsageError(
-        "--specimen: \"" + text +
-        "\" is not known; plane, ellipsoid:RX,RY or HAND:REGION (template:middle_distal) "
-        "is allowed");
-  }
-  specimen.kind = PressSpecimen::Kind::kHandRegion;
-  specimen.region = *region;
-  hand = text.substr(0, colon);
-  return specimen;
+  Coating coating;
+  coating.thickness = *arguments.coating;
+  coating.shear_modulus = *arguments.coating_modulus_kpa / 1000.0;
+  coating.poisson = arguments.coating_poisson;
+  return coating;
 }
 
-PressIndenter parse_indenter(const std::string& text) {
-  PressIndenter indenter;
-  const auto [kind, rest] = split_kind(text);
-  if (text == "plane") {
-    indenter.kind = PressIndenter::Kind::kPlane;
-  } else if (kind == "sphere" || kind == "punch" || kind == "cylinder") {
-    indenter.kind = kind == "sphere"  ? PressIndenter::Kind::kSphere
-                    : kind == "punch" ? PressIndenter::Kind::kPunch
-                                      : PressIndenter::Kind::kCylinder;
-    indenter.radius = one_radius(kind, rest);
-  } else {
-    throw UsageError("--indenter: \"" + text +
-                     "\" is not known; sphere:R, punch:A, cylinder:R (mm) or plane is allowed");
-  }
-  return indenter;
-}
-
-std::string press_text(const std::vector<PressStep>& steps) {
-  std::string text =
-      "  depth     force      area       peak  peak cells       mean\n"
-      "     mm         N       mm2        MPa         MPa        MPa\n";
-  for (const PressStep& s : steps) {
-    text += fmt::format("{:7.3f} {:9.4f} {:9.2f} {:10.5f} {:11.5f} {:10.5f}\n", s.depth, s.force,
-                        s.area, s.peak_pressure, s.peak_pressure_cells, s.mean_pressure);
-  }
-  return text;
-}
-
-int run_press(const PressArguments& arguments, const CommonOptions& common) {
-  std::string hand_name;
+PressOptions parse_options(const PressArguments& arguments, std::string& hand_name) {
   if (arguments.depths.empty() == arguments.forces.empty()) {
     throw UsageError("either --depth-mm or --force-n is needed, and only one of them");
   }
@@ -118,18 +88,72 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   if (!arguments.depths.empty()) options.depths = parse_list("--depth-mm", arguments.depths);
   if (!arguments.forces.empty()) options.forces = parse_list("--force-n", arguments.forces);
   options.tilt = radians(arguments.tilt_deg);
-  options.spacing = arguments.spacing;
+  options.spacing = arguments.spacing.value_or(options.spacing);
   options.cell_area = arguments.cell * arguments.cell;
-  options.kernel = parse_kernel(arguments.kernel);
   options.layer_thickness = arguments.layer;
+  options.poisson = arguments.poisson;
+  options.coating = parse_coating(arguments);
+  options.tissue_level = parse_tissue_level(arguments.tissue_level);
   if (arguments.shear_modulus_kpa) options.shear_modulus = *arguments.shear_modulus_kpa / 1000.0;
-  options.check();
+  return options;
+}
 
+std::string press_text(const std::vector<PressStep>& steps) {
+  std::string text =
+      "  depth     force      area       peak  peak cells       mean      shear\n"
+      "     mm         N       mm2        MPa         MPa        MPa  modulus MPa\n";
+  for (const PressStep& s : steps) {
+    text += fmt::format("{:7.3f} {:9.4f} {:9.2f} {:10.5f} {:11.5f} {:10.5f} {:12.5f}\n", s.depth,
+                        s.force, s.area, s.peak_pressure, s.peak_pressure_cells, s.mean_pressure,
+                        s.shear_modulus);
+  }
+  return text;
+}
+
+/// The result in the format that the file's name asks for.
+std::string press_file(const std::string& path, const PressOptions& options,
+                       const PressSetting& setting, const std::vector<PressStep>& steps) {
+  const std::string format = std::filesystem::path(path).extension().string();
+  if (format == ".csv") return format_csv(press_table(steps));
+  if (format == ".svg") {
+    const std::string hand = setting.hand.empty() ? "" : setting.hand + ":";
+    return press_chart(steps, hand + name_of(options.specimen) + " pressed by " +
+                                  name_of(options.indenter) + " (" + name_of(setting.model) + ")") +
+           "\n";
+  }
+  return press_json(options, setting, steps) + "\n";
+}
+
+void check_out(const std::string& path) {
+  const std::string format = std::filesystem::path(path).extension().string();
+  if (path.empty() || format == ".json" || format == ".csv" || format == ".svg") return;
+  throw UsageError("--out: \"" + path + "\" ends with none of .json, .csv, .svg");
+}
+
+int run_press(const PressArguments& arguments, const CommonOptions& common) {
+  std::string hand_name;
+  PressOptions options = parse_options(arguments, hand_name);
+  const ContactModel model = parse_model(arguments, !hand_name.empty());
+  options.kernel = model.kernel;
+  options.check();
+  check_out(arguments.out);
+
+  PressSetting setting{.hand = "", .model = model};
   std::optional<PreparedHand> hand;
-  if (!hand_name.empty()) hand.emplace(load_hand(hand_name), ContactModel{.kernel = options.kernel});
+  if (!hand_name.empty()) {
+    if (arguments.spacing) note(common, "--spacing-mm is left out: a hand has its own vertices");
+    auto loaded = load_hand(hand_name);
+    setting.hand = loaded->name;
+    if (options.tissue_level != TissueLevel::kNominal) {
+      loaded = std::make_shared<Hand>(hand_at_tissue_level(*loaded, options.tissue_level));
+    }
+    hand.emplace(loaded, model);
+  }
   const std::vector<PressStep> steps = press(options, hand ? &*hand : nullptr);
-  if (!arguments.out.empty()) write_file(arguments.out, press_json(steps) + "\n");
-  print(common.json ? press_json(steps) + "\n" : press_text(steps));
+  if (!arguments.out.empty()) {
+    write_file(arguments.out, press_file(arguments.out, options, setting, steps));
+  }
+  print(common.json ? press_json(options, setting, steps) + "\n" : press_text(steps));
   return 0;
 }
 
@@ -139,6 +163,7 @@ void add_contact_commands(CLI::App& app, Context& context) {
   CLI::App* contact = app.add_subcommand("contact", "Contact of skin with simple bodies");
   contact->require_subcommand(1);
   contact->fallthrough();
+  add_contact_fit_verb(*contact, context);
 
   const auto o = std::make_shared<PressArguments>();
   o->cell = std::sqrt(PressOptions{}.cell_area);
@@ -149,19 +174,39 @@ void add_contact_commands(CLI::App& app, Context& context) {
   verb->add_option("--specimen", o->specimen,
                    "plane, ellipsoid:RX,RY (radii of curvature, mm) or HAND:REGION")
       ->capture_default_str();
-  verb->add_option("--indenter", o->indenter, "sphere:R, punch:A, cylinder:R (mm) or plane")
+  verb->add_option("--indenter", o->indenter,
+                   "sphere:R, punch:A, punches:A,DISTANCE (two, moving together), cylinder:R (mm) "
+                   "or plane")
       ->required();
   verb->add_option("--depth-mm", o->depths, "Depths from first touch, a,b,c in mm");
   verb->add_option("--force-n", o->forces, "Forces to reach, a,b,c in N, instead of depths");
   verb->add_option("--tilt-deg", o->tilt_deg, "Tilt of the indenter, deg")->capture_default_str();
-  verb->add_option("--spacing-mm", o->spacing, "Vertex spacing of a plane or ellipsoid, mm")
-      ->capture_default_str();
+  verb->add_option("--spacing-mm", o->spacing,
+                   fmt::format("Vertex spacing of a plane or ellipsoid, mm; default {}",
+                               PressOptions{}.spacing));
   verb->add_option("--shear-modulus-kpa", o->shear_modulus_kpa,
                    "Instead of the tissue's own G(d), kPa");
-  verb->add_option("--kernel", o->kernel, "patch or point (Xie 2014)")->capture_default_str();
-  verb->add_option("--layer-mm", o->layer, "Thickness of the layer over bone (not available yet)");
+  verb->add_option("--preset", o->preset,
+                   "Equations: palmar, or xie2014 (as printed in the thesis)")
+      ->capture_default_str();
+  verb->add_option("--kernel", o->kernel, "patch or point (Xie 2014); default: the preset's");
+  verb->add_option(
+      "--tissue-model", o->tissue_model,
+      "halfspace, or layered (skin over bone: the hand's own, or --layer-mm); default: "
+      "the preset's");
+  verb->add_option("--tissue-level", o->tissue_level, "Stiffness of the tissue: low, nominal, high")
+      ->capture_default_str();
+  verb->add_option("--layer-mm", o->layer,
+                   "Thickness of the layer over bone of a plane or ellipsoid, mm");
+  verb->add_option("--poisson", o->poisson,
+                   "Poisson's ratio of a plane or ellipsoid, 0 to 0.5; default 0.5");
+  verb->add_option("--coating-mm", o->coating, "Thickness of an elastic cover of the indenter, mm");
+  verb->add_option("--coating-modulus-kpa", o->coating_modulus_kpa,
+                   "Shear modulus of the cover, kPa");
+  verb->add_option("--coating-poisson", o->coating_poisson, "Poisson's ratio of the cover")
+      ->capture_default_str();
   verb->add_option("--cell-mm", o->cell, "Side of a square sensor cell, mm")->capture_default_str();
-  verb->add_option("--out", o->out, "JSON file to write");
+  verb->add_option("--out", o->out, "File to write: .json, .csv, or .svg (the curve)");
   verb->callback(
       [&context, o] { context.run = [&context, o] { return run_press(*o, context.common); }; });
 }

@@ -150,6 +150,10 @@ void PressOptions::check() const {
   if (depths.empty() == forces.empty()) {
     throw UsageError("press: either depths (mm) or forces (N) are required, not both");
   }
+  if (indenter.kind != PressIndenter::Kind::kPlane) {
+    require(is_between(indenter.radius, 0.1, 1000.0), "press: radius of the indenter",
+            indenter.radius, "mm", "0.1 to 1000 mm");
+  }
   for (const double d : depths) {
     require(d > 0.0 && d <= kDeepest, "press: depth", d, "mm", "more than 0 and at most 30 mm");
     require(d <= deepest(*this), "press: depth", d, "mm", "at most the indenter's radius");
@@ -166,18 +170,14 @@ void PressOptions::check() const {
     require(is_between(*shear_modulus, 1e-6, 1e6), "press: shear modulus", *shear_modulus, "MPa",
             "0.000001 to 1000000 MPa");
   }
-  if (indenter.kind != PressIndenter::Kind::kPlane) {
-    require(is_between(indenter.radius, 0.1, 1000.0), "press: radius of the indenter",
-            indenter.radius, "mm", "0.1 to 1000 mm");
-  }
   if (indenter.kind == PressIndenter::Kind::kTwoPunches) {
     require(is_between(indenter.distance, 2.0 * indenter.radius, 1000.0),
             "press: distance of the punches", indenter.distance, "mm",
             "at least their diameter and at most 1000 mm");
   }
   if (coating) {
-    require(is_between(coating->thickness, 0.01, 1000.0), "press: thickness of the coating",
-            coating->thickness, "mm", "0.01 to 1000 mm");
+    require(is_between(coating->thickness, 0.05, 1000.0), "press: thickness of the coating",
+            coating->thickness, "mm", "0.05 to 1000 mm");
     require(is_between(coating->shear_modulus, 1e-6, 1e6), "press: shear modulus of the coating",
             coating->shear_modulus, "MPa", "0.000001 to 1000000 MPa");
     require(is_between(coating->poisson, 0.0, 0.5), "press: Poisson's ratio of the coating",

@@ -198,7 +198,19 @@ TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
   step.force = 0.1 + 0.2;
   step.area = 20.0;
   step.peak_pressure = 0.03;
-  const Json json = Json::parse(press_json({step, step}));
+  PressOptions options;
+  options.indenter = {PressIndenter::Kind::kTwoPunches, 2.0, 10.0};
+  options.coating = Coating{1.5, 0.2, 0.4, {}};
+  options.layer_thickness = 6.0;
+  PressSetting setting;
+  setting.model.tissue = TissueModel::kLayered;
+  const Json json = Json::parse(press_json(options, setting, {step, step}));
+  EXPECT_EQ(json["test"]["specimen"], "plane");
+  EXPECT_EQ(json["test"]["indenter"], "punches:2,10");
+  EXPECT_EQ(json["test"]["tissue_model"], "layered");
+  EXPECT_EQ(json["test"]["layer_mm"], 6.0);
+  EXPECT_EQ(json["test"]["coating"]["thickness_mm"], 1.5);
+  EXPECT_TRUE(json["test"]["hand"].is_null());
   ASSERT_EQ(json.at("steps").size(), 2u);
   const Json& one = json["steps"][0];
   EXPECT_EQ(one["depth_mm"], 1.5);
@@ -208,6 +220,20 @@ TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
   for (const char* key : {"peak_pressure_cells_mpa", "mean_pressure_mpa"}) {
     EXPECT_TRUE(one.contains(key)) << key;
   }
+}
+
+TEST(PressTable, HasOneRowPerStepAndUnitsInTheHeader) {
+  PressStep step;
+  step.depth = 1.5;
+  step.force = 0.1 + 0.2;
+  const CsvTable table = press_table({step, step, step});
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.header[0], "depth_mm");
+  EXPECT_EQ(table.header[1], "force_n");
+  EXPECT_EQ(table.header[2], "contact_area_mm2");
+  EXPECT_EQ(table.rows[1][0], "1.5");
+  EXPECT_EQ(std::stod(table.rows[1][1]), 0.1 + 0.2);
+  EXPECT_THAT(format_csv(table), testing::StartsWith("depth_mm,force_n,contact_area_mm2,"));
 }
 
 TEST(RegionTable, HasOneRowPerRegionAndATotal) {
