@@ -36,8 +36,14 @@ std::string default_folder() {
 }
 
 std::string summary(const Product& product, const Assessment& assessment) {
-  return fmt::format("== {}\n{}{}", product.name, grasp_text(assessment.grasp),
-                     contact_text(assessment.contact));
+  std::string text = fmt::format("== {}\n{}{}", product.name, grasp_text(assessment.grasp),
+                                 contact_text(assessment.contact));
+  for (const Coating& coating : assessment.options.contact.coatings) {
+    text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
+                        1000.0 * coating.shear_modulus,
+                        coating.where.isEmpty() ? "" : ", inside its box");
+  }
+  return text;
 }
 
 /// Above this, finding crossing triangles takes more than a few tenths of a second.

@@ -3,6 +3,7 @@
 #include "palmar/io/csv.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/io/text_scan.h"
@@ -36,14 +37,37 @@ std::string line(const std::vector<std::string>& cells) {
   return result + '\n';
 }
 
+/// Force and peak on sensor cells for low and high tissue, and the force per relative change of the
+/// modulus; empty where there is no such result.
+std::vector<std::string> band_cells(const std::optional<ContactBand>& band,
+                                    const ContactBandRow* row) {
+  std::vector<std::string> cells(5);
+  if (!band || row == nullptr) return cells;
+  if (band->total.force_low > 0.0) {
+    cells[0] = shortest(row->force_low);
+    cells[2] = shortest(row->peak_pressure_cells_low);
+  }
+  if (band->total.force_high > 0.0) {
+    cells[1] = shortest(row->force_high);
+    cells[3] = shortest(row->peak_pressure_cells_high);
+  }
+  cells[4] = shortest(row->force_per_modulus);
+  return cells;
+}
+
+/// `band`: of this region, or null.
 std::vector<std::string> region_row(const AssessedProduct& one, const std::string& region,
-                                    const RegionContact& contact) {
+                                    const RegionContact& contact, const ContactBandRow* band) {
   std::vector<std::string> row = {one.product.name, one.assessment.hand_name, region};
   for (const double value : {contact.force, contact.area, contact.peak_pressure,
                              contact.peak_pressure_cells, contact.mean_pressure, contact.centre.x(),
                              contact.centre.y(), contact.centre.z(), contact.max_penetration}) {
     row.push_back(shortest(value));
   }
+  for (std::string& text : band_cells(one.assessment.contact.band, band)) {
+    row.push_back(std::move(text));
+  }
+  row.push_back(name_of(one.assessment.contact.model));
   row.push_back(one.product.source);
   return row;
 }
@@ -77,13 +101,26 @@ CsvTable region_table(const AssessmentSet& set) {
                   "centre_y_mm",
                   "centre_z_mm",
                   "max_penetration_mm",
+                  "force_low_n",
+                  "force_high_n",
+                  "peak_pressure_cells_low_mpa",
+                  "peak_pressure_cells_high_mpa",
+                  "force_per_modulus_n",
+                  "contact_model",
                   "source"};
   for (const AssessedProduct& one : set.assessments) {
     const ContactResult& contact = one.assessment.contact;
     for (const RegionContact& region : contact.regions) {
-      table.rows.push_back(region_row(one, std::string(name_of(region.region)), region));
+      const ContactBandRow* band = nullptr;
+      if (contact.band) {
+        for (const ContactBandRow& row : contact.band->regions) {
+          if (row.region == region.region) band = &row;
+        }
+      }
+      table.rows.push_back(region_row(one, std::string(name_of(region.region)), region, band));
     }
-    table.rows.push_back(region_row(one, "total", contact.total));
+    table.rows.push_back(
+        region_row(one, "total", contact.total, contact.band ? &contact.band->total : nullptr));
   }
   return table;
 }

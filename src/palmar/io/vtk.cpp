@@ -62,6 +62,21 @@ std::string raw_doubles(const std::vector<double>& values) {
   return raw;
 }
 
+/// VTK writes a string in ascii as the codes of its bytes, ended by 0.
+std::string field_data(const std::vector<MeshNote>& notes) {
+  if (notes.empty()) return "";
+  std::string result = "<FieldData>\n";
+  for (const MeshNote& note : notes) {
+    result += "<DataArray type=\"String\" Name=\"" + escaped(note.name) +
+              "\" NumberOfTuples=\"1\" format=\"ascii\">";
+    for (const char c : note.text) {
+      result += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
+    }
+    result += "0</DataArray>\n";
+  }
+  return result + "</FieldData>\n";
+}
+
 }  // namespace
 
 std::string base64(std::string_view bytes) {
@@ -89,7 +104,8 @@ PointField vector_field(const std::string& name, const std::vector<Vec3>& vector
   return field;
 }
 
-std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& fields) {
+std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& fields,
+                       const std::vector<MeshNote>& notes) {
   Appended appended;
   std::string point_data;
   for (const PointField& field : fields) {
@@ -115,9 +131,8 @@ std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& 
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\">\n"
-         "<PolyData>\n"
-         "<Piece NumberOfPoints=\"" +
-         std::to_string(mesh.vertices.size()) +
+         "<PolyData>\n" +
+         field_data(notes) + "<Piece NumberOfPoints=\"" + std::to_string(mesh.vertices.size()) +
          "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
          std::to_string(mesh.triangles.size()) + "\">\n<PointData" + active + ">\n" + point_data +
          "</PointData>\n<Points>\n" + points + "</Points>\n<Polys>\n" + polys +

@@ -37,6 +37,13 @@ std::string folder_name(const std::string& product, std::set<std::string>& used)
   return unique;
 }
 
+std::vector<MeshNote> notes_of(const ContactResult& contact) {
+  return {{"contact_model", name_of(contact.model)},
+          {"kernel", std::string(name_of(contact.model.kernel))},
+          {"tissue_model", std::string(name_of(contact.model.tissue))},
+          {"regions", std::string(name_of(contact.model.coupling))}};
+}
+
 std::string hand_vtp(const Hand& hand, const Assessment& assessment) {
   const std::size_t n = hand.skin.vertices.size();
   const auto sized = [&](std::vector<double> values) {
@@ -50,12 +57,14 @@ std::string hand_vtp(const Hand& hand, const Assessment& assessment) {
   for (std::size_t i = 0; i < n; ++i) moved[i] = deformed.vertices[i] - undeformed.vertices[i];
   std::vector<double> region;
   for (const Region r : hand.region) region.push_back(static_cast<double>(r));
-  return format_vtp(deformed, {{"pressure_mpa", sized(contact.pressure)},
-                               {"force_n", sized(contact.force)},
-                               {"distance_before_mm", sized(contact.distance)},
-                               {"indentation_mm", sized(contact.displacement)},
-                               {"region", sized(region)},
-                               vector_field("displacement_mm", moved)});
+  return format_vtp(deformed,
+                    {{"pressure_mpa", sized(contact.pressure)},
+                     {"force_n", sized(contact.force)},
+                     {"distance_before_mm", sized(contact.distance)},
+                     {"indentation_mm", sized(contact.displacement)},
+                     {"region", sized(region)},
+                     vector_field("displacement_mm", moved)},
+                    notes_of(contact));
 }
 
 std::vector<VertexColour> glb_colours(const std::vector<double>& field, const ColourScale& scale,
@@ -88,7 +97,8 @@ void write_fields(const std::filesystem::path& folder, const Hand& hand, const A
   write("hand.vtp", [&] { return hand_vtp(hand, one.assessment); });
   write("product.vtp", [&] {
     const ProductFootprint footprint = footprint_of(one);
-    return format_vtp(footprint.surface, {{"pressure_mpa", footprint.pressure}});
+    return format_vtp(footprint.surface, {{"pressure_mpa", footprint.pressure}},
+                      notes_of(one.assessment.contact));
   });
   write("grasp.glb", [&] { return grasp_glb(hand, one, scale); });
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "palmar/io/vtk.h"
+#include "palmar/report/error_band.h"
 #include "palmar/report/html_tables.h"
 #include "palmar/report/html_text.h"
 #include "palmar/report/image.h"
@@ -107,7 +108,7 @@ std::string comparison(const AssessmentSet& set,
   for (std::size_t i = 0; i < all.size(); ++i) html += card(all[i], pictures.at(i), i);
   html += "</div>\n";
   if (all.size() == 2 && is_in_hand(all[0].assessment) && is_in_hand(all[1].assessment)) {
-    html += difference_table(all[0], all[1]);
+    html += difference_table(all[0], all[1]) + band_comparison(all[0], all[1]);
   }
   return html;
 }

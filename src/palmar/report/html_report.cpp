@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/version.h"
 #include "palmar/io/vtk.h"
+#include "palmar/report/error_band.h"
 #include "palmar/report/html_comparison.h"
 #include "palmar/report/html_style.h"
 #include "palmar/report/html_tables.h"
@@ -81,12 +82,20 @@ std::string scene_view(const Hand& hand, const AssessedProduct& one, const Colou
 }
 
 std::string charts(const ContactResult& contact) {
-  BarChart force{"Force, N", {}};
-  BarChart pressure{"Peak pressure, MPa", {}};
-  for (const RegionContact& one : contact.regions) {
-    force.bars.push_back({plain_words(one.region), one.force, region_colour(one.region)});
-    pressure.bars.push_back(
-        {plain_words(one.region), one.peak_pressure, region_colour(one.region)});
+  const bool has_range = contact.band && has_low(*contact.band) && has_high(*contact.band) &&
+                         contact.band->regions.size() == contact.regions.size();
+  const std::string lines = has_range ? " (lines: soft to stiff tissue)" : "";
+  BarChart force{"Force, N" + lines, {}};
+  BarChart pressure{"Peak pressure, MPa" + lines, {}};
+  for (std::size_t i = 0; i < contact.regions.size(); ++i) {
+    const RegionContact& one = contact.regions[i];
+    const std::string name = plain_words(one.region);
+    force.bars.push_back({name, one.force, region_colour(one.region)});
+    pressure.bars.push_back({name, one.peak_pressure, region_colour(one.region)});
+    if (!has_range) continue;
+    const ContactBandRow& band = contact.band->regions[i];
+    force.bars.back().range = BarRange{band.force_low, band.force_high};
+    pressure.bars.back().range = BarRange{band.peak_pressure_low, band.peak_pressure_high};
   }
   return "<div class=\"charts\">" + svg_chart(force) + svg_chart(pressure) + "</div>\n";
 }
@@ -141,7 +150,7 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
   }
   html += scene_view(hand, one, scale, "scene-" + std::to_string(index));
   if (is_judged) {
-    html += charts(contact) + region_contact_table(contact);
+    html += charts(contact) + region_contact_table(contact) + error_band_section(assessment);
   } else if (!contact.regions.empty()) {
     html += "<details><summary>What the hand touches all the same</summary>" +
             region_contact_table(contact) + "</details>\n";
@@ -151,25 +160,58 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
           "</details>\n<details><summary>Posture and placement</summary>" +
           posture_table(hand, assessment.grasp) + placement_table(assessment.grasp) +
           "</details>\n<details><summary>Settings and product</summary>" +
-          settings_table(assessment) + "<p>Product from " +
-          html_escaped(one.product.source) + "; unit " + name_of(one.product.unit) + " (" +
-          name_of(one.product.unit_source) + "); " +
+          settings_table(assessment) + "<p>Product from " + html_escaped(one.product.source) +
+          "; unit " + name_of(one.product.unit) + " (" + name_of(one.product.unit_source) + "); " +
           std::to_string(one.product.mesh.triangle_count()) + " triangles.</p>";
   return html + "</details>\n";
 }
 
-constexpr std::string_view kMethodLimits = R"(<h2 id="limits">What this does not model</h2>
-<ul>
-<li>The skin is a half-space whose stiffness grows with depth, region by region; the bone under it is not modelled, so peaks over bone are too low where the skin is thin.</li>
-<li>No friction, no slip, no weight of the product, no tool forces: the fingers close to a given depth, they don't grip with a chosen force.</li>
-<li>The sum of the forces is not the reading of a dynamometer, nor the grip force across a plane: the three differ by a factor of 2 to 3.</li>
-<li>The product is rigid; edges sharper than the skin's mesh (about 2.5 mm) are seen blunter than they are.</li>
-<li>One hand. Other people's hands are larger, smaller, stiffer or softer. Its bones are synthetic.</li>
-<li>Regions are solved one by one; neighbours don't push each other's skin down.</li>
-<li>Limits of pressure come in families ten times apart. Film peak values at pain onset (ISO/TS 15066:2016: finger 3.0, palm 2.6, ball of the thumb 2.0 MPa) stand against the peak pressure; the 0.05 MPa at which blood flow stops stand against the peak averaged on 24 mm² sensor cells and concern grips held long. Neither is a verdict on comfort.</li>
-</ul>
-<p>Methods: Y. Xie, Plausible 3D Human Hand Modeling for Virtual Ergonomic Assessments of Handheld Product, Hokkaido University, 2014, with the patch kernel and an exact solution of the contact problem; see Palmar's documentation.</p>
-)";
+/// What the equations that ran leave out.
+std::string method_limits(const AssessmentSet& set) {
+  const bool is_known = !set.assessments.empty();
+  const ContactModel model =
+      is_known ? set.assessments.front().assessment.contact.model : ContactModel{};
+  const bool has_sleeve =
+      is_known && !set.assessments.front().assessment.options.contact.coatings.empty();
+  std::string html = "<h2 id=\"limits\">What this does not model</h2>\n<ul>\n<li>";
+  html += model.tissue == TissueModel::kHalfSpace
+              ? "The skin is endlessly deep tissue whose stiffness grows with depth, region by "
+                "region; the bone under it is not modelled, so peaks over bone are too low where "
+                "the skin is thin."
+              : "The skin is one elastic layer over bone, as deep as the bones of this hand stand "
+                "under it; fat, nail and tendons are not told apart.";
+  html +=
+      "</li>\n<li>No friction, no slip, no weight of the product, no tool forces: the fingers "
+      "close "
+      "to a given depth, they don't grip with a chosen force.</li>\n"
+      "<li>The sum of the forces is not the reading of a dynamometer, nor the grip force across a "
+      "plane: the three differ by a factor of 2 to 3.</li>\n<li>";
+  html += has_sleeve ? "Under its sleeve the product is rigid, and the sleeve is elastic at any "
+                       "squeeze, without bottoming out;"
+                     : "The product is rigid;";
+  html +=
+      " edges sharper than the skin's mesh (about 2.5 mm) are seen blunter than they are.</li>\n"
+      "<li>One hand. Other people's hands are larger, smaller, stiffer or softer. Its bones are "
+      "synthetic.</li>\n";
+  if (model.coupling == RegionCoupling::kIndependent) {
+    html +=
+        "<li>Regions are solved one by one; neighbours don't push each other's skin down, which "
+        "makes forces too high where they meet.</li>\n";
+  }
+  html +=
+      "<li>Limits of pressure come in families ten times apart. Film peak values at pain onset "
+      "(ISO/TS 15066:2016: finger 3.0, palm 2.6, ball of the thumb 2.0 MPa) stand against the peak "
+      "pressure; the 0.05 MPa at which blood flow stops stand against the peak averaged on 24 mm² "
+      "sensor cells and concern grips held long. Neither is a verdict on comfort.</li>\n</ul>\n"
+      "<p>Equations that ran: " +
+      html_escaped(name_of(model)) +
+      ". Methods: Y. Xie, Plausible 3D Human Hand Modeling for Virtual Ergonomic Assessments of "
+      "Handheld Product, Hokkaido University, 2014";
+  if (model != xie2014_model()) {
+    html += ", with the changes that Palmar's documentation lists with their effects";
+  }
+  return html + ".</p>\n";
+}
 
 std::string provenance(const AssessmentSet& set) {
   const HandDimensions& d = set.hand->dimensions;
@@ -225,7 +267,8 @@ std::string html_report(const AssessmentSet& set,
   html +=
       "<p>Peak pressure is the largest at one vertex of the skin; the peak on sensor cells is "
       "averaged over the area of a pressure mat's cell and is the figure to compare with "
-      "measurements. All pictures share one colour scale, 0 to " +
+      "measurements. Small figures under a result are its range from soft to stiff tissue. All "
+      "pictures share one colour scale, 0 to " +
       short_number(scale.upper) + " " + html_escaped(scale.unit) +
       (scale.is_open_ended ? "; single vertices above that have the colour of its end" : "") +
       " (1 MPa = 1 N/mm² = 1000 kPa). Numbers are shortened for reading; assessment.json holds "
@@ -233,7 +276,7 @@ std::string html_report(const AssessmentSet& set,
   for (std::size_t i = 0; i < count; ++i) {
     html += product_section(*set.hand, set.assessments[i], pictures[i], scale, i);
   }
-  html += kMethodLimits;
+  html += method_limits(set);
   html += provenance(set);
   html += "</main>\n<footer><p>Made by Palmar " + html_escaped(version()) +
           ". This file works without a network.</p></footer>\n"

@@ -24,6 +24,7 @@ caption{text-align:left;font-weight:600;padding:.3rem 0}
 th,td{padding:.4rem .6rem;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
 thead th.n{white-space:normal}thead th{background:var(--wash);border-bottom:2px solid var(--line);font-weight:600;vertical-align:bottom}
 tbody th{font-weight:500}
+.range{font-size:.82rem;color:var(--soft)}
 .n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 tr.total th,tr.total td{font-weight:700;border-top:2px solid var(--line)}
 .badge{display:inline-block;padding:.05rem .6rem;border-radius:1rem;font-weight:600;white-space:nowrap}

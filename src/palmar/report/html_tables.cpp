@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "palmar/report/colormap.h"
+#include "palmar/report/error_band.h"
 #include "palmar/report/html_text.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/pressure_limits.h"
@@ -63,6 +64,36 @@ std::string vector_cell(const Vec3& v, int significant) {
   return "<td class=\"n\" data-value=\"" + exact + "\">" + text + "</td>";
 }
 
+/// A result with its range for soft and stiff tissue below it.
+std::string range_cell(double value, const std::optional<ContactBand>& band, double low,
+                       double high) {
+  if (!band) return number_cell(value);
+  return "<td class=\"n\" data-value=\"" + exact_number(value) + "\">" + short_number(value) +
+         "<div class=\"range\">" + range_words(low, high, has_low(*band), has_high(*band)) +
+         "</div></td>";
+}
+
+std::string coating_words(const Coating& coating) {
+  std::string words = short_number(coating.thickness) + " mm thick, shear modulus " +
+                      short_number(1000.0 * coating.shear_modulus) + " kPa, Poisson's ratio " +
+                      short_number(coating.poisson, 2);
+  if (coating.where.isEmpty()) return words + ", on the whole product";
+  const auto corner = [](const Vec3& p) {
+    return "(" + short_number(p.x()) + ", " + short_number(p.y()) + ", " + short_number(p.z()) +
+           ")";
+  };
+  return words + ", between " + corner(coating.where.min()) + " and " +
+         corner(coating.where.max()) + " mm";
+}
+
+std::string coating_settings(const std::vector<Coating>& coatings) {
+  std::string rows;
+  for (const Coating& coating : coatings) {
+    rows += "<tr>" + head_cell("Sleeve on the product") + cell(coating_words(coating)) + "</tr>";
+  }
+  return rows;
+}
+
 std::string setting(const std::string& name, const std::string& value) {
   return "<tr>" + head_cell(name) + cell(value) + "</tr>";
 }
@@ -72,8 +103,14 @@ std::string result_cells(const ContactResult& contact) {
                                         [](const RegionContact& a, const RegionContact& b) {
                                           return a.peak_pressure_cells < b.peak_pressure_cells;
                                         });
-  return number_cell(contact.total.force) + number_cell(contact.total.area) +
-         number_cell(contact.total.peak_pressure) + number_cell(contact.total.peak_pressure_cells) +
+  const RegionContact& all = contact.total;
+  const ContactBandRow band = contact.band ? contact.band->total : ContactBandRow{};
+  return range_cell(all.force, contact.band, band.force_low, band.force_high) +
+         range_cell(all.area, contact.band, band.area_low, band.area_high) +
+         range_cell(all.peak_pressure, contact.band, band.peak_pressure_low,
+                    band.peak_pressure_high) +
+         range_cell(all.peak_pressure_cells, contact.band, band.peak_pressure_cells_low,
+                    band.peak_pressure_cells_high) +
          cell(plain_words(hottest->region)) + cell(pain_words(nearest_to_pain(contact))) +
          cell(std::to_string(regions_without_blood_flow(contact)) + " of " +
               std::to_string(contact.regions.size()) + " regions above 0.05 MPa");
@@ -225,6 +262,9 @@ std::string settings_table(const Assessment& assessment) {
           setting("Shear modulus", options.contact.shear_modulus
                                        ? short_number(*options.contact.shear_modulus) + " MPa"
                                        : "grows with depth, per region") +
+          coating_settings(options.contact.coatings) +
+          setting("Ranges for soft and stiff tissue",
+                  options.contact.error_band ? "on" : "left out") +
           setting("Seed", std::to_string(options.seed)));
 }
 

@@ -32,6 +32,16 @@ std::string text_at(double x, double y, const std::string& anchor, const std::st
          "\" fill=\"" + colour + "\">" + html_escaped(text) + "</text>";
 }
 
+/// A line with end marks, white below black so that it shows on every colour.
+std::string whisker(double from, double to, double y) {
+  const std::string path = "M" + number(from) + " " + number(y - 4.0) + "v8M" + number(from) + " " +
+                           number(y) + "H" + number(to) + "M" + number(to) + " " + number(y - 4.0) +
+                           "v8";
+  return "<path d=\"" + path +
+         "\" stroke=\"#ffffff\" stroke-width=\"4\" fill=\"none\"/><path d=\"" + path +
+         "\" stroke=\"#1d2329\" stroke-width=\"1.5\" fill=\"none\"/>";
+}
+
 }  // namespace
 
 std::string svg_chart(const BarChart& chart) {
@@ -44,7 +54,9 @@ std::string svg_chart(const BarChart& chart) {
   svg += "<text x=\"0\" y=\"16\" font-weight=\"600\" fill=\"#22282e\">" +
          html_escaped(chart.title) + "</text>";
   double largest = 0.0;
-  for (const Bar& bar : chart.bars) largest = std::max(largest, bar.value);
+  for (const Bar& bar : chart.bars) {
+    largest = std::max({largest, bar.value, bar.range ? bar.range->high : 0.0});
+  }
   if (!(largest > 0.0)) {
     return svg + text_at(0.0, kTop + 16.0, "start", "#4a525a", "No contact.") + "</svg>";
   }
@@ -66,7 +78,13 @@ std::string svg_chart(const BarChart& chart) {
     svg += "<rect x=\"" + number(kLeft) + "\" y=\"" + number(y + 3.0) + "\" width=\"" +
            number(length) + "\" height=\"" + number(kRow - 8.0) + "\" fill=\"" +
            hex_colour(bar.colour) + "\" stroke=\"#4a525a\" stroke-width=\"0.5\"/>";
-    svg += text_at(kLeft + length + 6.0, y + 15.0, "start", "#22282e", short_number(bar.value));
+    double end = kLeft + length;
+    if (bar.range) {
+      svg += whisker(kLeft + span * std::max(bar.range->low, 0.0) / upper,
+                     kLeft + span * std::max(bar.range->high, 0.0) / upper, y + 11.0);
+      end = std::max(end, kLeft + span * bar.range->high / upper);
+    }
+    svg += text_at(end + 6.0, y + 15.0, "start", "#22282e", short_number(bar.value));
   }
   return svg + "</svg>";
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,16 @@
 
 namespace palmar {
 
+/// Low and high value of a quantity that is not known for certain.
+struct BarRange {
+  double low = 0.0, high = 0.0;  ///< in the chart's unit, 0 or more
+};
+
 struct Bar {
   std::string label;
   double value = 0.0;  ///< in the chart's unit, 0 or more
   Rgb colour{70, 110, 150};
+  std::optional<BarRange> range{};  ///< drawn as a line across the bar's end
 };
 
 struct BarChart {
