@@ -88,7 +88,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   }
 
   if (progress.report) progress.report(0.0, "preparing the hand");
-  const auto hand = load_hand(arguments.grasp.hand);
+  const auto hand = load_hand(arguments.grasp.hand, arguments.contact.tissue);
   const PreparedHand prepared(hand, model);
 
   std::vector<AssessedProduct> done;

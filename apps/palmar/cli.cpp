@@ -16,6 +16,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/io/hand_file.h"
+#include "palmar/io/tissue_file.h"
 
 namespace palmar::cli {
 namespace {
@@ -73,6 +74,14 @@ std::shared_ptr<const Hand> load_hand(const std::string& name) {
                      " (run `palmar doctor`; it is made when Palmar is built)");
   }
   return std::make_shared<const Hand>(read_hand(path));
+}
+
+std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file) {
+  auto hand = load_hand(name);
+  if (tissue_file.empty()) return hand;
+  auto other = std::make_shared<Hand>(*hand);
+  other->tissue = read_tissue(tissue_file, hand->tissue);
+  return other;
 }
 
 std::vector<double> parse_list(const std::string& option, const std::string& text) {

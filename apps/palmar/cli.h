@@ -39,6 +39,7 @@ void add_doctor_command(CLI::App& app, Context& context);
 void add_grasp_commands(CLI::App& app, Context& context);
 void add_hand_commands(CLI::App& app, Context& context);
 void add_product_commands(CLI::App& app, Context& context);
+void add_validate_command(CLI::App& app, Context& context);
 
 /// Adds a verb with its worked example under the help text.
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
@@ -49,6 +50,8 @@ std::string share_folder();
 
 /// The hand called `name`: "template", or a *.hand.glb file. Throws InputError.
 std::shared_ptr<const Hand> load_hand(const std::string& name);
+/// The same with the tissue of a file (docs/using/tissue.md) over its own; "": as it is.
+std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file);
 
 /// "1,2,3" as a vector. Throws UsageError naming the option.
 Vec3 parse_vector(const std::string& option, const std::string& text);

@@ -12,6 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
 #include "palmar/io/press_json.h"
+#include "palmar/io/tissue_file.h"
 #include "palmar/report/press_chart.h"
 #include "press_specimen.h"
 #include "text.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct PressArguments {
   std::string specimen = "plane", indenter, depths, forces, out;
-  std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal";
+  std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal", tissue;
   double tilt_deg = 0.0;
   double cell = PressOptions{}.cell_area;
   double coating_poisson = Coating{}.poisson;
@@ -135,6 +136,10 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   PressOptions options = parse_options(arguments, hand_name);
   const ContactModel model = parse_model(arguments, !hand_name.empty());
   options.kernel = model.kernel;
+  if (hand_name.empty() && !arguments.tissue.empty()) {
+    options.tissue = read_tissue(arguments.tissue, default_tissue())
+                         .region[static_cast<std::size_t>(Region::kMiddleDistal)];
+  }
   options.check();
   check_out(arguments.out);
 
@@ -142,7 +147,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   std::optional<PreparedHand> hand;
   if (!hand_name.empty()) {
     if (arguments.spacing) note(common, "--spacing-mm is left out: a hand has its own vertices");
-    auto loaded = load_hand(hand_name);
+    auto loaded = load_hand(hand_name, arguments.tissue);
     setting.hand = loaded->name;
     if (options.tissue_level != TissueLevel::kNominal) {
       loaded = std::make_shared<Hand>(hand_at_tissue_level(*loaded, options.tissue_level));
@@ -194,6 +199,9 @@ void add_contact_commands(CLI::App& app, Context& context) {
       "--tissue-model", o->tissue_model,
       "halfspace, or layered (skin over bone: the hand's own, or --layer-mm); default: "
       "the preset's");
+  verb->add_option("--tissue", o->tissue,
+                   "Tissue file (TOML) for the hand; a plane or ellipsoid takes the middle "
+                   "fingertip's");
   verb->add_option("--tissue-level", o->tissue_level, "Stiffness of the tissue: low, nominal, high")
       ->capture_default_str();
   verb->add_option("--layer-mm", o->layer,

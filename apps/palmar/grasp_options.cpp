@@ -58,6 +58,8 @@ void ContactArguments::add_to(CLI::App& verb) {
                   "preset");
   verb.add_option("--kernel", kernel,
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
+  verb.add_option("--tissue", tissue,
+                  "Tissue file (TOML) for the hand; what it doesn't give stays as it is");
   verb.add_flag("--no-swelling", no_swelling, "Leave out the bulge around the contact");
   verb.add_option("--shear-modulus-kpa", shear_modulus_kpa,
                   "One shear modulus instead of the tissue's own G(d), kPa");

@@ -33,9 +33,10 @@ struct ContactArguments {
   std::optional<double> shear_modulus_kpa;
   bool error_band = true;
   std::vector<std::string> coatings;
+  std::string tissue;  ///< file of the hand's tissue, or empty
 
   /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
-  /// --error-band and --coating to a verb.
+  /// --error-band, --coating and --tissue to a verb.
   void add_to(CLI::App& verb);
   /// Throws UsageError.
   ContactOptions options() const;

@@ -13,6 +13,35 @@ namespace palmar::cli {
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
+std::string tissue_text(const Tissue& tissue) {
+  std::string text = "source: " + tissue.source + "\n";
+  std::vector<bool> is_told(kRegionCount, false);
+  for (std::size_t r = 0; r < kRegionCount; ++r) {
+    if (is_told[r]) continue;
+    const RegionTissue& one = tissue.region[r];
+    std::string names;
+    for (std::size_t other = r; other < kRegionCount; ++other) {
+      if (is_told[other] || tissue.region[other] != one) continue;
+      is_told[other] = true;
+      names += (names.empty() ? "" : ", ") + std::string(name_of(static_cast<Region>(other)));
+    }
+    text += "\n" + names + "\n";
+    for (const auto& [model, stiffness] :
+         {std::pair("half-space", &one.half_space), std::pair("layered", &one.layered)}) {
+      const StiffeningLaw &low = stiffness->low, &law = stiffness->nominal, &high = stiffness->high;
+      text += fmt::format(
+          "  {:<11} G0 {:.4g} kPa ({:.4g} to {:.4g}), G_lim {:.4g} kPa ({:.4g} to {:.4g}) at "
+          "{:.4g} mm\n",
+          model, 1e3 * law.g0, 1e3 * low.g0, 1e3 * high.g0, 1e3 * law.g_limit, 1e3 * low.g_limit,
+          1e3 * high.g_limit, law.limit_depth);
+    }
+    text += fmt::format("  {:<11} {:g} mm high, {:g} mm from the contact, {:g} mm wide\n", "bulge",
+                        one.swelling_height, one.swelling_radius, one.swelling_width);
+    text += fmt::format("  {:<11} {}\n", "source", one.source);
+  }
+  return text;
+}
+
 std::string hand_text(const Hand& hand) {
   const HandDimensions& d = hand.dimensions;
   std::string text = fmt::format(

@@ -14,6 +14,8 @@ namespace palmar::cli {
 
 /// Major and segment dimensions, joints with their ranges of motion.
 std::string hand_text(const Hand& hand);
+/// Both tissue models per group of regions that share one, with ranges and sources.
+std::string tissue_text(const Tissue& tissue);
 /// Dimensions as CSV, one row per quantity: quantity,segment,value_mm.
 std::string dimensions_csv(const Hand& hand);
 /// Status, what stopped each segment, angles.

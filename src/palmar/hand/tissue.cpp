@@ -88,29 +88,35 @@ RegionTissue finger_tissue() {
   return {.half_space = {.nominal = {0.005, 0.095, 4.0},
                          .low = {0.005, 0.070, 4.0},
                          .high = {0.005, 0.120, 4.0}},
-          .layered = {.nominal = {0.010, 0.010, 4.0},
-                      .low = {0.007, 0.007, 4.0},
-                      .high = {0.014, 0.014, 4.0}},
+          .layered = {.nominal = {0.0068, 0.0068, 4.0},
+                      .low = {0.0052, 0.0052, 4.0},
+                      .high = {0.0084, 0.0084, 4.0}},
           .swelling_height = 2.0,
           .swelling_radius = 8.0,
           .swelling_width = 2.0,
           .neighbourhood = 12.5,
           .source = std::string(kHalfSpaceSource) +
-                    "; width of the bulge (2 mm) assumed, the thesis' figure is lost"};
+                    "; width of the bulge (2 mm) assumed, the thesis' figure is lost; layered: one "
+                    "modulus fitted to the fingertip forces of the thesis' laws (radius 7.5 mm, "
+                    "0.5-4 mm) on the template's middle fingertip against a plate at 30 deg"};
 }
 
 RegionTissue palm_tissue() {
-  return {.half_space = {.nominal = {0.0275, 0.060, 7.0},
-                         .low = {0.005, 0.040, 7.0},
-                         .high = {0.050, 0.080, 7.0}},
-          .layered = {.nominal = {0.010, 0.010, 7.0},
-                      .low = {0.007, 0.007, 7.0},
-                      .high = {0.014, 0.014, 7.0}},
-          .swelling_height = 3.0,
-          .swelling_radius = 15.0,
-          .swelling_width = 3.0,
-          .neighbourhood = 17.5,
-          .source = kHalfSpaceSource};
+  return {
+      .half_space = {.nominal = {0.0275, 0.060, 7.0},
+                     .low = {0.005, 0.040, 7.0},
+                     .high = {0.050, 0.080, 7.0}},
+      .layered = {.nominal = {0.0100, 0.0100, 7.0},
+                  .low = {0.0048, 0.0048, 7.0},
+                  .high = {0.0144, 0.0144, 7.0}},
+      .swelling_height = 3.0,
+      .swelling_radius = 15.0,
+      .swelling_width = 3.0,
+      .neighbourhood = 17.5,
+      .source = std::string(kHalfSpaceSource) +
+                "; layered: one modulus fitted to the forces of those half-spaces on the "
+                "template's thenar, hypothenar and the two pads against a plate (1-7 mm), as "
+                "the thesis' test is not described well enough to press it anew: an assumption"};
 }
 
 RegionTissue dorsum_tissue() {

@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/hand_json.h"
+#include "palmar/io/skeleton_json.h"
 
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -61,6 +62,10 @@ std::string hand_info_json(const Hand& hand) {
                      {"tissue_source", hand.tissue.source},
                      {"provenance", hand.provenance}};
   return info.dump(2, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
+}
+
+std::string tissue_json(const Tissue& tissue) {
+  return tissue_to_json(tissue).dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace palmar

@@ -12,4 +12,8 @@ namespace palmar {
 /// motion in degrees, sources, provenance.
 std::string hand_info_json(const Hand& hand);
 
+/// What `palmar hand tissue --json` prints: per region both laws with low and high, MPa and mm, and
+/// where they come from.
+std::string tissue_json(const Tissue& tissue);
+
 }  // namespace palmar
