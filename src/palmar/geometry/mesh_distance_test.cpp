@@ -239,6 +239,35 @@ TEST(MeshDistance, DoesNotDependOnThreadsOrCompany) {
   }
 }
 
+TEST(MeshDistance, FromEarlierSamplesSaysTheSameAsFromNone) {
+  const std::vector<Vec3> points = random_points(3000, kRoundCylinder, 14);
+  const std::vector<Vec3> ways = random_points(3000, cube(3.0), 15);
+  std::vector<Vec3> moved;
+  for (std::size_t i = 0; i < points.size(); ++i) moved.push_back(points[i] + ways[i]);
+  for (const TriangleMesh& mesh : {capped_cylinder(), patched_cylinder(8, 0.01, false)}) {
+    const MeshDistance field(mesh);
+    std::vector<DistanceSample> found = sample(field, points, 9.0);
+    field.resample(moved, 12.0, found);
+    const std::vector<DistanceSample> truth = sample(field, moved, 12.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_EQ(found[i].distance, truth[i].distance) << moved[i].transpose();
+      ASSERT_EQ(found[i].closest, truth[i].closest);
+      ASSERT_EQ(found[i].triangle, truth[i].triangle);
+    }
+  }
+}
+
+TEST(MeshDistance, OnTheSurfaceHasNoSide) {
+  const MeshDistance box(make_box(Vec3(20.0, 20.0, 20.0), 3));
+  for (const double off : {-9e-8, 0.0, 9e-8}) {
+    const DistanceSample s = box.at({10.0 + off, 3.1, 2.3});
+    EXPECT_NEAR(s.distance, std::abs(off), 1e-14) << off;
+    EXPECT_GE(s.distance, 0.0);
+    EXPECT_LT((s.normal - Vec3::UnitX()).norm(), 1e-9);
+  }
+  EXPECT_LT(box.at({10.0 - 2e-7, 3.1, 2.3}).distance, 0.0);
+}
+
 TEST(MeshDistance, CopesWithDegenerateTrianglesAndEmptyMeshes) {
   TriangleMesh mesh = make_box(Vec3(20, 20, 20), 1);
   mesh.triangles.push_back({0, 0, 1});
