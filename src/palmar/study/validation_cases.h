@@ -1,0 +1,72 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/product/product.h"
+#include "palmar/study/validation.h"
+
+namespace palmar {
+
+/// A cylinder in the template's power grasp, before the skin gives way.
+struct HeldCylinder {
+  Product product;
+  Grasp grasp;
+  std::vector<Vec3> posed_skin;  ///< hand frame, mm
+};
+
+/// What cases share: the hand, prepared once per set of equations, and grasps already closed.
+class ValidationBench {
+ public:
+  ValidationBench(std::shared_ptr<const Hand> hand, Progress progress);
+
+  const Hand& hand() const { return *hand_; }
+  const PreparedHand& prepared(const ContactModel& model);
+  const HeldCylinder& cylinder(double diameter);
+  ContactResult contact(const HeldCylinder& held, const ContactModel& model);
+
+  /// Of the case that runs: share done of it.
+  void update(double share, const std::string& activity) const;
+  double case_begin = 0.0, case_end = 1.0;  ///< share of the whole run
+
+  std::shared_ptr<const Hand> shared_hand() const { return hand_; }
+  const Progress& progress() const { return progress_; }
+
+ private:
+  std::shared_ptr<const Hand> hand_;
+  Progress progress_;
+  std::map<std::string, std::unique_ptr<PreparedHand>> prepared_;
+  std::map<double, std::unique_ptr<HeldCylinder>> cylinders_;
+};
+
+using ValidationRows = std::vector<ValidationRow>;
+
+/// `palmar` with one region at a time.
+ContactModel independent_model();
+/// `palmar` with bone under the skin.
+ContactModel layered_model();
+
+// validation_press.cpp
+ValidationRows validate_half_space(ValidationBench& bench);
+ValidationRows validate_layer(ValidationBench& bench);
+// validation_fingertip.cpp
+ValidationRows validate_fingertip(ValidationBench& bench);
+// validation_population.cpp
+ValidationRows validate_contact_area(ValidationBench& bench);
+// validation_grasp.cpp
+ValidationRows validate_grip_force(ValidationBench& bench);
+ValidationRows validate_shares(ValidationBench& bench);
+ValidationRows validate_fillets(ValidationBench& bench);
+ValidationRows validate_coupling(ValidationBench& bench);
+// validation_motion.cpp
+ValidationRows validate_motion(ValidationBench& bench);
+ValidationRows validate_structure(ValidationBench& bench);
+
+}  // namespace palmar
