@@ -39,6 +39,7 @@ TEST(Documents, EveryShownCommandWorks) {
   const auto commands = shown_commands();
   ASSERT_GE(commands.size(), 8U);
   const std::string folder = temporary_folder();
+  fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples");
   for (const std::string name : {"handle", "old-handle", "new-handle", "drill", "old", "new"}) {
     ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 40 --out " + name + ".stl", folder)
                   .exit_code,
