@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli.h"
+#include "friction_arguments.h"
 #include "grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/io/assessment_json.h"
@@ -24,6 +25,7 @@ struct AssessArguments {
   std::vector<std::string> products;
   GraspArguments grasp;
   ContactArguments contact;
+  FrictionArguments friction;
   std::string out;
   bool no_pictures = false;
 };
@@ -35,9 +37,10 @@ std::string default_folder() {
   return folder;
 }
 
-std::string summary(const Product& product, const Assessment& assessment) {
+std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
   std::string text = fmt::format("== {}\n{}{}", product.name, grasp_text(assessment.grasp),
-                                 contact_text(assessment.contact));
+                                 contact_text(assessment.contact)) +
+                     friction_text(hand, assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
@@ -71,6 +74,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   AssessOptions options;
   options.grasp = arguments.grasp.options();
   options.contact = arguments.contact.options();
+  options.friction = arguments.friction.options();
   const ContactModel model = arguments.contact.model();
   options.seed = context.common.seed;
   const Progress progress = make_progress(context.common);
@@ -142,7 +146,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     print(assessment_json(set) + "\n");
   } else {
     for (const AssessedProduct& one : set.assessments) {
-      print(summary(one.product, one.assessment) + "\n");
+      print(summary(*hand, one.product, one.assessment) + "\n");
     }
     if (writes && !set.assessments.empty()) print("Report: " + folder + "/report.html\n");
   }
@@ -160,6 +164,7 @@ void add_assess_command(CLI::App& app, Context& context) {
       ->required();
   arguments->grasp.add_to(*verb);
   arguments->contact.add_to(*verb);
+  arguments->friction.add_to(*verb);
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");

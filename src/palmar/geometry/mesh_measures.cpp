@@ -62,6 +62,29 @@ double signed_volume(const TriangleMesh& mesh) {
   return sum / 6.0;
 }
 
+Vec3 centre_of_volume(const TriangleMesh& mesh) {
+  constexpr double kNone = 1e-6;  // of area^1.5; a cube has 0.07
+  if (mesh.vertices.empty()) return Vec3::Zero();
+  Vec3 about = Vec3::Zero();
+  for (const Vec3& v : mesh.vertices) about += v;
+  about /= static_cast<double>(mesh.vertices.size());
+  double volume = 0.0, area = 0.0;
+  Vec3 volume_moment = Vec3::Zero(), area_moment = Vec3::Zero();
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = point(mesh.vertices, t[0]) - about;
+    const Vec3 b = point(mesh.vertices, t[1]) - about;
+    const Vec3 c = point(mesh.vertices, t[2]) - about;
+    const double tetrahedron = a.dot(b.cross(c)) / 6.0;
+    const double triangle = triangle_area(a, b, c);
+    volume += tetrahedron;
+    area += triangle;
+    volume_moment += tetrahedron / 4.0 * (a + b + c);
+    area_moment += triangle / 3.0 * (a + b + c);
+  }
+  if (volume > kNone * std::pow(area, 1.5)) return about + volume_moment / volume;
+  return area > 0.0 ? Vec3(about + area_moment / area) : about;
+}
+
 Box3 bounding_box(const TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);

@@ -23,6 +23,10 @@ double surface_area(const TriangleMesh& mesh);
 /// over it from the mean of its vertices; so it is independent of position for closed meshes only.
 double signed_volume(const TriangleMesh& mesh);
 
+/// Centre of the enclosed volume: the centre of mass of a solid of uniform density. For a mesh that
+/// encloses none to speak of (open, or inside out) the centre of its area, else of its vertices.
+Vec3 centre_of_volume(const TriangleMesh& mesh);
+
 /// Box round all vertices; empty for no vertices.
 Box3 bounding_box(const TriangleMesh& mesh);
 

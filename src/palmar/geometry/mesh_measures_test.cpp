@@ -153,5 +153,20 @@ TEST(BoundingBox, HoldsUnusedVerticesToo) {
   EXPECT_EQ(bounding_box(mesh).max(), Vec3(5, 1, 1));
 }
 
+TEST(MeshMeasures, CentreOfVolumeIsTheCentreOfMass) {
+  // A box with a second, separate one of an eighth of its volume: lever rule.
+  TriangleMesh mesh = make_box({2, 2, 2}, 3);
+  const TriangleMesh small = make_box({1, 1, 1});
+  const int first = mesh.vertex_count();
+  for (const Vec3& v : small.vertices) mesh.vertices.push_back(v + Vec3(9, 0, 0));
+  for (const Triangle& t : small.triangles) {
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  EXPECT_LT((centre_of_volume(mesh) - Vec3(1, 0, 0)).norm(), 1e-12);
+  // An open sheet: centre of its area, however uneven its vertices.
+  EXPECT_LT((centre_of_volume(make_grid_patch(4, 2, 1.5)) - Vec3(3, 1.5, 0)).norm(), 1e-12);
+  EXPECT_EQ(centre_of_volume(TriangleMesh{}).norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace palmar

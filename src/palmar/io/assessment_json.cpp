@@ -137,6 +137,50 @@ Json contact_object(const ContactResult& contact) {
   return json;
 }
 
+Json wrench_object(const Wrench& wrench) {
+  return {{"force_n", vector3(wrench.force)}, {"moment_about_origin_n_mm", vector3(wrench.moment)}};
+}
+
+Json motion_object(const SmallMotion& motion) {
+  return {{"translation_mm", vector3(motion.translation)},
+          {"rotation_deg", vector3(motion.rotation * kDegrees)},
+          {"about_mm", vector3(motion.about)}};
+}
+
+Json friction_object(const FrictionResult& friction, const FrictionOptions& options) {
+  const ProductLoad& load = options.load;
+  Json regions = Json::array();
+  for (const RegionFriction& region : friction.regions) {
+    regions.push_back({{"region", name_of(region.region)},
+                       {"normal_force_n", region.normal_force},
+                       {"friction_limit_n", region.limit},
+                       {"friction_force_n", vector3(region.force)},
+                       {"slip_margin", region.margin},
+                       {"slipping_share_of_area", region.slipping_share}});
+  }
+  Json given = {{"weight_n", load.weight},
+                {"gravity", vector3(load.gravity)},
+                {"force_n", vector3(load.force)},
+                {"torque_n_mm", vector3(load.torque)},
+                {"force_at_mm", vector3(load.force_at.value_or(friction.mass_centre))},
+                {"mass_centre_mm", vector3(friction.mass_centre)},
+                {"mass_centre_from", load.mass_centre ? "option" : "uniform density"}};
+  return {{"status", name_of(friction.status)},
+          {"message", friction.message},
+          {"coefficient", options.coefficient},
+          {"given", std::move(given)},
+          {"load", wrench_object(friction.load)},
+          {"load_factor", or_null(friction.load_factor)},
+          {"slip_margin", friction.margin},
+          {"slipping_share_of_area", friction.slipping_share},
+          {"motion", motion_object(friction.motion)},
+          {"slip_motion", motion_object(friction.slip)},
+          {"pressure_on_product", wrench_object(friction.grip)},
+          {"balance_error", friction.balance_error},
+          {"iterations", friction.iterations},
+          {"regions", std::move(regions)}};
+}
+
 Json product_object(const Product& product) {
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
@@ -227,14 +271,19 @@ std::string assessment_json(const AssessmentSet& set) {
   for (const AssessedProduct& one : set.assessments) {
     const Assessment& assessment = one.assessment;
     Json hand = set.hand ? hand_object(*set.hand) : Json{{"name", assessment.hand_name}};
-    assessments.push_back(
-        {{"product", product_object(one.product)},
-         {"hand", std::move(hand)},
-         {"grasp", grasp_object(assessment.grasp)},
-         {"contact", contact_object(assessment.contact)},
-         {"indices", indices_object(assessment.contact)},
-         {"settings", settings_object(assessment)},
-         {"times_s", {{"grasp", assessment.times.grasp}, {"contact", assessment.times.contact}}}});
+    Json entry = {{"product", product_object(one.product)},
+                  {"hand", std::move(hand)},
+                  {"grasp", grasp_object(assessment.grasp)},
+                  {"contact", contact_object(assessment.contact)},
+                  {"indices", indices_object(assessment.contact)},
+                  {"settings", settings_object(assessment)}};
+    Json times = {{"grasp", assessment.times.grasp}, {"contact", assessment.times.contact}};
+    if (assessment.options.friction.is_on()) {
+      entry["friction"] = friction_object(assessment.friction, assessment.options.friction);
+      times["friction"] = assessment.times.friction;
+    }
+    entry["times_s"] = std::move(times);
+    assessments.push_back(std::move(entry));
   }
   const Json json = {{"assessments", std::move(assessments)},
                      {"versions", {{"palmar", version()}, {"build", build_description()}}},

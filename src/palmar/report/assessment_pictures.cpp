@@ -150,6 +150,14 @@ ProductFootprint footprint_of(const AssessedProduct& assessed) {
   return footprint;
 }
 
+ColourScale friction_scale() {
+  return {.map = Colormap::kFern,
+          .upper = 1.0,
+          .quantity = "Friction used",
+          .unit = "1 = slips",
+          .neutral = kNeutralColour};
+}
+
 ColourScale pressure_scale(const AssessmentSet& set) {
   const bool any_in_hand =
       std::any_of(set.assessments.begin(), set.assessments.end(),
@@ -201,6 +209,21 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
       {{.mesh = deformed_skin(hand, assessment), .colour = kSkinColour},
        {.mesh = assessed.product.mesh, .colour = kProductColour}},
       all);
+  if (assessment.options.friction.is_on() && !progress.is_cancelled()) {
+    const ColourScale used = friction_scale();
+    std::vector<double> mobilised = assessment.friction.mobilised;
+    mobilised.resize(hand.skin.vertices.size(), 0.0);
+    add_views(pictures,
+              {"friction", "Friction in use on the skin",
+               "hand with the product hidden, coloured by the share of friction in use"},
+              {{.mesh = deformed_skin(hand, assessment),
+                .colour = used.neutral,
+                .vertex_colours = {},
+                .field = mobilised,
+                .field_upper = used.upper,
+                .map = used.map}},
+              all, assessed.product.name, used, options, progress);
+  }
   ProductFootprint footprint = footprint_of(assessed);
   add({"footprint", "Pressure on the product", "product coloured by the pressure of the hand"},
       {coloured(std::move(footprint.surface), footprint.pressure)},

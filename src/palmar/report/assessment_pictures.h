@@ -36,9 +36,13 @@ ColourScale pressure_scale(const AssessmentSet& set);
 ///     grasp_palm ...          the hand holding the product
 ///     footprint_in_palm ...   the product coloured by pressure
 ///
-/// pressure and grasp from the palm side, the back, the thumb side and the little finger's side
-/// (suffix palm, back, thumb, little); footprint from four sides about the grip axis (in_palm,
-/// under_fingers, under_knuckles, under_fingertips). When cancelled, those that are finished.
+///     friction_palm ...       skin coloured by the share of friction in use, if friction is on; 0
+///     to 1
+///
+/// pressure, friction and grasp from the palm side, the back, the thumb side and the little
+/// finger's side (suffix palm, back, thumb, little); footprint from four sides about the grip axis
+/// (in_palm, under_fingers, under_knuckles, under_fingertips). When cancelled, those that are
+/// finished.
 std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
                                          const ColourScale& scale,
                                          const PictureOptions& options = {},
@@ -50,6 +54,8 @@ TriangleMesh deformed_skin(const Hand& hand, const Assessment& assessment);
 TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment);
 /// Pressure per skin vertex, MPa; all 0 if no contact was solved.
 std::vector<double> skin_pressure(const Hand& hand, const Assessment& assessment);
+/// From 0 to 1: friction over the coefficient times the pressure.
+ColourScale friction_scale();
 /// The product's surface with the pressure on it; plain if there was no contact.
 ProductFootprint footprint_of(const AssessedProduct& assessed);
 

@@ -57,14 +57,19 @@ std::string hand_vtp(const Hand& hand, const Assessment& assessment) {
   for (std::size_t i = 0; i < n; ++i) moved[i] = deformed.vertices[i] - undeformed.vertices[i];
   std::vector<double> region;
   for (const Region r : hand.region) region.push_back(static_cast<double>(r));
-  return format_vtp(deformed,
-                    {{"pressure_mpa", sized(contact.pressure)},
-                     {"force_n", sized(contact.force)},
-                     {"distance_before_mm", sized(contact.distance)},
-                     {"indentation_mm", sized(contact.displacement)},
-                     {"region", sized(region)},
-                     vector_field("displacement_mm", moved)},
-                    notes_of(contact));
+  std::vector<PointField> fields = {{"pressure_mpa", sized(contact.pressure)},
+                                    {"force_n", sized(contact.force)},
+                                    {"distance_before_mm", sized(contact.distance)},
+                                    {"indentation_mm", sized(contact.displacement)},
+                                    {"region", sized(region)},
+                                    vector_field("displacement_mm", moved)};
+  if (assessment.options.friction.is_on()) {
+    std::vector<Vec3> friction = assessment.friction.force;
+    friction.resize(n, Vec3::Zero());
+    fields.push_back({"mobilised_friction", sized(assessment.friction.mobilised)});
+    fields.push_back(vector_field("friction_force_n", friction));
+  }
+  return format_vtp(deformed, fields, notes_of(contact));
 }
 
 std::vector<VertexColour> glb_colours(const std::vector<double>& field, const ColourScale& scale,
@@ -79,10 +84,16 @@ std::vector<VertexColour> glb_colours(const std::vector<double>& field, const Co
 std::string grasp_glb(const Hand& hand, const AssessedProduct& one, const ColourScale& scale) {
   const std::vector<double> pressure = skin_pressure(hand, one.assessment);
   const ProductFootprint footprint = footprint_of(one);
-  return format_glb_fields({{"hand",
-                             deformed_skin(hand, one.assessment),
-                             glb_colours(pressure, scale, kSkinColour),
-                             {{"pressure_mpa", pressure}}},
+  FieldMesh skin{"hand",
+                 deformed_skin(hand, one.assessment),
+                 glb_colours(pressure, scale, kSkinColour),
+                 {{"pressure_mpa", pressure}}};
+  if (one.assessment.options.friction.is_on()) {
+    std::vector<double> mobilised = one.assessment.friction.mobilised;
+    mobilised.resize(pressure.size(), 0.0);
+    skin.field.push_back({"mobilised_friction", std::move(mobilised)});
+  }
+  return format_glb_fields({std::move(skin),
                             {"product",
                              footprint.surface,
                              glb_colours(footprint.pressure, scale, kProductColour),

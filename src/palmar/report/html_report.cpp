@@ -8,6 +8,7 @@
 #include "palmar/core/version.h"
 #include "palmar/io/vtk.h"
 #include "palmar/report/error_band.h"
+#include "palmar/report/friction_section.h"
 #include "palmar/report/html_comparison.h"
 #include "palmar/report/html_style.h"
 #include "palmar/report/html_tables.h"
@@ -155,6 +156,7 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
     html += "<details><summary>What the hand touches all the same</summary>" +
             region_contact_table(contact) + "</details>\n";
   }
+  html += friction_section(hand, one);
   html += gallery(pictures);
   html += "<details><summary>What stopped each segment</summary>" + stop_table(assessment.grasp) +
           "</details>\n<details><summary>Posture and placement</summary>" +
@@ -180,10 +182,14 @@ std::string method_limits(const AssessmentSet& set) {
                 "the skin is thin."
               : "The skin is one elastic layer over bone, as deep as the bones of this hand stand "
                 "under it; fat, nail and tendons are not told apart.";
+  const bool has_friction = is_known && set.assessments.front().assessment.options.friction.is_on();
+  html += has_friction
+              ? "</li>\n<li>The pressures don't answer to weight and tool forces, which friction "
+                "alone carries here: the fingers close to a given depth, they don't grip with a "
+                "chosen force.</li>\n"
+              : "</li>\n<li>No friction, no slip, no weight of the product, no tool forces: the "
+                "fingers close to a given depth, they don't grip with a chosen force.</li>\n";
   html +=
-      "</li>\n<li>No friction, no slip, no weight of the product, no tool forces: the fingers "
-      "close "
-      "to a given depth, they don't grip with a chosen force.</li>\n"
       "<li>The sum of the forces is not the reading of a dynamometer, nor the grip force across a "
       "plane: the three differ by a factor of 2 to 3.</li>\n<li>";
   html += has_sleeve ? "Under its sleeve the product is rigid, and the sleeve is elastic at any "

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/hand/skinning.h"
 
 namespace palmar {
@@ -25,6 +26,7 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
                   const Progress& progress) {
   options.grasp.check();
   options.contact.check();
+  options.friction.check();
 
   Assessment result;
   result.hand_name = hand.hand().name;
@@ -41,6 +43,14 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   result.contact = solve_hand_contact(hand, result.posed_skin, result.grasp.product_from_hand,
                                       *product.distance, options.contact);
   result.times.contact = contact_watch.seconds();
+
+  if (options.friction.is_on()) {
+    progress.update(0.8, "balancing the load by friction");
+    const Stopwatch friction_watch;
+    result.friction = solve_friction(hand, result.contact, *product.distance,
+                                     centre_of_volume(product.mesh), options.friction);
+    result.times.friction = friction_watch.seconds();
+  }
 
   progress.update(0.9, "mapping the pressure to the product");
   result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);

@@ -9,6 +9,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/footprint.h"
+#include "palmar/contact/friction.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
@@ -18,14 +19,16 @@ namespace palmar {
 struct AssessOptions {
   PowerGraspOptions grasp;
   ContactOptions contact;
+  FrictionOptions friction;  ///< off unless it has a coefficient
   std::uint64_t seed =
       0;  ///< written into the results; the power grasp itself draws no random numbers
 };
 
 /// Seconds spent, for the record; not part of the deterministic result.
 struct AssessTimes {
-  double grasp = 0.0;    ///< s
-  double contact = 0.0;  ///< s
+  double grasp = 0.0;     ///< s
+  double contact = 0.0;   ///< s
+  double friction = 0.0;  ///< s
 };
 
 /// One hand holding one product: grasp, contact, footprint.
@@ -34,6 +37,7 @@ struct Assessment {
   Grasp grasp;
   std::vector<Vec3> posed_skin;  ///< hand frame, mm
   ContactResult contact;
+  FrictionResult friction;
   ProductFootprint footprint;
   AssessOptions options;
   AssessTimes times;

@@ -1,0 +1,28 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli.h"
+#include "palmar/study/assessment.h"
+
+namespace palmar::cli {
+
+/// The options of friction, as typed.
+struct FrictionArguments {
+  std::optional<double> coefficient, mass_kg, weight_n;
+  std::string gravity, mass_at, load_n, torque_n_mm, load_at;
+
+  /// Adds --friction, --mass-kg, --weight-n, --gravity, --mass-at, --load-n, --torque-n-mm and
+  /// --load-at to a verb.
+  void add_to(CLI::App& verb);
+  /// Throws UsageError, also for a load without --friction.
+  FrictionOptions options() const;
+};
+
+/// Whether the load is held, and one line per region; empty if friction is off.
+std::string friction_text(const Hand& hand, const Assessment& assessment);
+
+}  // namespace palmar::cli
