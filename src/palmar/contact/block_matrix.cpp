@@ -182,7 +182,7 @@ void BlockMatrix::precondition(const std::vector<float>& r, std::vector<float>& 
 }
 
 bool BlockMatrix::solve(const std::vector<float>& b, double tolerance, std::vector<float>& x,
-                        int& iterations) {
+                        int& iterations, const AddProduct& also) {
   x.assign(padded_, 0.0F);
   r_ = b;
   const double goal = tolerance * std::sqrt(dot(b, b));
@@ -193,6 +193,7 @@ bool BlockMatrix::solve(const std::vector<float>& b, double tolerance, std::vect
   for (int k = 0; k < kMostIterations; ++k) {
     ++iterations;
     multiply(d_, q_);
+    if (also) also(d_, q_);
     const double curvature = dot(d_, q_);
     if (!(curvature > 0.0)) return false;
     const auto step = static_cast<float>(rz / curvature);

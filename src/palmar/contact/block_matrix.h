@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace palmar {
@@ -42,7 +43,10 @@ class BlockMatrix {
 
   /// x with |A x - b| <= tolerance |b|, from x = 0; `iterations` is added to. False if A turns out
   /// not to be positive definite, or after 500 iterations.
-  bool solve(const std::vector<float>& b, double tolerance, std::vector<float>& x, int& iterations);
+  /// With `also`, A is this matrix plus what also(x, y) adds to y, symmetric.
+  using AddProduct = std::function<void(const std::vector<float>& x, std::vector<float>& y)>;
+  bool solve(const std::vector<float>& b, double tolerance, std::vector<float>& x, int& iterations,
+             const AddProduct& also = {});
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -188,6 +188,21 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
       }
     }
   }
+  if (response.has_far()) {
+    std::vector<double> total(response.cluster_count(), 0.0);
+    std::vector<double> moved(total.size(), 0.0);
+    for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+      response.to_clusters(static_cast<std::size_t>(load.vertex[k]), load.force[k], total);
+    }
+    for (std::size_t c = 0; c < total.size(); ++c) {
+      if (total[c] == 0.0) continue;
+      for (std::size_t e = response.far.begin[c]; e < response.far.begin[c + 1]; ++e) {
+        moved[static_cast<std::size_t>(response.far.vertex[e])] +=
+            total[c] * static_cast<double>(response.far.response[e]);
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) sum[i] += response.from_clusters(i, moved);
+  }
   SkinLoad near;
   std::vector<char> is_known(n, 0);
   for (const int v : load.vertex) is_known[static_cast<std::size_t>(v)] = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "palmar/contact/lcp.h"
 #include "palmar/contact/lemke.h"
@@ -40,28 +41,6 @@ double row_times(const int* column, const float* value, std::size_t count, const
 
 }  // namespace
 
-SkinPatches skin_patches(const SkinGeometry& skin, int size) {
-  SkinPatches result;
-  const int n = skin.vertex_count();
-  result.patch.assign(static_cast<std::size_t>(n), -1);
-  std::vector<int> front;
-  for (int seed = 0; seed < n; ++seed) {
-    if (result.patch[static_cast<std::size_t>(seed)] >= 0) continue;
-    front.assign(1, seed);
-    result.patch[static_cast<std::size_t>(seed)] = result.count;
-    for (std::size_t k = 0; k < front.size() && static_cast<int>(front.size()) < size; ++k) {
-      for (const int w : skin.neighbours(front[k])) {
-        int& patch = result.patch[static_cast<std::size_t>(w)];
-        if (patch >= 0 || static_cast<int>(front.size()) >= size) continue;
-        patch = result.count;
-        front.push_back(w);
-      }
-    }
-    ++result.count;
-  }
-  return result;
-}
-
 void ContactSystem::assemble(const SkinResponse& response, const std::vector<int>& vertices,
                              const std::vector<Region>* region) {
   for (const int v : vertex_) local_[static_cast<std::size_t>(v)] = -1;
@@ -75,6 +54,8 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
     const auto j = static_cast<std::size_t>(v);
     most += response.begin[j + 1] - response.begin[j];
   }
+  all_rows_.resize(vertex_.size());
+  std::iota(all_rows_.begin(), all_rows_.end(), 0);
   begin_.assign(1, 0);
   column_.resize(most);
   value_.resize(most);
@@ -96,6 +77,71 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
   }
   column_.resize(count);
   value_.resize(count);
+  assemble_far(response);
+}
+
+void ContactSystem::assemble_far(const SkinResponse& response) {
+  has_far_ = response.has_far();
+  if (!has_far_) return;
+  local_cluster_.assign(response.cluster_count(), -1);
+  std::vector<std::size_t> cluster;  // of each local one
+  support_begin_.assign(1, 0);
+  support_.clear();
+  support_weight_.clear();
+  for (const int v : vertex_) {
+    const auto i = static_cast<std::size_t>(v);
+    for (std::size_t k = response.support_begin[i]; k < response.support_begin[i + 1]; ++k) {
+      const auto c = static_cast<std::size_t>(response.support[k]);
+      if (local_cluster_[c] < 0) {
+        local_cluster_[c] = static_cast<int>(cluster.size());
+        cluster.push_back(c);
+      }
+      support_.push_back(local_cluster_[c]);
+      support_weight_.push_back(response.support_weight[k]);
+    }
+    support_begin_.push_back(support_.size());
+  }
+  far_begin_.assign(1, 0);
+  far_column_.clear();
+  far_value_.clear();
+  for (const std::size_t c : cluster) {
+    for (std::size_t k = response.far.begin[c]; k < response.far.begin[c + 1]; ++k) {
+      const int local = local_cluster_[static_cast<std::size_t>(response.far.vertex[k])];
+      if (local < 0) continue;
+      far_column_.push_back(local);
+      far_value_.push_back(response.far.response[k]);
+    }
+    far_begin_.push_back(far_column_.size());
+  }
+}
+
+/// Adds the far part: add(row, moved) for each of `rows`, whose forces force(row) tells.
+template <typename Force, typename Add>
+void ContactSystem::add_far(const std::vector<int>& rows, const Force& force,
+                            const Add& add) const {
+  const std::size_t clusters = far_begin_.size() - 1;
+  cluster_force_.assign(clusters, 0.0);
+  cluster_moved_.resize(clusters);
+  for (const int row : rows) {
+    const double p = force(row);
+    if (p == 0.0) continue;
+    const auto i = static_cast<std::size_t>(row);
+    for (std::size_t k = support_begin_[i]; k < support_begin_[i + 1]; ++k) {
+      cluster_force_[static_cast<std::size_t>(support_[k])] +=
+          p * static_cast<double>(support_weight_[k]);
+    }
+  }
+  for (std::size_t c = 0; c < clusters; ++c) {
+    cluster_moved_[c] =
+        row_times(far_column_.data() + far_begin_[c], far_value_.data() + far_begin_[c],
+                  far_begin_[c + 1] - far_begin_[c], cluster_force_.data());
+  }
+  for (const int row : rows) {
+    const auto i = static_cast<std::size_t>(row);
+    add(row,
+        row_times(support_.data() + support_begin_[i], support_weight_.data() + support_begin_[i],
+                  support_begin_[i + 1] - support_begin_[i], cluster_moved_.data()));
+  }
 }
 
 void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<Entry>& entries) {
@@ -207,7 +253,15 @@ bool ContactSystem::correct(double tolerance, const std::vector<double>& residua
   for (const int i : set_) {
     right_[at(i)] = static_cast<float>(-residual[static_cast<std::size_t>(i)] / scale);
   }
-  if (!matrix_.solve(right_, tolerance, step_, iterations)) return false;
+  BlockMatrix::AddProduct far;
+  if (has_far_) {
+    far = [&](const std::vector<float>& from, std::vector<float>& to) {
+      add_far(
+          set_, [&](int row) { return static_cast<double>(from[at(row)]); },
+          [&](int row, double moved) { to[at(row)] += static_cast<float>(moved); });
+    };
+  }
+  if (!matrix_.solve(right_, tolerance, step_, iterations, far)) return false;
   for (const int i : set_) {
     x[static_cast<std::size_t>(i)] += scale * static_cast<double>(step_[at(i)]);
   }
@@ -221,6 +275,10 @@ void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<doubl
     s[i] = row_times(column_.data() + begin_[i], value_.data() + begin_[i],
                      begin_[i + 1] - begin_[i], p.data());
   }
+  if (!has_far_) return;
+  add_far(
+      all_rows_, [&](int row) { return p[static_cast<std::size_t>(row)]; },
+      [&](int row, double moved) { s[static_cast<std::size_t>(row)] += moved; });
 }
 
 void ContactSystem::measure(const std::vector<double>& b, const std::vector<double>& force,
@@ -242,7 +300,7 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
                                 std::vector<double>& force, std::vector<double>& gap,
                                 Outcome& outcome) const {
   const int m = size();
-  if (m > kMostDense) return false;
+  if (m > kMostDense || has_far_) return false;
   ContactProblem problem;
   problem.response = Eigen::MatrixXd::Zero(m, m);
   problem.distance = Eigen::Map<const Eigen::VectorXd>(b.data(), m);

@@ -11,16 +11,6 @@
 
 namespace palmar {
 
-/// Partition of a skin into patches of neighbouring vertices, for preconditioning and for coarse
-/// questions. `patch` per vertex; patches are numbered from 0 in the order of their lowest vertex.
-struct SkinPatches {
-  std::vector<int> patch;
-  int count = 0;
-};
-
-/// Patches of about `size` vertices, grown over edges from the lowest vertex that is left.
-SkinPatches skin_patches(const SkinGeometry& skin, int size);
-
 /// Frictionless contact problem of many coupled skin vertices with sparse symmetric responses:
 ///
 ///     s = A p + b >= 0,   p >= 0,   s_i p_i = 0
@@ -76,6 +66,9 @@ class ContactSystem {
   bool set_contact(const std::vector<char>& in_contact);
   bool correct(double tolerance, const std::vector<double>& residual, std::vector<double>& x,
                int& iterations);
+  void assemble_far(const SkinResponse& response);
+  template <typename Force, typename Add>
+  void add_far(const std::vector<int>& rows, const Force& force, const Add& add) const;
   void multiply_all(const std::vector<double>& p, std::vector<double>& s) const;
   bool solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
                    std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
@@ -83,11 +76,22 @@ class ContactSystem {
                std::vector<double>& gap, Outcome& outcome) const;
 
   const SkinPatches* patches_;
-  std::vector<int> vertex_;         // of each row
+  std::vector<int> vertex_;  // of each row
+  std::vector<int> all_rows_;
   std::vector<int> local_;          // per skin vertex: its row, -1 if none
   std::vector<std::size_t> begin_;  // rows of A
   std::vector<int> column_;
   std::vector<float> value_;
+  // The far part: clusters around the rows, and the responses between them.
+  bool has_far_ = false;
+  std::vector<std::size_t> support_begin_;  // per row
+  std::vector<int> support_;                // local cluster
+  std::vector<float> support_weight_;
+  std::vector<std::size_t> far_begin_;
+  std::vector<int> far_column_;
+  std::vector<float> far_value_;
+  std::vector<int> local_cluster_;  // per cluster of the skin
+  mutable std::vector<double> cluster_force_, cluster_moved_;
   // The contact set, block by block, and A on it.
   std::vector<int> set_;
   struct Place {

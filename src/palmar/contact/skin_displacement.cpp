@@ -52,12 +52,53 @@ struct PartField {
   std::vector<double> bulge;    ///< mm, out of the hand
 };
 
+/// The far part of what loaded vertices do; see SkinResponse.
+class FarLoad {
+ public:
+  explicit FarLoad(const SkinResponse& response)
+      : response_(&response),
+        share_(response.cluster_count(), 0.0),
+        force_(response.cluster_count(), 0.0) {}
+  void add(std::size_t vertex, double share, double force) {
+    if (!response_->has_far()) return;
+    response_->to_clusters(vertex, share, share_);
+    response_->to_clusters(vertex, force, force_);
+  }
+  template <typename Gaussian>
+  void spread(const Gaussian& gaussian, const std::vector<GrownVertex>& around, bool swelling,
+              PartField& field) const {
+    if (!response_->has_far()) return;
+    std::vector<double> elastic(share_.size(), 0.0), bulge(share_.size(), 0.0);
+    const ResponseColumns& far = response_->far;
+    for (std::size_t c = 0; c < share_.size(); ++c) {
+      if (force_[c] == 0.0) continue;
+      for (std::size_t e = far.begin[c]; e < far.begin[c + 1]; ++e) {
+        const auto i = static_cast<std::size_t>(far.vertex[e]);
+        elastic[i] += share_[c] * static_cast<double>(far.response[e]);
+        if (!swelling) continue;
+        bulge[i] += force_[c] * (1.0 - response_->near_share(far.distance[e])) *
+                    static_cast<double>(gaussian.at(far.distance[e]));
+      }
+    }
+    for (const GrownVertex& g : around) {
+      const auto v = static_cast<std::size_t>(g.vertex);
+      field.elastic[v] += response_->from_clusters(v, elastic);
+      field.bulge[v] += response_->from_clusters(v, bulge);
+    }
+  }
+
+ private:
+  const SkinResponse* response_;
+  std::vector<double> share_, force_;  // per cluster
+};
+
 void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const LoadedPart& part,
               const std::vector<GrownVertex>& around, const std::vector<double>& to_loaded,
               bool swelling, PartField& field) {
   const RegionTissue& tissue = prepared.tissue(part.region);
   const GaussianTable gaussian(tissue.swelling_radius, tissue.swelling_width);
   const SkinResponse& response = prepared.response;
+  FarLoad far(response);
   for (const int k : part.row) {
     const auto row = static_cast<std::size_t>(k);
     const auto j = static_cast<std::size_t>(load.vertex[row]);
@@ -67,9 +108,14 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
       const auto i = static_cast<std::size_t>(response.vertex[e]);
       if (to_loaded[i] == kFar) continue;
       field.elastic[i] += share * static_cast<double>(response.response[e]);
-      if (swelling) field.bulge[i] += p * static_cast<double>(gaussian.at(response.distance[e]));
+      if (!swelling) continue;
+      const double r = response.distance[e];
+      const double near = response.has_far() ? response.near_share(r) : 1.0;
+      field.bulge[i] += p * near * static_cast<double>(gaussian.at(response.distance[e]));
     }
+    far.add(j, share, p);
   }
+  far.spread(gaussian, around, swelling, field);
   if (!swelling) return;
   double highest = 0.0;
   for (const GrownVertex& g : around) {

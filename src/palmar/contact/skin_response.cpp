@@ -21,6 +21,11 @@ constexpr double kFarthestPair = 400.0;  // mm; no two points of a region are fa
 constexpr double kThinnest = 1.0;        // mm of skin over bone
 constexpr double kThickest = 25.0;       // mm
 constexpr double kDepthSmoothing = 3.0;  // mm
+constexpr int kClusters = 9'000;         // about as many as a mesh of 2.3 mm has vertices
+constexpr double kAllNear = 3.0;         // mm; up to here everything is in the near part
+constexpr double kAllFar = 8.0;          // mm; from here on in the far part
+constexpr double kClusterWidth = 5.0;    // mm; no cluster is wider
+constexpr double kSupport = 3.6;         // mm; around a vertex, for interpolation
 
 struct Pair {
   int vertex = 0;
@@ -109,6 +114,12 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance k
   return columns;
 }
 
+/// Share of a response that is near; see SkinResponse.
+double share_near(double distance) {
+  const double t = std::clamp((kAllFar - distance) / (kAllFar - kAllNear), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
 /// 1 up to two thirds of the reach, 0 beyond it.
 double fade(double distance) {
   const double t = std::clamp(3.0 * (1.0 - distance / kResponseReach), 0.0, 1.0);
@@ -151,22 +162,49 @@ std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& s
   return smooth;
 }
 
-SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& depth) {
-  const GeodesicSolver solver(hand.skin);
-  const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
-  const Columns columns =
-      is_coupled ? all_within(solver, kResponseReach) : by_region(hand, solver, model.distance);
+namespace {
 
-  std::vector<const LayerKernel*> kernel;  // per vertex
-  if (model.tissue == TissueModel::kLayered) {
+/// Response of one point of the skin to a force at another.
+class PairResponse {
+ public:
+  PairResponse(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+               const std::vector<double>& depth)
+      : skin_(&skin), model_(model), depth_(&depth) {
+    if (model.tissue != TissueModel::kLayered) return;
     for (const Region region : hand.region) {
-      kernel.push_back(
+      kernel_.push_back(
           &layer_kernel(hand.tissue.region[static_cast<std::size_t>(region)].poisson_layered));
     }
   }
 
-  SkinResponse result;
+  float operator()(int i, int j, double r) const {
+    const auto v = static_cast<std::size_t>(i);
+    const auto w = static_cast<std::size_t>(j);
+    const double a_i = skin_->radius[v];
+    const double a_j = skin_->radius[w];
+    const double weight = model_.coupling == RegionCoupling::kCoupled ? fade(r) : 1.0;
+    if (model_.tissue != TissueModel::kLayered) {
+      return static_cast<float>(weight * boussinesq_response(model_.kernel, r, a_i, a_j));
+    }
+    const double h = 0.5 * ((*depth_)[v] + (*depth_)[w]);
+    return static_cast<float>(
+        0.25 * weight *
+        (layered_response(*kernel_[v], r, a_i, h) + layered_response(*kernel_[v], r, a_j, h) +
+         layered_response(*kernel_[w], r, a_i, h) + layered_response(*kernel_[w], r, a_j, h)));
+  }
+
+ private:
+  const SkinGeometry* skin_;
+  ContactModel model_;
+  const std::vector<double>* depth_;
+  std::vector<const LayerKernel*> kernel_;  // per vertex
+};
+
+/// Columns with their responses. vertex_of(k): the skin vertex that entry k stands for.
+template <typename VertexOf>
+ResponseColumns filled(const Columns& columns, const PairResponse& response,
+                       const VertexOf& vertex_of) {
+  ResponseColumns result;
   result.begin.reserve(columns.size() + 1);
   result.begin.push_back(0);
   for (const std::vector<Pair>& column : columns) {
@@ -176,34 +214,166 @@ SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const Con
   result.distance.resize(result.begin.back());
   result.response.resize(result.begin.back());
   constexpr int kBlock = 64;
-  const int count = skin.vertex_count();
+  const int count = static_cast<int>(columns.size());
   parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
     for (int j = block * kBlock; j < std::min(count, (block + 1) * kBlock); ++j) {
       std::size_t k = result.begin[static_cast<std::size_t>(j)];
-      const double a_j = skin.radius[static_cast<std::size_t>(j)];
       for (const Pair& pair : columns[static_cast<std::size_t>(j)]) {
-        const double r = pair.distance;
-        const double a_i = skin.radius[static_cast<std::size_t>(pair.vertex)];
-        double response = 0.0;
-        if (model.tissue == TissueModel::kLayered) {
-          const auto i = static_cast<std::size_t>(pair.vertex);
-          const double h = 0.5 * (depth[i] + depth[static_cast<std::size_t>(j)]);
-          response = 0.25 * (layered_response(*kernel[i], r, a_i, h) +
-                             layered_response(*kernel[i], r, a_j, h) +
-                             layered_response(*kernel[static_cast<std::size_t>(j)], r, a_i, h) +
-                             layered_response(*kernel[static_cast<std::size_t>(j)], r, a_j, h));
-        } else {
-          response = boussinesq_response(model.kernel, r, a_i, a_j);
-        }
         result.vertex[k] = pair.vertex;
         result.distance[k] = pair.distance;
-        result.response[k] = static_cast<float>((is_coupled ? fade(r) : 1.0) * response);
+        result.response[k] = response(vertex_of(pair.vertex), vertex_of(j), pair.distance);
         ++k;
       }
     }
   });
   return result;
 }
+
+/// The member of each cluster that is nearest to the cluster's centre.
+std::vector<int> middles(const SkinGeometry& skin, const SkinPatches& clusters) {
+  const std::vector<Vec3> centre = patch_centres(skin, clusters);
+  std::vector<int> middle(centre.size(), -1);
+  std::vector<double> best(centre.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < clusters.patch.size(); ++v) {
+    const auto c = static_cast<std::size_t>(clusters.patch[v]);
+    const double d = (skin.position[v] - centre[c]).squaredNorm();
+    if (d >= best[c]) continue;
+    best[c] = d;
+    middle[c] = static_cast<int>(v);
+  }
+  return middle;
+}
+
+/// Weights by which the field of the clusters is interpolated at each vertex: smooth bumps about
+/// the clusters' middles, normalised (Shepard 1968).
+void set_support(const SkinGeometry& skin, const SkinPatches& clusters,
+                 const std::vector<int>& middle, const GeodesicTable& table, SkinResponse& result) {
+  result.support_begin.push_back(0);
+  for (std::size_t v = 0; v < skin.position.size(); ++v) {
+    const auto own = static_cast<std::size_t>(clusters.patch[v]);
+    const std::size_t first = result.support.size();
+    double sum = 0.0;
+    for (int k = table.begin[own]; k < table.begin[own + 1]; ++k) {
+      const auto c = static_cast<std::size_t>(table.place[static_cast<std::size_t>(k)]);
+      if (table.distance[static_cast<std::size_t>(k)] > 2.0 * kSupport) continue;
+      const Vec3& at = skin.position[static_cast<std::size_t>(middle[c])];
+      const double t = (skin.position[v] - at).squaredNorm() / (kSupport * kSupport);
+      if (t >= 1.0) continue;
+      result.support.push_back(static_cast<int>(c));
+      result.support_weight.push_back(static_cast<float>((1.0 - t) * (1.0 - t)));
+      sum += (1.0 - t) * (1.0 - t);
+    }
+    if (!(sum > 1e-3)) {
+      result.support.resize(first);
+      result.support_weight.resize(first);
+      result.support.push_back(static_cast<int>(own));
+      result.support_weight.push_back(1.0F);
+      sum = 1.0;
+    }
+    for (std::size_t k = first; k < result.support.size(); ++k) {
+      result.support_weight[k] = static_cast<float>(result.support_weight[k] / sum);
+    }
+    result.support_begin.push_back(result.support.size());
+  }
+}
+
+/// Takes from the columns what the far part, as interpolated, gives there: their pairs are exact.
+void subtract_far(SkinResponse& result) {
+  const int count = static_cast<int>(result.begin.size()) - 1;
+  constexpr int kBlock = 256;
+  parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
+    std::vector<double> moved(result.cluster_count(), 0.0);
+    for (int v = block * kBlock; v < std::min(count, (block + 1) * kBlock); ++v) {
+      const auto j = static_cast<std::size_t>(v);
+      const auto for_reached = [&](const auto& visit) {
+        for (std::size_t s = result.support_begin[j]; s < result.support_begin[j + 1]; ++s) {
+          const auto c = static_cast<std::size_t>(result.support[s]);
+          for (std::size_t e = result.far.begin[c]; e < result.far.begin[c + 1]; ++e) {
+            visit(static_cast<std::size_t>(result.far.vertex[e]),
+                  static_cast<double>(result.support_weight[s]) *
+                      static_cast<double>(result.far.response[e]));
+          }
+        }
+      };
+      for_reached([&](std::size_t c, double u) { moved[c] += u; });
+      for (std::size_t k = result.begin[j]; k < result.begin[j + 1]; ++k) {
+        const auto i = static_cast<std::size_t>(result.vertex[k]);
+        result.response[k] = static_cast<float>(static_cast<double>(result.response[k]) -
+                                                result.from_clusters(i, moved));
+      }
+      for_reached([&](std::size_t c, double) { moved[c] = 0.0; });
+    }
+  });
+}
+
+/// Near part by vertex, far part by cluster.
+SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
+                       const PairResponse& response) {
+  const int count = skin.vertex_count();
+  const SkinPatches clusters = skin_patches(skin, std::max(2, (count + kClusters / 2) / kClusters));
+  const std::vector<int> middle = middles(skin, clusters);
+  const GeodesicTable table = geodesic_table(solver, middle, kResponseReach);
+  std::vector<std::vector<int>> members(middle.size());
+  for (int v = 0; v < count; ++v) {
+    members[static_cast<std::size_t>(clusters.patch[static_cast<std::size_t>(v)])].push_back(v);
+  }
+  Columns near(static_cast<std::size_t>(count));
+  Columns far(middle.size());
+  for (std::size_t c = 0; c < middle.size(); ++c) {
+    for (int k = table.begin[c]; k < table.begin[c + 1]; ++k) {
+      const auto other = static_cast<std::size_t>(table.place[static_cast<std::size_t>(k)]);
+      const double between = table.distance[static_cast<std::size_t>(k)];
+      if (between > kAllNear)
+        far[c].push_back({static_cast<int>(other), static_cast<float>(between)});
+      if (between > kAllFar + kClusterWidth) continue;
+      for (const int j : members[c]) {
+        for (const int i : members[other]) {
+          const Vec3& x = skin.position[static_cast<std::size_t>(i)];
+          if ((x - skin.position[static_cast<std::size_t>(j)]).squaredNorm() >= kAllFar * kAllFar) {
+            continue;
+          }
+          // So near, the formula is as good as a path; the smaller number first, so that both
+          // directions round alike.
+          const double r = i == j ? 0.0 : arc_distance(skin, std::min(i, j), std::max(i, j));
+          if (r >= kAllFar) continue;
+          near[static_cast<std::size_t>(j)].push_back({i, static_cast<float>(r)});
+        }
+      }
+    }
+  }
+  for (std::vector<Pair>& column : near) {
+    std::sort(column.begin(), column.end(),
+              [](const Pair& a, const Pair& b) { return a.vertex < b.vertex; });
+  }
+  SkinResponse result;
+  static_cast<ResponseColumns&>(result) = filled(near, response, [](int v) { return v; });
+  result.far = filled(far, response, [&](int c) { return middle[static_cast<std::size_t>(c)]; });
+  for (std::size_t k = 0; k < result.far.response.size(); ++k) {
+    result.far.response[k] *= static_cast<float>(1.0 - share_near(result.far.distance[k]));
+  }
+  set_support(skin, clusters, middle, table, result);
+  subtract_far(result);
+  return result;
+}
+
+}  // namespace
+
+SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+                           const std::vector<double>& depth) {
+  const GeodesicSolver solver(hand.skin);
+  const PairResponse response(hand, skin, model, depth);
+  const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
+  if (is_coupled && skin.vertex_count() > kMostFullVertices) {
+    return two_level(skin, solver, response);
+  }
+  const Columns columns =
+      is_coupled ? all_within(solver, kResponseReach) : by_region(hand, solver, model.distance);
+  SkinResponse result;
+  static_cast<ResponseColumns&>(result) = filled(columns, response, [](int v) { return v; });
+  return result;
+}
+
+double SkinResponse::near_share(double r) const { return has_far() ? share_near(r) : 1.0; }
 
 Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,
                                const std::vector<Region>& region, bool across) {

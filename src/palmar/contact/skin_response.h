@@ -9,6 +9,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/skin_geometry.h"
+#include "palmar/contact/skin_patches.h"
 
 namespace palmar {
 
@@ -17,7 +18,7 @@ namespace palmar {
 /// begin[j + 1] - 1 are the vertices that a force at j moves, ascending, j itself included.
 /// Single precision: the rounding of 6e-8 is far below every other error, and half the memory is
 /// half the time.
-struct SkinResponse {
+struct ResponseColumns {
   std::vector<std::size_t> begin;    ///< vertex count + 1
   std::vector<std::int32_t> vertex;  ///< i
   std::vector<float> response;       ///< normal displacement at i times G per force at j, 1/mm
@@ -27,6 +28,46 @@ struct SkinResponse {
     return begin.size() * sizeof(std::size_t) + vertex.size() * 3 * sizeof(float);
   }
 };
+
+/// The responses of a skin. Of a mesh finer than needed only those up to 8 mm stand in the columns,
+/// vertex by vertex. The rest,
+///
+///     (1 - w(r)) f(r),   w = 1 up to 3 mm, 0 from 8 mm on, smooth between,
+///
+/// is smooth and acts between clusters of vertices, from and to which forces and displacements are
+/// interpolated; what that gives for the pairs in the columns has been taken from them. So memory
+/// and time grow with the number of vertices, not with its square (multilevel summation, Brandt,
+/// Lubrecht 1990).
+struct SkinResponse : ResponseColumns {
+  ResponseColumns far;  ///< between clusters; empty if the columns hold everything
+  // Interpolation: the clusters around each vertex, with weights that sum to 1.
+  std::vector<std::size_t> support_begin;  ///< vertex count + 1
+  std::vector<int> support;                ///< cluster
+  std::vector<float> support_weight;
+
+  bool has_far() const { return !far.begin.empty(); }
+  std::size_t cluster_count() const { return has_far() ? far.begin.size() - 1 : 0; }
+  /// w(r); 1 if there is no far part.
+  double near_share(double r) const;
+  /// Spreads a value at a vertex over the clusters.
+  void to_clusters(std::size_t v, double value, std::vector<double>& cluster) const {
+    for (std::size_t k = support_begin[v]; k < support_begin[v + 1]; ++k) {
+      cluster[static_cast<std::size_t>(support[k])] +=
+          value * static_cast<double>(support_weight[k]);
+    }
+  }
+  /// A field of the clusters at a vertex.
+  double from_clusters(std::size_t v, const std::vector<double>& cluster) const {
+    double sum = 0.0;
+    for (std::size_t k = support_begin[v]; k < support_begin[v + 1]; ++k) {
+      sum += static_cast<double>(support_weight[k]) * cluster[static_cast<std::size_t>(support[k])];
+    }
+    return sum;
+  }
+};
+
+/// Coupled skins with more vertices than this have a far part.
+constexpr int kMostFullVertices = 12'000;
 
 /// Where two regions' skin is coupled, a force moves skin within this distance; over the last
 /// third its effect is faded out. Skin farther away is held by the bones between.
@@ -47,8 +88,8 @@ std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& s
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
                            const std::vector<double>& depth);
 
-/// The responses between some vertices (ascending) as a dense matrix, 1/mm; zero where a pair has
-/// none. Without `across`, pairs of different regions have none.
+/// The responses in the columns between some vertices (ascending) as a dense matrix, 1/mm; zero
+/// where a pair has none. Without `across`, pairs of different regions have none.
 Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,
                                const std::vector<Region>& region, bool across);
 

@@ -35,16 +35,9 @@ StiffeningLaw blended(const Hand& hand, const SkinGeometry& skin, const SkinResp
 }
 
 std::vector<Eigen::Vector3f> centres(const SkinGeometry& skin, const SkinPatches& patches) {
-  std::vector<Eigen::Vector3f> centre(static_cast<std::size_t>(patches.count),
-                                      Eigen::Vector3f::Zero());
-  std::vector<float> members(centre.size(), 0.0F);
-  for (std::size_t v = 0; v < patches.patch.size(); ++v) {
-    const auto s = static_cast<std::size_t>(patches.patch[v]);
-    centre[s] += skin.position[v].cast<float>();
-    members[s] += 1.0F;
-  }
-  for (std::size_t s = 0; s < centre.size(); ++s) centre[s] /= members[s];
-  return centre;
+  std::vector<Eigen::Vector3f> result;
+  for (const Vec3& c : patch_centres(skin, patches)) result.push_back(c.cast<float>());
+  return result;
 }
 
 }  // namespace
