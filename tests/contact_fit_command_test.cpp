@@ -34,8 +34,6 @@ std::string folder_with_curves() {
   return folder;
 }
 
-void write_text(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
-
 TEST(ContactFitCommand, FindsTheLawAndWritesATissueFileThatPressTakes) {
   const std::string folder = folder_with_curves();
   const ProgramRun run = run_palmar(
