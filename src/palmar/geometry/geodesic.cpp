@@ -31,7 +31,8 @@ using Double4 = double __attribute__((vector_size(32)));
 using Mask4 = long long __attribute__((vector_size(32)));
 
 [[gnu::always_inline]] inline Double4 load(const double* from) {
-  return *reinterpret_cast<const Double4*>(from);
+  using InMemory = double __attribute__((vector_size(32), may_alias));
+  return *reinterpret_cast<const InMemory*>(from);
 }
 [[gnu::always_inline]] inline Double4 at_places(const std::vector<double>& from, const int* place) {
   const double* const x = from.data();
