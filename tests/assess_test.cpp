@@ -226,6 +226,194 @@ TEST(Assess, PointBesideTheProductIsNotHeldAndCarriesNoForce) {
   EXPECT_EQ(one.at("contact").at("force_n").get<double>(), 0.0);
 }
 
+/// The same cylinder with other options of the contact.
+Json assessed(const std::string& options) {
+  const ProgramRun run =
+      run_palmar("assess c48.stl --unit mm --json --seed 7 " + options, cylinder().folder);
+  EXPECT_EQ(run.exit_code, 0) << options << ": " << run.err;
+  return run.exit_code == 0 ? Json::parse(run.out).at("assessments").at(0) : Json();
+}
+
+const Json& rigid() { return cylinder().json.at("assessments").at(0); }
+
+TEST(Assess, BandEnclosesTheResultOfTheMiddleTissue) {
+  ASSERT_EQ(cylinder().run.exit_code, 0) << cylinder().run.err;
+  const Json& contact = rigid().at("contact");
+  EXPECT_EQ(rigid().at("settings").at("error_band"), true);
+  for (const char* key :
+       {"force_n", "contact_area_mm2", "peak_pressure_mpa", "peak_pressure_cells_mpa"}) {
+    const Json& three = contact.at("band").at(key);
+    EXPECT_EQ(three.at("nominal"), contact.at(key)) << key;
+    EXPECT_LT(three.at("low").get<double>(), three.at("nominal").get<double>()) << key;
+    EXPECT_GT(three.at("high").get<double>(), three.at("nominal").get<double>()) << key;
+  }
+  double low = 0.0, high = 0.0;
+  for (const Json& region : contact.at("regions")) {
+    const Json& force = region.at("band").at("force_n");
+    EXPECT_EQ(force.at("nominal"), region.at("force_n")) << region.at("region");
+    low += force.at("low").get<double>();
+    high += force.at("high").get<double>();
+  }
+  // What only touches with the one tissue and not with the other stands in the total alone.
+  const Json& total = contact.at("band").at("force_n");
+  EXPECT_NEAR(low, total.at("low").get<double>(), 0.01 * low);
+  EXPECT_NEAR(high, total.at("high").get<double>(), 0.01 * high);
+}
+
+TEST(Assess, ForceIsHomogeneousInTheModuliOfAllRegions) {
+  // With all moduli doubled every force is doubled (Euler: sum of dF / d ln G = F).
+  ASSERT_EQ(cylinder().run.exit_code, 0) << cylinder().run.err;
+  const Json& contact = rigid().at("contact");
+  const double force = contact.at("force_n");
+  double sum = 0.0;
+  for (const Json& region : contact.at("regions")) {
+    sum += region.at("band").at("force_per_modulus_n").get<double>();
+  }
+  EXPECT_NEAR(sum, force, 1e-4 * force);  // tolerance of the iterative solver
+  EXPECT_NEAR(contact.at("band").at("force_per_modulus_n").get<double>(), force, 1e-4 * force);
+}
+
+TEST(Assess, OneGivenModulusLeavesNoRange) {
+  const Json contact = assessed("--shear-modulus-kpa 40").at("contact");
+  const Json& force = contact.at("band").at("force_n");
+  const double nominal = contact.at("force_n");
+  EXPECT_NEAR(force.at("low").get<double>(), nominal, 1e-3 * nominal);
+  EXPECT_NEAR(force.at("high").get<double>(), nominal, 1e-3 * nominal);
+}
+
+TEST(Assess, BandCanBeLeftOut) {
+  const Json one = assessed("--no-error-band");
+  EXPECT_TRUE(one.at("contact").at("band").is_null());
+  EXPECT_TRUE(one.at("contact").at("regions").at(0).at("band").is_null());
+  EXPECT_EQ(one.at("settings").at("error_band"), false);
+  EXPECT_EQ(one.at("contact").at("force_n"), rigid().at("contact").at("force_n"));
+}
+
+TEST(Assess, EveryResultSaysWhichEquationsRan) {
+  ASSERT_EQ(cylinder().run.exit_code, 0) << cylinder().run.err;
+  const Json& settings = rigid().at("settings");
+  EXPECT_EQ(settings.at("contact_model"), "palmar");
+  EXPECT_EQ(settings.at("regions"), "coupled");
+  EXPECT_EQ(settings.at("coatings"), Json::array());
+  const std::string report = cylinder().folder + "/report";
+  EXPECT_THAT(read_text(report + "/report.html"), HasSubstr("Equations that ran: palmar."));
+  const std::string csv = read_text(report + "/regions.csv");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(",contact_model,"));
+  EXPECT_THAT(csv, HasSubstr(",palmar,"));
+  for (const char* file : {"/c48/hand.vtp", "/c48/product.vtp"}) {
+    // Codes of "palmar" and the ending zero, as VTK writes strings.
+    EXPECT_THAT(read_text(report + file),
+                HasSubstr("Name=\"contact_model\" NumberOfTuples=\"1\" format=\"ascii\">112 97 108 "
+                          "109 97 114 0</DataArray>"))
+        << file;
+  }
+}
+
+TEST(Assess, PresetXie2014RunsAndSaysSo) {
+  const Json one = assessed("--preset xie2014");
+  EXPECT_EQ(one.at("contact").at("status"), "solved");
+  const Json& settings = one.at("settings");
+  EXPECT_EQ(settings.at("contact_model"), "xie2014");
+  EXPECT_EQ(settings.at("kernel"), "point");
+  EXPECT_EQ(settings.at("tissue_model"), "halfspace");
+  EXPECT_EQ(settings.at("regions"), "independent");
+  const ProgramRun text = run_palmar(
+      "assess c48.stl --unit mm --preset xie2014 --no-pictures --out xie", cylinder().folder);
+  EXPECT_THAT(text.out,
+              HasSubstr("equations: xie2014 (point kernel, halfspace, independent regions)"));
+  EXPECT_THAT(read_text(cylinder().folder + "/xie/report.html"),
+              HasSubstr("Regions are solved one by one"));
+}
+
+TEST(Assess, OptionsReplaceThoseOfThePreset) {
+  const Json settings =
+      assessed("--preset xie2014 --kernel patch --regions coupled --no-error-band").at("settings");
+  EXPECT_EQ(settings.at("kernel"), "patch");
+  EXPECT_EQ(settings.at("regions"), "coupled");
+  EXPECT_NE(settings.at("contact_model"), "xie2014");
+}
+
+TEST(Assess, LayeredSkinRunsAndSaysSo) {
+  const Json one = assessed("--tissue-model layered --no-error-band");
+  EXPECT_EQ(one.at("contact").at("status"), "solved");
+  EXPECT_EQ(one.at("settings").at("tissue_model"), "layered");
+  EXPECT_NE(one.at("contact").at("force_n"), rigid().at("contact").at("force_n"));
+}
+
+TEST(Assess, RegionsAloneMissTheLiftOfTheirNeighbours) {
+  // A neighbour's load moves the skin away from the product, so together less force is needed.
+  const Json alone = assessed("--regions independent --no-error-band").at("contact");
+  EXPECT_GT(alone.at("force_n").get<double>(),
+            1.02 * rigid().at("contact").at("force_n").get<double>());
+}
+
+TEST(Assess, SleeveSpreadsThePressure) {
+  const Json one = assessed("--coating 3,100");
+  const Json& contact = one.at("contact");
+  const Json& bare = rigid().at("contact");
+  for (const char* key : {"peak_pressure_mpa", "peak_pressure_cells_mpa", "force_n"}) {
+    EXPECT_LT(contact.at(key).get<double>(), bare.at(key).get<double>()) << key;
+  }
+  EXPECT_GT(contact.at("contact_area_mm2").get<double>(),
+            bare.at("contact_area_mm2").get<double>());
+  const Json& coating = one.at("settings").at("coatings").at(0);
+  EXPECT_EQ(coating.at("thickness_mm"), 3.0);
+  EXPECT_DOUBLE_EQ(coating.at("shear_modulus_mpa").get<double>(), 0.1);
+  EXPECT_EQ(coating.at("poisson"), 0.5);
+  EXPECT_TRUE(coating.at("box_corners_mm").is_null());
+  // The sleeve's own modulus has its share of the force.
+  const double skin = contact.at("band").at("force_per_modulus_n");
+  EXPECT_LT(skin, contact.at("force_n").get<double>());
+  EXPECT_GT(skin, 0.5 * contact.at("force_n").get<double>());
+}
+
+TEST(Assess, SleeveInABoxCoversThatPartAlone) {
+  // The first box holds no surface, the second all of it; the corners may be given in any order.
+  const Json nowhere =
+      assessed("--no-error-band --coating 3,100,0.5,300,300,300,310,310,310").at("contact");
+  EXPECT_NEAR(nowhere.at("force_n").get<double>(),
+              rigid().at("contact").at("force_n").get<double>(), 1e-3);
+  const Json whole = assessed("--no-error-band --coating 3,100").at("contact");
+  const Json box = assessed("--no-error-band --coating 3,100,0.5,500,500,500,-500,-500,-500");
+  EXPECT_EQ(box.at("contact").at("force_n"), whole.at("force_n"));
+  EXPECT_EQ(box.at("settings").at("coatings").at(0).at("box_corners_mm"),
+            Json::parse("[[-500.0, -500.0, -500.0], [500.0, 500.0, 500.0]]"));
+}
+
+struct BadOption {
+  const char* name;
+  const char* options;
+  const char* says;
+};
+
+class BadContactOption : public ::testing::TestWithParam<BadOption> {};
+
+TEST_P(BadContactOption, IsNamedWithWhatIsAllowed) {
+  // The file doesn't exist: options are looked at first.
+  const ProgramRun run = run_palmar(std::string("assess none.stl ") + GetParam().options);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr(GetParam().says));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Assess, BadContactOption,
+    ::testing::Values(
+        BadOption{"preset", "--preset thesis",
+                  "--preset: \"thesis\" is not known; palmar or xie2014 is allowed"},
+        BadOption{"regions", "--regions some",
+                  "--regions: \"some\" is not known; coupled or independent is allowed"},
+        BadOption{"tissue_model", "--tissue-model bone",
+                  "--tissue-model: \"bone\" is not known; halfspace or layered is allowed"},
+        BadOption{"kernel", "--kernel x", "--kernel: \"x\" is not known; patch or point"},
+        BadOption{"one_number", "--coating 3", "\"3\" has 1 number; thickness in mm"},
+        BadOption{"half_a_box", "--coating 3,100,0.5,0,0,0", "has 6 numbers"},
+        BadOption{"no_number", "--coating 3,soft", "--coating: \"soft\" is not a number"},
+        BadOption{"too_thick", "--coating 300,100", "0.05 to 50 mm"},
+        BadOption{"too_soft", "--coating 3,0.01", "0.0001 to 100000 MPa is required (1 MPa = "},
+        BadOption{"poisson", "--coating 3,100,0.7", "Poisson's ratio is 0.7"},
+        BadOption{"flat_box", "--coating 3,100,0.5,0,0,0,1,0,1", "the box is flat"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
 struct Unholdable {
   const char* name;
   const char* make;

@@ -215,6 +215,73 @@ TEST_F(ReportFolder, TwoProductsStandSideBySideWithTheirDifferences) {
   EXPECT_THAT(html, Not(HasSubstr("id=\"difference\"")));
 }
 
+// The ball's palm with soft and stiff tissue.
+void add_band(ContactResult& contact, double force_low, double force_high) {
+  const ContactBandRow row{.region = Region::kCentralPalm,
+                           .force_low = force_low,
+                           .force_high = force_high,
+                           .area_low = 340.0,
+                           .area_high = 350.0,
+                           .peak_pressure_low = 0.08,
+                           .peak_pressure_high = 0.19,
+                           .peak_pressure_cells_low = 0.04,
+                           .peak_pressure_cells_high = 0.13,
+                           .force_per_modulus = 12.0};
+  contact.band = ContactBand{.regions = {row}, .total = row};
+}
+
+TEST_F(ReportFolder, TellsHowSureTheNumbersAre) {
+  AssessmentSet set = ball_set();
+  add_band(set.assessments[0].assessment.contact, 8.5, 15.5);
+  add_band(set.assessments[1].assessment.contact, 8.0, 16.0);
+  write_report(folder_.string(), set, {.pictures = false});
+  const std::string html = read_file(folder_ / "report.html");
+  EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
+  EXPECT_THAT(html, HasSubstr("8.50 to 15.5 N (middle 12.3 N)"));
+  // 0.19 of 2.6 MPa; on cells only the soft palm, 0.04 MPa, keeps its blood flow.
+  EXPECT_THAT(html, HasSubstr("reaches 7.3 % of its limit"));
+  EXPECT_THAT(html, HasSubstr("0 with soft, 1 with middle, 1 with stiff"));
+  EXPECT_THAT(html, HasSubstr("the middle of the palm were 10 % stiffer, the hand would press with "
+                              "1.2 N more"));
+  EXPECT_THAT(html, HasSubstr("data-value=\"15.5\""));
+  // Softer, the second presses less; stiffer, more.
+  EXPECT_THAT(html, HasSubstr("-0.50 N with soft, 0 with middle and +0.50 with stiff tissue: which "
+                              "is higher depends on the skin."));
+}
+
+TEST_F(ReportFolder, EndOfTheBandWithoutSolutionIsADash) {
+  AssessmentSet set = ball_set();
+  add_band(set.assessments[0].assessment.contact, 0.0, 15.5);
+  write_report(folder_.string(), set, {.pictures = false});
+  const std::string html = read_file(folder_ / "report.html");
+  EXPECT_THAT(html, HasSubstr("– to 15.5 N"));
+  EXPECT_THAT(html, HasSubstr("could not be solved"));
+  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
+  const auto& force = json["assessments"][0]["contact"]["band"]["force_n"];
+  EXPECT_TRUE(force["low"].is_null());
+  EXPECT_EQ(force["high"], 15.5);
+}
+
+TEST_F(ReportFolder, LimitsAreThoseOfTheEquationsThatRan) {
+  AssessmentSet set = ball_set();
+  write_report(folder_.string(), set, {.pictures = false});
+  const std::string palmar = read_file(folder_ / "report.html");
+  EXPECT_THAT(palmar, Not(HasSubstr("solved one by one;")));
+  EXPECT_THAT(palmar, Not(HasSubstr("How sure are these numbers?")));  // no band was asked for
+  for (AssessedProduct& one : set.assessments) {
+    one.assessment.contact.model = xie2014_model();
+    one.assessment.options.contact.coatings = {
+        {.thickness = 3.0, .shear_modulus = 0.1, .poisson = 0.4, .where = {}}};
+  }
+  write_report(folder_.string(), set, {.pictures = false});
+  const std::string xie = read_file(folder_ / "report.html");
+  EXPECT_THAT(xie, HasSubstr("solved one by one;"));
+  EXPECT_THAT(xie, HasSubstr("Equations that ran: xie2014."));
+  EXPECT_THAT(xie, HasSubstr("Under its sleeve the product is rigid"));
+  EXPECT_THAT(xie, HasSubstr("3.00 mm thick, shear modulus 100 kPa, Poisson&#39;s ratio 0.40, on "
+                             "the whole product"));
+}
+
 TEST_F(ReportFolder, CancelledKeepsTheNumbersAndAReport) {
   std::atomic<bool> stop{true};
   const Progress progress{.report = {}, .cancel = &stop};
@@ -328,6 +395,11 @@ TEST(SvgChart, IsWellFormedAndBarsAreInProportion) {
   EXPECT_THAT(svg, HasSubstr("width=\"254.0\""));
   EXPECT_THAT(svg, HasSubstr("width=\"127.0\""));
   EXPECT_THAT(svg_chart({"Force, N", {}}), HasSubstr("No contact."));
+  // The range widens the scale: 20 N is the chart's whole width.
+  const std::string ranged = svg_chart({"Force, N", {{"a", 10.0, {}, BarRange{5.0, 20.0}}}});
+  EXPECT_EQ(badly_nested(ranged), std::vector<std::string>{});
+  EXPECT_THAT(ranged, HasSubstr("width=\"127.0\""));
+  EXPECT_THAT(ranged, HasSubstr("M313.5 45.0H504.0"));  // 250 + 254 / 4 to 250 + 254
 }
 
 TEST(PlainWords, NumbersAreShortenedNotRoundedBeforeThePoint) {
