@@ -116,6 +116,49 @@ void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& sc
   }
 }
 
+/// Skin coloured by the share of friction in use. Unlike pressure it doesn't fade towards the edge
+/// of the contact, where it is often largest; so contact and other skin are two meshes. Triangles
+/// with a loaded corner belong to the contact, and corners without load take the mean of those
+/// beside them.
+Scene friction_scene(const TriangleMesh& skin, const Assessment& assessment,
+                     const ColourScale& scale) {
+  const std::size_t n = skin.vertices.size();
+  std::vector<double> used = assessment.friction.mobilised, force = assessment.contact.force;
+  used.resize(n, 0.0);
+  force.resize(n, 0.0);
+  SceneObject contact{.mesh = {skin.vertices, {}},
+                      .colour = scale.neutral,
+                      .vertex_colours = {},
+                      .field = used,
+                      .field_upper = scale.upper,
+                      .map = scale.map};
+  SceneObject rest{.mesh = {skin.vertices, {}}, .colour = scale.neutral, .vertex_colours = {}};
+  std::vector<double> sum(n, 0.0), count(n, 0.0);
+  for (const Triangle& t : skin.triangles) {
+    int loaded = 0;
+    double total = 0.0;
+    for (const int v : t) {
+      if (!(force[static_cast<std::size_t>(v)] > 0.0)) continue;
+      ++loaded;
+      total += used[static_cast<std::size_t>(v)];
+    }
+    (loaded > 0 ? contact : rest).mesh.triangles.push_back(t);
+    if (loaded == 0) continue;
+    for (const int v : t) {
+      sum[static_cast<std::size_t>(v)] += total;
+      count[static_cast<std::size_t>(v)] += loaded;
+    }
+  }
+  const double least = 0.006 * scale.upper;  // below 0.005 a field is not shown
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!(force[v] > 0.0) && count[v] > 0.0) contact.field[v] = sum[v] / count[v];
+    contact.field[v] = std::max(contact.field[v], least);
+  }
+  if (contact.mesh.triangles.empty()) return {std::move(rest)};
+  if (rest.mesh.triangles.empty()) return {std::move(contact)};
+  return {std::move(rest), std::move(contact)};
+}
+
 }  // namespace
 
 TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment) {
@@ -153,8 +196,8 @@ ProductFootprint footprint_of(const AssessedProduct& assessed) {
 ColourScale friction_scale() {
   return {.map = Colormap::kFern,
           .upper = 1.0,
-          .quantity = "Friction used",
-          .unit = "1 = slips",
+          .quantity = "Friction",
+          .unit = "1: slips",
           .neutral = kNeutralColour};
 }
 
@@ -211,18 +254,15 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
       all);
   if (assessment.options.friction.is_on() && !progress.is_cancelled()) {
     const ColourScale used = friction_scale();
-    std::vector<double> mobilised = assessment.friction.mobilised;
-    mobilised.resize(hand.skin.vertices.size(), 0.0);
+    const std::string shows = "coloured by the share of friction in use";
+    add_views(pictures, {"friction", "Friction in use on the opened hand", "opened hand, " + shows},
+              friction_scene(hand.skin, assessment, used),
+              {{"open_hand", "palm side", {0.0, 0.0, -1.0}}}, assessed.product.name, used, options,
+              progress);
     add_views(pictures,
-              {"friction", "Friction in use on the skin",
-               "hand with the product hidden, coloured by the share of friction in use"},
-              {{.mesh = deformed_skin(hand, assessment),
-                .colour = used.neutral,
-                .vertex_colours = {},
-                .field = mobilised,
-                .field_upper = used.upper,
-                .map = used.map}},
-              all, assessed.product.name, used, options, progress);
+              {"friction", "Friction in use on the skin", "hand with the product hidden, " + shows},
+              friction_scene(deformed_skin(hand, assessment), assessment, used), all,
+              assessed.product.name, used, options, progress);
   }
   ProductFootprint footprint = footprint_of(assessed);
   add({"footprint", "Pressure on the product", "product coloured by the pressure of the hand"},
