@@ -321,6 +321,7 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
       "assess c48.stl --unit mm --preset xie2014 --no-pictures --out xie", cylinder().folder);
   EXPECT_THAT(text.out,
               HasSubstr("equations: xie2014 (point kernel, halfspace, independent regions)"));
+  EXPECT_THAT(text.out, HasSubstr("low .. nominal .. high tissue: force "));
   EXPECT_THAT(read_text(cylinder().folder + "/xie/report.html"),
               HasSubstr("Regions are solved one by one"));
 }

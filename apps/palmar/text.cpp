@@ -127,7 +127,7 @@ std::string band_text(const ContactResult& contact) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return a.force_per_modulus > b.force_per_modulus;
   });
-  text += "10 % stiffer skin in one region adds to the force:";
+  text += "10 % stiffer skin in one region adds to the force:\n ";
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i) {
     text += fmt::format("{} {} {:.2f} N", i == 0 ? "" : ",", name_of(rows[i].region),
                         0.1 * rows[i].force_per_modulus);
