@@ -34,10 +34,9 @@ ColourScale pressure_scale(const AssessmentSet& set);
 ///     map_open_hand           pressure drawn on the hand in its reference posture, palm side
 ///     pressure_palm ...       deformed skin coloured by pressure, product hidden
 ///     grasp_palm ...          the hand holding the product
+///     friction_palm ...       skin coloured by the share of friction in use (0 to 1), if friction
+///                             is on; also friction_open_hand
 ///     footprint_in_palm ...   the product coloured by pressure
-///
-///     friction_palm ...       skin coloured by the share of friction in use, if friction is on; 0
-///     to 1
 ///
 /// pressure, friction and grasp from the palm side, the back, the thumb side and the little
 /// finger's side (suffix palm, back, thumb, little); footprint from four sides about the grip axis
