@@ -16,6 +16,7 @@
 #include "palmar/io/hand_file.h"
 #include "palmar/io/hand_json.h"
 #include "palmar/report/hand_export.h"
+#include "press_deck_command.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -136,8 +137,9 @@ void add_mirror(CLI::App& hand, Context& context) {
 void add_pose(CLI::App& hand, Context& context, const std::string& name,
               const std::string& description, const std::string& example, bool takes_posture) {
   struct Options {
-    std::string hand = "template", posture, out;
+    std::string hand = "template", posture, out, format;
     std::vector<std::string> settings;
+    PressDeckArguments deck;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb = add_verb(hand, name, description, example);
@@ -150,8 +152,16 @@ void add_pose(CLI::App& hand, Context& context, const std::string& name,
                    "File to write: .glb (skin by region and bones), .ply, .obj, .stl (skin), .png "
                    "(picture)")
       ->required();
+  if (!takes_posture) {
+    verb->add_option(
+            "--format", o->format,
+            "inp: a finite-element deck of one region under an indenter; --out is a folder")
+        ->check(CLI::IsMember({"inp"}));
+    add_press_deck_options(*verb, o->deck);
+  }
   verb->callback([&context, o] {
     context.run = [&context, o] {
+      if (o->format == "inp") return run_press_deck(o->deck, o->hand, o->out, context.common);
       const auto loaded = load_hand(o->hand);
       const ClampedPosture clamped =
           clamp_to_range(loaded->skeleton, posture_from(*loaded, o->posture, o->settings));

@@ -169,6 +169,10 @@ Rigid3 hand_from_indenter(const PressOptions& options, const PreparedHand::Impl&
 
 }  // namespace
 
+Rigid3 indenter_at_first_touch(const PressOptions& options, const PreparedHand& hand) {
+  return hand_from_indenter(options, hand.impl());
+}
+
 PressStep press_hand_region(const PressOptions& options, const PreparedHand& hand, double depth) {
   const PreparedHand::Impl& prepared = hand.impl();
   Rigid3 hand_from_product = hand_from_indenter(options, prepared);

@@ -1,0 +1,247 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Palmar's contact against CalculiX: first the finite elements against closed forms, then one
+// fingertip on a plate with the same tissue. Prints tables; writes fe_fingertip.csv, profile.csv
+// and fe_fingertip.svg. Needs the programs ccx and tetgen (Debian: calculix-ccx, tetgen); without
+// them it says which is missing and ends with code 6.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "axisymmetric_deck.h"
+#include "palmar/contact/half_space_press.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/hand/skeleton.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/hand/tissue_block.h"
+#include "palmar/io/ccx_results.h"
+#include "palmar/io/external_program.h"
+#include "palmar/io/file.h"
+#include "palmar/io/hand_asset.h"
+#include "palmar/io/inp_file.h"
+#include "palmar/io/tetgen.h"
+#include "palmar/report/line_chart.h"
+
+namespace {
+
+using namespace palmar;
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+  std::string asset, out = "fe_fingertip";
+  double edge = 2.0;         // mm, of the hand's skin
+  double largest_tet = 2.0;  // mm^3
+  double tilt_deg = 30.0;
+  double poisson = 0.495;
+  bool is_large_strain = false;
+  bool skips_closed_forms = false;
+};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::filesystem::path require_program(const std::string& name, const std::string& package) {
+  if (const auto found = find_program(name)) return *found;
+  throw ProgramMissing("fe_fingertip: the program " + name + " is not installed (Debian: apt-get " +
+                       "install " + package + ")");
+}
+
+std::vector<CcxStep> solve(const std::filesystem::path& ccx, const std::filesystem::path& folder,
+                           const std::string& job) {
+  const int code = run_program(ccx, {"-i", job}, folder, job + ".log");
+  if (code != 0) {
+    throw NumericalError(
+        fmt::format("ccx ended with code {}; see {}", code, (folder / (job + ".log")).string()));
+  }
+  return read_ccx((folder / job).string());
+}
+
+/// Bonded incompressible layer under a sphere: force over Hertz' against the tabulated solution of
+/// the layer's integral equation, at sqrt(R depth) / h = 0.5 and 1.
+void against_closed_forms(const std::filesystem::path& ccx, const std::filesystem::path& folder) {
+  constexpr double kTable[] = {2.156, 5.115};
+  fe::SpherePress press;
+  // So shallow that the skin's sideways motion under the sphere doesn't matter.
+  press.radius = 2000.0;
+  press.layer = 5.0;
+  press.width = 40.0;
+  press.fine_edge = 0.3;
+  press.fine_radius = 9.0;
+  press.depths = {0.003125, 0.0125};
+  write_file(folder / "layer.inp", axisymmetric_deck(press));
+  const std::vector<CcxStep> steps = solve(ccx, folder, "layer");
+  std::cout << "bonded layer, sphere: force over Hertz\n";
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, steps.size()); ++k) {
+    const double hertz =
+        16.0 / 3.0 * press.shear_modulus * std::sqrt(press.radius) * std::pow(press.depths[k], 1.5);
+    const double ours = -fe::kSectors * steps[k].force.y() / hertz;
+    std::cout << fmt::format("  CalculiX {:.3f}, table {:.3f}, {:+.1f} %\n", ours, kTable[k],
+                             100.0 * (ours / kTable[k] - 1.0));
+  }
+}
+
+struct Curve {
+  std::string name;
+  std::vector<double> force, area;
+  double prepare_seconds = 0.0, solve_seconds = 0.0;
+};
+
+Curve press_with(TissueModel tissue, const std::shared_ptr<const Hand>& hand,
+                 const PressOptions& options) {
+  Curve curve;
+  curve.name = "Palmar " + std::string(name_of(tissue));
+  const auto start = Clock::now();
+  const PreparedHand prepared(hand, ContactModel{.tissue = tissue});
+  curve.prepare_seconds = seconds_since(start);
+  const auto begin = Clock::now();
+  for (const PressStep& step : press(options, &prepared)) {
+    curve.force.push_back(step.force);
+    curve.area.push_back(step.area);
+  }
+  curve.solve_seconds = seconds_since(begin);
+  return curve;
+}
+
+LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& depths,
+                   const std::string& title, bool is_area) {
+  constexpr Rgb kColours[] = {{40, 40, 40}, {70, 110, 150}, {190, 90, 50}};
+  LineChart chart{.title = title,
+                  .x_label = "Depth, mm",
+                  .y_label = is_area ? "Area, mm2" : "Force, N",
+                  .series = {}};
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    LineSeries& series = chart.series.emplace_back();
+    series.name = curves[c].name;
+    series.colour = kColours[c % 3];
+    series.points.emplace_back(0.0, 0.0);
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+      series.points.emplace_back(depths[k], is_area ? curves[c].area[k] : curves[c].force[k]);
+    }
+  }
+  return chart;
+}
+
+int run(const Arguments& arguments) {
+  const std::filesystem::path ccx = require_program("ccx", "calculix-ccx");
+  require_program("tetgen", "tetgen");
+  const std::filesystem::path folder(arguments.out);
+  create_folder(folder);
+  set_thread_count(1);
+  if (!arguments.skips_closed_forms) against_closed_forms(ccx, folder);
+
+  const auto hand = std::make_shared<const Hand>(
+      build_template(read_hand_asset(arguments.asset), {.edge_length = arguments.edge}));
+  PressOptions options;
+  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
+  options.indenter.kind = PressIndenter::Kind::kPlane;
+  options.tilt = radians(arguments.tilt_deg);
+  options.depths = {0.5, 1.0, 1.5, 2.0};
+  options.shear_modulus = 0.01;
+  std::vector<Curve> curves(1);
+  curves.push_back(press_with(TissueModel::kHalfSpace, hand, options));
+  curves.push_back(press_with(TissueModel::kLayered, hand, options));
+
+  PressDeck deck;
+  deck.title = fmt::format("middle_distal on a plate at {} deg", arguments.tilt_deg);
+  const Rigid3 frame = indenter_at_first_touch(options, PreparedHand(hand));
+  deck.indenter = indenter_surface(options.indenter, frame);
+  deck.direction = -(frame.rotation * Vec3::UnitZ());
+  deck.depths = options.depths;
+  deck.shear_modulus = *options.shear_modulus;
+  deck.poisson = arguments.poisson;
+  deck.material = arguments.is_large_strain ? DeckMaterial::kNeoHooke : DeckMaterial::kLinear;
+  Curve& elements = curves.front();
+  elements.name = arguments.is_large_strain ? "CalculiX, large strain" : "CalculiX";
+  auto start = Clock::now();
+  deck.block = mesh_by_tetgen(
+      make_tissue_block(*hand,
+                        {.region = Region::kMiddleDistal, .cut_offset = {}, .cut_normal = {}}),
+      folder, arguments.largest_tet);
+  write_file(folder / "fingertip.inp", inp_deck(deck));
+  elements.prepare_seconds = seconds_since(start);
+  start = Clock::now();
+  const std::vector<CcxStep> steps = solve(ccx, folder, "fingertip");
+  elements.solve_seconds = seconds_since(start);
+  if (steps.size() != options.depths.size()) {
+    throw NumericalError(fmt::format("ccx solved {} of {} steps; see {}", steps.size(),
+                                     options.depths.size(), folder.string()));
+  }
+  std::string profile = "depth_mm,x_mm,y_mm,pressure_mpa\n";
+  const Rigid3 indenter_from_hand = frame.inverse();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    elements.force.push_back(steps[k].force.dot(deck.direction));
+    elements.area.push_back(steps[k].area);
+    for (std::size_t i = 0; i < steps[k].node.size(); ++i) {
+      const auto n = static_cast<std::size_t>(steps[k].node[i]);
+      if (n >= deck.block.mesh.nodes.size()) continue;
+      const Vec3 q = indenter_from_hand * deck.block.mesh.nodes[n];
+      profile += fmt::format("{},{:.4f},{:.4f},{:.6f}\n", options.depths[k], q.x(), q.y(),
+                             steps[k].pressure[i]);
+    }
+  }
+
+  std::cout << fmt::format(
+      "middle fingertip on a plate at {} deg, G = 10 kPa; CalculiX: nu = {}, "
+      "{} nodes, {} tetrahedra, skin edges {} mm\n",
+      arguments.tilt_deg, arguments.poisson, deck.block.mesh.nodes.size(),
+      deck.block.mesh.tets.size(), arguments.edge);
+  std::string csv = "model,depth_mm,force_n,area_mm2,force_over_calculix\n";
+  for (const Curve& curve : curves) {
+    for (std::size_t k = 0; k < options.depths.size(); ++k) {
+      const double ratio = curve.force[k] / elements.force[k];
+      csv += fmt::format("{},{},{:.5f},{:.3f},{:.4f}\n", curve.name, options.depths[k],
+                         curve.force[k], curve.area[k], ratio);
+      std::cout << fmt::format("  {:18} {:4.1f} mm {:8.4f} N {:7.2f} mm2  force/CalculiX {:.3f}\n",
+                               curve.name, options.depths[k], curve.force[k], curve.area[k], ratio);
+    }
+  }
+  for (const Curve& curve : curves) {
+    std::cout << fmt::format("  {:18} prepared in {:.2f} s, solved in {:.4f} s", curve.name,
+                             curve.prepare_seconds, curve.solve_seconds);
+    if (&curve != &elements) {
+      std::cout << fmt::format(": CalculiX takes {:.0f} times as long, {:.0f} with preparation",
+                               elements.solve_seconds / curve.solve_seconds,
+                               (elements.prepare_seconds + elements.solve_seconds) /
+                                   (curve.prepare_seconds + curve.solve_seconds));
+    }
+    std::cout << '\n';
+  }
+  write_file(folder / "fe_fingertip.csv", csv);
+  write_file(folder / "profile.csv", profile);
+  write_file(folder / "fe_fingertip.svg",
+             svg_stack({chart_of(curves, options.depths, "Fingertip on a plate: force", false),
+                        chart_of(curves, options.depths, "Fingertip on a plate: area", true)}));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Palmar's contact against finite elements (CalculiX)");
+  app.add_option("ASSET", arguments.asset, "The template's asset, right.glb")->required();
+  app.add_option("--out", arguments.out, "Folder to write")->capture_default_str();
+  app.add_option("--edge-mm", arguments.edge, "Mean edge of the skin, mm")->capture_default_str();
+  app.add_option("--largest-tet-mm3", arguments.largest_tet, "Largest tetrahedron, mm3")
+      ->capture_default_str();
+  app.add_option("--tilt-deg", arguments.tilt_deg, "Tilt of the plate, deg")->capture_default_str();
+  app.add_option("--poisson", arguments.poisson, "Of the elements; Palmar takes its tissue's")
+      ->capture_default_str();
+  app.add_flag("--large-strain", arguments.is_large_strain, "Neo-Hookean instead of linear");
+  app.add_flag("--skip-closed-forms", arguments.skips_closed_forms, "Only the fingertip");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(arguments);
+  } catch (const Error& error) {
+    std::cerr << "fe_fingertip: " << error.what() << '\n';
+    return error.exit_code();
+  }
+}

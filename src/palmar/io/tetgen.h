@@ -1,0 +1,28 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "palmar/core/error.h"
+#include "palmar/io/tet_mesh.h"
+
+namespace palmar {
+
+/// A program that a benchmark or an export calls isn't installed. Exit code 6.
+class ProgramMissing : public Error {
+ public:
+  using Error::Error;
+  int exit_code() const override { return 6; }
+};
+
+/// Fills a tissue block with tetrahedra by TetGen, a program of its own (AGPL: it is called, never
+/// linked). Writes tissue.poly and the mesher's files to `folder`. Facets of skin and bone stay as
+/// they are, so skin nodes are those of the hand; tetrahedra are at most `largest_volume` [mm^3].
+///
+/// Throws ProgramMissing if `tetgen` isn't on PATH (tissue.poly is there then), NumericalError if
+/// it finds no mesh: facets that cut each other, such as bones that overlap.
+BlockMesh mesh_by_tetgen(const TissueBlock& block, const std::filesystem::path& folder,
+                         double largest_volume);
+
+}  // namespace palmar
