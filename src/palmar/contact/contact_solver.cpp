@@ -233,6 +233,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     set_depth(skin, load);
     load.shear_modulus = moduli(load, TissueLevel::kNominal);
     load.in_contact.clear();
+    load.force.clear();
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
       const auto v = static_cast<std::size_t>(load.vertex[k]);
       // Under a smooth product the contact ends where the penetration is half the deepest (Hertz:
@@ -241,6 +242,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
       load.in_contact.push_back(is_new       ? skin.sample[v].distance < -0.5 * load.depth[k]
                                 : round == 0 ? was_in_contact[v] != 0
                                              : start[v] != 0);
+      load.force.push_back(was_force.empty() ? 0.0 : was_force[v]);
     }
     if (!solve_system(skin, load, result)) {
       solve_by_region(skin, load, result);
@@ -249,8 +251,11 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     if (!may_bulge || round == kMostExtensions) return;
     const std::vector<int> more = pressed_in(skin, load);
     if (more.empty()) return;
+    was_force.resize(skin.sample.size(), 0.0);
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      start[static_cast<std::size_t>(load.vertex[k])] = load.in_contact[k];
+      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      start[v] = load.in_contact[k];
+      was_force[v] = load.force[k];
     }
     for (const int v : more) start[static_cast<std::size_t>(v)] = 1;
     load.vertex.insert(load.vertex.end(), more.begin(), more.end());
@@ -269,8 +274,8 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   result.model = prepared->model;
   result.undeformed.resize(n);
   for (std::size_t v = 0; v < n; ++v) result.undeformed[v] = product_from_hand * posed_skin[v];
-  const SkinOnProduct skin =
-      find_skin_on_product(*prepared->hand, result.undeformed, product, only);
+  find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_);
+  const SkinOnProduct& skin = skin_;
   result.message = skin.message;
   result.force.assign(n, 0.0);
   result.pressure.assign(n, 0.0);
@@ -287,6 +292,7 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   SkinLoad load;
   if (!skin.collision.empty()) solve_load(skin, load, result);
   was_in_contact.assign(n, 0);
+  was_force = result.force;
   std::vector<double> modulus(n, 0.0);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const auto v = static_cast<std::size_t>(load.vertex[k]);
@@ -294,6 +300,7 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
     result.pressure[v] = load.force[k] / prepared->skin.area[v];
     modulus[v] = load.shear_modulus[k];
     was_in_contact[v] = load.in_contact[k];
+    was_force[v] = load.force[k];
   }
   const std::vector<LoadedPart> parts = loaded_parts(*prepared, load);
   SkinDisplacement u = skin_displacement(*prepared, skin, load, parts, options.swelling);

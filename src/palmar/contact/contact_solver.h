@@ -28,7 +28,9 @@ struct ContactSolver::Impl {
   const PreparedHand::Impl* prepared;
   ContactOptions options;
   ContactSystem system;
-  std::vector<char> was_in_contact;  ///< per skin vertex, in the last call; empty before the first
+  // Of the last call, per skin vertex; empty before the first.
+  std::vector<char> was_in_contact;
+  std::vector<double> was_force;  ///< N
 
  private:
   /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
@@ -53,6 +55,8 @@ struct ContactSolver::Impl {
                    const ContactResult& nominal);
 
   CoatingCompliance coating_;
+  SkinSampler sampler_;
+  SkinOnProduct skin_;
 };
 
 }  // namespace palmar
