@@ -46,24 +46,28 @@ class IndenterField : public DistanceField {
   }
 
  private:
-  static DistanceSample around(const Vec3& point, const Vec3& centre, const Vec3& from_centre,
-                               double radius) {
-    const double length = from_centre.norm();
-    const Vec3 n = length > 0.0 ? Vec3(from_centre / length) : Vec3(-Vec3::UnitZ());
-    return {length - radius, centre + (point - centre - from_centre) + radius * n, n, -1};
+  /// Outside a ball or bar the nearest point; inside, the one below along the press, from where the
+  /// skin came: the gap of Hertz' problem. (Measured radially, deep skin near the middle would be
+  /// pushed sideways, and the force fall to nothing as the depth nears the radius.)
+  DistanceSample around(const Vec3& q, const Vec3& from_axis) const {
+    const double radius = indenter_.radius;
+    const double length = from_axis.norm();
+    if (length >= radius) {
+      const Vec3 n = from_axis / length;
+      return {length - radius, q - (length - radius) * n, n, -1};
+    }
+    const double across2 = from_axis.squaredNorm() - from_axis.z() * from_axis.z();
+    const double height = radius - std::sqrt(radius * radius - across2);
+    return {height - q.z(), {q.x(), q.y(), height}, -Vec3::UnitZ(), -1};
   }
 
   DistanceSample one(const Vec3& q) const {
     const double radius = indenter_.radius;
     switch (indenter_.kind) {
-      case PressIndenter::Kind::kSphere: {
-        const Vec3 centre(0.0, 0.0, radius);
-        return around(q, centre, q - centre, radius);
-      }
-      case PressIndenter::Kind::kCylinder: {
-        const Vec3 centre(0.0, 0.0, radius);
-        return around(q, centre, Vec3(q.x(), 0.0, q.z() - radius), radius);
-      }
+      case PressIndenter::Kind::kSphere:
+        return around(q, Vec3(q.x(), q.y(), q.z() - radius));
+      case PressIndenter::Kind::kCylinder:
+        return around(q, Vec3(q.x(), 0.0, q.z() - radius));
       case PressIndenter::Kind::kPlane:
         return {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
       case PressIndenter::Kind::kPunch:

@@ -98,7 +98,7 @@ struct PressStep {
 /// the rigid core, its curvature left out (good while the contact is small against the radius).
 ///
 /// Hand region: the skin as in solve_hand_contact(), pressed against the region's mean outward
-/// normal; only that region can touch.
+/// normal; only that region can touch. Gaps are measured along the press here too.
 ///
 /// A force is met to 0.1 %. Throws UsageError on bad options, on a
 /// contact without end (plane on plane, cylinder on plane), or for a hand region without a hand;

@@ -72,11 +72,18 @@ PressGap::PressGap(const PressOptions& options, double depth, double margin) : d
     case PressIndenter::Kind::kPlane:
       break;
   }
+  if (slope_x_ == 0.0) return;
+  // A tilted punch touches first at its lowest point: on a flat specimen its edge.
+  const double outer = punch_offset_ + punch_radius_;
+  const double inner = std::max(punch_offset_ - punch_radius_, 0.0);
+  const double steepest = curvature_x_ > 0.0 ? std::abs(slope_x_) / curvature_x_ : outer;
+  const double x = std::clamp(steepest, inner, outer);
+  touch_ = 0.5 * curvature_x_ * x * x - std::abs(slope_x_) * x;
 }
 
 double PressGap::at(const Vec2& q) const {
   return 0.5 * (curvature_x_ * q.x() * q.x() + curvature_y_ * q.y() * q.y()) + slope_x_ * q.x() -
-         depth_;
+         touch_ - depth_;
 }
 
 Vec2 PressGap::reach(double limit) const {

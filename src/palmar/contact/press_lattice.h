@@ -14,9 +14,10 @@ using Vec2 = Eigen::Vector2d;
 /// The gap between indenter and flat or curved specimen before contact, in their common tangent
 /// plane at first touch, mm; and the part of that plane that the indenter covers.
 ///
-///     gap(x, y) = x^2 / 2 R_x + y^2 / 2 R_y + x tan(tilt) - depth
+///     gap(x, y) = x^2 / 2 R_x + y^2 / 2 R_y + x tan(tilt) - touch - depth
 ///
-/// Small strain (Hertz 1882; Johnson 1985, section 4.1); the slope is that of a tilted punch.
+/// Small strain (Hertz 1882; Johnson 1985, section 4.1); the slope is that of a tilted punch, and
+/// `touch` the lowest value of what stands before it, so that the depth counts from first touch.
 class PressGap {
  public:
   /// A punch counts as wider by `margin` [mm].
@@ -37,6 +38,7 @@ class PressGap {
  private:
   double curvature_x_ = 0.0, curvature_y_ = 0.0;  ///< 1/mm
   double slope_x_ = 0.0;
+  double touch_ = 0.0;         ///< mm
   double depth_ = 0.0;         ///< mm
   double punch_radius_ = 0.0;  ///< mm; 0 = the indenter covers all
   double punch_offset_ = 0.0;  ///< mm; two punches at x = +- this

@@ -88,6 +88,18 @@ TEST(Press, FlatPunchHasTheStiffnessOfTheClosedForm) {
   }
 }
 
+TEST(Press, TiltedPunchTouchesWithItsEdgeFirst) {
+  // Once all of it touches, the force is that of its centre's depth: 8 G a (depth - a tan(tilt)).
+  PressOptions options = sphere_on_plane(5.0, 1.0);
+  options.indenter.kind = PressIndenter::Kind::kPunch;
+  options.tilt = 2.0 * kPi / 180.0;
+  options.depths = {0.05, 1.0};
+  const std::vector<PressStep> steps = press(options);
+  EXPECT_LT(steps[0].area, 10.0);  // a sliver
+  const double force = 2.0 * (1.0 - 5.0 * std::tan(options.tilt));
+  EXPECT_NEAR(steps[1].force, force, 0.005 * force);
+}
+
 TEST(Press, EllipticContactMeetsTheClosedForm) {
   // Closed form from a chosen ellipse a = 4, b = 2 mm (Johnson 1985, section 4.2): with
   // e^2 = 1 - b^2 / a^2,
@@ -352,6 +364,49 @@ TEST(Press, HandRegionPressedByAPlateMeetsHertz) {
   const PressStep step = press(options, &hand).front();
   EXPECT_NEAR(step.force, 3.3731, 0.03 * 3.3731);
   EXPECT_NEAR(step.area, kPi * 40.0, 0.10 * kPi * 40.0);
+}
+
+TEST(Press, HandRegionPressedByABallMeetsHertz) {
+  // 1 / R = 1 / 20 + 1 / 40; F = (16/3) G sqrt(R) depth^1.5.
+  const PreparedHand hand(contact_test::ball_hand(20.0, 4));
+  PressOptions options = sphere_on_plane(40.0, 1.0);
+  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
+  const double force = 16.0 / 3.0 * 0.05 * std::sqrt(40.0 / 3.0) * std::pow(2.0, 1.5);
+  EXPECT_NEAR(press(options, &hand).front().force, force, 0.04 * force);
+
+  // A small ball up to its own radius: force grows all the way.
+  options.indenter.radius = 5.0;
+  options.depths = {1.0, 2.0, 3.0, 4.0, 4.5, 5.0};
+  double before = 0.0;
+  for (const PressStep& step : press(options, &hand)) {
+    EXPECT_GT(step.force, before) << step.depth << " mm";
+    EXPECT_LT(step.relative_residual, 1e-6);
+    before = step.force;
+  }
+  options.depths.clear();
+  options.forces = {0.5};
+  EXPECT_NEAR(press(options, &hand).front().force, 0.5, 5e-4);
+}
+
+TEST(Press, CoverOnAHandGivesWay) {
+  const PreparedHand hand(contact_test::ball_hand(20.0, 4));
+  PressOptions options = sphere_on_plane(1.0, 1.0);
+  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
+  options.indenter.kind = PressIndenter::Kind::kPlane;
+  options.coating = Coating{50.0, 0.05, 0.5, {}};
+  // As soft as the skin and thick: half the force (Hertz with half the E*).
+  const PressStep step = press(options, &hand).front();
+  EXPECT_NEAR(step.force, 0.5 * 3.3731, 0.08 * 0.5 * 3.3731);
+}
+
+TEST(Press, HandAtATissueLevelHasItForNominal) {
+  const std::shared_ptr<const Hand> hand = contact_test::ball_hand(20.0, 2);
+  const Hand high = hand_at_tissue_level(*hand, TissueLevel::kHigh);
+  for (std::size_t r = 0; r < hand->tissue.region.size(); ++r) {
+    EXPECT_EQ(high.tissue.region[r].half_space.nominal.g_limit,
+              hand->tissue.region[r].half_space.high.g_limit);
+    EXPECT_EQ(high.tissue.region[r].layered.nominal.g0, hand->tissue.region[r].layered.high.g0);
+  }
 }
 
 TEST(Press, RefusesWhatItCannotDo) {
