@@ -8,12 +8,12 @@
 
 #include "palmar/contact/half_space_press.h"
 #include "palmar/core/error.h"
-#include "palmar/hand/skeleton.h"
 #include "palmar/hand/tissue_block.h"
 #include "palmar/io/file.h"
 #include "palmar/io/inp_file.h"
 #include "palmar/io/tetgen.h"
 #include "press_specimen.h"
+#include "text.h"
 
 namespace palmar::cli {
 

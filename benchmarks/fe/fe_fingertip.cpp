@@ -13,12 +13,12 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "axisymmetric_deck.h"
 #include "palmar/contact/half_space_press.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/hand/skeleton.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/hand/tissue_block.h"
 #include "palmar/io/ccx_results.h"
@@ -142,7 +142,7 @@ int run(const Arguments& arguments) {
   PressOptions options;
   options.specimen.kind = PressSpecimen::Kind::kHandRegion;
   options.indenter.kind = PressIndenter::Kind::kPlane;
-  options.tilt = radians(arguments.tilt_deg);
+  options.tilt = arguments.tilt_deg * std::numbers::pi / 180.0;
   options.depths = {0.5, 1.0, 1.5, 2.0};
   options.shear_modulus = 0.01;
   std::vector<Curve> curves(1);
