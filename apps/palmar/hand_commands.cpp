@@ -15,6 +15,7 @@
 #include "palmar/io/hand_asset.h"
 #include "palmar/io/hand_file.h"
 #include "palmar/io/hand_json.h"
+#include "palmar/io/tissue_file.h"
 #include "palmar/report/hand_export.h"
 #include "press_deck_command.h"
 #include "text.h"
@@ -96,6 +97,29 @@ void add_info(CLI::App& hand, Context& context) {
     context.run = [&context, name] {
       const auto loaded = load_hand(*name);
       print(context.common.json ? hand_info_json(*loaded) + "\n" : hand_text(*loaded));
+      return 0;
+    };
+  });
+}
+
+void add_tissue(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string hand = "template", tissue, out;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "tissue", "Stiffness of a hand's skin by region, with its ranges",
+                            "palmar hand tissue template --out my-tissue.toml");
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  verb->add_option("--tissue", o->tissue, "Tissue file over the hand's own");
+  verb->add_option("--out", o->out, "Tissue file to write, *.toml: a start for one of your own");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const auto loaded = load_hand(o->hand, o->tissue);
+      if (!o->out.empty()) {
+        write_tissue(o->out, loaded->tissue);
+        note(context.common, "wrote " + o->out);
+      }
+      print(context.common.json ? tissue_json(loaded->tissue) + "\n" : tissue_text(loaded->tissue));
       return 0;
     };
   });
@@ -185,6 +209,7 @@ void add_hand_commands(CLI::App& app, Context& context) {
   hand->fallthrough();
   add_template(*hand, context);
   add_info(*hand, context);
+  add_tissue(*hand, context);
   add_measure(*hand, context);
   add_mirror(*hand, context);
   add_pose(*hand, context, "pose", "A hand in a posture, as mesh or picture",
