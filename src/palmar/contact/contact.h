@@ -36,7 +36,8 @@ enum class RegionCoupling {
 /// Where the distances on the skin come from.
 enum class SkinDistance {
   kSurface,  ///< geodesics on the mesh
-  kIsomap    ///< Xie 2014: each region flattened by Isomap, straight lines in the flat picture
+  kIsomap    ///< Xie 2014: each region flattened by Isomap, straight lines in the flat picture;
+             ///< independent regions only, else kSurface
 };
 
 /// Law of the bulge's height.

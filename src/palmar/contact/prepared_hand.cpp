@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "palmar/contact/layer_thickness.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -30,14 +31,17 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
   check_hand(*hand);
   auto impl = std::make_unique<Impl>();
   impl->model = model;
+  // A flat picture of one region says nothing about the way to the next.
+  if (model.coupling == RegionCoupling::kCoupled) impl->model.distance = SkinDistance::kSurface;
   impl->skin = skin_geometry(hand->skin);
   impl->hand = std::move(hand);
-  if (model.tissue == TissueModel::kLayered) {
-    impl->bone_depth = skin_depth_over_bone(*impl->hand, impl->skin);
+  if (impl->model.tissue == TissueModel::kLayered) {
+    impl->layer_thickness = effective_layer_thickness(*impl->hand, impl->skin);
   }
-  impl->response = skin_response(*impl->hand, impl->skin, model, impl->bone_depth);
+  impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
-  impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response, impl->blocks, model);
+  impl->stiffness =
+      skin_stiffness(*impl->hand, impl->skin, impl->response, impl->blocks, impl->model);
   impl_ = std::move(impl);
 }
 

@@ -18,7 +18,7 @@ struct PreparedHand::Impl {
   std::shared_ptr<const Hand> hand;
   ContactModel model;
   SkinGeometry skin;
-  std::vector<double> bone_depth;  ///< per vertex, mm; see skin_depth_over_bone()
+  std::vector<double> layer_thickness;  ///< per vertex, mm; with TissueModel::kLayered
   SkinResponse response;
   SkinPatches blocks;  ///< of the preconditioner
   SkinStiffness stiffness;

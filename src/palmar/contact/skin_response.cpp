@@ -3,7 +3,6 @@
 #include "palmar/contact/skin_response.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,15 +11,11 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/geodesic.h"
 #include "palmar/geometry/isomap.h"
-#include "palmar/geometry/mesh_distance.h"
 
 namespace palmar {
 namespace {
 
 constexpr double kFarthestPair = 400.0;  // mm; no two points of a region are farther apart
-constexpr double kThinnest = 1.0;        // mm of skin over bone
-constexpr double kThickest = 25.0;       // mm
-constexpr double kDepthSmoothing = 3.0;  // mm
 constexpr int kClusters = 9'000;         // about as many as a mesh of 2.3 mm has vertices
 constexpr double kAllNear = 3.0;         // mm; up to here everything is in the near part
 constexpr double kAllFar = 8.0;          // mm; from here on in the far part
@@ -128,48 +123,14 @@ double fade(double distance) {
 
 }  // namespace
 
-std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& skin) {
-  const std::size_t n = skin.position.size();
-  TriangleMesh bones;
-  for (const Bone& bone : hand.bones) {
-    const int first = static_cast<int>(bones.vertices.size());
-    bones.vertices.insert(bones.vertices.end(), bone.mesh.vertices.begin(),
-                          bone.mesh.vertices.end());
-    for (const Triangle& t : bone.mesh.triangles) {
-      bones.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-  }
-  if (bones.triangles.empty()) return std::vector<double>(n, kThickest);
-  const MeshDistance distance(bones);
-  std::vector<DistanceSample> sample(n);
-  distance.sample(skin.position, kThickest, sample);
-  std::vector<double> depth(n);
-  for (std::size_t v = 0; v < n; ++v) {
-    depth[v] = std::clamp(sample[v].distance, kThinnest, kThickest);
-  }
-  std::vector<double> smooth(n);
-  for (std::size_t v = 0; v < n; ++v) {
-    const std::array<int, 1> source = {static_cast<int>(v)};
-    double sum = 0.0;
-    double area = 0.0;
-    for (const GrownVertex& g : grow(skin, source, kDepthSmoothing)) {
-      const auto w = static_cast<std::size_t>(g.vertex);
-      sum += skin.area[w] * depth[w];
-      area += skin.area[w];
-    }
-    smooth[v] = area > 0.0 ? sum / area : depth[v];
-  }
-  return smooth;
-}
-
 namespace {
 
 /// Response of one point of the skin to a force at another.
 class PairResponse {
  public:
   PairResponse(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-               const std::vector<double>& depth)
-      : skin_(&skin), model_(model), depth_(&depth) {
+               const std::vector<double>& thickness)
+      : skin_(&skin), model_(model), thickness_(&thickness) {
     if (model.tissue != TissueModel::kLayered) return;
     for (const Region region : hand.region) {
       kernel_.push_back(
@@ -186,7 +147,7 @@ class PairResponse {
     if (model_.tissue != TissueModel::kLayered) {
       return static_cast<float>(weight * boussinesq_response(model_.kernel, r, a_i, a_j));
     }
-    const double h = 0.5 * ((*depth_)[v] + (*depth_)[w]);
+    const double h = 0.5 * ((*thickness_)[v] + (*thickness_)[w]);
     return static_cast<float>(
         0.25 * weight *
         (layered_response(*kernel_[v], r, a_i, h) + layered_response(*kernel_[v], r, a_j, h) +
@@ -196,7 +157,7 @@ class PairResponse {
  private:
   const SkinGeometry* skin_;
   ContactModel model_;
-  const std::vector<double>* depth_;
+  const std::vector<double>* thickness_;
   std::vector<const LayerKernel*> kernel_;  // per vertex
 };
 
@@ -359,9 +320,9 @@ SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
 }  // namespace
 
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& depth) {
+                           const std::vector<double>& thickness) {
   const GeodesicSolver solver(hand.skin);
-  const PairResponse response(hand, skin, model, depth);
+  const PairResponse response(hand, skin, model, thickness);
   const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
   if (is_coupled && skin.vertex_count() > kMostFullVertices) {
     return two_level(skin, solver, response);

@@ -73,10 +73,6 @@ constexpr int kMostFullVertices = 12'000;
 /// third its effect is faded out. Skin farther away is held by the bones between.
 constexpr double kResponseReach = 20.0;  // mm
 
-/// Depth of every skin vertex over the nearest bone of the reference posture, mm, smoothed over
-/// 3 mm and kept within 1 to 25 mm; the farthest for a hand without bones.
-std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& skin);
-
 /// Responses of a hand's skin.
 ///
 /// RegionCoupling::kCoupled: all pairs within kResponseReach; symmetric.
@@ -84,9 +80,9 @@ std::vector<double> skin_depth_over_bone(const Hand& hand, const SkinGeometry& s
 /// region (the dorsum: within kResponseReach); across regions the rows within the neighbourhood of
 /// the column's region (they show how the skin moves, and take no part in the solution).
 ///
-/// `depth` per vertex is used by TissueModel::kLayered.
+/// `thickness` of the layer per vertex [mm] is used by TissueModel::kLayered.
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& depth);
+                           const std::vector<double>& thickness);
 
 /// The responses in the columns between some vertices (ascending) as a dense matrix, 1/mm; zero
 /// where a pair has none. Without `across`, pairs of different regions have none.
