@@ -121,7 +121,7 @@ std::string describe(const FitArguments& arguments, const TestSetup& setup) {
   std::string text = arguments.specimen + " pressed by " + arguments.indenter;
   if (arguments.tilt_deg != 0.0) text += fmt::format(" at {} deg", arguments.tilt_deg);
   if (!setup.is_layered) return text + ", half-space";
-  if (!setup.hand.empty()) return text + ", layered with the hand's own depth of bone";
+  if (!setup.hand.empty()) return text + ", layered over the hand's own bones";
   return text + (setup.is_layer_fitted ? ", layer of fitted thickness"
                                        : ", layer of " + arguments.layer + " mm");
 }

@@ -88,17 +88,18 @@ RegionTissue finger_tissue() {
   return {.half_space = {.nominal = {0.005, 0.095, 4.0},
                          .low = {0.005, 0.070, 4.0},
                          .high = {0.005, 0.120, 4.0}},
-          .layered = {.nominal = {0.0064, 0.0064, 4.0},
-                      .low = {0.0054, 0.0054, 4.0},
-                      .high = {0.0090, 0.0090, 4.0}},
+          .layered = {.nominal = {0.0103, 0.0239, 4.0},
+                      .low = {0.0090, 0.0202, 4.0},
+                      .high = {0.0125, 0.0353, 4.0}},
           .swelling_height = 2.0,
           .swelling_radius = 8.0,
           .swelling_width = 2.0,
           .neighbourhood = 12.5,
-          .source = std::string(kHalfSpaceSource) +
-                    "; width of the bulge (2 mm) assumed, the thesis' figure is lost; layered: one "
-                    "modulus fitted to the fingertip forces of the thesis' laws (radius 7.5 mm, "
-                    "0.5-4 mm) on the template's middle fingertip against a plate at 30 deg"};
+          .source =
+              std::string(kHalfSpaceSource) +
+              "; width of the bulge (2 mm) assumed, the thesis' figure is lost; layered: fitted to "
+              "the fingertip forces of the thesis' laws (radius 7.5 mm, 0.5-4 mm) on the "
+              "template's middle fingertip against a plate at 30 deg"};
 }
 
 RegionTissue palm_tissue() {
@@ -106,15 +107,15 @@ RegionTissue palm_tissue() {
       .half_space = {.nominal = {0.0275, 0.060, 7.0},
                      .low = {0.005, 0.040, 7.0},
                      .high = {0.050, 0.080, 7.0}},
-      .layered = {.nominal = {0.0100, 0.0100, 7.0},
-                  .low = {0.0048, 0.0048, 7.0},
-                  .high = {0.0144, 0.0144, 7.0}},
+      .layered = {.nominal = {0.0185, 0.0230, 7.0},
+                  .low = {0.0044, 0.0155, 7.0},
+                  .high = {0.0305, 0.0310, 7.0}},
       .swelling_height = 3.0,
       .swelling_radius = 15.0,
       .swelling_width = 3.0,
       .neighbourhood = 17.5,
       .source = std::string(kHalfSpaceSource) +
-                "; layered: one modulus fitted to the forces of those half-spaces on the "
+                "; layered: gives the forces of those half-spaces on the "
                 "template's thenar, hypothenar and the two pads against a plate (1-7 mm), as "
                 "the thesis' test is not described well enough to press it anew: an assumption"};
 }
