@@ -69,7 +69,7 @@ void add_validate_command(CLI::App& app, Context& context) {
   CLI::App* verb =
       add_verb(app, "validate",
                "Hold the simulator against closed forms and measurements; exit code 5 on a miss",
-               "palmar validate --case G1,layer");
+               "palmar validate --case G1,G2");
   verb->add_option("--case", o->cases, "Cases to run, as G1,layer; all by default")->delimiter(',');
   verb->add_flag("--quick", o->is_quick, "Leave out the cases that take longer than some seconds");
   verb->add_flag("--list", o->is_list, "Say what the cases are, run nothing");

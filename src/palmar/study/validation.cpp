@@ -89,7 +89,8 @@ ValidationRow judge(std::string quantity, std::string unit, double ours, Validat
   ValidationRow row{std::move(quantity), std::move(unit), ours, std::move(target), {}, {}};
   const ValidationTarget& t = row.target;
   const auto relative = [&](double reference) {
-    if (reference != 0.0) row.difference = (ours - reference) / std::abs(reference);
+    if (reference != 0.0 && std::isfinite(ours))
+      row.difference = (ours - reference) / std::abs(reference);
   };
   const bool is_below = t.lowest && !(ours >= *t.lowest);
   const bool is_above = t.highest && !(ours <= *t.highest);

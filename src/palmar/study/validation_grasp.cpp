@@ -49,9 +49,8 @@ std::size_t part_of(Region region) {
   if (region == Region::kThenar) return 4;
   if (region == Region::kHypothenar) return 5;
   const auto segment = segment_of(region);
-  if (!segment) return 6;
-  const auto finger = finger_of(*segment);
-  if (!finger || *finger == Finger::kThumb) return 0;
+  if (!segment || *segment == Segment::kPalm) return 6;
+  if (finger_of(*segment) == Finger::kThumb) return 0;
   // Proximal, middle, distal of four fingers, in this order.
   const int place = static_cast<int>(*segment) - static_cast<int>(Segment::kIndexProximal);
   return static_cast<std::size_t>(3 - place % 3);
@@ -89,6 +88,7 @@ void add_shares(ValidationRows& rows, ValidationBench& bench, const ContactModel
     rows.push_back(judge(name + ", change of proximal phalanges" + from, "points",
                          share[i][3] - share[i - 1][3], target(at_most(0.0, source + ": falls"))));
   }
+  if (!is_judged) return;
   for (std::size_t k = 0; k < kParts.size(); ++k) {
     const auto [low, high] = std::minmax({share[0][k], share[1][k], share[2][k]});
     rows.push_back(judge(name + ", range of " + kParts[k], "points", high - low,
@@ -125,6 +125,7 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
 ValidationRows validate_shares(ValidationBench& bench) {
   ValidationRows rows;
   add_shares(rows, bench, {}, "palmar", true);
+  add_shares(rows, bench, xie2014_model(), "xie2014", false);
   return rows;
 }
 

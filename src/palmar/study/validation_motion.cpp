@@ -116,7 +116,7 @@ std::vector<double> closing_palm(ValidationBench& bench, const HeldCylinder& hel
   ContactResult contact = bench.contact(held, {});
   Vec3 push = Vec3::Zero();
   for (const RegionContact& region : contact.regions) {
-    if (region.region != Region::kDorsum && !segment_of(region.region)) push += region.force_vector;
+    if (segment_of(region.region) == Segment::kPalm) push += region.force_vector;
   }
   push.normalize();
   std::vector<double> force;
@@ -127,7 +127,7 @@ std::vector<double> closing_palm(ValidationBench& bench, const HeldCylinder& hel
     solver.solve(held.posed_skin, place, *held.product.distance, contact);
     double palm = 0.0;
     for (const RegionContact& region : contact.regions) {
-      if (region.region != Region::kDorsum && !segment_of(region.region)) palm += region.force;
+      if (segment_of(region.region) == Segment::kPalm) palm += region.force;
     }
     force.push_back(palm);
   }

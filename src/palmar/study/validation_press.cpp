@@ -220,15 +220,15 @@ ValidationRows validate_layer(ValidationBench& bench) {
     options.indenter.radius = 5.0;
     options.layer_thickness = 5.0 / t.ratio;
     const double ratio = press(options).front().force / (8.0 * kShear * 5.0 * 0.1);
-    keep_worst(ratio / t.force, force);
-    for (const double shown : {0.2, 1.0, 3.0}) {
+    if (t.ratio <= 6.0) keep_worst(ratio / t.force, force);
+    for (const double shown : {0.2, 1.0, 3.0, 8.0, 10.0}) {
       if (t.ratio != shown) continue;
-      rows.push_back(
-          judge("punch, a / h = " + std::to_string(shown).substr(0, 3) + ", force / half-space", "",
-                ratio, near_value(t.force, 0.02, table)));
+      const std::string at = shown == 10.0 ? "10" : std::to_string(shown).substr(0, 3);
+      rows.push_back(judge("punch, a / h = " + at + ", force / half-space", "", ratio,
+                           near_value(t.force, 0.02, table)));
     }
   }
-  rows.push_back(judge("punch, force / table, worst of 18 from 0.1 to 10", "", force,
+  rows.push_back(judge("punch, force / table, worst of 16 from 0.1 to 6", "", force,
                        near_value(1.0, 0.02, table)));
   return rows;
 }
