@@ -8,15 +8,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <set>
+#include <span>
 
 #include "axisymmetric_deck.h"
 #include "palmar/contact/half_space_press.h"
+#include "palmar/contact/hand_contact.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/hand/template_hand.h"
@@ -33,6 +38,8 @@ namespace {
 
 using namespace palmar;
 using Clock = std::chrono::steady_clock;
+
+constexpr std::array<Rgb, 3> kColours = {{{40, 40, 40}, {70, 110, 150}, {190, 90, 50}}};
 
 struct Arguments {
   std::string asset, out = "fe_fingertip";
@@ -88,11 +95,78 @@ void against_closed_forms(const std::filesystem::path& ccx, const std::filesyste
   }
 }
 
+/// Pressure at points of the plate, for one depth.
+struct Pressures {
+  std::vector<Vec3> point;       // in the plate's frame, mm
+  std::vector<double> pressure;  // MPa
+};
+
 struct Curve {
   std::string name;
   std::vector<double> force, area;
+  std::vector<Pressures> field;  // per depth
   double prepare_seconds = 0.0, solve_seconds = 0.0;
 };
+
+/// Solid above z = 0.
+class Plate : public DistanceField {
+ public:
+  void sample(std::span<const Vec3> points, double range,
+              std::span<DistanceSample> samples) const override {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3& q = points[i];
+      samples[i] = {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
+      if (std::abs(q.z()) > range)
+        samples[i] = {std::copysign(range, -q.z()), q, -Vec3::UnitZ(), -1};
+    }
+  }
+  Box3 bounding_box() const override { return {Vec3(-1e4, -1e4, 0.0), Vec3(1e4, 1e4, 1e4)}; }
+};
+
+/// What press() finds, vertex by vertex.
+Pressures field_of(const PreparedHand& prepared, const PressOptions& options, double depth) {
+  Rigid3 hand_from_plate = indenter_at_first_touch(options, prepared);
+  hand_from_plate.translation -= depth * (hand_from_plate.rotation * Vec3::UnitZ());
+  ContactOptions contact_options;
+  contact_options.swelling = false;
+  contact_options.shear_modulus = options.shear_modulus;
+  const ContactResult result =
+      solve_region_contact(prepared, prepared.hand().skin.vertices, hand_from_plate.inverse(),
+                           Plate(), contact_options, options.specimen.region);
+  Pressures field;
+  for (std::size_t v = 0; v < result.pressure.size(); ++v) {
+    if (prepared.hand().region[v] != options.specimen.region) continue;
+    field.point.push_back(result.undeformed[v]);
+    field.pressure.push_back(result.pressure[v]);
+  }
+  return field;
+}
+
+/// Mean pressure in rings of 1 mm round the centre of pressure, MPa against mm.
+std::vector<Eigen::Vector2d> profile_of(const Pressures& field) {
+  constexpr double kRing = 1.0;  // mm
+  Vec3 centre = Vec3::Zero();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < field.point.size(); ++i) {
+    centre += field.pressure[i] * field.point[i];
+    sum += field.pressure[i];
+  }
+  if (!(sum > 0.0)) return {};
+  centre /= sum;
+  std::vector<double> total(10, 0.0);
+  std::vector<int> count(10, 0);
+  for (std::size_t i = 0; i < field.point.size(); ++i) {
+    const auto ring = static_cast<std::size_t>((field.point[i] - centre).head<2>().norm() / kRing);
+    if (ring >= total.size()) continue;
+    total[ring] += field.pressure[i];
+    ++count[ring];
+  }
+  std::vector<Eigen::Vector2d> profile;
+  for (std::size_t k = 0; k < total.size(); ++k) {
+    if (count[k] > 0) profile.emplace_back((k + 0.5) * kRing, 1e3 * total[k] / count[k]);
+  }
+  return profile;
+}
 
 Curve press_with(TissueModel tissue, const std::shared_ptr<const Hand>& hand,
                  const PressOptions& options) {
@@ -107,12 +181,14 @@ Curve press_with(TissueModel tissue, const std::shared_ptr<const Hand>& hand,
     curve.area.push_back(step.area);
   }
   curve.solve_seconds = seconds_since(begin);
+  for (const double depth : options.depths) {
+    curve.field.push_back(field_of(prepared, options, depth));
+  }
   return curve;
 }
 
 LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& depths,
                    const std::string& title, bool is_area) {
-  constexpr Rgb kColours[] = {{40, 40, 40}, {70, 110, 150}, {190, 90, 50}};
   LineChart chart{.title = title,
                   .x_label = "Depth, mm",
                   .y_label = is_area ? "Area, mm2" : "Force, N",
@@ -120,13 +196,37 @@ LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& 
   for (std::size_t c = 0; c < curves.size(); ++c) {
     LineSeries& series = chart.series.emplace_back();
     series.name = curves[c].name;
-    series.colour = kColours[c % 3];
+    series.colour = kColours[c % kColours.size()];
     series.points.emplace_back(0.0, 0.0);
     for (std::size_t k = 0; k < depths.size(); ++k) {
       series.points.emplace_back(depths[k], is_area ? curves[c].area[k] : curves[c].force[k]);
     }
   }
   return chart;
+}
+
+LineChart profile_chart(const std::vector<Curve>& curves, std::size_t k, double depth) {
+  LineChart chart{.title = fmt::format("Pressure at {} mm depth, mean of rings", depth),
+                  .x_label = "Distance from the centre of pressure, mm",
+                  .y_label = "Pressure, kPa",
+                  .series = {}};
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    chart.series.push_back(
+        {curves[c].name, profile_of(curves[c].field[k]), kColours[c % kColours.size()]});
+  }
+  return chart;
+}
+
+/// Corners and middles of a side of a tetrahedron.
+std::array<int, 6> nodes_of(const TetMesh& mesh, const TetSide& side) {
+  constexpr std::array<std::array<int, 6>, 4> kNodes = {
+      {{0, 1, 2, 4, 5, 6}, {0, 3, 1, 7, 8, 4}, {1, 3, 2, 8, 9, 5}, {2, 3, 0, 9, 7, 6}}};
+  std::array<int, 6> nodes{};
+  const auto& tet = mesh.tets[static_cast<std::size_t>(side.tet)];
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k] = tet[static_cast<std::size_t>(kNodes[static_cast<std::size_t>(side.side - 1)][k])];
+  }
+  return nodes;
 }
 
 int run(const Arguments& arguments) {
@@ -174,17 +274,33 @@ int run(const Arguments& arguments) {
     throw NumericalError(fmt::format("ccx solved {} of {} steps; see {}", steps.size(),
                                      options.depths.size(), folder.string()));
   }
-  std::string profile = "depth_mm,x_mm,y_mm,pressure_mpa\n";
   const Rigid3 indenter_from_hand = frame.inverse();
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    elements.force.push_back(steps[k].force.dot(deck.direction));
-    elements.area.push_back(steps[k].area);
-    for (std::size_t i = 0; i < steps[k].node.size(); ++i) {
-      const auto n = static_cast<std::size_t>(steps[k].node[i]);
-      if (n >= deck.block.mesh.nodes.size()) continue;
-      const Vec3 q = indenter_from_hand * deck.block.mesh.nodes[n];
-      profile += fmt::format("{},{:.4f},{:.4f},{:.6f}\n", options.depths[k], q.x(), q.y(),
-                             steps[k].pressure[i]);
+  std::set<int> skin_nodes;
+  for (const TetSide& side : deck.block.pressed) {
+    for (const int n : nodes_of(deck.block.mesh, side)) skin_nodes.insert(n);
+  }
+  for (const CcxStep& step : steps) {
+    elements.force.push_back(step.force.dot(deck.direction));
+    elements.area.push_back(step.area);
+    std::map<int, double> pressure;
+    for (std::size_t i = 0; i < step.node.size(); ++i) pressure[step.node[i]] = step.pressure[i];
+    Pressures& field = elements.field.emplace_back();
+    for (const int n : skin_nodes) {
+      const auto found = pressure.find(n);
+      field.point.push_back(indenter_from_hand *
+                            deck.block.mesh.nodes[static_cast<std::size_t>(n)]);
+      field.pressure.push_back(found == pressure.end() ? 0.0 : found->second);
+    }
+  }
+  std::string profile = "model,depth_mm,x_mm,y_mm,pressure_kpa\n";
+  for (const Curve& curve : curves) {
+    for (std::size_t k = 0; k < options.depths.size(); ++k) {
+      const Pressures& field = curve.field[k];
+      for (std::size_t i = 0; i < field.point.size(); ++i) {
+        if (field.pressure[i] <= 0.0) continue;
+        profile += fmt::format("{},{},{:.3f},{:.3f},{:.4f}\n", curve.name, options.depths[k],
+                               field.point[i].x(), field.point[i].y(), 1e3 * field.pressure[i]);
+      }
     }
   }
 
@@ -216,9 +332,13 @@ int run(const Arguments& arguments) {
   }
   write_file(folder / "fe_fingertip.csv", csv);
   write_file(folder / "profile.csv", profile);
-  write_file(folder / "fe_fingertip.svg",
-             svg_stack({chart_of(curves, options.depths, "Fingertip on a plate: force", false),
-                        chart_of(curves, options.depths, "Fingertip on a plate: area", true)}));
+  std::vector<LineChart> charts = {
+      chart_of(curves, options.depths, "Fingertip on a plate: force", false),
+      chart_of(curves, options.depths, "Fingertip on a plate: area", true)};
+  for (const std::size_t k : {std::size_t{1}, std::size_t{3}}) {
+    charts.push_back(profile_chart(curves, k, options.depths[k]));
+  }
+  write_file(folder / "fe_fingertip.svg", svg_stack(charts));
   return 0;
 }
 
