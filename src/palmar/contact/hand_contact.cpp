@@ -23,14 +23,14 @@ void ContactOptions::check() const {
   require(cell_area > 0.0 && cell_area <= 1000.0, "cell_area", cell_area,
           "more than 0 and at most 1000 mm^2");
   if (shear_modulus) {
-    require(*shear_modulus > 0.0 && std::isfinite(*shear_modulus), "shear_modulus",
-            *shear_modulus, "a finite value above 0");
+    require(*shear_modulus > 0.0 && std::isfinite(*shear_modulus), "shear_modulus", *shear_modulus,
+            "a finite value above 0");
   }
   for (const Coating& coating : coatings) {
     require(coating.thickness >= 0.05 && coating.thickness <= 50.0, "coating: thickness",
             coating.thickness, "0.05 to 50 mm");
-    require(coating.shear_modulus >= 1e-4 && coating.shear_modulus <= 1e5,
-            "coating: shear modulus", coating.shear_modulus, "0.0001 to 100000 MPa");
+    require(coating.shear_modulus >= 1e-4 && coating.shear_modulus <= 1e5, "coating: shear modulus",
+            coating.shear_modulus, "0.0001 to 100000 MPa");
     require(coating.poisson >= 0.0 && coating.poisson <= 0.5, "coating: Poisson's ratio",
             coating.poisson, "0 to 0.5");
   }

@@ -104,13 +104,12 @@ TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
     EXPECT_GT(contact.total.force, before);
     before = contact.total.force;
     EXPECT_NEAR(contact.regions[0].max_penetration, depth, 0.02);
-    const StiffeningLaw& law =
-        prepared_ball()
-            .hand()
-            .tissue.region[static_cast<std::size_t>(Region::kMiddleDistal)]
-            .half_space.nominal;
-    EXPECT_NEAR(contact.regions[0].shear_modulus,
-                law.g0 + (law.g_limit - law.g0) * depth / 4.0, 1e-3);
+    const StiffeningLaw& law = prepared_ball()
+                                   .hand()
+                                   .tissue.region[static_cast<std::size_t>(Region::kMiddleDistal)]
+                                   .half_space.nominal;
+    EXPECT_NEAR(contact.regions[0].shear_modulus, law.g0 + (law.g_limit - law.g0) * depth / 4.0,
+                1e-3);
   }
 }
 
