@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/block_matrix.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palmar {
@@ -101,7 +102,6 @@ void BlockMatrix::begin(const std::vector<int>& block_sizes) {
   }
   block_.clear();
   place_.assign(sizes_.size() * sizes_.size(), kNone);
-  value_.clear();
 }
 
 void BlockMatrix::add_block(int row_block, int column_block) {
@@ -110,13 +110,50 @@ void BlockMatrix::add_block(int row_block, int column_block) {
 }
 
 void BlockMatrix::allocate() {
+  make_room();
+  std::fill(value_.begin(), value_.end(), 0.0F);
+}
+
+void BlockMatrix::make_room() {
   std::size_t size = 0;
   for (Block& block : block_) {
     block.value = size;
     block.stride = stride(block.row);
     size += block.stride * static_cast<std::size_t>(sizes_[static_cast<std::size_t>(block.column)]);
   }
-  value_.assign(size, 0.0F);
+  value_.resize(size);
+}
+
+void BlockMatrix::take_part(const BlockMatrix& whole, const std::vector<std::vector<int>>& kept) {
+  std::vector<int> sizes;
+  std::vector<int> number(kept.size(), -1);  // in this matrix
+  for (std::size_t b = 0; b < kept.size(); ++b) {
+    if (kept[b].empty()) continue;
+    number[b] = static_cast<int>(sizes.size());
+    sizes.push_back(static_cast<int>(kept[b].size()));
+  }
+  begin(sizes);
+  for (const Block& block : whole.block_) {
+    const int row = number[static_cast<std::size_t>(block.row)];
+    const int column = number[static_cast<std::size_t>(block.column)];
+    if (row >= 0 && column >= 0) add_block(row, column);
+  }
+  make_room();
+  std::size_t next = 0;  // blocks come in the same order
+  for (const Block& from : whole.block_) {
+    const std::vector<int>& rows = kept[static_cast<std::size_t>(from.row)];
+    const std::vector<int>& columns = kept[static_cast<std::size_t>(from.column)];
+    if (rows.empty() || columns.empty()) continue;
+    const Block& to = block_[next++];
+    float* target = value_.data() + to.value;
+    for (const int j : columns) {
+      const float* const source =
+          whole.value_.data() + from.value + static_cast<std::size_t>(j) * from.stride;
+      for (std::size_t i = 0; i < rows.size(); ++i) target[i] = source[rows[i]];
+      for (std::size_t i = rows.size(); i < to.stride; ++i) target[i] = 0.0F;
+      target += to.stride;
+    }
+  }
 }
 
 std::size_t BlockMatrix::stride(int row_block) const {

@@ -23,6 +23,9 @@ class BlockMatrix {
   void add_block(int row_block, int column_block);
   /// To be called once after the last add_block(): allocates and clears.
   void allocate();
+  /// Makes this the principal part of another matrix: of its block b the rows kept[b] (ascending);
+  /// blocks without any are left out. To be factored anew.
+  void take_part(const BlockMatrix& whole, const std::vector<std::vector<int>>& kept);
   /// Where the values of a block (that has been added) stand: entry (i, j), counted within the
   /// block, at [j * stride(row_block) + i].
   float* values(int row_block, int column_block) {
@@ -55,6 +58,7 @@ class BlockMatrix {
     std::size_t value = 0;   // columns one after the other
     std::size_t stride = 0;  // of a column: rows, padded
   };
+  void make_room();
   std::size_t pair(int row_block, int column_block) const {
     return static_cast<std::size_t>(row_block) * sizes_.size() +
            static_cast<std::size_t>(column_block);

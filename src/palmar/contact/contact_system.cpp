@@ -77,6 +77,7 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
   }
   column_.resize(count);
   value_.resize(count);
+  has_blocks_ = false;
   assemble_far(response);
 }
 
@@ -157,6 +158,7 @@ void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<E
     rows[static_cast<std::size_t>(entry.row)].emplace_back(entry.column, entry.value);
     rows[static_cast<std::size_t>(entry.column)].emplace_back(entry.row, entry.value);
   }
+  has_blocks_ = false;
   column_.clear();
   value_.clear();
   begin_.assign(1, 0);
@@ -174,44 +176,38 @@ void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<E
   }
 }
 
-bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
-  const int m = size();
-  set_.clear();
-  for (int i = 0; i < m; ++i) {
-    if (in_contact[static_cast<std::size_t>(i)]) set_.push_back(i);
-  }
+/// All of A as dense blocks, one per pair of patches that act on each other.
+void ContactSystem::make_blocks() {
+  const auto m = static_cast<std::size_t>(size());
+  by_patch_ = all_rows_;
   const auto patch_of = [&](int row) {
     return patches_->patch[static_cast<std::size_t>(vertex_[static_cast<std::size_t>(row)])];
   };
-  std::stable_sort(set_.begin(), set_.end(),
+  std::stable_sort(by_patch_.begin(), by_patch_.end(),
                    [&](int a, int b) { return patch_of(a) < patch_of(b); });
-  // Rows of one patch are a block.
-  place_.assign(static_cast<std::size_t>(m), Place{});
+  std::vector<Place> place(m);
   std::vector<int> sizes;
-  std::vector<std::size_t> first;  // of each block, in set_
-  int last = -1;
-  for (std::size_t k = 0; k < set_.size(); ++k) {
-    if (k == 0 || patch_of(set_[k]) != last) {
+  first_.clear();
+  for (std::size_t k = 0; k < m; ++k) {
+    if (k == 0 || patch_of(by_patch_[k]) != patch_of(by_patch_[k - 1])) {
       sizes.push_back(0);
-      first.push_back(k);
+      first_.push_back(k);
     }
-    last = patch_of(set_[k]);
-    place_[static_cast<std::size_t>(set_[k])] = {static_cast<int>(sizes.size()) - 1,
-                                                 sizes.back()++};
+    place[static_cast<std::size_t>(by_patch_[k])] = {static_cast<int>(sizes.size()) - 1,
+                                                     sizes.back()++};
   }
-  first.push_back(set_.size());
-  matrix_.begin(sizes);
+  first_.push_back(m);
+  all_.begin(sizes);
+  const int blocks = static_cast<int>(sizes.size());
   const auto for_entries = [&](int block, const auto& visit) {
-    for (std::size_t s = first[static_cast<std::size_t>(block)];
-         s < first[static_cast<std::size_t>(block) + 1]; ++s) {
-      const auto i = static_cast<std::size_t>(set_[s]);
+    const std::size_t first = first_[static_cast<std::size_t>(block)];
+    for (std::size_t s = first; s < first_[static_cast<std::size_t>(block) + 1]; ++s) {
+      const auto i = static_cast<std::size_t>(by_patch_[s]);
       for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-        const Place& column = place_[static_cast<std::size_t>(column_[k])];
-        if (column.block >= 0) visit(s - first[static_cast<std::size_t>(block)], column, k);
+        visit(s - first, place[static_cast<std::size_t>(column_[k])], k);
       }
     }
   };
-  const int blocks = static_cast<int>(sizes.size());
   std::vector<char> is_met(sizes.size());
   for (int block = 0; block < blocks; ++block) {
     is_met.assign(sizes.size(), 0);
@@ -219,22 +215,44 @@ bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
       is_met[static_cast<std::size_t>(column.block)] = 1;
     });
     for (int other = 0; other < blocks; ++other) {
-      if (is_met[static_cast<std::size_t>(other)]) matrix_.add_block(block, other);
+      if (is_met[static_cast<std::size_t>(other)]) all_.add_block(block, other);
     }
   }
-  matrix_.allocate();
+  all_.allocate();
   std::vector<float*> values(sizes.size(), nullptr);
   for (int block = 0; block < blocks; ++block) {
     for (int other = 0; other < blocks; ++other) {
       values[static_cast<std::size_t>(other)] =
-          matrix_.has_block(block, other) ? matrix_.values(block, other) : nullptr;
+          all_.has_block(block, other) ? all_.values(block, other) : nullptr;
     }
-    const std::size_t stride = matrix_.stride(block);
+    const std::size_t stride = all_.stride(block);
     for_entries(block, [&](std::size_t i, const Place& column, std::size_t k) {
       values[static_cast<std::size_t>(column.block)]
             [static_cast<std::size_t>(column.inside) * stride + i] = value_[k];
     });
   }
+}
+
+bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
+  if (!has_blocks_) make_blocks();
+  has_blocks_ = true;
+  const std::size_t blocks = first_.size() - 1;
+  kept_.resize(blocks);
+  place_.resize(in_contact.size());
+  set_.clear();
+  int block = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    kept_[b].clear();
+    for (std::size_t s = first_[b]; s < first_[b + 1]; ++s) {
+      const int row = by_patch_[s];
+      if (!in_contact[static_cast<std::size_t>(row)]) continue;
+      place_[static_cast<std::size_t>(row)] = {block, static_cast<int>(kept_[b].size())};
+      kept_[b].push_back(static_cast<int>(s - first_[b]));
+      set_.push_back(row);
+    }
+    if (!kept_[b].empty()) ++block;
+  }
+  matrix_.take_part(all_, kept_);
   return matrix_.factor();
 }
 

@@ -63,6 +63,7 @@ class ContactSystem {
   std::size_t entry_count() const { return column_.size(); }
 
  private:
+  void make_blocks();
   bool set_contact(const std::vector<char>& in_contact);
   bool correct(double tolerance, const std::vector<double>& residual, std::vector<double>& x,
                int& iterations);
@@ -92,13 +93,19 @@ class ContactSystem {
   std::vector<float> far_value_;
   std::vector<int> local_cluster_;  // per cluster of the skin
   mutable std::vector<double> cluster_force_, cluster_moved_;
-  // The contact set, block by block, and A on it.
-  std::vector<int> set_;
   struct Place {
-    int block = -1;  // in the matrix; -1 outside the set
+    int block = 0;   // in the matrix
     int inside = 0;  // the block
   };
-  std::vector<Place> place_;  // per row
+  // A as dense blocks, rows ordered by patch; made when first needed.
+  bool has_blocks_ = false;
+  std::vector<int> by_patch_;       // rows
+  std::vector<std::size_t> first_;  // of each block, in by_patch_
+  BlockMatrix all_;
+  // The contact set, block by block, and A on it.
+  std::vector<int> set_;
+  std::vector<std::vector<int>> kept_;  // per block of all_: its rows in the set
+  std::vector<Place> place_;            // per row of the set
   BlockMatrix matrix_;
   std::vector<float> right_, step_;
 };

@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "palmar/contact/response.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// 0 up to t = 0, 1 from t = 1 on, smooth in between.
 double smooth_step(double t) {
@@ -46,11 +43,12 @@ class GaussianTable {
   std::array<float, kSize + 1> value_{};
 };
 
-/// What one part does to the vertices around it.
-struct PartField {
-  std::vector<double> elastic;  ///< mm, per vertex of the skin; only `around` is set
-  std::vector<double> bulge;    ///< mm, out of the hand
+/// What one part does to the vertices around it, per vertex of the skin.
+struct Motion {
+  double elastic = 0.0;  ///< mm
+  double bulge = 0.0;    ///< mm, out of the hand
 };
+using PartField = std::vector<Motion>;
 
 /// The far part of what loaded vertices do; see SkinResponse.
 class FarLoad {
@@ -82,8 +80,8 @@ class FarLoad {
     }
     for (const GrownVertex& g : around) {
       const auto v = static_cast<std::size_t>(g.vertex);
-      field.elastic[v] += response_->from_clusters(v, elastic);
-      field.bulge[v] += response_->from_clusters(v, bulge);
+      field[v].elastic += response_->from_clusters(v, elastic);
+      field[v].bulge += response_->from_clusters(v, bulge);
     }
   }
 
@@ -93,7 +91,7 @@ class FarLoad {
 };
 
 void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const LoadedPart& part,
-              const std::vector<GrownVertex>& around, const std::vector<double>& to_loaded,
+              const std::vector<GrownVertex>& around, const std::vector<char>& is_around,
               bool swelling, PartField& field) {
   const RegionTissue& tissue = prepared.tissue(part.region);
   const GaussianTable gaussian(tissue.swelling_radius, tissue.swelling_width);
@@ -104,14 +102,14 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
     const auto j = static_cast<std::size_t>(load.vertex[row]);
     const double p = load.force[row];
     const double share = p / load.shear_modulus[row];
+    const bool is_split = response.has_far();
     for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
       const auto i = static_cast<std::size_t>(response.vertex[e]);
-      if (to_loaded[i] == kFar) continue;
-      field.elastic[i] += share * static_cast<double>(response.response[e]);
-      if (!swelling) continue;
-      const double r = response.distance[e];
-      const double near = response.has_far() ? response.near_share(r) : 1.0;
-      field.bulge[i] += p * near * static_cast<double>(gaussian.at(response.distance[e]));
+      if (!is_around[i]) continue;
+      const float r = response.distance[e];
+      const double bulge = swelling ? p * static_cast<double>(gaussian.at(r)) : 0.0;
+      field[i].elastic += share * static_cast<double>(response.response[e]);
+      field[i].bulge += is_split ? bulge * response.near_share(r) : bulge;
     }
     far.add(j, share, p);
   }
@@ -119,18 +117,18 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
   if (!swelling) return;
   double highest = 0.0;
   for (const GrownVertex& g : around) {
-    double& bulge = field.bulge[static_cast<std::size_t>(g.vertex)];
+    double& bulge = field[static_cast<std::size_t>(g.vertex)].bulge;
     bulge *= smooth_step(g.distance / (0.5 * tissue.swelling_radius));
     highest = std::max(highest, bulge);
   }
   if (!(highest > 0.0)) return;
   const double scale = swelling_height_at(tissue, part.force) / highest;
-  for (const GrownVertex& g : around) field.bulge[static_cast<std::size_t>(g.vertex)] *= scale;
+  for (const GrownVertex& g : around) field[static_cast<std::size_t>(g.vertex)].bulge *= scale;
 }
 
 /// Xie 2014, eq. 3-9 to 3-11 with 3-6 and 3-7 as printed.
 void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                 const SkinLoad& load, const LoadedPart& part, const std::vector<double>& to_loaded,
+                 const SkinLoad& load, const LoadedPart& part, const std::vector<char>& is_around,
                  bool swelling, PartField& field) {
   const RegionTissue& tissue = prepared.tissue(part.region);
   const SkinResponse& response = prepared.response;
@@ -141,10 +139,10 @@ void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     const double a = tissue.swelling_height * prepared.stiffness.law[1][j].g0 / G;
     for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
       const auto i = static_cast<std::size_t>(response.vertex[e]);
-      if (to_loaded[i] == kFar || prepared.hand->region[i] != part.region) continue;
-      field.elastic[i] += load.force[row] / G * static_cast<double>(response.response[e]);
+      if (!is_around[i] || prepared.hand->region[i] != part.region) continue;
+      field[i].elastic += load.force[row] / G * static_cast<double>(response.response[e]);
       if (!swelling || skin.sample[i].distance < 0.0) continue;
-      field.bulge[i] += load.force[row] * a *
+      field[i].bulge += load.force[row] * a *
                         gaussian_response(static_cast<double>(response.distance[e]),
                                           tissue.swelling_radius, tissue.swelling_width);
     }
@@ -193,8 +191,8 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
   SkinDisplacement u{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0),
                      std::vector<char>(n, 0)};
   std::vector<double> bulge(n, 0.0), weight_sum(n, 0.0), best_fade(n, 0.0);
-  std::vector<double> to_loaded(n, kFar);
-  PartField field{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  std::vector<char> is_around(n, 0);
+  PartField field(n);
   std::vector<int> loaded;
   for (const LoadedPart& part : parts) {
     loaded.clear();
@@ -202,12 +200,12 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
     const double reach = prepared.tissue(part.region).neighbourhood;
     const std::vector<GrownVertex> around = grow(prepared.skin, loaded, reach);
     for (const GrownVertex& g : around) {
-      to_loaded[static_cast<std::size_t>(g.vertex)] = g.distance;
+      is_around[static_cast<std::size_t>(g.vertex)] = 1;
     }
     if (is_printed) {
-      add_printed(prepared, skin, load, part, to_loaded, swelling, field);
+      add_printed(prepared, skin, load, part, is_around, swelling, field);
     } else {
-      add_held(prepared, load, part, around, to_loaded, swelling, field);
+      add_held(prepared, load, part, around, is_around, swelling, field);
     }
     for (const GrownVertex& g : around) {
       const auto v = static_cast<std::size_t>(g.vertex);
@@ -215,12 +213,11 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
       const double weight = fade / (g.distance * g.distance + 1.0);
       weight_sum[v] += weight;
       best_fade[v] = std::max(best_fade[v], fade);
-      u.elastic[v] += adds_up ? field.elastic[v] : weight * fade * field.elastic[v];
-      bulge[v] += weight * fade * field.bulge[v];
+      u.elastic[v] += adds_up ? field[v].elastic : weight * fade * field[v].elastic;
+      bulge[v] += weight * fade * field[v].bulge;
       if (g.distance < reach) u.is_active[v] = 1;
-      field.elastic[v] = 0.0;
-      field.bulge[v] = 0.0;
-      to_loaded[v] = kFar;
+      field[v] = {};
+      is_around[v] = 0;
     }
   }
   for (std::size_t v = 0; v < n; ++v) {
