@@ -165,7 +165,7 @@ double at_most(int cells, const PressGap& gap, double limit, double spacing) {
 double lattice_spacing(const PressGap& gap, const PressCompliance& compliance, double spacing) {
   spacing = at_most(kUsualCells, gap, 0.0, spacing);
   while (spacing > kLayerShare * compliance.thinnest() &&
-         at_most(kUsualCells, gap, 0.0, 0.5 * spacing) < spacing) {
+         at_most(kRefinedCells, gap, 0.0, 0.5 * spacing) < spacing) {
     spacing *= 0.5;
   }
   while (press_lattice(gap, spacing, 0.0).size() < kFewestCells) spacing *= 0.5;
