@@ -6,6 +6,7 @@
 // all regions. The argument is the template's asset file.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <functional>
 #include <iomanip>
@@ -104,6 +105,54 @@ void compare(const std::vector<Block>& blocks) {
             << lemke_all << " ms, ratio " << std::setprecision(1) << lemke_all / ours_all << '\n';
 }
 
+/// The penetrating skin of the whole hand as one problem, as regions together pose it.
+void compare_whole_hand(const PreparedHand& prepared, const ContactResult& contact) {
+  const PreparedHand::Impl& impl = prepared.impl();
+  std::vector<int> vertices;
+  std::vector<double> b;
+  std::vector<char> start;
+  for (std::size_t v = 0; v < contact.distance.size(); ++v) {
+    if (contact.distance[v] >= 0.0) continue;
+    double modulus = 0.05;  // MPa
+    double deepest = 4.0;   // mm
+    for (const RegionContact& part : contact.regions) {
+      if (part.region != impl.hand->region[v]) continue;
+      modulus = part.shear_modulus;
+      deepest = part.max_penetration;
+    }
+    vertices.push_back(static_cast<int>(v));
+    b.push_back(modulus * contact.distance[v]);
+    start.push_back(contact.distance[v] < -0.5 * deepest);
+  }
+  ContactProblem problem;
+  problem.response = dense_response(impl.response, vertices, impl.hand->region, true);
+  problem.distance =
+      Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size()));
+  std::vector<double> force, gap;
+  const double ours_ms = milliseconds(10, [&] {
+    ContactSystem system(impl.blocks);
+    system.assemble(impl.response, vertices, nullptr);
+    std::vector<char> in_contact = start;
+    force.clear();
+    system.solve(b, in_contact, force, gap);
+  });
+  const ContactSolution lemke = solve_contact_lemke(problem);
+  const std::clock_t before = std::clock();
+  solve_contact_lemke(problem);
+  const double lemke_ms =
+      1e3 * static_cast<double>(std::clock() - before) / static_cast<double>(CLOCKS_PER_SEC);
+  double difference = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    difference =
+        std::max(difference, std::abs(force[i] - lemke.force[static_cast<Eigen::Index>(i)]));
+  }
+  std::cout << "Whole hand, regions together: " << vertices.size() << " vertices, "
+            << (lemke.force.array() > 0.0).count() << " loaded: ours " << std::setprecision(2)
+            << ours_ms << " ms (assembling included), Lemke " << lemke_ms << " ms, ratio "
+            << std::setprecision(0) << lemke_ms / ours_ms << ", largest difference "
+            << std::scientific << std::setprecision(1) << difference << " N\n";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -126,5 +175,8 @@ int main(int argc, char** argv) {
   compare(blocks_of(prepared, contact, true));
   std::cout << "Penetrating skin alone:\n";
   compare(blocks_of(prepared, contact, false));
+  const PreparedHand coupled(hand);
+  compare_whole_hand(coupled, solve_hand_contact(coupled, pose_skin(*hand, grasp.posture),
+                                                 grasp.product_from_hand, *product.distance));
   return 0;
 }
