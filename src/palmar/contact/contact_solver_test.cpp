@@ -220,6 +220,70 @@ TEST(LayeredTissue, WithoutBoneItIsAThickLayer) {
   EXPECT_NEAR(deep.total.force / half.total.force, 1.1291, 0.03);
 }
 
+/// A square of skin of 110 mm, normal +z.
+std::shared_ptr<Hand> square_hand(int columns) {
+  auto hand = std::make_shared<Hand>();
+  hand->name = "square";
+  hand->skin = make_grid_patch(columns, columns, 110.0 / columns);
+  hand->region.assign(hand->skin.vertices.size(), Region::kCentralPalm);
+  hand->segment.assign(hand->skin.vertices.size(), Segment::kPalm);
+  hand->tissue = default_tissue();
+  return hand;
+}
+
+TEST(FineMeshes, FarResponsesByClustersGiveTheSame) {
+  // Two balls on skin of 7 921 vertices, all pairs vertex by vertex, and of 12 544, the far ones by
+  // clusters. The contacts are 20 mm wide and 6 mm apart, so far pairs count.
+  class TwoBalls : public DistanceField {
+   public:
+    void sample(std::span<const Vec3> points, double range,
+                std::span<DistanceSample> samples) const override {
+      std::vector<DistanceSample> other(points.size());
+      one_.sample(points, range, samples);
+      two_.sample(points, range, other);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (other[i].distance < samples[i].distance) samples[i] = other[i];
+      }
+    }
+    Box3 bounding_box() const override { return one_.bounding_box().merged(two_.bounding_box()); }
+
+   private:
+    contact_test::Ball one_{Vec3(42.0, 55.0, 20.0), 25.0};
+    contact_test::Ball two_{Vec3(68.0, 55.0, 20.0), 25.0};
+  };
+  const PreparedHand coarse(square_hand(88));
+  const PreparedHand fine(square_hand(111));
+  ASSERT_FALSE(coarse.impl().response.has_far());
+  ASSERT_TRUE(fine.impl().response.has_far());
+  ContactOptions options;
+  options.shear_modulus = 0.05;
+  const auto solved = [&](const PreparedHand& hand) {
+    return solve_hand_contact(hand, hand.hand().skin.vertices, {}, TwoBalls(), options);
+  };
+  const ContactResult few = solved(coarse);
+  const ContactResult many = solved(fine);
+  ASSERT_EQ(many.status, ContactStatus::kSolved);
+  EXPECT_NEAR(many.total.force, few.total.force, 0.01 * few.total.force);
+  EXPECT_NEAR(many.total.area, few.total.area, 0.03 * few.total.area);
+  EXPECT_NEAR(many.total.peak_pressure_cells, few.total.peak_pressure_cells,
+              0.01 * few.total.peak_pressure_cells);
+  EXPECT_LT(many.complementarity_error, 1e-9);
+  // Skin between the balls, which carries nothing, sinks alike.
+  const auto middle_of = [](const PreparedHand& hand, const ContactResult& contact) {
+    double nearest = 1e9;
+    double u = 0.0;
+    for (std::size_t v = 0; v < contact.displacement.size(); ++v) {
+      const double r = (hand.hand().skin.vertices[v] - Vec3(55.0, 70.0, 0.0)).norm();
+      if (r < nearest) u = contact.displacement[v];
+      nearest = std::min(nearest, r);
+    }
+    return u;
+  };
+  options.swelling = false;
+  const double sunk = middle_of(coarse, solved(coarse));
+  EXPECT_NEAR(middle_of(fine, solved(fine)), sunk, 0.05 * std::abs(sunk) + 0.02);
+}
+
 TEST(Coating, ThickCoverIsAHalfSpaceInSeries) {
   // Two elastic bodies: 1 / E* = 1 / E1* + 1 / E2* (Hertz); both incompressible, so force is that
   // of G1 G2 / (G1 + G2).
