@@ -172,18 +172,17 @@ struct ContactResult {
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`
 /// places it. Geodesic distances and Voronoi areas are those of the reference posture.
 ///
-/// Per sub-active region (one region's share of the penetrating skin; the dorsum per connected
-/// patch), with G = G(d_max):
+/// With the responses f_ij (times shear modulus) and a shear modulus for each row,
 ///
-///     s = (R_Bou / G) p + d >= 0,   p >= 0,   s_i p_i = 0    inside the force-applied region
-///     u = (R_Bou / G - a R_Gau) p                            around it
+///     s_i = (1 / G_i) sum_j f_ij p_j + d_i >= 0,   p >= 0,   s_i p_i = 0.
 ///
-/// d is the signed distance to the product, negative inside. As R_Bou has no negative entry, only
-/// penetrating vertices can carry force, so the problem is exact on them alone. Regions are solved
-/// independently, as in Xie 2014: their cross-talk is left out. a is such that the bulge is
-/// swelling_height_at() high (response.h). Displacements fade to zero over the
-/// last third of the growth distance of the active region instead of being cut there. A bulge that
-/// would enter the product is flattened against it without force (Xie 2014, eq. 3-7).
+/// d is the signed distance to the product, negative inside. RegionCoupling::kCoupled: one problem
+/// over the hand, G_i from the local depth (stiffening.h); kIndependent: f_ij = 0 across regions,
+/// G_i = G(d_max) of the region (of the dorsum: of the connected patch). A half-space has no
+/// negative response, so only penetrating vertices can carry force and the problem is exact on them
+/// alone; of a layer or a soft cover, skin that bulges into the product joins them. How the skin
+/// around moves: skin_displacement.h. A bulge that would enter the product is flattened against it
+/// without force (Xie 2014, eq. 3-7).
 ///
 /// Loaded skin ends on the product's surface, at its nearest point; other penetrating skin moves
 /// along the product's normal, the rest along its own normal (eq. 3-15). Where the nearest surface
@@ -199,7 +198,7 @@ ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector
 
 /// The same along a motion: keeps its memory and the loaded vertices of the last call, from which
 /// the next one starts. The answer is that of solve_hand_contact() but for rounding. One thread at
-/// a time.
+/// a time; the prepared hand must outlive it.
 class ContactSolver {
  public:
   explicit ContactSolver(const PreparedHand& prepared, const ContactOptions& options = {});
