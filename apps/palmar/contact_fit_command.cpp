@@ -99,12 +99,12 @@ TestSetup setup_of(const FitArguments& arguments) {
     }
     return setup;
   }
+  setup.press.poisson = arguments.poisson;
   if (setup.is_layered) {
     if (arguments.layer.empty()) {
       throw UsageError("--tissue-model layered: --layer-mm is needed, a thickness or \"fitted\"");
     }
     setup.is_layer_fitted = arguments.layer == "fitted";
-    setup.press.poisson = arguments.poisson;
     if (!setup.is_layer_fitted) {
       const std::vector<double> thickness = parse_list("--layer-mm", arguments.layer);
       if (thickness.size() != 1) {
@@ -209,6 +209,10 @@ Tissue fitted_set(const FitArguments& arguments, const TestSetup& setup, const T
   for (const Region region : regions) {
     RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
     (setup.is_layered ? one.layered : one.half_space) = fit.stiffness;
+    if (const std::string fault = fault_of(one); !fault.empty()) {
+      throw NumericalError(file + ": the fit gives no tissue that skin can have: " + fault +
+                           ". Are the units of the columns right?");
+    }
     if (setup.is_layered) one.poisson_layered = setup.press.poisson.value_or(one.poisson_layered);
     one.source = fmt::format("{}: fitted to {} ({} readings, {} subjects; {}), R2 {:.4f}; rest: {}",
                              setup.is_layered ? "layered" : "half-space", file, fit.points.size(),
@@ -291,7 +295,8 @@ void add_contact_fit_verb(CLI::App& contact, Context& context) {
       ->capture_default_str();
   verb->add_option("--layer-mm", o->layer,
                    "Thickness of the layer of a plane or ellipsoid, mm, or \"fitted\"");
-  verb->add_option("--poisson", o->poisson, "Poisson's ratio of that layer")->capture_default_str();
+  verb->add_option("--poisson", o->poisson, "Poisson's ratio of a plane or ellipsoid")
+      ->capture_default_str();
   verb->add_option("--law", o->law, "stiffening (G0, G_lim, d_lim) or constant (one modulus)")
       ->capture_default_str();
   verb->add_option("--limit-depth-mm", o->limit_depth, "d_lim, mm; without it d_lim is fitted");

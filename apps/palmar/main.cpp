@@ -74,7 +74,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Example: palmar assess handle.stl --unit mm --out report\n"
       "Exit codes: 0 done, 1 unexpected or output not writable, 2 wrong usage, 3 unreadable\n"
-      "input or unit unknown, 4 numerical failure, 5 a stated check failed, 130 cancelled.");
+      "input or unit unknown, 4 numerical failure, 5 a stated check failed,\n"
+      "6 an optional program is missing, 130 cancelled.");
   add_assess_command(app, context);
   add_hand_commands(app, context);
   add_product_commands(app, context);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ constexpr double kRimShare = 1.0 / 10.0;
 constexpr double kPunchRimShare = 1.0 / 20.0;
 constexpr int kMaxRounds = 7;
 constexpr double kLayerShare = 0.5;  // largest cell / thickness of a layer, if so many serve
+constexpr double kCoarsestLayerShare = 1.0;  // with coarser cells the force is several per cent off
 /// A rim of cells of uniform pressure carries the force of a punch smaller by this share of such a
 /// cell, as splitting it further shows; so the lattice is laid over a punch that much wider.
 constexpr double kLostRim = 0.125;
@@ -63,8 +65,7 @@ ContactSolution solve_cells(const PressGap& gap, const std::vector<PressCell>& c
   if (solution.status != LcpStatus::kSolved) solution = solve_contact_lemke(problem);
   if (solution.status != LcpStatus::kSolved) {
     throw NumericalError("press: the contact of " + std::to_string(m) +
-                         " vertices has no solution; the response matrix is not positive definite "
-                         "(kernel \"point\" needs a spacing above 0.8 mm)");
+                         " vertices has no solution; the response matrix is not positive definite");
   }
   return solution;
 }
@@ -291,6 +292,17 @@ PressStep press_half_space(const PressOptions& options, double depth) {
   double limit = 0.0;
   Solved solved = solve_lattice(gap, compliance, step.spacing, limit);
   if (solved.cells.empty()) return step;
+  double coarsest = 0.0;
+  for (const PressCell& cell : solved.cells) coarsest = std::max(coarsest, cell.size);
+  if (coarsest > kCoarsestLayerShare * compliance.thinnest()) {
+    std::ostringstream message;
+    message << "press: a layer of " << compliance.thinnest()
+            << " mm needs vertices no farther apart "
+            << "than that; the contact at a depth of " << depth
+            << " mm is so wide that they would be " << coarsest << " mm apart (at most "
+            << kRefinedCells << " of them); a smaller contact or a thicker layer is required";
+    throw NumericalError(message.str());
+  }
   if (may_split) refine_rim(gap, compliance, limit, solved);
 
   step.vertices = static_cast<int>(solved.cells.size());
@@ -310,7 +322,9 @@ PressStep press_half_space(const PressOptions& options, double depth) {
     const double area = area_inside_edge(solved, compliance.contact_modulus());
     if (area > 0.0) step.area = area;
   }
-  step.peak_pressure_cells = peak_mean(solved, options.cell_area);
+  // Vertices farther apart than a sensor cell is wide say nothing finer than themselves.
+  step.peak_pressure_cells =
+      std::min(peak_mean(solved, options.cell_area), std::max(step.peak_pressure, 0.0));
   step.mean_pressure = step.area > 0.0 ? step.force / step.area : 0.0;
   step.complementarity_error = solved.solution.complementarity_error;
   step.relative_residual = solved.solution.relative_residual;

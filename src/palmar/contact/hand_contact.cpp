@@ -17,6 +17,14 @@ void require(bool holds, const std::string& what, double value, const std::strin
   throw UsageError(what + " is " + std::to_string(value) + "; " + allowed + " is required");
 }
 
+/// The point kernel is no pressure that a cover could pass on.
+void check_kernel(const ContactModel& model, const ContactOptions& options) {
+  if (model.kernel == Kernel::kPoint && !options.coatings.empty()) {
+    throw UsageError(
+        "kernel \"point\" knows no soft cover; kernel \"patch\" is required with a coating");
+  }
+}
+
 }  // namespace
 
 void ContactOptions::check() const {
@@ -40,6 +48,7 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
                                    const Rigid3& product_from_hand, const DistanceField& product,
                                    const ContactOptions& options, std::optional<Region> only) {
   options.check();
+  check_kernel(hand.model(), options);
   ContactSolver::Impl solver(hand, options);
   ContactResult result;
   solver.solve(posed_skin, product_from_hand, product, only, result);
@@ -56,6 +65,7 @@ ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector
 ContactSolver::ContactSolver(const PreparedHand& prepared, const ContactOptions& options)
     : impl_(std::make_unique<Impl>(prepared, options)) {
   options.check();
+  check_kernel(prepared.model(), options);
 }
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;

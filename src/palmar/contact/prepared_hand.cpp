@@ -29,6 +29,11 @@ void check_hand(const Hand& hand) {
 PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
+  if (model.tissue == TissueModel::kLayered && model.kernel == Kernel::kPoint) {
+    throw UsageError(
+        "kernel \"point\" knows no layer over bone; kernel \"patch\" is required with layered "
+        "tissue");
+  }
   auto impl = std::make_unique<Impl>();
   impl->model = model;
   // A flat picture of one region says nothing about the way to the next.

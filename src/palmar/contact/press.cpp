@@ -17,8 +17,9 @@
 namespace palmar {
 namespace {
 
-constexpr double kDeepest = 30.0;         // mm
-constexpr double kForceTolerance = 1e-3;  // relative
+constexpr double kFinestPointSpacing = 0.8;  // mm
+constexpr double kDeepest = 30.0;            // mm
+constexpr double kForceTolerance = 1e-3;     // relative
 
 void require(bool holds, const std::string& name, double value, const std::string& unit,
              const std::string& allowed) {
@@ -47,6 +48,14 @@ void check_tissue(const PressOptions& options) {
     throw UsageError(
         "press: a hand has its own bones and tissue; thickness of a layer and Poisson's ratio are "
         "for a plane or ellipsoid (of a hand, take the tissue model \"layered\")");
+  }
+  if (options.kernel == Kernel::kPoint && options.spacing < kFinestPointSpacing &&
+      options.specimen.kind != PressSpecimen::Kind::kHandRegion) {
+    std::ostringstream message;
+    message << "press: with kernel \"point\" the response is no longer positive definite where "
+               "vertices are closer than "
+            << kFinestPointSpacing << " mm; the spacing is " << options.spacing << " mm";
+    throw NumericalError(message.str());
   }
   if (options.kernel == Kernel::kPoint && (options.layer_thickness || options.coating)) {
     throw UsageError(
