@@ -90,7 +90,8 @@ struct ContactOptions {
 /// prepare once and solve many. Immutable, shareable between threads.
 class PreparedHand {
  public:
-  /// Throws UsageError on a bad hand or layered tissue with the point kernel. Cost: about 1 s for 10 000 vertices on one core.
+  /// Throws UsageError on a bad hand or layered tissue with the point kernel. Cost: about 1 s for
+  /// 10 000 vertices on one core.
   explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {});
   ~PreparedHand();
   PreparedHand(PreparedHand&&) noexcept;
