@@ -73,6 +73,33 @@ std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLeve
   return result;
 }
 
+int ContactSolver::Impl::coating_at(const Vec3& at) const {
+  for (std::size_t c = 0; c < options.coatings.size(); ++c) {
+    const Box3& box = options.coatings[c].where;
+    if (box.isEmpty() || box.contains(at)) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+double ContactSolver::Impl::coating_displacement(const SkinOnProduct& skin, const SkinLoad& load,
+                                                 std::size_t v) const {
+  const int own = coating_at(skin.sample[v].closest);
+  if (own < 0) return 0.0;
+  const Coating& coating = options.coatings[static_cast<std::size_t>(own)];
+  const LayerKernel& kernel = layer_kernel(coating.poisson);
+  const double reach = kCoatingReach * coating.thickness;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    if (!(load.force[k] > 0.0)) continue;
+    const auto w = static_cast<std::size_t>(load.vertex[k]);
+    const double r2 = (skin.sample[v].closest - skin.sample[w].closest).squaredNorm();
+    if (r2 >= reach * reach || coating_at(skin.sample[w].closest) != own) continue;
+    sum += load.force[k] *
+           layered_response(kernel, std::sqrt(r2), prepared->skin.radius[w], coating.thickness);
+  }
+  return sum / coating.shear_modulus;
+}
+
 /// Compliance of the coatings times the mean modulus of the two rows; see ContactSystem.
 void ContactSolver::Impl::set_coating(const SkinOnProduct& skin, const SkinLoad& load) {
   coating_ = {};
@@ -81,11 +108,7 @@ void ContactSolver::Impl::set_coating(const SkinOnProduct& skin, const SkinLoad&
   coating_.diagonal.assign(m, 0.0);
   std::vector<int> coat(m, -1);
   for (std::size_t k = 0; k < m; ++k) {
-    const Vec3& at = skin.sample[static_cast<std::size_t>(load.vertex[k])].closest;
-    for (std::size_t c = 0; c < options.coatings.size() && coat[k] < 0; ++c) {
-      const Box3& box = options.coatings[c].where;
-      if (box.isEmpty() || box.contains(at)) coat[k] = static_cast<int>(c);
-    }
+    coat[k] = coating_at(skin.sample[static_cast<std::size_t>(load.vertex[k])].closest);
   }
   for (std::size_t i = 0; i < m; ++i) {
     if (coat[i] < 0) continue;
@@ -209,14 +232,17 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
   for (const int v : skin.near) {
     const auto i = static_cast<std::size_t>(v);
     const double d = skin.sample[i].distance;
-    if (!is_known[i] && sum[i] < 0.0 && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
+    const bool may_bulge = sum[i] < 0.0 || !options.coatings.empty();
+    if (!is_known[i] && may_bulge && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
   }
   set_depth(skin, near);
   const std::vector<double> modulus = moduli(near, TissueLevel::kNominal);
   std::vector<int> result;
   for (std::size_t k = 0; k < near.vertex.size(); ++k) {
     const auto i = static_cast<std::size_t>(near.vertex[k]);
-    if (modulus[k] * skin.sample[i].distance + sum[i] < 0.0) result.push_back(near.vertex[k]);
+    double gap = skin.sample[i].distance + sum[i] / modulus[k];
+    if (!options.coatings.empty()) gap += coating_displacement(skin, load, i);
+    if (gap < 0.0) result.push_back(near.vertex[k]);
   }
   return result;
 }
@@ -248,9 +274,16 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
       solve_by_region(skin, load, result);
       return;
     }
-    if (!may_bulge || round == kMostExtensions) return;
+    if (!may_bulge) return;
     const std::vector<int> more = pressed_in(skin, load);
     if (more.empty()) return;
+    if (round == kMostExtensions) {
+      append(result.message,
+             std::to_string(more.size()) +
+                 " vertices beside the contact still bulge into the product after " +
+                 std::to_string(kMostExtensions) + " extensions of the problem");
+      return;
+    }
     was_force.resize(skin.sample.size(), 0.0);
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
       const auto v = static_cast<std::size_t>(load.vertex[k]);
@@ -291,6 +324,10 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
 
   SkinLoad load;
   if (!skin.collision.empty()) solve_load(skin, load, result);
+  const std::vector<double>& covered = coating_.diagonal;
+  if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
+    append(result.message, "no skin in contact lies on a coated part of the product");
+  }
   was_in_contact.assign(n, 0);
   was_force = result.force;
   std::vector<double> modulus(n, 0.0);

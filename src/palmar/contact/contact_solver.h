@@ -42,7 +42,11 @@ struct ContactSolver::Impl {
 
   void set_depth(const SkinOnProduct& skin, SkinLoad& load) const;
   std::vector<double> moduli(const SkinLoad& load, TissueLevel level) const;
+  /// The coating over a point of the surface; -1 for none.
+  int coating_at(const Vec3& at) const;
   void set_coating(const SkinOnProduct& skin, const SkinLoad& load);
+  /// How far a coating gives way at skin vertex v under the load, mm.
+  double coating_displacement(const SkinOnProduct& skin, const SkinLoad& load, std::size_t v) const;
   void assemble(const SkinOnProduct& skin, const SkinLoad& load);
   bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   void solve_by_region(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
@@ -23,6 +24,7 @@ using contact_test::HalfSpace;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 10.0;  // mm
 
 /// A ball of skin whose lower half belongs to two regions that meet under its lowest point.
@@ -300,6 +302,30 @@ TEST(Coating, ThickCoverIsAHalfSpaceInSeries) {
   EXPECT_LT(contact.total.force, 1.08 * hertz);
 }
 
+TEST(Coating, ThinCoverUnderHardSkinIsTheBondedLayer) {
+  // Skin ten thousand times as stiff as the cover: the sphere on the bonded incompressible layer,
+  // 15 mm, sqrt(R depth) / h = 1.5 and 2: F / F_Hertz = 10.30, 18.37 and contact radius /
+  // sqrt(R depth) = 1.508, 1.577 (VALIDATION, closed form 5). The second is wider than the skin
+  // that penetrates (1.414): what bulges must join.
+  const double radius = 200.0;
+  const PreparedHand hand(ball_hand(radius, 5));
+  ContactOptions options;
+  options.shear_modulus = 100.0;
+  options.coatings.push_back(
+      {.thickness = 15.0, .shear_modulus = 0.01, .poisson = 0.5, .where = {}});
+  for (const auto& [chi, force_ratio, radius_ratio] :
+       {std::tuple(1.5, 10.3045, 1.508), std::tuple(2.0, 18.3687, 1.577)}) {
+    const double depth = std::pow(chi * 15.0, 2) / radius;
+    const double hertz = 16.0 / 3.0 * 0.01 * std::sqrt(radius) * std::pow(depth, 1.5);
+    const ContactResult contact = on_plane(hand, depth, options, radius);
+    ASSERT_EQ(contact.status, ContactStatus::kSolved);
+    EXPECT_TRUE(contact.message.empty()) << contact.message;
+    EXPECT_NEAR(contact.total.force / hertz, force_ratio, 0.06 * force_ratio) << chi;
+    const double width = std::sqrt(contact.total.area / kPi);
+    EXPECT_NEAR(width / std::sqrt(radius * depth), radius_ratio, 0.08 * radius_ratio) << chi;
+  }
+}
+
 TEST(Coating, HardCoverIsNone) {
   const PreparedHand hand(ball_hand(kRadius, 3));
   ContactOptions options;
@@ -319,7 +345,9 @@ TEST(Coating, SoftCoverSpreadsTheLoadWhereItIs) {
   EXPECT_LT(covered.total.peak_pressure, 0.9 * rigid.total.peak_pressure);
   EXPECT_LT(covered.total.force, rigid.total.force);
   options.coatings[0].where = Box3(Vec3(100.0, 100.0, -50.0), Vec3(200.0, 200.0, 50.0));
-  EXPECT_EQ(on_plane(hand, 3.0, options).total.force, rigid.total.force);
+  const ContactResult elsewhere = on_plane(hand, 3.0, options);
+  EXPECT_EQ(elsewhere.total.force, rigid.total.force);
+  EXPECT_THAT(elsewhere.message, HasSubstr("no skin in contact lies on a coated part"));
 }
 
 TEST(Coating, IsChecked) {
