@@ -9,6 +9,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/geometry/rigid3.h"
+#include "palmar/grasp/grip.h"
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
@@ -39,6 +40,7 @@ struct PlacementRequest {
 };
 
 struct PowerGraspOptions {
+  std::optional<Grip> grip;         ///< a power grip; unset: the one that suits the shape
   double palm_limit_depth = 7.0;    ///< mm; Xie 2014, 5.5.1
   double finger_limit_depth = 4.0;  ///< mm; Xie 2014, 5.5.1
   PlacementRequest placement;
@@ -54,8 +56,26 @@ enum class GraspStatus {
 };
 std::string name_of(GraspStatus status);  ///< "held", "partly_held", "too_large", ...
 
+/// One fingertip that a precision grip puts on the product.
+struct FingertipContact {
+  Finger finger{};
+  Vec3 target = Vec3::Zero();   ///< point of the product it is to touch, product frame, mm
+  Vec3 reached = Vec3::Zero();  ///< where its pad is, product frame, mm
+  Vec3 normal = Vec3::UnitZ();  ///< of the product's surface at the target, outwards
+  double miss = 0.0;            ///< distance of the two, mm
+};
+
+/// Another way of holding the same product that the search found, best first.
+struct GraspRunnerUp {
+  Grip grip = Grip::kMediumWrap;
+  Posture posture;
+  Rigid3 product_from_hand;
+  double score = 0.0;  ///< of the search; comparable within one search
+};
+
 /// One hand holding one product.
 struct Grasp {
+  Grip grip = Grip::kMediumWrap;
   GraspStatus status = GraspStatus::kNotGraspable;
   std::string message;  ///< one sentence for people: why not held, which fingers are open
   Posture posture;
@@ -64,6 +84,10 @@ struct Grasp {
   Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
   double grip_girth = 0.0;         ///< perimeter of the product's section at the grip, mm
   std::array<SegmentStop, kSegmentCount> stops;
+  std::vector<FingertipContact> fingertips;  ///< of a precision grip, else empty
+  double score = 0.0;                        ///< of the search that found it
+  int candidates = 0;                        ///< placements that the search tried
+  std::vector<GraspRunnerUp> runners_up;     ///< best first
 };
 
 /// Power grasp (METHOD.md section 3; Xie 2014, 5.5.1). Deterministic. Not being able to hold the

@@ -1,0 +1,50 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace palmar {
+
+/// Ways of holding, by the names of the GRASP taxonomy (Feix et al. 2016, IEEE Trans Human-Machine
+/// Systems 46(1):66-77); the number is the taxonomy's.
+enum class Grip : std::uint8_t {
+  kMediumWrap,       ///< 3: cylinder in the palm, fingers and thumb round it
+  kLargeDiameter,    ///< 1: the same round a body that fingers and thumb don't close on
+  kSmallDiameter,    ///< 2: the same round a thin bar
+  kPowerSphere,      ///< 11: fingers spread over a ball in the palm
+  kFixedHook,        ///< 15: fingers hooked round a handle, thumb takes no part
+  kTipPinch,         ///< 24: tips of thumb and index finger
+  kPalmarPinch,      ///< 9: pads of thumb and index finger ("pad pinch")
+  kTripod,           ///< 14: thumb against index and middle finger
+  kLateral,          ///< 16: thumb pad against the side of the index finger ("key pinch")
+  kPrecisionSphere,  ///< 13: five fingertips spread round a body
+};
+inline constexpr int kGripCount = 10;
+
+enum class GripFamily : std::uint8_t { kPower, kPrecision, kIntermediate };
+
+/// What the taxonomy says of a grip.
+struct GripDescription {
+  Grip grip{};
+  std::string_view name;           ///< "medium_wrap"
+  std::string_view taxonomy_name;  ///< "Medium Wrap"
+  int taxonomy_number = 0;
+  GripFamily family{};
+  /// Other names that are taken for it, separated by blanks: "cylinder", "key", "pad-pinch".
+  std::string_view also_called;
+};
+const GripDescription& description_of(Grip grip);
+std::string_view name_of(Grip grip);  ///< "medium_wrap", "tip_pinch", ...
+std::string_view name_of(GripFamily family);
+
+/// The grip with that name, taxonomy name or other name ("key", "pad-pinch", "tripod"); '-' and '_'
+/// and case don't matter. Nothing for an unknown one.
+std::optional<Grip> grip_named(std::string_view name);
+bool is_power(Grip grip);  ///< the palm takes part, or the fingers hook
+
+}  // namespace palmar

@@ -1,0 +1,37 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/grip.h"
+
+namespace palmar {
+
+/// Where a fingertip is to touch the product.
+struct FingertipTarget {
+  Finger finger{};
+  Vec3 point = Vec3::Zero();  ///< product frame, mm; on the surface
+};
+
+struct PrecisionGripOptions {
+  Grip grip = Grip::kTripod;             ///< a precision or the lateral grip
+  std::vector<FingertipTarget> targets;  ///< empty: found from the product's shape
+  double fingertip_depth = 2.0;          ///< mm; how deep pads are pressed into the product
+  PlacementRequest placement;            ///< hints for the search where `targets` is empty
+  int candidates = 200;                  ///< placements to try, coarse to fine
+  void check() const;                    ///< throws UsageError: field, value, allowed range
+};
+
+/// Precision grip (METHOD.md section 3): pads of the grip's fingers on points of the product by
+/// inverse kinematics under the ranges of motion, fingers not crossing, near their natural
+/// coordination. Deterministic. Not being able to reach is a status with a message that says which
+/// finger misses by how much, never an exception. Throws UsageError (bad options, a target farther
+/// than 2 mm from the surface), Cancelled.
+Grasp close_precision_grip(const Hand& hand, const Product& product,
+                           const PrecisionGripOptions& options, const Progress& progress = {});
+
+}  // namespace palmar
