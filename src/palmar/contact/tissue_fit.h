@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "palmar/contact/least_squares.h"
 #include "palmar/contact/specimen_response.h"
+#include "palmar/geometry/least_squares.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {

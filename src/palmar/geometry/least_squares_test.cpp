@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/least_squares.h"
+#include "palmar/geometry/least_squares.h"
 
 #include <gtest/gtest.h>
 
