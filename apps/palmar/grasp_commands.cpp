@@ -26,12 +26,12 @@ void add_grasp_commands(CLI::App& app, Context& context) {
   verb->add_option("--out", o->out, "JSON file to write: posture, placement, what stopped it");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      const PowerGraspOptions options = o->grasp.options();
+      const GraspOptions options = o->grasp.options();
       const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
       for (const std::string& text : product.notes) note(context.common, text);
       const auto hand = load_hand(o->grasp.hand);
       const Grasp closed =
-          close_power_grasp(*hand, product, options, make_progress(context.common));
+          find_grasp(*hand, product, options, make_progress(context.common));
       finish_progress();
       if (!o->out.empty()) write_file(o->out, grasp_json(closed) + "\n");
       print(context.common.json ? grasp_json(closed) + "\n" : grasp_text(closed));

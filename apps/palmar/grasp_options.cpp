@@ -32,16 +32,19 @@ void GraspArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
-PowerGraspOptions GraspArguments::options() const {
+GraspOptions GraspArguments::options() const {
+  GraspOptions result;
   if (grip != "power") {
-    throw UsageError("--grip: \"" + grip + "\" is not available; power is allowed");
+    result.grip = grip_named(grip);
+    if (!result.grip) throw UsageError("--grip: \"" + grip + "\" is no known grip");
   }
-  PowerGraspOptions result;
-  result.palm_limit_depth = palm_limit_depth;
-  result.finger_limit_depth = finger_limit_depth;
-  if (!at.empty()) result.placement.at = parse_vector("--at", at);
-  if (!axis.empty()) result.placement.axis = parse_vector("--axis", axis);
-  if (turn_deg) result.placement.turn = radians(*turn_deg);
+  result.power.palm_limit_depth = palm_limit_depth;
+  result.power.finger_limit_depth = finger_limit_depth;
+  PlacementRequest& placement = result.power.placement;
+  if (!at.empty()) placement.at = parse_vector("--at", at);
+  if (!axis.empty()) placement.axis = parse_vector("--axis", axis);
+  if (turn_deg) placement.turn = radians(*turn_deg);
+  result.precision.placement = placement;
   result.check();
   return result;
 }

@@ -8,7 +8,7 @@
 
 #include "cli.h"
 #include "palmar/contact/contact.h"
-#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/find_grasp.h"
 
 namespace palmar::cli {
 
@@ -22,7 +22,7 @@ struct GraspArguments {
   /// Adds --hand, --grip, --unit, --at, --axis, --turn-deg and the limit depths to a verb.
   void add_to(CLI::App& verb);
   /// The values for the grasp module. Throws UsageError.
-  PowerGraspOptions options() const;
+  GraspOptions options() const;
 };
 
 /// The options of the contact solver, as typed.

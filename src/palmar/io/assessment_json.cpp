@@ -238,9 +238,9 @@ Json coating_array(const std::vector<Coating>& coatings) {
 
 Json settings_object(const Assessment& assessment) {
   const AssessOptions& options = assessment.options;
-  const PlacementRequest& placed = options.grasp.placement;
-  return {{"palm_limit_depth_mm", options.grasp.palm_limit_depth},
-          {"finger_limit_depth_mm", options.grasp.finger_limit_depth},
+  const PlacementRequest& placed = options.grasp.power.placement;
+  return {{"palm_limit_depth_mm", options.grasp.power.palm_limit_depth},
+          {"finger_limit_depth_mm", options.grasp.power.finger_limit_depth},
           {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
           {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
           {"turn_deg", placed.turn ? Json(*placed.turn * kDegrees) : Json(nullptr)},

@@ -127,7 +127,7 @@ AssessmentSet example() {
   contact.regions = {region};
   contact.total = region;
   assessment.options.seed = 18446744073709551615u;
-  assessment.options.grasp.placement.turn = std::numbers::pi;
+  assessment.options.grasp.power.placement.turn = std::numbers::pi;
   assessment.times = {0.25, 0.5};
   Product product;
   product.name = "handle \xff";  // no UTF-8

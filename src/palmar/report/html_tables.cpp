@@ -240,13 +240,13 @@ std::string placement_table(const Grasp& grasp) {
 std::string settings_table(const Assessment& assessment) {
   const AssessOptions& options = assessment.options;
   const ContactModel& model = assessment.contact.model;
-  const PlacementRequest& placement = options.grasp.placement;
+  const PlacementRequest& placement = options.grasp.power.placement;
   const bool is_given = placement.at || placement.axis || placement.turn;
   return table(
       "Settings", {{"Setting"}, {"Value"}},
-      setting("Limit depth of the palm", short_number(options.grasp.palm_limit_depth) + " mm") +
+      setting("Limit depth of the palm", short_number(options.grasp.power.palm_limit_depth) + " mm") +
           setting("Limit depth of the fingers",
-                  short_number(options.grasp.finger_limit_depth) + " mm") +
+                  short_number(options.grasp.power.finger_limit_depth) + " mm") +
           setting("Placement", is_given ? "as asked" : "found from the product's shape") +
           setting("Equations of the contact", name_of(model)) +
           setting("Kernel", model.kernel == Kernel::kPatch

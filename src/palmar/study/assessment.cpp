@@ -22,20 +22,15 @@ class Stopwatch {
 
 }  // namespace
 
-Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
-                  const Progress& progress) {
-  options.grasp.check();
+Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+                    const AssessOptions& options, const Progress& progress) {
   options.contact.check();
   options.friction.check();
 
   Assessment result;
   result.hand_name = hand.hand().name;
   result.options = options;
-
-  progress.update(0.0, "closing the hand");
-  const Stopwatch grasp_watch;
-  result.grasp = close_power_grasp(hand.hand(), product, options.grasp, progress);
-  result.times.grasp = grasp_watch.seconds();
+  result.grasp = grasp;
 
   progress.update(0.6, "solving the contact");
   const Stopwatch contact_watch;
@@ -56,6 +51,21 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
   // Finished is finished: who cancels now still gets it.
   if (progress.report) progress.report(1.0, "assessed");
+  return result;
+}
+
+Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
+                  const Progress& progress) {
+  options.grasp.check();
+  options.contact.check();
+  options.friction.check();
+
+  progress.update(0.0, "closing the hand");
+  const Stopwatch watch;
+  const Grasp grasp = find_grasp(hand.hand(), product, options.grasp, progress);
+  const double seconds = watch.seconds();
+  Assessment result = evaluate(hand, product, grasp, options, progress);
+  result.times.grasp = seconds;
   return result;
 }
 

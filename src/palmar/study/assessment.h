@@ -11,13 +11,14 @@
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/friction.h"
 #include "palmar/core/progress.h"
+#include "palmar/grasp/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
 
 namespace palmar {
 
 struct AssessOptions {
-  PowerGraspOptions grasp;
+  GraspOptions grasp;
   ContactOptions contact;
   FrictionOptions friction;  ///< off unless it has a coefficient
   std::uint64_t seed =
@@ -56,8 +57,14 @@ struct AssessmentSet {
   std::string command_line;  ///< for provenance
 };
 
-/// Grasps the product and solves the contact. A product that can't be held gives an assessment
-/// whose grasp says why. Throws UsageError, Cancelled.
+/// What a given way of holding does to hand and product: contact, friction, footprint. Posture and
+/// placement are taken as they are, from find_grasp() or from a measurement. Throws UsageError,
+/// Cancelled.
+Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+                    const AssessOptions& options = {}, const Progress& progress = {});
+
+/// Grasps the product and evaluates that. A product that can't be held gives an assessment whose
+/// grasp says why. Throws UsageError, Cancelled.
 Assessment assess(const PreparedHand& hand, const Product& product,
                   const AssessOptions& options = {}, const Progress& progress = {});
 
