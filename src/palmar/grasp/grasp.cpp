@@ -311,6 +311,8 @@ std::string name_of(StopReason reason) {
       return "other_finger";
     case StopReason::kNotReached:
       return "not_reached";
+    case StopReason::kGiven:
+      return "given";
   }
   return "unknown";
 }

@@ -23,6 +23,7 @@ enum class StopReason {
   kDistalStop,     ///< a segment nearer to the tip reached its limit first
   kOtherFinger,    ///< another finger is in the way
   kNotReached,     ///< no contact though its joint is fully closed
+  kGiven,          ///< nothing was closed: the posture was measured or given
 };
 std::string name_of(StopReason reason);  ///< "limit_depth", "range_of_motion", ...
 

@@ -82,6 +82,8 @@ std::string plain_words(StopReason reason) {
       return "another finger is in the way";
     case StopReason::kNotReached:
       return "closed fully without touching the product";
+    case StopReason::kGiven:
+      return "where the given posture has it";
   }
   return spaced(name_of(reason));
 }
