@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
+#include "grasp_evaluate_command.h"
 #include "grasp_options.h"
 #include "palmar/io/assessment_json.h"
 #include "palmar/io/file.h"
@@ -38,6 +39,7 @@ void add_grasp_commands(CLI::App& app, Context& context) {
       return 0;
     };
   });
+  add_grasp_evaluate(*grasp, context);
 }
 
 }  // namespace palmar::cli

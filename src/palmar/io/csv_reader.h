@@ -1,0 +1,38 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palmar {
+
+/// A CSV file taken apart: one header line, then rows of as many cells. Cells are parted by comma,
+/// semicolon or tab, whichever the header has, quoted as in RFC 4180 but within one line, and
+/// trimmed; lines that start with # are comments, blank lines are skipped.
+struct CsvFile {
+  struct Row {
+    int line = 0;  ///< in the file, from 1
+    std::vector<std::string> cells;
+  };
+  std::string path;
+  int header_line = 0;
+  std::vector<std::string> header;
+  std::vector<Row> rows;
+
+  /// Ends with an InputError "path:line: why".
+  [[noreturn]] void fail(int line, const std::string& why) const;
+  /// Column of that name (case doesn't matter), or -1.
+  int column(std::string_view name) const;
+  /// The finite number in a cell. Throws InputError naming file, line, column and cell.
+  double number(const Row& row, std::size_t column) const;
+};
+
+/// Throws InputError naming file and line: no text, no header, a row longer or shorter than the
+/// header, a quote that isn't closed, a column twice or without a name.
+CsvFile parse_csv(std::string_view text, const std::string& path);
+CsvFile read_csv(const std::string& path);
+
+}  // namespace palmar
