@@ -5,8 +5,13 @@
 namespace palmar {
 
 void GraspOptions::check() const {
-  power.check();
-  precision.check();
+  if (!grip || is_power(*grip)) {
+    power.check();
+    return;
+  }
+  PrecisionGripOptions asked = precision;
+  asked.grip = *grip;
+  asked.check();
 }
 
 Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options,

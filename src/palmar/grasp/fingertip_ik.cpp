@@ -1,0 +1,554 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/fingertip_ik.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "palmar/grasp/finger_motion.h"
+#include "palmar/grasp/skin_advance.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kPlacement = 6;  // unknowns of the hand against the product
+constexpr int kFirstDof = static_cast<int>(Dof::kThumbCmcFlexion);
+constexpr int kUnknowns = kPlacement + kDofCount - kFirstDof;
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+using Row = Eigen::Matrix<double, kUnknowns, 1>;
+using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+
+constexpr double kNormalSpread = 0.3;     // rad
+constexpr double kSlide = 15.0;           // mm; how far a sliding fingertip likes to go
+constexpr double kFlexionSpread = 0.35;   // rad
+constexpr double kThumbSpread = 0.3;      // rad
+constexpr double kAbductionSpread = 0.2;  // rad
+constexpr double kCouplingSpread = 0.2;   // rad
+constexpr double kMcpSpread = 0.35;       // rad, between neighbours
+constexpr double kPipSpread = 0.5;        // rad, between neighbours
+constexpr double kCoupling = 2.0 / 3.0;   // DIP per PIP
+constexpr double kEnd = 5.0 * kDeg;       // last part of a range, which hands avoid
+constexpr double kEndSpread = 5.0 * kDeg;
+constexpr double kClashSpread = 0.7;  // mm
+constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
+constexpr double kNextGive = 0.5;     // mm, phalanges next to one that touches
+constexpr double kFarOff = 45.0;      // mm; more than any ball
+constexpr double kSmallStep = 1e-7;   // rad or mm
+constexpr double kSmallGain = 1e-6;   // relative
+
+struct Stage {
+  double reach = 1.0;    // mm
+  double natural = 1.0;  // weight of the posture terms
+};
+constexpr std::array<Stage, 3> kStages = {{{3.0, 1.0}, {0.5, 1.0}, {0.05, 0.3}}};
+
+constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
+                                            Finger::kLittle};
+
+int column_of(Dof dof) { return kPlacement + static_cast<int>(dof) - kFirstDof; }
+
+bool is_abduction(Dof dof) {
+  return std::any_of(kFingers.begin(), kFingers.end(),
+                     [&](Finger f) { return dof == abduction_of(f); });
+}
+
+double spread_of(Dof dof) {
+  if (is_abduction(dof)) return kAbductionSpread;
+  return dof <= Dof::kThumbIpFlexion ? kThumbSpread : kFlexionSpread;
+}
+
+Finger finger_of_dof(Dof dof) {
+  if (dof <= Dof::kThumbIpFlexion) return Finger::kThumb;
+  return static_cast<Finger>(1 +
+                             (static_cast<int>(dof) - static_cast<int>(Dof::kIndexMcpFlexion)) / 4);
+}
+
+/// A posture term: sum of some angles times factors, minus a value, over a spread.
+struct PostureTerm {
+  std::array<Dof, 2> dof{};
+  std::array<double, 2> factor{};
+  double value = 0.0, spread = 1.0;
+};
+
+std::vector<PostureTerm> posture_terms(const Posture& natural) {
+  std::vector<PostureTerm> terms;
+  for (int d = kFirstDof; d < kDofCount; ++d) {
+    const auto dof = static_cast<Dof>(d);
+    terms.push_back({{dof, dof}, {1.0, 0.0}, natural[dof], spread_of(dof)});
+  }
+  for (const Finger finger : kFingers) {
+    terms.push_back(
+        {{flexion_of(finger, 2), flexion_of(finger, 1)}, {1.0, -kCoupling}, 0.0, kCouplingSpread});
+  }
+  for (std::size_t f = 0; f + 1 < kFingers.size(); ++f) {
+    for (int level = 0; level < 2; ++level) {
+      const Dof a = flexion_of(kFingers[f], level), b = flexion_of(kFingers[f + 1], level);
+      terms.push_back(
+          {{a, b}, {1.0, -1.0}, natural[a] - natural[b], level == 0 ? kMcpSpread : kPipSpread});
+    }
+  }
+  return terms;
+}
+
+double value_of(const PostureTerm& term, const Posture& posture) {
+  return (term.factor[0] * posture[term.dof[0]] + term.factor[1] * posture[term.dof[1]] -
+          term.value) /
+         term.spread;
+}
+
+double foot(const Vec3& a, const Vec3& b, const Vec3& point) {
+  const Vec3 along = b - a;
+  const double length2 = along.squaredNorm();
+  return length2 > 0.0 ? std::clamp(along.dot(point - a) / length2, 0.0, 1.0) : 0.0;
+}
+
+/// Two cones that come near each other: nearest points of their lines and the overlap.
+struct Crossing {
+  Vec3 p = Vec3::Zero(), q = Vec3::Zero();
+  double overlap = 0.0;
+};
+
+Crossing crossing_of(const RoundCone& p, const RoundCone& q) {
+  double s = 0.5, t = 0.5;
+  for (int round = 0; round < 4; ++round) {
+    t = foot(q.a, q.b, p.a + s * (p.b - p.a));
+    s = foot(p.a, p.b, q.a + t * (q.b - q.a));
+  }
+  Crossing result{p.a + s * (p.b - p.a), q.a + t * (q.b - q.a), 0.0};
+  result.overlap = (1.0 - s) * p.radius_a + s * p.radius_b + (1.0 - t) * q.radius_a +
+                   t * q.radius_b - (result.p - result.q).norm();
+  return result;
+}
+
+/// Pairs of fingers that could cross: neighbours, and the thumb with each finger.
+bool may_cross(const RoundCone& p, const RoundCone& q) {
+  if (p.level == 0 || q.level == 0) return false;
+  const int fp = static_cast<int>(p.finger), fq = static_cast<int>(q.finger);
+  if (fp >= fq) return false;
+  if (p.finger == Finger::kThumb) return q.level >= 1;
+  return fq == fp + 1;
+}
+
+}  // namespace
+
+double posture_strain(const Skeleton& /*skeleton*/, const Posture& natural,
+                      const Posture& posture) {
+  double sum = 0.0;
+  for (const PostureTerm& term : posture_terms(natural)) {
+    const double r = value_of(term, posture);
+    sum += r * r;
+  }
+  return sum;
+}
+
+/// Residuals of one problem in one state, summed up as normal equations.
+class FingertipSystem {
+ public:
+  FingertipSystem(const FingertipIk& ik, const FingertipProblem& problem)
+      : ik_(&ik), problem_(&problem), terms_(posture_terms(problem.natural)) {
+    for (const FingertipGoal& goal : problem.goals) {
+      pivot_ += goal.point / static_cast<double>(problem.goals.size());
+    }
+    is_contact_.fill(false);
+    for (const FingertipGoal& goal : problem.goals) {
+      is_contact_[static_cast<std::size_t>(goal.fingertip.segment)] = true;
+      depth_[static_cast<std::size_t>(goal.fingertip.segment)] = goal.depth;
+    }
+    lower_.setConstant(-1e9);
+    upper_.setConstant(1e9);
+    is_free_.fill(problem.is_hand_free);
+    for (int d = kFirstDof; d < kDofCount; ++d) {
+      const JointDof& dof = ik.hand().skeleton.dof(static_cast<Dof>(d));
+      const auto column = static_cast<std::size_t>(column_of(dof.dof));
+      lower_[column_of(dof.dof)] = dof.lower;
+      upper_[column_of(dof.dof)] = dof.upper;
+      is_free_[column] = problem.is_finger_free[static_cast<std::size_t>(finger_of_dof(dof.dof))] &&
+                         dof.upper > dof.lower;
+    }
+  }
+
+  struct State {
+    Posture posture;
+    Rigid3 product_from_hand;
+  };
+
+  void evaluate(const State& state, const Stage& stage, double& cost, Square* h, Row* g);
+  FingertipSolution solution(const State& state);
+  FingertipSolution solve();
+
+ private:
+  void add(double residual, const Row& row) {
+    cost_ += residual * residual;
+    if (h_ == nullptr) return;
+    h_->selfadjointView<Eigen::Lower>().rankUpdate(row);
+    *g_ += residual * row;
+  }
+  /// Derivatives of a point of a part (product frame) along `direction`.
+  void point_row(const State& state, const std::vector<DofMotion>& moving, const Vec3& in_hand,
+                 const Vec3& direction, double factor, Row& row) const {
+    const Vec3 in_product = state.product_from_hand * in_hand;
+    row.head<3>() += factor * direction;
+    row.segment<3>(3) += factor * (in_product - pivot_).cross(direction);
+    const Vec3 seen = state.product_from_hand.rotation.conjugate() * direction;
+    for (const DofMotion& m : moving) {
+      row[column_of(m.dof)] += factor * seen.dot(m.of_point(in_hand));
+    }
+  }
+  Vec3 in_hand(const FingerMotion& motion, const FingertipGoal& goal) const {
+    return motion.posed().segment[static_cast<std::size_t>(goal.fingertip.segment)] *
+           goal.fingertip.point;
+  }
+  void add_goals(const State& state, const FingerMotion& motion, const Stage& stage);
+  void add_posture(const State& state, const Stage& stage);
+  void add_crossings(const State& state, const FingerMotion& motion);
+  void add_balls(const State& state, const FingerMotion& motion);
+  double give_of(const FingertipIk::Ball& ball) const;
+  State stepped(const State& state, const Row& step) const;
+  void minimise(State& state, const Stage& stage, int most);
+
+  const FingertipIk* ik_;
+  const FingertipProblem* problem_;
+  std::vector<PostureTerm> terms_;
+  Vec3 pivot_ = Vec3::Zero();
+  std::array<bool, kSegmentCount> is_contact_{};
+  std::array<double, kSegmentCount> depth_{};
+  Row lower_, upper_;
+  std::array<bool, kUnknowns> is_free_{};
+  double cost_ = 0.0, clash_ = 0.0;
+  Square* h_ = nullptr;
+  Row* g_ = nullptr;
+  std::vector<Vec3> points_, points_in_hand_;
+  std::vector<DistanceSample> samples_, goal_samples_;
+  int iterations_ = 0;
+};
+
+void FingertipSystem::add_goals(const State& state, const FingerMotion& motion,
+                                const Stage& stage) {
+  points_.clear();
+  for (const FingertipGoal& goal : problem_->goals) {
+    points_.push_back(state.product_from_hand * in_hand(motion, goal));
+  }
+  goal_samples_.resize(points_.size());
+  if (problem_->product != nullptr) {
+    problem_->product->sample(points_, 1e6, goal_samples_);
+  }
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const FingertipGoal& goal = problem_->goals[k];
+    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+    const std::vector<DofMotion>& moving = motion.moving(goal.fingertip.segment);
+    const Vec3 x = in_hand(motion, goal);
+    const bool is_sliding = goal.is_sliding && problem_->product != nullptr;
+    std::optional<Vec3> normal = goal.normal;
+    if (is_sliding) normal = goal_samples_[k].normal;
+    const Vec3 want =
+        goal.point - (normal && !is_sliding ? Vec3(goal.depth * *normal) : Vec3(Vec3::Zero()));
+    const double reach = is_sliding ? kSlide : stage.reach;
+    for (int c = 0; c < 3; ++c) {
+      Row row = Row::Zero();
+      point_row(state, moving, x, Vec3::Unit(c), 1.0 / reach, row);
+      add((points_[k] - want)[c] / reach, row);
+    }
+    if (is_sliding) {
+      Row row = Row::Zero();
+      point_row(state, moving, x, *normal, 1.0 / stage.reach, row);
+      add((goal_samples_[k].distance + goal.depth) / stage.reach, row);
+    }
+    if (!normal) continue;
+    const Vec3 n = motion.posed().segment[s].rotation * goal.fingertip.normal;
+    const Vec3 n_product = state.product_from_hand.rotation * n;
+    for (int c = 0; c < 3; ++c) {
+      Row row = Row::Zero();
+      const double factor = 1.0 / kNormalSpread;
+      row.segment<3>(3) = factor * n_product.cross(Vec3::Unit(c));
+      const Vec3 seen = state.product_from_hand.rotation.conjugate() * Vec3::Unit(c);
+      for (const DofMotion& m : moving) {
+        row[column_of(m.dof)] = factor * seen.dot(m.of_direction(n));
+      }
+      add(factor * (n_product + *normal)[c], row);
+    }
+  }
+}
+
+void FingertipSystem::add_posture(const State& state, const Stage& stage) {
+  const double factor = std::sqrt(stage.natural);
+  for (const PostureTerm& term : terms_) {
+    Row row = Row::Zero();
+    row[column_of(term.dof[0])] += factor * term.factor[0] / term.spread;
+    row[column_of(term.dof[1])] += factor * term.factor[1] / term.spread;
+    add(factor * value_of(term, state.posture), row);
+  }
+  for (int d = kFirstDof; d < kDofCount; ++d) {
+    const auto dof = static_cast<Dof>(d);
+    const int c = column_of(dof);
+    if (is_abduction(dof) || upper_[c] - lower_[c] < 4.0 * kEnd) continue;
+    const double q = state.posture[dof];
+    const double beyond = q > upper_[c] - kEnd   ? q - (upper_[c] - kEnd)
+                          : q < lower_[c] + kEnd ? q - (lower_[c] + kEnd)
+                                                 : 0.0;
+    if (beyond == 0.0) continue;
+    Row row = Row::Zero();
+    row[c] = factor / kEndSpread;
+    add(factor * beyond / kEndSpread, row);
+  }
+}
+
+void FingertipSystem::add_crossings(const State& state, const FingerMotion& motion) {
+  const std::vector<RoundCone> cones = ik_->cones_.posed(ik_->hand().skeleton, state.posture);
+  const auto phalanx_of = [](const RoundCone& cone) {
+    return *segments_of(cone.finger)[static_cast<std::size_t>(cone.level - 1)];
+  };
+  for (const RoundCone& p : cones) {
+    for (const RoundCone& q : cones) {
+      if (!may_cross(p, q)) continue;
+      const Segment sp = phalanx_of(p), sq = phalanx_of(q);
+      // Between two that touch lies the product.
+      const bool is_thumb = p.finger == Finger::kThumb;
+      if (is_thumb && is_contact_[static_cast<std::size_t>(sp)] &&
+          is_contact_[static_cast<std::size_t>(sq)]) {
+        continue;
+      }
+      const Crossing crossing = crossing_of(p, q);
+      const double excess = crossing.overlap - kNeighbourGive;
+      if (excess <= 0.0) continue;
+      clash_ = std::max(clash_, excess);
+      const Vec3 apart = crossing.p - crossing.q;
+      if (apart.norm() < 1e-6) continue;
+      const Vec3 n = apart.normalized();
+      Row row = Row::Zero();
+      for (const DofMotion& m : motion.moving(sp)) {
+        row[column_of(m.dof)] -= n.dot(m.of_point(crossing.p)) / kClashSpread;
+      }
+      for (const DofMotion& m : motion.moving(sq)) {
+        row[column_of(m.dof)] += n.dot(m.of_point(crossing.q)) / kClashSpread;
+      }
+      add(excess / kClashSpread, row);
+    }
+  }
+}
+
+double FingertipSystem::give_of(const FingertipIk::Ball& ball) const {
+  if (!ball.phalanx || !ball.finger) return 0.0;
+  if (is_contact_[static_cast<std::size_t>(*ball.phalanx)]) {
+    return kTouchGive + depth_[static_cast<std::size_t>(*ball.phalanx)];
+  }
+  for (const std::optional<Segment>& segment : segments_of(*ball.finger)) {
+    if (segment && is_contact_[static_cast<std::size_t>(*segment)]) return kNextGive;
+  }
+  return 0.0;
+}
+
+void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) {
+  if (problem_->product == nullptr) return;
+  points_.clear();
+  points_in_hand_.clear();
+  for (const FingertipIk::Ball& ball : ik_->balls_) {
+    const Rigid3& moved = !ball.finger ? motion.posed().forearm
+                          : ball.phalanx
+                              ? motion.posed().segment[static_cast<std::size_t>(*ball.phalanx)]
+                          : *ball.finger == Finger::kThumb ? motion.posed().thumb_metacarpal
+                                                           : motion.posed().segment[0];
+    points_in_hand_.push_back(moved * ball.centre);
+    points_.push_back(state.product_from_hand * points_in_hand_.back());
+  }
+  samples_.resize(points_.size());
+  problem_->product->sample(points_, kFarOff, samples_);
+  static const std::vector<DofMotion> kFixed;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const FingertipIk::Ball& ball = ik_->balls_[k];
+    const double excess = ball.radius - samples_[k].distance - give_of(ball);
+    if (excess <= 0.0) continue;
+    clash_ = std::max(clash_, excess);
+    const std::vector<DofMotion>& moving = ball.phalanx ? motion.moving(*ball.phalanx)
+                                           : ball.finger == Finger::kThumb
+                                               ? motion.moving_thumb_metacarpal()
+                                               : kFixed;
+    Row row = Row::Zero();
+    point_row(state, moving, points_in_hand_[k], samples_[k].normal, -1.0 / kClashSpread, row);
+    add(excess / kClashSpread, row);
+  }
+}
+
+void FingertipSystem::evaluate(const State& state, const Stage& stage, double& cost, Square* h,
+                               Row* g) {
+  cost_ = clash_ = 0.0;
+  h_ = h;
+  g_ = g;
+  if (h != nullptr) {
+    h->setZero();
+    g->setZero();
+  }
+  const FingerMotion motion(ik_->hand().skeleton, state.posture);
+  add_goals(state, motion, stage);
+  add_posture(state, stage);
+  add_crossings(state, motion);
+  add_balls(state, motion);
+  cost = cost_;
+}
+
+FingertipSystem::State FingertipSystem::stepped(const State& state, const Row& step) const {
+  State next = state;
+  const Vec3 turn = step.segment<3>(3);
+  const double angle = turn.norm();
+  if (angle > 0.0) {
+    next.product_from_hand =
+        Rigid3::about_axis(turn / angle, pivot_, angle) * next.product_from_hand;
+  }
+  next.product_from_hand.translation += step.head<3>();
+  for (int d = kFirstDof; d < kDofCount; ++d) {
+    const auto dof = static_cast<Dof>(d);
+    const int c = column_of(dof);
+    if (!is_free_[static_cast<std::size_t>(c)]) continue;
+    next.posture[dof] = std::clamp(next.posture[dof] + step[c], lower_[c], upper_[c]);
+  }
+  return next;
+}
+
+void FingertipSystem::minimise(State& state, const Stage& stage, int most) {
+  Square h;
+  Row g;
+  double cost = 0.0, damping = 1e-3;
+  evaluate(state, stage, cost, &h, &g);
+  for (int i = 0; i < most; ++i, ++iterations_) {
+    // Unknowns that are held, or stand at a bound that they would leave.
+    Square system = h.selfadjointView<Eigen::Lower>();
+    Row rhs = -g;
+    for (int c = 0; c < kUnknowns; ++c) {
+      bool is_held = !is_free_[static_cast<std::size_t>(c)];
+      if (c >= kPlacement && !is_held) {
+        const double q = state.posture[static_cast<Dof>(c - kPlacement + kFirstDof)];
+        is_held = (q <= lower_[c] && g[c] > 0.0) || (q >= upper_[c] && g[c] < 0.0);
+      }
+      if (!is_held) continue;
+      system.row(c).setZero();
+      system.col(c).setZero();
+      system(c, c) = 1.0;
+      rhs[c] = 0.0;
+    }
+    bool is_better = false;
+    double gain = 0.0, length = 0.0;
+    for (int trial = 0; trial < 8 && !is_better; ++trial) {
+      Square damped = system;
+      // Angles and millimetres: each is damped by its own curvature.
+      damped.diagonal() += damping * (system.diagonal().array() + 1e-3).matrix();
+      Row step = damped.ldlt().solve(rhs);
+      const double turn = step.segment<3>(3).norm();
+      if (turn > 0.5) step *= 0.5 / turn;
+      length = step.cwiseAbs().maxCoeff();
+      const State next = stepped(state, step);
+      double next_cost = 0.0;
+      Square next_h;
+      Row next_g;
+      evaluate(next, stage, next_cost, &next_h, &next_g);
+      if (next_cost < cost) {
+        gain = (cost - next_cost) / cost;
+        state = next;
+        cost = next_cost;
+        h = next_h;
+        g = next_g;
+        damping = std::max(1e-7, 0.3 * damping);
+        is_better = true;
+      } else {
+        damping *= 6.0;
+      }
+    }
+    if (!is_better || gain < kSmallGain || length < kSmallStep) break;
+  }
+}
+
+FingertipSolution FingertipSystem::solution(const State& state) {
+  FingertipSolution result;
+  result.posture = state.posture;
+  result.product_from_hand = state.product_from_hand;
+  double cost = 0.0;
+  evaluate(state, kStages.back(), cost, nullptr, nullptr);
+  result.clash = clash_;
+  result.strain = posture_strain(ik_->hand().skeleton, problem_->natural, state.posture);
+  result.iterations = iterations_;
+  const FingerMotion motion(ik_->hand().skeleton, state.posture);
+  for (std::size_t k = 0; k < problem_->goals.size(); ++k) {
+    const FingertipGoal& goal = problem_->goals[k];
+    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+    const Vec3 x = state.product_from_hand * in_hand(motion, goal);
+    const bool is_sliding = goal.is_sliding && problem_->product != nullptr;
+    std::optional<Vec3> normal = goal.normal;
+    if (is_sliding) normal = goal_samples_[k].normal;
+    const Vec3 n = state.product_from_hand.rotation *
+                   (motion.posed().segment[s].rotation * goal.fingertip.normal);
+    result.reached.push_back(normal ? Vec3(x + goal.depth * *normal) : x);
+    result.miss.push_back(is_sliding ? std::abs(goal_samples_[k].distance + goal.depth)
+                                     : (result.reached.back() - goal.point).norm());
+    result.tilt.push_back(normal ? std::acos(std::clamp(-n.dot(*normal), -1.0, 1.0)) : 0.0);
+    result.worst_miss = std::max(result.worst_miss, result.miss.back());
+  }
+  return result;
+}
+
+FingertipSolution FingertipSystem::solve() {
+  State state{clamp_to_range(ik_->hand().skeleton, problem_->start).posture,
+              problem_->product_from_hand};
+  if (problem_->is_refining) {
+    minimise(state, kStages.back(), problem_->max_iterations);
+  } else {
+    for (const Stage& stage : kStages) minimise(state, stage, problem_->max_iterations / 3);
+  }
+  return solution(state);
+}
+
+FingertipIk::FingertipIk(const Hand& hand) : hand_(&hand), cones_(hand) {
+  for (const RoundCone& cone : cones_.posed(hand.skeleton, reference_posture(hand.skeleton))) {
+    const bool is_metacarpal = cone.level == 0;
+    for (const double t : {0.1, 0.55, 1.0}) {
+      Ball ball;
+      ball.centre = cone.a + t * (cone.b - cone.a);
+      ball.radius = (1.0 - t) * cone.radius_a + t * cone.radius_b;
+      ball.finger = cone.finger;
+      if (!is_metacarpal) {
+        ball.phalanx = segments_of(cone.finger)[static_cast<std::size_t>(cone.level - 1)];
+      }
+      balls_.push_back(ball);
+    }
+  }
+  const double thickness =
+      hand.dimensions.hand_thickness > 0.0 ? hand.dimensions.hand_thickness : 28.0;
+  for (int i = 0; i < 5; ++i) {
+    Ball ball;
+    ball.centre = Vec3(0.0, -45.0 * i, 0.0);
+    ball.radius = (0.75 + 0.06 * i) * thickness;
+    balls_.push_back(ball);
+  }
+}
+
+FingertipSolution FingertipIk::solve(const FingertipProblem& problem) const {
+  return FingertipSystem(*this, problem).solve();
+}
+
+double FingertipIk::clash_of(const DistanceField& product, const Posture& posture,
+                             const Rigid3& product_from_hand,
+                             const std::vector<FingertipPoint>& contacts) const {
+  const PosedSkeleton posed = pose_skeleton(hand_->skeleton, posture);
+  std::vector<Vec3> points;
+  for (const Ball& ball : balls_) {
+    const Rigid3& moved = !ball.finger   ? posed.forearm
+                          : ball.phalanx ? posed.segment[static_cast<std::size_t>(*ball.phalanx)]
+                          : *ball.finger == Finger::kThumb ? posed.thumb_metacarpal
+                                                           : posed.segment[0];
+    points.push_back(product_from_hand * (moved * ball.centre));
+  }
+  std::vector<DistanceSample> samples(points.size());
+  product.sample(points, kFarOff, samples);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    double give = 0.0;
+    for (const FingertipPoint& contact : contacts) {
+      if (balls_[k].finger != contact.finger || !balls_[k].phalanx) continue;
+      give = std::max(give, balls_[k].phalanx == contact.segment ? kTouchGive + 2.0 : kNextGive);
+    }
+    sum += std::max(0.0, balls_[k].radius - samples[k].distance - give);
+  }
+  return sum;
+}
+
+}  // namespace palmar
