@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grasp_options.h"
 
+#include <fmt/format.h>
+
 #include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -14,13 +17,55 @@ RegionCoupling parse_regions(const std::string& text) {
   throw UsageError("--regions: \"" + text + "\" is not known; coupled or independent is allowed");
 }
 
+/// "power, medium_wrap, ...".
+std::string grip_list() {
+  std::string list = "power";
+  for (int g = 0; g < kGripCount; ++g) list += fmt::format(", {}", name_of(static_cast<Grip>(g)));
+  return list;
+}
+
+std::optional<Grip> parse_grip(const std::string& text) {
+  if (text == "power") return std::nullopt;
+  if (const std::optional<Grip> grip = grip_named(text)) return grip;
+  std::vector<std::string> known = {"power"};
+  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
+  const std::string nearest = nearest_name(text, known);
+  throw UsageError(fmt::format("--grip: \"{}\" is not known{}; {} is allowed", text,
+                               nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
+                               grip_list()));
+}
+
+FingertipTarget parse_fingertip(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::optional<Finger> finger = finger_named(text.substr(0, colon));
+  if (colon == text.npos || !finger) {
+    throw UsageError(
+        fmt::format("--fingertip: \"{}\" is not understood; FINGER:X,Y,Z with thumb, "
+                    "index, middle, ring or little and a point in mm is required",
+                    text));
+  }
+  return {*finger, parse_vector("--fingertip", text.substr(colon + 1))};
+}
+
 }  // namespace
 
 void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option("--hand", hand, "\"template\" or a .hand.glb file")->capture_default_str();
-  verb.add_option("--grip", grip, "Kind of grip: power")->capture_default_str();
+  verb.add_option("--grip", grip,
+                  "Kind of grip: power (what suits the shape) or a name of the GRASP taxonomy: " +
+                      grip_list())
+      ->capture_default_str();
   verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY): mm, cm, m, inch");
-  verb.add_option("--at", at, "Point of the product that lies in mid-palm, x,y,z in mm");
+  verb.add_option("--at", at,
+                  "Point of the product that lies in mid-palm (precision grips: between the "
+                  "fingertips), x,y,z in mm");
+  verb.add_option("--fingertip", fingertips,
+                  "Point of the product for a fingertip of a precision grip, once per finger: "
+                  "FINGER:X,Y,Z in mm")
+      ->allow_extra_args(false);
+  verb.add_option("--fingertip-depth-mm", fingertip_depth,
+                  "How deep a precision grip's fingertips are pressed in, mm")
+      ->capture_default_str();
   verb.add_option(
       "--axis", axis,
       "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
@@ -34,10 +79,7 @@ void GraspArguments::add_to(CLI::App& verb) {
 
 GraspOptions GraspArguments::options() const {
   GraspOptions result;
-  if (grip != "power") {
-    result.grip = grip_named(grip);
-    if (!result.grip) throw UsageError("--grip: \"" + grip + "\" is no known grip");
-  }
+  result.grip = parse_grip(grip);
   result.power.palm_limit_depth = palm_limit_depth;
   result.power.finger_limit_depth = finger_limit_depth;
   PlacementRequest& placement = result.power.placement;
@@ -45,6 +87,15 @@ GraspOptions GraspArguments::options() const {
   if (!axis.empty()) placement.axis = parse_vector("--axis", axis);
   if (turn_deg) placement.turn = radians(*turn_deg);
   result.precision.placement = placement;
+  result.precision.fingertip_depth = fingertip_depth;
+  for (const std::string& text : fingertips) {
+    result.precision.targets.push_back(parse_fingertip(text));
+  }
+  if (!fingertips.empty() && (!result.grip || is_power(*result.grip))) {
+    throw UsageError("--fingertip: grip " + grip +
+                     " holds with the whole hand; a precision grip is required, as in "
+                     "--grip tripod");
+  }
   result.check();
   return result;
 }

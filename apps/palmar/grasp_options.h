@@ -18,8 +18,10 @@ struct GraspArguments {
   std::optional<double> turn_deg;
   double palm_limit_depth = PowerGraspOptions{}.palm_limit_depth;
   double finger_limit_depth = PowerGraspOptions{}.finger_limit_depth;
+  double fingertip_depth = PrecisionGripOptions{}.fingertip_depth;
+  std::vector<std::string> fingertips;  ///< "FINGER:X,Y,Z"
 
-  /// Adds --hand, --grip, --unit, --at, --axis, --turn-deg and the limit depths to a verb.
+  /// Adds --hand, --grip, --unit, --at, --axis, --turn-deg, --fingertip and the depths to a verb.
   void add_to(CLI::App& verb);
   /// The values for the grasp module. Throws UsageError.
   GraspOptions options() const;

@@ -85,8 +85,35 @@ std::string dimensions_csv(const Hand& hand) {
   return text;
 }
 
+std::string placements_text(const Grasp& grasp) {
+  std::string text = fmt::format("{}: {}\n{} placements tried; best first:\n",
+                                 name_of(grasp.status), grasp.message, grasp.candidates) +
+                     "      grip              score   palm at (mm)                fingers point\n";
+  const auto line = [&](std::size_t rank, Grip grip, double score, const Rigid3& placed) {
+    const Vec3 palm = placed * Vec3(0.0, 70.0, 0.0);
+    const Vec3 distal = placed.rotation * Vec3::UnitY();
+    text += fmt::format("{:>4}  {:<16} {:6.3f} {:8.1f} {:8.1f} {:8.1f}   {:6.2f} {:5.2f} {:5.2f}\n",
+                        rank, name_of(grip), score, palm.x(), palm.y(), palm.z(), distal.x(),
+                        distal.y(), distal.z());
+  };
+  line(1, grasp.grip, grasp.score, grasp.product_from_hand);
+  for (std::size_t i = 0; i < grasp.runners_up.size(); ++i) {
+    const GraspRunnerUp& other = grasp.runners_up[i];
+    line(i + 2, other.grip, other.score, other.product_from_hand);
+  }
+  return text;
+}
+
 std::string grasp_text(const Grasp& grasp) {
   std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  if (!grasp.fingertips.empty()) {
+    text +=
+        fmt::format("grip {}; fingertip      reached (mm)       miss (mm)\n", name_of(grasp.grip));
+    for (const FingertipContact& tip : grasp.fingertips) {
+      text += fmt::format("  {:<8} {:8.1f} {:8.1f} {:8.1f} {:9.2f}\n", name_of(tip.finger),
+                          tip.reached.x(), tip.reached.y(), tip.reached.z(), tip.miss);
+    }
+  }
   text += "segment           stopped by        penetration (mm)\n";
   for (const SegmentStop& stop : grasp.stops) {
     text += fmt::format("{:<17} {:<17} {:8.2f}\n", name_of(stop.segment), name_of(stop.reason),

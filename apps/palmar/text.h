@@ -20,6 +20,8 @@ std::string tissue_text(const Tissue& tissue);
 std::string dimensions_csv(const Hand& hand);
 /// Status, what stopped each segment, angles.
 std::string grasp_text(const Grasp& grasp);
+/// The grasp and its runners-up, one line each: score, place, forearm's direction.
+std::string placements_text(const Grasp& grasp);
 /// The equations that ran: "palmar (patch kernel, halfspace, coupled regions)".
 std::string equations_text(const ContactModel& model);
 /// Totals and one line per region; the error band and the equations that ran.

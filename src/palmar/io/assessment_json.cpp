@@ -39,26 +39,52 @@ Json placement(const Rigid3& product_from_hand) {
           {"matrix_rows_mm", std::move(matrix)}};
 }
 
-Json grasp_object(const Grasp& grasp) {
+Json posture_object(const Posture& angles) {
   Json posture = Json::object();
   for (int d = 0; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
-    posture[std::string(name_of(dof)) + "_deg"] = grasp.posture[dof] * kDegrees;
+    posture[std::string(name_of(dof)) + "_deg"] = angles[dof] * kDegrees;
   }
+  return posture;
+}
+
+Json runner_up_object(const GraspRunnerUp& other) {
+  return {{"grip", name_of(other.grip)},
+          {"score", other.score},
+          {"posture", posture_object(other.posture)},
+          {"product_from_hand", placement(other.product_from_hand)}};
+}
+
+Json grasp_object(const Grasp& grasp) {
   Json segments = Json::array();
   for (const SegmentStop& stop : grasp.stops) {
     segments.push_back({{"segment", name_of(stop.segment)},
                         {"stopped_by", name_of(stop.reason)},
                         {"penetration_mm", stop.penetration}});
   }
-  return {{"status", name_of(grasp.status)},
+  Json fingertips = Json::array();
+  for (const FingertipContact& tip : grasp.fingertips) {
+    fingertips.push_back({{"finger", name_of(tip.finger)},
+                          {"target_mm", vector3(tip.target)},
+                          {"reached_mm", vector3(tip.reached)},
+                          {"normal", vector3(tip.normal)},
+                          {"miss_mm", tip.miss}});
+  }
+  Json others = Json::array();
+  for (const GraspRunnerUp& other : grasp.runners_up) others.push_back(runner_up_object(other));
+  return {{"grip", name_of(grasp.grip)},
+          {"status", name_of(grasp.status)},
           {"message", grasp.message},
-          {"posture", std::move(posture)},
+          {"posture", posture_object(grasp.posture)},
           {"product_from_hand", placement(grasp.product_from_hand)},
           {"grip_point_mm", vector3(grasp.grip_point)},
           {"grip_axis", vector3(grasp.grip_axis)},
           {"grip_girth_mm", grasp.grip_girth},
-          {"segments", std::move(segments)}};
+          {"segments", std::move(segments)},
+          {"fingertips", std::move(fingertips)},
+          {"score", grasp.score},
+          {"candidates", grasp.candidates},
+          {"runners_up", std::move(others)}};
 }
 
 void add_totals(Json& json, const RegionContact& contact) {
@@ -259,6 +285,17 @@ Json settings_object(const Assessment& assessment) {
 }  // namespace
 
 std::string grasp_json(const Grasp& grasp) { return dumped(grasp_object(grasp)); }
+
+std::string placements_json(const Grasp& grasp) {
+  Json list = Json::array();
+  list.push_back(
+      runner_up_object({grasp.grip, grasp.posture, grasp.product_from_hand, grasp.score}));
+  for (const GraspRunnerUp& other : grasp.runners_up) list.push_back(runner_up_object(other));
+  return dumped({{"status", name_of(grasp.status)},
+                 {"message", grasp.message},
+                 {"candidates", grasp.candidates},
+                 {"placements", std::move(list)}});
+}
 
 bool is_assessment_json(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);

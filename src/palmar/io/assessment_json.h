@@ -19,5 +19,8 @@ bool is_assessment_json(const std::string& text);
 
 /// One grasp: status, message, posture in degrees, placement, what stopped each segment.
 std::string grasp_json(const Grasp& grasp);
+/// The grasp and its runners-up as one list, best first: {"status", "message", "candidates",
+/// "placements": [{"grip", "score", "posture", "product_from_hand"}]}.
+std::string placements_json(const Grasp& grasp);
 
 }  // namespace palmar
