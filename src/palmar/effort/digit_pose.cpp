@@ -1,0 +1,80 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/effort/digit_pose.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kStep = 1e-4;  // rad; error of the difference below 1e-8, rounding below 1e-9
+
+Twist hinge(const JointDof& dof, const Rigid3& proximal) {
+  const Vec3 axis = proximal.rotation * dof.axis;
+  return {axis, -axis.cross(proximal * dof.centre)};
+}
+
+Rigid3 turned(const JointDof& dof, const Posture& posture) {
+  return Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
+}
+
+Twist rate_of_cmc(const Skeleton& skeleton, const Posture& posture, Dof dof) {
+  Posture plus = posture, minus = posture;
+  plus[dof] += kStep;
+  minus[dof] -= kStep;
+  const Rigid3 after = cmc_displacement(skeleton, cmc_share(skeleton, plus));
+  const Rigid3 before = cmc_displacement(skeleton, cmc_share(skeleton, minus));
+  const Eigen::AngleAxisd turn(after.rotation * before.rotation.conjugate());
+  const Vec3 omega = turn.angle() * turn.axis() / (2.0 * kStep);
+  const Vec3 middle = 0.5 * (after.translation + before.translation);
+  const Vec3 rate = (after.translation - before.translation) / (2.0 * kStep);
+  return {omega, rate - omega.cross(middle)};
+}
+
+}  // namespace
+
+int body_count(Finger finger) { return finger == Finger::kThumb ? 4 : 5; }
+int distal_body(Finger finger) { return body_count(finger) - 1; }
+
+PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& posture) {
+  PosedDigit digit;
+  digit.finger = finger;
+  std::size_t k = 0;
+  int body = 0;
+  Rigid3 displacement;
+  if (finger == Finger::kThumb) {
+    displacement = cmc_displacement(skeleton, cmc_share(skeleton, posture));
+    for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction}) {
+      digit.dof[k] = dof;
+      digit.twist[k] = rate_of_cmc(skeleton, posture, dof);
+      digit.moves[k++] = 1;
+    }
+    digit.body[static_cast<std::size_t>(++body)] = displacement;
+  }
+  for (const auto& segment : segments_of(finger)) {
+    if (!segment) continue;
+    const Joint& joint = skeleton.joint(joint_of(*segment));
+    // The dofs of a joint are listed from its most distal axis.
+    for (auto dof = joint.dofs.rbegin(); dof != joint.dofs.rend(); ++dof) {
+      digit.dof[k] = dof->dof;
+      digit.twist[k] = hinge(*dof, displacement);
+      displacement = displacement * turned(*dof, posture);
+      digit.moves[k++] = ++body;
+      digit.body[static_cast<std::size_t>(body)] = displacement;
+    }
+  }
+  return digit;
+}
+
+int body_of(Segment segment) {
+  const auto finger = finger_of(segment);
+  if (!finger) return 0;
+  int body = body_count(*finger);
+  const auto segments = segments_of(*finger);
+  for (auto s = segments.rbegin(); s != segments.rend(); ++s) {
+    if (!*s) continue;
+    --body;
+    if (**s == segment) return body;
+  }
+  return 0;
+}
+
+}  // namespace palmar
