@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palmar/contact/contact_normals.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/skin_geometry.h"
 #include "palmar/core/error.h"
@@ -26,23 +27,6 @@ void require_finite(const Vec3& v, const std::string& name, const char* unit) {
   throw UsageError("friction: " + name + " is " + std::to_string(v.x()) + ", " +
                    std::to_string(v.y()) + ", " + std::to_string(v.z()) + " " + unit +
                    "; finite values are required");
-}
-
-/// Outward normals of the product where loaded vertices meet it: the way on which they were moved
-/// there; for those that hardly moved, of the surface.
-std::vector<Vec3> contact_normals(const ContactResult& contact, const DistanceField& product,
-                                  const std::vector<int>& loaded) {
-  constexpr double kClear = 0.05;  // mm; a direction over less than this is unsure
-  std::vector<Vec3> points, normals;
-  for (const int v : loaded) points.push_back(contact.deformed[static_cast<std::size_t>(v)]);
-  std::vector<DistanceSample> samples(points.size());
-  product.sample(points, 1.0, samples);
-  for (std::size_t k = 0; k < loaded.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded[k]);
-    const Vec3 way = contact.deformed[v] - contact.undeformed[v];
-    normals.push_back(way.norm() > kClear ? Vec3(way.normalized()) : samples[k].normal);
-  }
-  return normals;
 }
 
 /// How the skin round a vertex was turned from rest to its contact: the rotation that fits its

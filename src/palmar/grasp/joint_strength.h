@@ -1,0 +1,32 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "palmar/grasp/grip.h"
+#include "palmar/hand/anatomy.h"
+
+namespace palmar {
+
+/// Flexion moment [N mm] that muscles can put on a joint of a finger or of the thumb; 0 for other
+/// degrees of freedom. Fingers: Li, Zatsiorsky & Latash 2000, Clin Biomech 15:203-211 (lowest
+/// values of their table 3, at second hand). Thumb: half of the moments of a key pinch of 117 N
+/// (Mathiowetz et al. 1985, men of 30-34 years) at 22, 54 and 95 mm from the joints; half, since a
+/// power grip leaves the thumb the lesser part. That half is our choice.
+double flexion_strength(Dof dof);
+
+enum class Sex { kMale, kFemale };
+
+/// Mean grip strength of a dynamometer [N] by age in years: German general population 2006-2014,
+/// stature 175-179 cm (men), 165-169 cm (women); Steiber 2016, PLoS ONE 11(10):e0163917. Nothing
+/// below 17 or above 90 years.
+std::optional<double> grip_strength(Sex sex, double age);
+
+/// Share of the grip strength that a grip reaches: 1 for power grips; pinches after Mathiowetz et
+/// al. 1985 (men of 30-34 years): key 117.4, palmar 109.9, tip 78.3 N of 541.8 N grip; tripod and
+/// five fingers like the palmar pinch.
+double strength_share(Grip grip);
+
+}  // namespace palmar
