@@ -19,19 +19,44 @@ struct Hold {
   double distal_x, distal_y, distal_z, proximal_x, proximal_y, proximal_z;
 };
 
-constexpr Hold kDipTerminal = {-0.05, 0.154, -0.022, 0.0, 0.168, -0.015};
-constexpr Hold kDipProfundus = {-0.05, -0.141, 0.032, 0.3, -0.254, 0.033};
-constexpr Hold kPipProfundus = {-0.28, -0.273, -0.004, 0.4, -0.266, -0.004};
-constexpr Hold kPipSuperficialis = {-0.28, -0.207, 0.001, 0.4, -0.217, -0.016};
-constexpr Hold kPipCentral = {-0.03, 0.247, -0.024, 0.0, 0.236, -0.019};
-constexpr Hold kPipRadialBand = {-0.18, 0.172, 0.227, 0.1, 0.1, 0.242};
-constexpr Hold kPipUlnarBand = {-0.18, 0.161, -0.247, 0.1, 0.076, -0.279};
-constexpr Hold kMcpProfundus = {-0.18, -0.33, 0.023, 0.3, -0.47, 0.012};
-constexpr Hold kMcpSuperficialis = {-0.18, -0.393, 0.039, 0.3, -0.574, 0.019};
-constexpr Hold kMcpRadial = {-0.38, -0.038, 0.331, 0.4, -0.565, 0.471};
-constexpr Hold kMcpLumbrical = {-0.38, -0.14, 0.328, 0.4, -0.623, 0.422};
-constexpr Hold kMcpUlnar = {-0.38, 0.036, -0.357, 0.4, -0.264, -0.358};
-constexpr Hold kMcpExtensor = {-0.08, 0.322, -0.018, 0.0, 0.393, -0.039};
+/// All of one finger.
+struct Holds {
+  Hold dip_terminal, dip_profundus;
+  Hold pip_profundus, pip_superficialis, pip_central, pip_radial_band, pip_ulnar_band;
+  Hold mcp_profundus, mcp_superficialis, mcp_radial, mcp_lumbrical, mcp_ulnar, mcp_extensor;
+};
+
+// An et al. 1979, middle finger, as tabulated by Synek et al. 2019 with the ulnar interosseous'
+// proximal y corrected.
+constexpr Holds kAn1979 = {.dip_terminal = {-0.05, 0.154, -0.022, 0.0, 0.168, -0.015},
+                           .dip_profundus = {-0.05, -0.141, 0.032, 0.3, -0.254, 0.033},
+                           .pip_profundus = {-0.28, -0.273, -0.004, 0.4, -0.266, -0.004},
+                           .pip_superficialis = {-0.28, -0.207, 0.001, 0.4, -0.217, -0.016},
+                           .pip_central = {-0.03, 0.247, -0.024, 0.0, 0.236, -0.019},
+                           .pip_radial_band = {-0.18, 0.172, 0.227, 0.1, 0.1, 0.242},
+                           .pip_ulnar_band = {-0.18, 0.161, -0.247, 0.1, 0.076, -0.279},
+                           .mcp_profundus = {-0.18, -0.33, 0.023, 0.3, -0.47, 0.012},
+                           .mcp_superficialis = {-0.18, -0.393, 0.039, 0.3, -0.574, 0.019},
+                           .mcp_radial = {-0.38, -0.038, 0.331, 0.4, -0.565, 0.471},
+                           .mcp_lumbrical = {-0.38, -0.14, 0.328, 0.4, -0.623, 0.422},
+                           .mcp_ulnar = {-0.38, 0.036, -0.357, 0.4, -0.264, -0.358},
+                           .mcp_extensor = {-0.08, 0.322, -0.018, 0.0, 0.393, -0.039}};
+
+// Synek et al. 2019: the same, moved until the forces at the tips of three middle fingers came out.
+constexpr Holds kSynek2019 = {
+    .dip_terminal = {-0.0500, 0.1539, -0.022, 0.0002, 0.1575, -0.015},
+    .dip_profundus = {0.0352, -0.1277, 0.032, 0.2926, -0.2780, 0.033},
+    .pip_profundus = {-0.2859, -0.2875, -0.004, 0.4157, -0.2905, -0.004},
+    .pip_superficialis = {-0.2640, -0.1627, 0.001, 0.3316, -0.1328, -0.016},
+    .pip_central = {-0.0300, 0.2473, -0.024, -0.0004, 0.2306, -0.019},
+    .pip_radial_band = {-0.1805, 0.1698, 0.227, 0.1017, 0.0922, 0.242},
+    .pip_ulnar_band = {-0.1802, 0.1613, -0.247, 0.1020, 0.0786, -0.279},
+    .mcp_profundus = {-0.2323, -0.3143, 0.023, 0.3854, -0.5175, 0.012},
+    .mcp_superficialis = {-0.3244, -0.2938, 0.039, 0.4871, -0.5610, 0.019},
+    .mcp_radial = {-0.3125, 0.0701, 0.331, 0.2693, -0.1842, 0.471},
+    .mcp_lumbrical = {-0.3700, -0.1160, 0.328, 0.4107, -0.5980, 0.422},
+    .mcp_ulnar = {-0.3681, 0.0441, -0.357, 0.3880, -0.2397, -0.358},
+    .mcp_extensor = {-0.0687, 0.2656, -0.018, 0.0553, 0.4089, -0.039}};
 
 // O1O2, O3O4, O5O6 over O2O3 (An et al. 1979 by Synek et al. 2019): from the distal frame to the
 // centre of DIP, PIP and MCP. PIP and DIP centres are O2O3 + O3O4 apart.
@@ -113,7 +138,9 @@ double relative_width(const Hand& hand, Finger finger) {
   return middle > 0.0 && own > 0.0 ? own / middle : 1.0;
 }
 
-DigitTendons route_finger_tendons(const Hand& hand, Finger finger, const ExtensorHood& hood) {
+DigitTendons route_finger_tendons(const Hand& hand, Finger finger, const TendonModel& model) {
+  const Holds& holds = model.points == FingerPoints::kAn1979 ? kAn1979 : kSynek2019;
+  const ExtensorHood& hood = model.hood;
   const auto segments = segments_of(finger);
   const JointId mcp_id = joint_of(*segments[0]), pip_id = joint_of(*segments[1]),
                 dip_id = joint_of(*segments[2]);
@@ -135,23 +162,23 @@ DigitTendons route_finger_tendons(const Hand& hand, Finger finger, const Extenso
   };
   const auto with_hood = [&](TendonSpan at_mcp, const HoodShare& share) {
     TendonPath path = {std::move(at_mcp)};
-    if (share.central > 0.0) path.push_back(wrapped(pip, kPipCentral, share.central));
-    if (share.radial > 0.0) path.push_back(straight(pip, kPipRadialBand, share.radial));
-    if (share.ulnar > 0.0) path.push_back(straight(pip, kPipUlnarBand, share.ulnar));
+    if (share.central > 0.0) path.push_back(wrapped(pip, holds.pip_central, share.central));
+    if (share.radial > 0.0) path.push_back(straight(pip, holds.pip_radial_band, share.radial));
+    if (share.ulnar > 0.0) path.push_back(straight(pip, holds.pip_ulnar_band, share.ulnar));
     const double terminal = share.radial + share.ulnar;
-    if (terminal > 0.0) path.push_back(wrapped(dip, kDipTerminal, terminal));
+    if (terminal > 0.0) path.push_back(wrapped(dip, holds.dip_terminal, terminal));
     return path;
   };
 
   // In the order of tendons_of().
   return {finger,
-          {{wrapped(mcp, kMcpProfundus, 1.0), wrapped(pip, kPipProfundus, 1.0),
-            wrapped(dip, kDipProfundus, 1.0)},
-           {wrapped(mcp, kMcpSuperficialis, 1.0), wrapped(pip, kPipSuperficialis, 1.0)},
-           with_hood(wrapped(mcp, kMcpExtensor, 1.0), hood.edc),
-           with_hood(straight(mcp, kMcpLumbrical, 1.0), hood.lumbrical),
-           with_hood(straight(mcp, kMcpRadial, 1.0), hood.radial_interosseous),
-           with_hood(straight(mcp, kMcpUlnar, 1.0), hood.ulnar_interosseous)}};
+          {{wrapped(mcp, holds.mcp_profundus, 1.0), wrapped(pip, holds.pip_profundus, 1.0),
+            wrapped(dip, holds.dip_profundus, 1.0)},
+           {wrapped(mcp, holds.mcp_superficialis, 1.0), wrapped(pip, holds.pip_superficialis, 1.0)},
+           with_hood(wrapped(mcp, holds.mcp_extensor, 1.0), hood.edc),
+           with_hood(straight(mcp, holds.mcp_lumbrical, 1.0), hood.lumbrical),
+           with_hood(straight(mcp, holds.mcp_radial, 1.0), hood.radial_interosseous),
+           with_hood(straight(mcp, holds.mcp_ulnar, 1.0), hood.ulnar_interosseous)}};
 }
 
 void check_share(const std::string& muscle, const HoodShare& share) {
@@ -169,6 +196,13 @@ void check_share(const std::string& muscle, const HoodShare& share) {
 
 }  // namespace
 
+ExtensorHood chao1989_hood() {
+  return {.edc = {0.167, 0.167, 0.167},
+          .lumbrical = {0.333, 0.667, 0.0},
+          .radial_interosseous = {0.133, 0.133, 0.0},
+          .ulnar_interosseous = {0.313, 0.0, 0.313}};
+}
+
 void ExtensorHood::check() const {
   check_share("extensor digitorum", edc);
   check_share("lumbrical", lumbrical);
@@ -176,10 +210,10 @@ void ExtensorHood::check() const {
   check_share("ulnar interosseous", ulnar_interosseous);
 }
 
-DigitTendons route_tendons(const Hand& hand, Finger finger, const ExtensorHood& hood) {
-  hood.check();
+DigitTendons route_tendons(const Hand& hand, Finger finger, const TendonModel& model) {
+  model.hood.check();
   if (finger == Finger::kThumb) return route_thumb_tendons(hand);
-  return route_finger_tendons(hand, finger, hood);
+  return route_finger_tendons(hand, finger, model);
 }
 
 std::vector<std::array<double, kDigitDofs>> moment_arms(const DigitTendons& tendons,

@@ -1,0 +1,83 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/effort/fingertip_force.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <string>
+
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+/// A force along the finger must have a lever of at least this share of the finger's length in the
+/// joints, else the answer is rounding.
+constexpr double kLeastLever = 0.01;
+
+std::size_t index_of(Finger finger, Tendon tendon) {
+  const auto own = tendons_of(finger);
+  std::string known;
+  for (std::size_t t = 0; t < own.size(); ++t) {
+    if (own[t] == tendon) return t;
+    known += (t > 0 ? ", " : "") + std::string(name_of(own[t]));
+  }
+  throw UsageError("the " + std::string(name_of(finger)) + " has no tendon " +
+                   std::string(name_of(tendon)) + "; it has " + known);
+}
+
+}  // namespace
+
+FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
+                               const Posture& posture, Tendon tendon, double tendon_force) {
+  const std::size_t t = index_of(tendons.finger, tendon);
+  if (!(tendon_force > 0.0) || tendon_force > kLargestTendonForce) {
+    throw UsageError("tendon force is " + std::to_string(tendon_force) +
+                     " N; above 0 and at most " + std::to_string(kLargestTendonForce) +
+                     " N is allowed");
+  }
+  const PosedDigit digit = pose_digit(hand.skeleton, tendons.finger, posture);
+  const int body = distal_body(tendons.finger);
+  const Rigid3& posed = digit.body[static_cast<std::size_t>(body)];
+  const Vec3 tip_at_rest = hand.skeleton.fingertips[static_cast<std::size_t>(tendons.finger)];
+
+  FingertipForce result;
+  result.finger = tendons.finger;
+  result.tendon = tendon;
+  result.tendon_force = tendon_force;
+  result.dof = digit.dof;
+  result.moment_arm = moment_arms(tendons.path[t], digit);
+  result.point = posed * tip_at_rest;
+
+  const JointDof& last = hand.skeleton.dof(digit.dof.back());
+  const Vec3 axis = posed.rotation * last.axis;
+  Vec3 along = posed.rotation * (tip_at_rest - last.centre);
+  const double length = along.norm();
+  along = (along - along.dot(axis) * axis).normalized();
+
+  // Unknowns: force, and moment over the length of the distal phalanx, so that columns compare.
+  Eigen::Matrix4d balance;
+  Eigen::Vector4d moment;
+  for (int k = 0; k < kDigitDofs; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    balance.row(k).head<3>() = digit.velocity(k, body, result.point);
+    balance(k, 3) = length * digit.twist[i].omega.dot(axis);
+    moment[k] = tendon_force * result.moment_arm[i];
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix4d> svd(balance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.singularValues()[3] < kLeastLever * svd.singularValues()[0]) {
+    throw NumericalError("the " + std::string(name_of(tendons.finger)) +
+                         " is too straight: a force along it has no lever about any joint, so that "
+                         "the force at its tip can't be told; flex its joints");
+  }
+  const Eigen::Vector4d solution = svd.solve(moment);
+  result.force = solution.head<3>();
+  result.moment = solution[3] * length;
+  const Vec3 radial = hand.side == Side::kRight ? axis : Vec3(-axis);
+  result.force_in_phalanx = {result.force.dot(radial), result.force.dot(along),
+                             result.force.dot(axis.cross(along))};
+  return result;
+}
+
+}  // namespace palmar
