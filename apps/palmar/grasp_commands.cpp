@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "grasp_evaluate_command.h"
 #include "grasp_options.h"
+#include "grasp_reach_command.h"
 #include "palmar/io/assessment_json.h"
 #include "palmar/io/file.h"
 #include "palmar/io/product_file.h"
@@ -71,6 +72,7 @@ void add_grasp_commands(CLI::App& app, Context& context) {
   });
   add_place(*grasp, context);
   add_grasp_evaluate(*grasp, context);
+  add_grasp_reach(*grasp, context);
 }
 
 }  // namespace palmar::cli

@@ -206,6 +206,9 @@ class FingertipSystem {
   void add_crossings(const State& state, const FingerMotion& motion);
   void add_balls(const State& state, const FingerMotion& motion);
   double give_of(const FingertipIk::Ball& ball) const;
+  bool is_moving(Finger finger) const {
+    return problem_->is_finger_free[static_cast<std::size_t>(finger)];
+  }
   State stepped(const State& state, const Row& step) const;
   void minimise(State& state, const Stage& stage, int most);
 
@@ -303,6 +306,7 @@ void FingertipSystem::add_crossings(const State& state, const FingerMotion& moti
   for (const RoundCone& p : cones) {
     for (const RoundCone& q : cones) {
       if (!may_cross(p, q)) continue;
+      if (!is_moving(p.finger) && !is_moving(q.finger)) continue;
       const Segment sp = phalanx_of(p), sq = phalanx_of(q);
       // Between two that touch lies the product.
       const bool is_thumb = p.finger == Finger::kThumb;
@@ -344,7 +348,11 @@ void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) 
   if (problem_->product == nullptr) return;
   points_.clear();
   points_in_hand_.clear();
+  std::vector<const FingertipIk::Ball*> balls;
   for (const FingertipIk::Ball& ball : ik_->balls_) {
+    const bool is_still = !ball.finger || (!ball.phalanx && ball.finger != Finger::kThumb);
+    if (!problem_->is_hand_free && (is_still || !is_moving(*ball.finger))) continue;
+    balls.push_back(&ball);
     const Rigid3& moved = !ball.finger ? motion.posed().forearm
                           : ball.phalanx
                               ? motion.posed().segment[static_cast<std::size_t>(*ball.phalanx)]
@@ -357,7 +365,7 @@ void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) 
   problem_->product->sample(points_, kFarOff, samples_);
   static const std::vector<DofMotion> kFixed;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const FingertipIk::Ball& ball = ik_->balls_[k];
+    const FingertipIk::Ball& ball = *balls[k];
     const double excess = ball.radius - samples_[k].distance - give_of(ball);
     if (excess <= 0.0) continue;
     clash_ = std::max(clash_, excess);
