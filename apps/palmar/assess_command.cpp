@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "balance_arguments.h"
 #include "cli.h"
 #include "friction_arguments.h"
 #include "grasp_options.h"
@@ -26,6 +27,7 @@ struct AssessArguments {
   GraspArguments grasp;
   ContactArguments contact;
   FrictionArguments friction;
+  BalanceArguments balance;
   std::string out;
   bool no_pictures = false;
 };
@@ -38,9 +40,10 @@ std::string default_folder() {
 }
 
 std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
-  std::string text = fmt::format("== {}\n{}{}", product.name, grasp_text(assessment.grasp),
-                                 contact_text(assessment.contact)) +
-                     friction_text(hand, assessment);
+  std::string text =
+      fmt::format("== {}\n{}{}{}", product.name, grasp_text(assessment.grasp),
+                  balance_text(assessment.balance), contact_text(assessment.contact)) +
+      friction_text(hand, assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
@@ -75,12 +78,14 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   options.grasp = arguments.grasp.options();
   options.contact = arguments.contact.options();
   options.friction = arguments.friction.options();
+  options.balance = arguments.balance.options(arguments.friction, options.grasp.grip);
   const ContactModel model = arguments.contact.model();
   options.seed = context.common.seed;
   const Progress progress = make_progress(context.common);
 
   if (!arguments.out.empty()) check_report_folder(arguments.out);
 
+  std::vector<FrictionOptions> friction;  // per product
   // Every product is read before the first is grasped: a mistyped name costs no waiting.
   std::vector<Product> products;
   for (const std::string& path : arguments.products) {
@@ -88,6 +93,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     products.push_back(load_product(path, {.unit = parse_unit(arguments.grasp.unit)}));
     if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
     add_findings(products.back());
+    friction.push_back(arguments.friction.options_for(products.back()));
     for (const std::string& text : products.back().notes) note(context.common, path + ": " + text);
   }
 
@@ -107,6 +113,8 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
                         products[i].name + ": " + activity);
       };
     }
+    options.friction = friction[i];
+    options.balance.load = options.friction.load;
     try {
       done.push_back({products[i], assess(prepared, products[i], options, part)});
     } catch (const Cancelled&) {
@@ -165,6 +173,7 @@ void add_assess_command(CLI::App& app, Context& context) {
   arguments->grasp.add_to(*verb);
   arguments->contact.add_to(*verb);
   arguments->friction.add_to(*verb);
+  arguments->balance.add_to(*verb);
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");

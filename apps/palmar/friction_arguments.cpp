@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "palmar/core/error.h"
+#include "palmar/product/mass.h"
 #include "palmar/report/friction_section.h"
 
 namespace palmar::cli {
@@ -23,9 +24,13 @@ double positive(const char* option, double value, const char* unit) {
 void FrictionArguments::add_to(CLI::App& verb) {
   verb.add_option("--friction", coefficient,
                   "Coefficient of friction of skin on the product (0.3 to 1.2 is usual): tells "
-                  "whether the hand holds the load; default: friction is left out");
+                  "whether the hand holds the load; default: 0.5 while the grasp comes to rest and "
+                  "for a given load. 0: none");
   CLI::Option* mass = verb.add_option("--mass-kg", mass_kg, "Mass of the product, kg");
   verb.add_option("--weight-n", weight_n, "Weight of the product instead of its mass, N")
+      ->excludes(mass);
+  verb.add_option("--density-g-cm3", density,
+                  "Density of the product, solid throughout, instead of its mass, g/cm3")
       ->excludes(mass);
   verb.add_option("--gravity", gravity,
                   "Direction of gravity in the product's frame, x,y,z; default 0,0,-1");
@@ -39,28 +44,11 @@ void FrictionArguments::add_to(CLI::App& verb) {
 
 FrictionOptions FrictionArguments::options() const {
   FrictionOptions result;
-  if (!coefficient) {
-    const auto needs = [](const char* option, bool is_given) {
-      if (is_given) {
-        throw UsageError(std::string(option) +
-                         " says what friction has to hold; --friction with "
-                         "the coefficient is required with it");
-      }
-    };
-    needs("--mass-kg", mass_kg.has_value());
-    needs("--weight-n", weight_n.has_value());
-    needs("--gravity", !gravity.empty());
-    needs("--mass-at", !mass_at.empty());
-    needs("--load-n", !load_n.empty());
-    needs("--torque-n-mm", !torque_n_mm.empty());
-    needs("--load-at", !load_at.empty());
-    return result;
+  if (coefficient && !(*coefficient >= 0.0 && *coefficient <= 5.0)) {
+    throw UsageError(fmt::format("--friction is {}; 0 to 5 is required", *coefficient));
   }
-  if (!(*coefficient > 0.0 && *coefficient <= 5.0)) {
-    throw UsageError(
-        fmt::format("--friction is {}; more than 0 and at most 5 is required", *coefficient));
-  }
-  result.coefficient = *coefficient;
+  result.coefficient = coefficient.value_or(has_load() ? kUsualFriction : 0.0);
+  if (density) positive("--density-g-cm3", *density, "g/cm3");
   ProductLoad& load = result.load;
   if (mass_kg) load.weight = kStandardGravity * positive("--mass-kg", *mass_kg, "kg");
   if (weight_n) load.weight = positive("--weight-n", *weight_n, "N");
@@ -71,6 +59,20 @@ FrictionOptions FrictionArguments::options() const {
   if (!torque_n_mm.empty()) load.torque = parse_vector("--torque-n-mm", torque_n_mm);
   if (!load_at.empty()) load.force_at = parse_vector("--load-at", load_at);
   result.check();
+  return result;
+}
+
+bool FrictionArguments::has_load() const {
+  return mass_kg || weight_n || density || !load_n.empty() || !torque_n_mm.empty();
+}
+
+FrictionOptions FrictionArguments::options_for(const Product& product) const {
+  FrictionOptions result = options();
+  const bool has_weight = mass_kg || weight_n || density;
+  if (density || (has_weight && mass_at.empty())) {
+    const MassProperties solid = mass_properties(product);
+    if (density) result.load.weight = weight_of(solid.volume, *density);
+  }
   return result;
 }
 

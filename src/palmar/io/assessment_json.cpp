@@ -207,6 +207,23 @@ Json friction_object(const FrictionResult& friction, const FrictionOptions& opti
           {"regions", std::move(regions)}};
 }
 
+Json balance_object(const Balance& balance) {
+  return {{"status", name_of(balance.status)},
+          {"message", balance.message},
+          {"friction_coefficient", balance.friction},
+          {"grip_force_n", balance.grip_force},
+          {"sum_of_normal_forces_n", balance.sum_of_normals},
+          {"residual_force_n", balance.residual_force},
+          {"residual_moment_n_mm", balance.residual_moment},
+          {"residual_over_grip_force", balance.residual_share},
+          {"friction_in_use", balance.friction_use},
+          {"flexion_strength_in_use", or_null(balance.strength_use)},
+          {"moved_mm", balance.moved},
+          {"turned_deg", balance.turned * kDegrees},
+          {"slip_direction_in_hand", balance.slip ? vector3(*balance.slip) : Json(nullptr)},
+          {"iterations", balance.iterations}};
+}
+
 Json product_object(const Product& product) {
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
@@ -270,6 +287,9 @@ Json settings_object(const Assessment& assessment) {
           {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
           {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
           {"turn_deg", placed.turn ? Json(*placed.turn * kDegrees) : Json(nullptr)},
+          {"balance", options.balance.is_on},
+          {"balance_friction", options.balance.friction},
+          {"grip_force_asked_n", or_null(options.balance.grip_force)},
           {"contact_model", name_of(assessment.contact.model)},
           {"kernel", name_of(assessment.contact.model.kernel)},
           {"tissue_model", name_of(assessment.contact.model.tissue)},
@@ -311,10 +331,13 @@ std::string assessment_json(const AssessmentSet& set) {
     Json entry = {{"product", product_object(one.product)},
                   {"hand", std::move(hand)},
                   {"grasp", grasp_object(assessment.grasp)},
+                  {"balance", balance_object(assessment.balance)},
                   {"contact", contact_object(assessment.contact)},
                   {"indices", indices_object(assessment.contact)},
                   {"settings", settings_object(assessment)}};
-    Json times = {{"grasp", assessment.times.grasp}, {"contact", assessment.times.contact}};
+    Json times = {{"grasp", assessment.times.grasp},
+                  {"balance", assessment.times.balance},
+                  {"contact", assessment.times.contact}};
     if (assessment.options.friction.is_on()) {
       entry["friction"] = friction_object(assessment.friction, assessment.options.friction);
       times["friction"] = assessment.times.friction;

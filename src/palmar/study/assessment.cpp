@@ -57,15 +57,25 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
 Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
                   const Progress& progress) {
   options.grasp.check();
+  options.balance.check();
   options.contact.check();
   options.friction.check();
 
   progress.update(0.0, "closing the hand");
   const Stopwatch watch;
-  const Grasp grasp = find_grasp(hand.hand(), product, options.grasp, progress);
+  Grasp grasp = find_grasp(hand.hand(), product, options.grasp, progress);
   const double seconds = watch.seconds();
+  progress.update(0.5, "letting the grasp come to rest");
+  const Stopwatch balance_watch;
+  const bool is_held =
+      grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
+  Balance balance;
+  if (is_held) balance = balance_grasp(hand, product, grasp, options.balance, options.contact);
+  const double balance_seconds = balance_watch.seconds();
   Assessment result = evaluate(hand, product, grasp, options, progress);
+  result.balance = std::move(balance);
   result.times.grasp = seconds;
+  result.times.balance = balance_seconds;
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/friction.h"
 #include "palmar/core/progress.h"
+#include "palmar/grasp/balance.h"
 #include "palmar/grasp/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
@@ -19,6 +20,7 @@ namespace palmar {
 
 struct AssessOptions {
   GraspOptions grasp;
+  BalanceOptions balance;  ///< on unless switched off
   ContactOptions contact;
   FrictionOptions friction;  ///< off unless it has a coefficient
   std::uint64_t seed =
@@ -28,6 +30,7 @@ struct AssessOptions {
 /// Seconds spent, for the record; not part of the deterministic result.
 struct AssessTimes {
   double grasp = 0.0;     ///< s
+  double balance = 0.0;   ///< s
   double contact = 0.0;   ///< s
   double friction = 0.0;  ///< s
 };
@@ -35,7 +38,8 @@ struct AssessTimes {
 /// One hand holding one product: grasp, contact, footprint.
 struct Assessment {
   std::string hand_name;
-  Grasp grasp;
+  Grasp grasp;                   ///< posture and placement at rest; stops as the hand was closed
+  Balance balance;               ///< how it came to rest
   std::vector<Vec3> posed_skin;  ///< hand frame, mm
   ContactResult contact;
   FrictionResult friction;
@@ -63,8 +67,9 @@ struct AssessmentSet {
 Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
                     const AssessOptions& options = {}, const Progress& progress = {});
 
-/// Grasps the product and evaluates that. A product that can't be held gives an assessment whose
-/// grasp says why. Throws UsageError, Cancelled.
+/// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
+/// an assessment whose grasp says why; one that slips out is shown as the hand was closed. Throws
+/// UsageError, Cancelled.
 Assessment assess(const PreparedHand& hand, const Product& product,
                   const AssessOptions& options = {}, const Progress& progress = {});
 
