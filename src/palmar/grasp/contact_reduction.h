@@ -11,7 +11,7 @@ namespace palmar {
 
 struct ReductionOptions {
   int per_region = 2;      ///< contacts at most per region of the hand, 1 to 16
-  int max_contacts = 16;   ///< in all, 4 to 64; regions with the least force get fewer
+  int max_contacts = 24;   ///< in all, 4 to 64; regions with the least force get fewer
   double friction = 0.46;  ///< mu of skin on the product
   /// Whether a contact may carry torsion, as far as its patch of skin allows.
   bool soft_finger = true;

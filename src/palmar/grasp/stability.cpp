@@ -69,26 +69,50 @@ Columns columns_of(const PointGroups<6>& groups) {
   return columns;
 }
 
-/// Least factor on the known normal forces.
+/// Least factor on the known normal forces. With S the wrenches that these forces and friction can
+/// make, load + lambda s = 0 for an s in S: a combination of corners s_k of S with factors m_k >= 0
+/// and lambda = sum m_k. S has too many corners to list; those that matter are made as the dual
+/// asks for them (column generation; Dantzig, Wolfe 1960).
 std::optional<double> least_factor(const std::vector<GraspContact>& contacts,
-                                   const Columns& columns, const Wrench6& load) {
+                                   const PointGroups<6>& groups, const Wrench6& load) {
   double sum = 0.0;
   for (const GraspContact& one : contacts) sum += one.normal_force;
   if (!(sum > 0.0)) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(contacts.size());
-  const Eigen::Index n = columns.wrench.cols();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6 + count, n + 1);
-  A.topLeftCorner(6, n) = columns.wrench;
-  for (Eigen::Index j = 0; j < n; ++j) A(6 + columns.contact[static_cast<std::size_t>(j)], j) = 1.0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    A(6 + i, n) = -contacts[static_cast<std::size_t>(i)].normal_force / sum;
+  const auto corner = [&](const Eigen::VectorXd& along) {
+    Wrench6 s = Wrench6::Zero();
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Wrench6* best = nullptr;
+      double largest = 0.0;
+      for (const Wrench6& w : groups.group[i]) {
+        const double here = along.dot(w);
+        if (best == nullptr || here > largest) {
+          best = &w;
+          largest = here;
+        }
+      }
+      s += contacts[i].normal_force / sum * *best;
+    }
+    return s;
+  };
+  const double size = load.norm();
+  constexpr int kMostCorners = 400;
+  Eigen::MatrixXd corners = corner(-load);
+  while (corners.cols() < kMostCorners) {
+    const ProgramSolution found =
+        solve_linear_program(Eigen::VectorXd::Ones(corners.cols()), corners, -load / size);
+    const bool is_optimal = found.status == ProgramStatus::kOptimal;
+    if (!is_optimal && found.status != ProgramStatus::kInfeasible) break;
+    const Wrench6 next = corner(found.dual);
+    // A corner helps if its reduced cost is below 0: 1 - y . s, without the 1 while infeasible.
+    const double gain = found.dual.dot(next) - (is_optimal ? 1.0 : 0.0);
+    if (gain <= 1e-9 * std::max(1.0, found.dual.norm())) {
+      if (!is_optimal) break;
+      return found.value * size / sum;
+    }
+    corners.conservativeResize(Eigen::NoChange, corners.cols() + 1);
+    corners.rightCols<1>() = next;
   }
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(6 + count), c = Eigen::VectorXd::Zero(n + 1);
-  b.head<6>() = -load;
-  c[n] = 1.0;
-  const ProgramSolution found = solve_linear_program(c, A, b);
-  if (found.status != ProgramStatus::kOptimal) return std::nullopt;
-  return found.value / sum;
+  return std::nullopt;
 }
 
 std::string closure_message(const StabilityResult& result) {
@@ -114,6 +138,10 @@ std::string closure_message(const StabilityResult& result) {
 }  // namespace
 
 void StabilityOptions::check() const {
+  if (volume_contacts < 4 || volume_contacts > 64) {
+    throw UsageError("stability: contacts for the volume are " + std::to_string(volume_contacts) +
+                     "; 4 to 64 are allowed");
+  }
   reduction.check();
   wrench.check();
   if (load) FrictionOptions{.coefficient = reduction.friction, .load = *load}.check();
@@ -154,7 +182,8 @@ GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wren
     result.message = "nothing is touched, so nothing is held";
     return result;
   }
-  const Columns columns = columns_of(primitive_wrenches(contacts, reference, scale, options));
+  const PointGroups<6> groups = primitive_wrenches(contacts, reference, scale, options);
+  const Columns columns = columns_of(groups);
   const ProgramSolution found =
       solve_linear_program(Eigen::VectorXd::Ones(columns.wrench.cols()), columns.wrench, -w / size);
   if (found.status == ProgramStatus::kInfeasible) {
@@ -178,7 +207,7 @@ GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wren
         size * found.x[j] * columns.wrench.col(j).head<3>();
   }
   result.balance_error = (columns.wrench * found.x + w / size).norm();
-  result.factor = least_factor(contacts, columns, w);
+  result.factor = least_factor(contacts, groups, w);
   return result;
 }
 
@@ -192,9 +221,18 @@ StabilityResult assess_stability(const Hand& hand, const ContactResult& contact,
   result.wrench = options.wrench;
   result.contacts = reduce_contact(hand, contact, options.reduction);
   WrenchOptions wrench = options.wrench;
-  wrench.body.with_volume = options.with_volume;
-  result.l1 = measure_wrench_space(result.contacts, mass_centre, WrenchNorm::kL1, wrench);
   wrench.body.with_volume = false;
+  result.l1 = measure_wrench_space(result.contacts, mass_centre, WrenchNorm::kL1, wrench);
+  wrench.torque_scale = result.l1.torque_scale;
+  if (options.with_volume) {
+    ReductionOptions fewer = options.reduction;
+    fewer.max_contacts = std::min(fewer.max_contacts, options.volume_contacts);
+    result.volume_contacts = reduce_contact(hand, contact, fewer);
+    wrench.body.with_volume = true;
+    result.volume =
+        measure_wrench_space(result.volume_contacts, mass_centre, WrenchNorm::kL1, wrench);
+    wrench.body.with_volume = false;
+  }
   if (options.with_linf) {
     result.linf = measure_wrench_space(result.contacts, mass_centre, WrenchNorm::kLinf, wrench);
   }

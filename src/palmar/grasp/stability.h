@@ -18,9 +18,11 @@ struct StabilityOptions {
   ReductionOptions reduction;
   /// Bounds are close enough when they differ by a thousandth.
   WrenchOptions wrench{
-      .body = {.distance_gap = 1e-3, .max_facets = 8000, .max_volume_facets = 12000}};
+      .body = {.distance_gap = 1e-3, .max_facets = 8000, .max_volume_facets = 15000}};
   bool with_linf = true;
   bool with_volume = true;  ///< of the L1 space; that of Linf is out of reach
+  /// Contacts for the volume, 4 to 64: the hull of more has too many facets for 50 ms.
+  int volume_contacts = 10;
   /// What is to be held; nothing: no grip force is asked for.
   std::optional<ProductLoad> load;
   void check() const;  ///< throws UsageError: field, value, allowed range
@@ -69,7 +71,9 @@ struct StabilityResult {
   double friction = 0.0;
   WrenchOptions wrench;  ///< that ran
   WrenchSpace<6> l1, linf;
-  std::optional<GripForce> grip;  ///< with StabilityOptions::load
+  std::vector<GraspContact> volume_contacts;  ///< fewer, for the volume
+  std::optional<WrenchSpace<6>> volume;  ///< L1 space of those, with StabilityOptions::with_volume
+  std::optional<GripForce> grip;         ///< with StabilityOptions::load
 };
 
 /// Stability of a hand's contact, as if the contacts could press with any force (their friction

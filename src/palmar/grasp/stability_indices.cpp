@@ -30,8 +30,9 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
   return index;
 }
 
-std::string setting_words(const StabilityResult& result) {
-  return std::to_string(result.contacts.size()) + " contacts, friction " + number(result.friction) +
+std::string setting_words(const StabilityResult& result,
+                          const std::vector<GraspContact>& contacts) {
+  return std::to_string(contacts.size()) + " contacts, friction " + number(result.friction) +
          ", cones of " + std::to_string(result.wrench.sides) + " sides, moments divided by " +
          number(result.l1.torque_scale) + " mm";
 }
@@ -54,8 +55,8 @@ void add_epsilon(const WrenchSpace<6>& space, const StabilityResult& result, Gra
                     std::sqrt(1.0 + result.friction * result.friction);
   }
   if (space.status != ClosureStatus::kNoContact) index.value = space.epsilon;
-  index.remark =
-      space.status == ClosureStatus::kNoContact ? "nothing is touched" : setting_words(result);
+  index.remark = space.status == ClosureStatus::kNoContact ? "nothing is touched"
+                                                           : setting_words(result, result.contacts);
   if (space.status == ClosureStatus::kForceClosure && !space.body.is_distance_exact) {
     index.remark += "; proven lower bound " + number(space.body.distance_lower);
   }
@@ -107,19 +108,20 @@ GraspIndices to_indices(const StabilityResult& result) {
   rows.push_back(closure);
   add_epsilon(result.l1, result, rows);
   if (result.linf.norm == WrenchNorm::kLinf) add_epsilon(result.linf, result, rows);
-  if (std::isfinite(result.l1.body.volume_upper)) {
+  if (result.volume) {
+    const BodyMeasures<6>& body = result.volume->body;
     GraspIndex volume =
         row("wrench_volume_l1", "volume of the wrenches that the grasp can meet", "", Better::kUp,
             "volume of the grasp wrench space, L1 (six dimensions, normal forces "
-            "that sum to 1), with 0 in its hull",
+            "that sum to 1), with 0 in its hull; compare only at equal settings",
             "Ferrari and Canny 1992; Miller and Allen 1999");
     if (result.l1.status == ClosureStatus::kNoContact) {
       volume.remark = "nothing is touched";
     } else {
-      volume.value = result.l1.body.volume;
-      volume.remark = setting_words(result);
-      if (!result.l1.body.is_volume_exact) {
-        volume.remark += "; lower bound, upper bound " + number(result.l1.body.volume_upper);
+      volume.value = body.volume;
+      volume.remark = setting_words(result, result.volume_contacts);
+      if (!body.is_volume_exact) {
+        volume.remark += "; lower bound, upper bound " + number(body.volume_upper);
       }
     }
     rows.push_back(volume);

@@ -6,21 +6,6 @@
 
 namespace palmar {
 
-double pain_onset_film(Region region) {
-  switch (region) {
-    case Region::kThenar:
-    case Region::kDorsum:
-      return 2.0;
-    case Region::kHypothenar:
-    case Region::kCentralPalm:
-    case Region::kRadialPalm:
-    case Region::kUlnarPalm:
-      return 2.6;
-    default:
-      return 3.0;
-  }
-}
-
 std::optional<NearestToPain> nearest_to_pain(const ContactResult& contact) {
   std::optional<NearestToPain> nearest;
   for (const RegionContact& one : contact.regions) {

@@ -5,24 +5,14 @@
 #include <optional>
 
 #include "palmar/contact/contact.h"
+#include "palmar/grasp/pressure_thresholds.h"
 #include "palmar/study/assessment.h"
 
 namespace palmar {
 
-/// Pressure limits come in families that differ tenfold and must never be mixed:
-///
-/// 1. film peak pressure at the onset of pain (75th percentile of 100 adults; ISO/TS 15066:2016,
-///    Table A.2), held against the peak pressure of a vertex;
-/// 2. pressure at which the skin's blood flow stops (Chalmers thesis 2004, publication 208), for
-///    grips held long, held against the peak on sensor cells.
-///
-/// A third, mean pressure under an algometer (0.1 to 0.2 MPa), is not used: there is no algometer.
-
-/// Pain onset as film peak pressure, MPa: 3.0 finger pad (used for all phalanges), 2.6 palm, 2.0
-/// thenar, 2.0 back of the hand.
-double pain_onset_film(Region region);
-
-constexpr double kBloodFlowStop = 0.05;  // MPa, sustained
+/// What the report says of them; the limits and their families: pressure_thresholds.h. It holds the
+/// film family against the peak pressure of a vertex, on the safe side of the cells that comfort.h
+/// takes.
 
 /// The region that comes nearest to its pain onset.
 struct NearestToPain {
