@@ -1,0 +1,96 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/friction.h"
+#include "palmar/effort/digit_tendons.h"
+#include "palmar/effort/joint_moments.h"
+#include "palmar/grasp/grasp_index.h"
+
+namespace palmar {
+
+struct EffortOptions {
+  /// n of min sum (F / PCSA)^n; 3 after Crowninshield & Brand 1981 (spreads the load as endurance
+  /// asks), 2 is also common.
+  int exponent = 3;
+  double specific_tension = kSpecificTension;  ///< MPa, times the cross-section = strength
+  double strength = 1.0;         ///< of the person over that of the cadavers' muscles; above 0
+  bool joint_stops = true;       ///< a joint at the end of its range is held there by its ligaments
+  double stop_margin = 0.00873;  ///< rad (0.5 degrees); this near the end counts as at the end
+  TendonModel tendons;
+  void check() const;  ///< throws UsageError: field, value, allowed range
+};
+
+enum class EffortStatus {
+  kNoLoad,        ///< nothing touches the digit
+  kHeld,          ///< the muscles hold the load
+  kOverloaded,    ///< they can't; the missing moments are told
+  kNotConverged,  ///< numerical failure
+};
+std::string_view name_of(EffortStatus status);  ///< "no_load", "held", "overloaded", ...
+
+/// One muscle.
+struct TendonLoad {
+  Tendon tendon{};
+  double force = 0.0;                           ///< N
+  double strength = 0.0;                        ///< largest force, N
+  double activation = 0.0;                      ///< force / strength, 0 to 1
+  std::array<double, kDigitDofs> moment_arm{};  ///< mm, in the order of DigitEffort::joints
+};
+
+/// One degree of freedom; moments in the angle's positive sense, N mm. They add up to `missing`,
+/// turned round: external + muscles + stop = -missing.
+struct JointEffort {
+  Dof dof{};
+  double external = 0.0;  ///< of the contact forces
+  double muscles = 0.0;
+  double stop = 0.0;     ///< of the joint's ligaments at the end of its range
+  double missing = 0.0;  ///< what the muscles would have to give beyond what they can
+};
+
+struct DigitEffort {
+  Finger finger{};
+  EffortStatus status = EffortStatus::kNoLoad;
+  double contact_force = 0.0;                  ///< sum of |force| on the digit, N
+  std::array<JointEffort, kDigitDofs> joints;  ///< from the palm outwards
+  std::vector<TendonLoad> tendons;             ///< in the order of tendons_of(finger)
+  double kkt_residual = 0.0;                   ///< see MuscleSolution
+  int iterations = 0;
+};
+
+/// What muscles do while a hand holds a product.
+struct EffortResult {
+  EffortStatus status = EffortStatus::kNoLoad;  ///< the worst of the digits
+  std::string message;         ///< which moments are missing where: "index DIP flexion: 120 N mm"
+  bool with_friction = false;  ///< friction forces are in the loads
+  double contact_force = 0.0;  ///< sum of |force| on the five digits, N
+  double tendon_force = 0.0;   ///< sum over all muscles, N
+  std::array<DigitEffort, kFingerCount> digits;  ///< indexed by Finger
+};
+
+/// Tendon forces of every digit by static optimisation: contact forces (joint_moments.h) against
+/// the muscles' moments (digit_tendons.h), muscle_balance.h. Not modelled: the weight of the hand,
+/// the wrist, muscles shared between fingers, passive stiffness within the range of motion.
+/// Deterministic; throws UsageError on bad options.
+EffortResult assess_effort(const Hand& hand, const Posture& posture, const ContactResult& contact,
+                           const Rigid3& product_from_hand, const DistanceField& product,
+                           const EffortOptions& options = {},
+                           const FrictionResult* friction = nullptr);
+
+/// The same for given forces on the skin.
+EffortResult assess_effort(const Hand& hand, const Posture& posture,
+                           std::span<const SkinLoad> loads, const EffortOptions& options = {});
+
+/// The indices of group "effort".
+GraspIndices effort_indices(const EffortResult& effort);
+
+/// "index DIP flexion": a degree of freedom for people.
+std::string plain_name_of(Dof dof);
+
+}  // namespace palmar

@@ -1,0 +1,133 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/effort/effort.h"
+
+namespace palmar {
+namespace {
+
+constexpr const char* kMethod =
+    "Crowninshield & Brand 1981; tendons: An et al. 1979, Synek et al. "
+    "2019, Mirakhorlo et al. 2016";
+
+struct HardestMuscle {
+  Finger finger{};
+  const TendonLoad* load = nullptr;
+};
+
+HardestMuscle hardest_muscle(const EffortResult& effort) {
+  HardestMuscle hardest;
+  for (const DigitEffort& digit : effort.digits) {
+    for (const TendonLoad& load : digit.tendons) {
+      if (hardest.load == nullptr || load.activation > hardest.load->activation) {
+        hardest = {digit.finger, &load};
+      }
+    }
+  }
+  return hardest;
+}
+
+}  // namespace
+
+GraspIndices effort_indices(const EffortResult& effort) {
+  const bool is_known =
+      effort.status != EffortStatus::kNoLoad && effort.status != EffortStatus::kNotConverged;
+  std::string why;
+  if (effort.status == EffortStatus::kNoLoad) why = "no digit touches the product";
+  if (effort.status != EffortStatus::kHeld && !effort.message.empty()) why = effort.message;
+  const std::string loads =
+      effort.with_friction ? "pressure and friction" : "pressure alone, no friction";
+  const auto remark = [&](const std::string& own) {
+    std::string text = own;
+    for (const std::string& part : {why, is_known ? loads : std::string()}) {
+      if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+    }
+    return text;
+  };
+
+  const HardestMuscle hardest = hardest_muscle(effort);
+  double missing = 0.0, squares = 0.0;
+  int active = 0;
+  for (const DigitEffort& digit : effort.digits) {
+    for (const JointEffort& joint : digit.joints) {
+      missing = std::max(missing, std::abs(joint.missing));
+    }
+    if (digit.status == EffortStatus::kNoLoad) continue;
+    for (const TendonLoad& load : digit.tendons) {
+      squares += load.activation * load.activation;
+      ++active;
+    }
+  }
+  const auto value = [&](double v) { return is_known ? std::optional<double>(v) : std::nullopt; };
+  const std::string which =
+      is_known && hardest.load != nullptr
+          ? "hardest: " + std::string(name_of(hardest.finger)) + " " +
+                std::string(anatomical_name_of(hardest.load->tendon)) + ", " +
+                std::to_string(static_cast<int>(std::lround(hardest.load->force))) + " N"
+          : "";
+
+  GraspIndices indices;
+  indices.push_back({.key = "largest_activation",
+                     .name = "hardest working muscle",
+                     .group = "effort",
+                     .value = value(hardest.load != nullptr ? hardest.load->activation : 0.0),
+                     .lowest = 0.0,
+                     .highest = 1.0,
+                     .better = Better::kDown,
+                     .definition =
+                         "largest share of its strength that any muscle of fingers and thumb gives "
+                         "(min sum (F/PCSA)^n)",
+                     .source = kMethod,
+                     .remark = remark(which)});
+  indices.push_back(
+      {.key = "mean_activation",
+       .name = "muscles on average",
+       .group = "effort",
+       .value = value(active > 0 ? std::sqrt(squares / active) : 0.0),
+       .lowest = 0.0,
+       .highest = 1.0,
+       .better = Better::kDown,
+       .definition = "root mean square of the activations of all muscles of the loaded digits",
+       .source = kMethod,
+       .remark = remark("")});
+  indices.push_back({.key = "tendon_force_n",
+                     .name = "sum of all tendon forces",
+                     .group = "effort",
+                     .value = value(effort.tendon_force),
+                     .unit = "N",
+                     .lowest = 0.0,
+                     .better = Better::kDown,
+                     .definition = "sum of the forces of all muscles of fingers and thumb",
+                     .source = kMethod,
+                     .remark = remark("")});
+  indices.push_back(
+      {.key = "tendon_force_per_contact_force",
+       .name = "tendon force per contact force",
+       .group = "effort",
+       .value = is_known && effort.contact_force > 0.0
+                    ? std::optional<double>(effort.tendon_force / effort.contact_force)
+                    : std::nullopt,
+       .lowest = 0.0,
+       .better = Better::kDown,
+       .definition = "sum of all tendon forces over the sum of contact forces on the digits: the "
+                     "price of a newton of grip in this posture",
+       .source = kMethod,
+       .remark = remark("")});
+  indices.push_back(
+      {.key = "missing_moment_n_mm",
+       .name = "largest missing joint moment",
+       .group = "effort",
+       .value = value(missing),
+       .unit = "N mm",
+       .lowest = 0.0,
+       .better = Better::kDown,
+       .definition = "largest moment about a joint axis that the muscles would have to give beyond "
+                     "their strength; 0: the load can be held",
+       .source = kMethod,
+       .remark = remark("")});
+  return indices;
+}
+
+}  // namespace palmar

@@ -1,0 +1,72 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/effort/joint_moments.h"
+
+#include "palmar/contact/contact_normals.h"
+
+namespace palmar {
+namespace {
+
+/// Share of each skin vertex that moves with the thumb's metacarpal.
+std::vector<double> metacarpal_share(const Hand& hand) {
+  std::vector<double> share(hand.skin.vertices.size(), 0.0);
+  for (const JointWeights& weights : hand.weights) {
+    if (weights.joint != JointId::kThumbCmc) continue;
+    for (std::size_t i = 0; i < weights.vertex.size(); ++i) {
+      share[static_cast<std::size_t>(weights.vertex[i])] = weights.w1[i] * weights.w2[i];
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
+                                 const DistanceField& product, const FrictionResult* friction) {
+  std::vector<int> loaded;
+  for (std::size_t v = 0; v < contact.force.size(); ++v) {
+    if (contact.force[v] > 0.0) loaded.push_back(static_cast<int>(v));
+  }
+  const std::vector<Vec3> normals = contact_normals(contact, product, loaded);
+  const Rigid3 hand_from_product = product_from_hand.inverse();
+  std::vector<SkinLoad> loads;
+  loads.reserve(loaded.size());
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded[k]);
+    Vec3 force = contact.force[v] * normals[k];
+    if (friction != nullptr && v < friction->force.size()) force -= friction->force[v];
+    loads.push_back(
+        {loaded[k], hand_from_product * contact.deformed[v], hand_from_product.rotation * force});
+  }
+  return loads;
+}
+
+DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
+                           std::span<const SkinLoad> loads) {
+  DigitMoments result;
+  std::vector<double> metacarpal;
+  if (digit.finger == Finger::kThumb) metacarpal = metacarpal_share(hand);
+  for (const SkinLoad& load : loads) {
+    const auto v = static_cast<std::size_t>(load.vertex);
+    const Segment segment = hand.segment[v];
+    const auto finger = finger_of(segment);
+    int body = 0;
+    double share = 1.0;
+    if (finger) {
+      if (*finger != digit.finger) continue;
+      body = body_of(segment);
+    } else {
+      if (metacarpal.empty() || metacarpal[v] <= 0.0) continue;
+      body = 1;
+      share = metacarpal[v];
+    }
+    result.force += share * load.force.norm();
+    for (int k = 0; k < kDigitDofs; ++k) {
+      result.moment[static_cast<std::size_t>(k)] +=
+          share * load.force.dot(digit.velocity(k, body, load.point));
+    }
+  }
+  return result;
+}
+
+}  // namespace palmar

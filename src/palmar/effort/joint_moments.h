@@ -1,0 +1,41 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/friction.h"
+#include "palmar/effort/digit_pose.h"
+
+namespace palmar {
+
+/// A force on the hand at a place of its skin, hand frame.
+struct SkinLoad {
+  int vertex = 0;             ///< of hand.skin
+  Vec3 point = Vec3::Zero();  ///< where it acts in the posture, mm
+  Vec3 force = Vec3::Zero();  ///< N
+};
+
+/// What a solved contact does to the hand, one load per loaded vertex: the product pushes with p
+/// along its outward normal at the skin after contact; with `friction` minus its tractions (which
+/// are those of the skin on the product).
+std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
+                                 const DistanceField& product,
+                                 const FrictionResult* friction = nullptr);
+
+/// What outside forces do at the joints of one digit.
+struct DigitMoments {
+  std::array<double, kDigitDofs> moment{};  ///< in the angles' positive sense, N mm
+  double force = 0.0;                       ///< sum of |force| on the digit, N
+};
+
+/// Moments of `loads` about every axis of the digit in its posture (virtual work): Q_k = sum f .
+/// (dx / d angle_k), phalanges as rigid bodies; Q_k > 0 drives the angle up and muscles must hold
+/// against it. Skin over the thumb's metacarpal belongs to it by the share with which the CMC moves
+/// it (skinning weights). The weight of the hand is left out.
+DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
+                           std::span<const SkinLoad> loads);
+
+}  // namespace palmar

@@ -1,0 +1,49 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace palmar {
+
+/// Which muscles hold a digit against given moments: with activations a (share of strength),
+///
+///     min  sum a_i^n      so that   B a + c = m,   0 <= a <= 1,
+///
+/// B(k, i) [N mm] the moment of muscle i at full strength about axis k, m [N mm] the moments that
+/// muscles must give, c_k the moment of the joint's stop, free in the direction in which a joint at
+/// the end of its range is held back. Of muscles of one specific tension, sum a^n is sum (F /
+/// PCSA)^n (Crowninshield & Brand 1981, J Biomech 14:793-801).
+struct MuscleProblem {
+  Eigen::MatrixXd moment_at_strength;  ///< B, axes x muscles, N mm
+  Eigen::VectorXd required;            ///< m, N mm
+  Eigen::VectorXi stop;  ///< per axis: +1 the stop can push the angle up, -1 down, 0 not there
+  int exponent = 3;      ///< n, 2 or 3
+};
+
+enum class MuscleStatus {
+  kBalanced,
+  kOverloaded,   ///< no activations up to 1 can give these moments; `missing` tells which
+  kNotConverged  ///< the residual stayed above 1e-6
+};
+
+struct MuscleSolution {
+  MuscleStatus status = MuscleStatus::kNotConverged;
+  Eigen::VectorXd activation;  ///< a
+  Eigen::VectorXd stop;        ///< c, N mm
+  /// What B a + c lacks of m, N mm, least in sum over the axes, each over what all muscles together
+  /// could give there; 0 unless overloaded.
+  Eigen::VectorXd missing;
+  int iterations = 0;
+  /// Recomputed largest violation of the optimality conditions: of equilibrium over the largest
+  /// moment, of stationarity over the largest gradient.
+  double kkt_residual = 0.0;
+};
+
+/// Primal-dual interior point method with Mehrotra's predictor and corrector (Nocedal & Wright
+/// 2006, section 16.6), on the problem with added missing moments at a price above any muscle's:
+/// these are 0 wherever the load can be held. Throws UsageError for an exponent other than 2 or 3,
+/// sizes that don't agree, or numbers that aren't finite.
+MuscleSolution balance_muscles(const MuscleProblem& problem);
+
+}  // namespace palmar
