@@ -68,66 +68,47 @@ GraspIndices effort_indices(const EffortResult& effort) {
                 std::to_string(static_cast<int>(std::lround(hardest.load->force))) + " N"
           : "";
 
-  GraspIndices indices;
-  indices.push_back({.key = "largest_activation",
-                     .name = "hardest working muscle",
-                     .group = "effort",
-                     .value = value(hardest.load != nullptr ? hardest.load->activation : 0.0),
-                     .lowest = 0.0,
-                     .highest = 1.0,
-                     .better = Better::kDown,
-                     .definition =
-                         "largest share of its strength that any muscle of fingers and thumb gives "
-                         "(min sum (F/PCSA)^n)",
-                     .source = kMethod,
-                     .remark = remark(which)});
-  indices.push_back(
-      {.key = "mean_activation",
-       .name = "muscles on average",
-       .group = "effort",
-       .value = value(active > 0 ? std::sqrt(squares / active) : 0.0),
-       .lowest = 0.0,
-       .highest = 1.0,
-       .better = Better::kDown,
-       .definition = "root mean square of the activations of all muscles of the loaded digits",
-       .source = kMethod,
-       .remark = remark("")});
-  indices.push_back({.key = "tendon_force_n",
-                     .name = "sum of all tendon forces",
-                     .group = "effort",
-                     .value = value(effort.tendon_force),
-                     .unit = "N",
-                     .lowest = 0.0,
-                     .better = Better::kDown,
-                     .definition = "sum of the forces of all muscles of fingers and thumb",
-                     .source = kMethod,
-                     .remark = remark("")});
-  indices.push_back(
-      {.key = "tendon_force_per_contact_force",
-       .name = "tendon force per contact force",
-       .group = "effort",
-       .value = is_known && effort.contact_force > 0.0
-                    ? std::optional<double>(effort.tendon_force / effort.contact_force)
-                    : std::nullopt,
-       .lowest = 0.0,
-       .better = Better::kDown,
-       .definition = "sum of all tendon forces over the sum of contact forces on the digits: the "
-                     "price of a newton of grip in this posture",
-       .source = kMethod,
-       .remark = remark("")});
-  indices.push_back(
-      {.key = "missing_moment_n_mm",
-       .name = "largest missing joint moment",
-       .group = "effort",
-       .value = value(missing),
-       .unit = "N mm",
-       .lowest = 0.0,
-       .better = Better::kDown,
-       .definition = "largest moment about a joint axis that the muscles would have to give beyond "
-                     "their strength; 0: the load can be held",
-       .source = kMethod,
-       .remark = remark("")});
-  return indices;
+  const auto index = [&](const char* key, const char* name, const char* unit,
+                         std::optional<double> of, const char* definition,
+                         const std::string& own_remark = "") {
+    GraspIndex result;
+    result.key = key;
+    result.name = name;
+    result.group = "effort";
+    result.value = of;
+    result.unit = unit;
+    result.lowest = 0.0;
+    result.better = Better::kDown;
+    result.definition = definition;
+    result.source = kMethod;
+    result.remark = remark(own_remark);
+    return result;
+  };
+  GraspIndex largest =
+      index("largest_activation", "hardest working muscle", "",
+            value(hardest.load != nullptr ? hardest.load->activation : 0.0),
+            "largest share of its strength that any muscle of fingers and thumb gives (min sum "
+            "(F/PCSA)^n)",
+            which);
+  GraspIndex mean =
+      index("mean_activation", "muscles on average", "",
+            value(active > 0 ? std::sqrt(squares / active) : 0.0),
+            "root mean square of the activations of all muscles of the loaded digits");
+  largest.highest = 1.0;
+  mean.highest = 1.0;
+  const auto per_force = is_known && effort.contact_force > 0.0
+                             ? std::optional<double>(effort.tendon_force / effort.contact_force)
+                             : std::nullopt;
+  return {
+      largest, mean,
+      index("tendon_force_n", "sum of all tendon forces", "N", value(effort.tendon_force),
+            "sum of the forces of all muscles of fingers and thumb"),
+      index("tendon_force_per_contact_force", "tendon force per contact force", "", per_force,
+            "sum of all tendon forces over the sum of contact forces on the digits: the price of "
+            "a newton of grip in this posture"),
+      index("missing_moment_n_mm", "largest missing joint moment", "N mm", value(missing),
+            "largest moment about a joint axis that the muscles would have to give beyond their "
+            "strength; 0: the load can be held")};
 }
 
 }  // namespace palmar
