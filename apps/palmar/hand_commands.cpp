@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <map>
-
 #include "cli.h"
-#include "palmar/core/error.h"
-#include "palmar/core/nearest_name.h"
-#include "palmar/hand/named_postures.h"
+#include "hand_pose_command.h"
 #include "palmar/hand/skeleton.h"
-#include "palmar/hand/skinning.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/hand_asset.h"
 #include "palmar/io/hand_file.h"
@@ -24,43 +18,6 @@ namespace palmar::cli {
 namespace {
 
 constexpr const char* kHandHelp = "\"template\" or a .hand.glb file";
-
-Dof dof_for(const std::string& name) {
-  if (const auto dof = dof_named(name)) return *dof;
-  std::vector<std::string> known;
-  for (int d = 0; d < kDofCount; ++d) known.emplace_back(name_of(static_cast<Dof>(d)));
-  const std::string nearest = nearest_name(name, known);
-  throw UsageError(
-      "--set: \"" + name + "\" is no degree of freedom" +
-      (nearest.empty() ? "; `palmar hand info` lists them" : "; did you mean " + nearest + "?"));
-}
-
-/// Named posture, then single angles "index_pip_flexion=60" (degrees) on top.
-Posture posture_from(const Hand& hand, const std::string& name,
-                     const std::vector<std::string>& settings) {
-  Posture posture = reference_posture(hand.skeleton);
-  if (!name.empty() && name != "reference") {
-    const auto named = named_posture(hand.skeleton, name);
-    if (!named) {
-      const std::string nearest = nearest_name(name, posture_names());
-      std::string known;
-      for (const std::string& one : posture_names()) known += (known.empty() ? "" : ", ") + one;
-      throw UsageError("--posture: \"" + name + "\" is not known" +
-                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
-                       " Known: reference, " + known);
-    }
-    posture = *named;
-  }
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw UsageError("--set: \"" + setting + "\" is not of the form index_pip_flexion=60 (deg)");
-    }
-    const double angle = parse_list("--set", setting.substr(equals + 1)).front();
-    posture[dof_for(setting.substr(0, equals))] = radians(angle);
-  }
-  return posture;
-}
 
 void add_template(CLI::App& hand, Context& context) {
   struct Options {
@@ -158,43 +115,28 @@ void add_mirror(CLI::App& hand, Context& context) {
   });
 }
 
-void add_pose(CLI::App& hand, Context& context, const std::string& name,
-              const std::string& description, const std::string& example, bool takes_posture) {
+void add_export(CLI::App& hand, Context& context) {
   struct Options {
-    std::string hand = "template", posture, out, format;
-    std::vector<std::string> settings;
+    std::string hand = "template", out, format;
     PressDeckArguments deck;
   };
   const auto o = std::make_shared<Options>();
-  CLI::App* verb = add_verb(hand, name, description, example);
+  CLI::App* verb = add_verb(hand, "export", "A hand in its reference posture, as mesh or picture",
+                            "palmar hand export template --out hand.ply");
   verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
-  if (takes_posture) {
-    verb->add_option("--posture", o->posture, "Named posture: reference, fist, ...");
-    verb->add_option("--set", o->settings, "Angle of one degree of freedom, NAME=DEG; repeatable");
-  }
   verb->add_option("--out", o->out,
                    "File to write: .glb (skin by region and bones), .ply, .obj, .stl (skin), .png "
                    "(picture)")
       ->required();
-  if (!takes_posture) {
-    verb->add_option(
-            "--format", o->format,
-            "inp: a finite-element deck of one region under an indenter; --out is a folder")
-        ->check(CLI::IsMember({"inp"}));
-    add_press_deck_options(*verb, o->deck);
-  }
+  verb->add_option("--format", o->format,
+                   "inp: a finite-element deck of one region under an indenter; --out is a folder")
+      ->check(CLI::IsMember({"inp"}));
+  add_press_deck_options(*verb, o->deck);
   verb->callback([&context, o] {
     context.run = [&context, o] {
       if (o->format == "inp") return run_press_deck(o->deck, o->hand, o->out, context.common);
       const auto loaded = load_hand(o->hand);
-      const ClampedPosture clamped =
-          clamp_to_range(loaded->skeleton, posture_from(*loaded, o->posture, o->settings));
-      for (const ClampedAngle& angle : clamped.clamped) {
-        note(context.common,
-             fmt::format("{}: {:.1f} deg is outside the range of motion; {:.1f} deg is used",
-                         name_of(angle.dof), degrees(angle.asked), degrees(angle.used)));
-      }
-      export_posed_hand(o->out, *loaded, clamped.posture);
+      export_posed_hand(o->out, *loaded, reference_posture(loaded->skeleton));
       note(context.common, "wrote " + o->out);
       return 0;
     };
@@ -212,10 +154,8 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_tissue(*hand, context);
   add_measure(*hand, context);
   add_mirror(*hand, context);
-  add_pose(*hand, context, "pose", "A hand in a posture, as mesh or picture",
-           "palmar hand pose --posture fist --set thumb_ip_flexion=20 --out fist.glb", true);
-  add_pose(*hand, context, "export", "A hand in its reference posture, as mesh or picture",
-           "palmar hand export template --out hand.ply", false);
+  add_hand_pose(*hand, context);
+  add_export(*hand, context);
 }
 
 }  // namespace palmar::cli

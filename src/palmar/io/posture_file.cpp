@@ -9,7 +9,6 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/io/csv.h"
 #include "palmar/io/csv_reader.h"
 #include "palmar/io/file.h"
 #include "palmar/io/placement_json.h"
@@ -274,21 +273,6 @@ std::string posture_json(const Posture& posture) {
     json[std::string(name_of(dof)) + "_deg"] = posture[dof] / kRadiansPerDegree;
   }
   return json.dump(2);
-}
-
-std::string postures_csv(const std::vector<PostureFrame>& frames) {
-  CsvTable table;
-  table.header = {"frame", "time_s"};
-  for (const std::string& name : known_names()) table.header.push_back(name);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    std::vector<std::string> row = {std::to_string(i + 1),
-                                    frames[i].time ? shortest(*frames[i].time) : ""};
-    for (const double angle : frames[i].posture.angle) {
-      row.push_back(shortest(angle / kRadiansPerDegree));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return format_csv(table);
 }
 
 }  // namespace palmar

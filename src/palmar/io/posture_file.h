@@ -47,7 +47,4 @@ const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
 /// {"index_mcp_flexion_deg": 40, ...}, all 23; shortest digits that read back to the same double.
 std::string posture_json(const Posture& posture);
 
-/// frame,time_s,NAME_deg ...; one row per frame.
-std::string postures_csv(const std::vector<PostureFrame>& frames);
-
 }  // namespace palmar
