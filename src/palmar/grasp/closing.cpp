@@ -13,8 +13,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kTolerance = 0.02;     // mm; how near to a limit counts as there
-constexpr double kGlide = 1.5;          // mm; longest step along a surface between two looks
 constexpr double kWidestGap = 12.0;     // mm between neighbours that one round closes
 constexpr double kUsualGap = 0.5;       // mm; fingers round a handle lie side by side
 constexpr double kLeastSpread = 0.015;  // rad; less isn't worth closing again for
@@ -23,7 +21,14 @@ constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
 constexpr double kWideOpen = -20.0 * std::numbers::pi / 180.0;  // MCP when the hand reaches out
-constexpr double kPreshape = 0.8;    // of the bend that fits the handle, before closing
+constexpr double kPreshape = 0.8;        // of the bend that fits the handle, before closing
+constexpr double kCoupling = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
+constexpr double kDipLag = 10.0 * std::numbers::pi / 180.0;     // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * std::numbers::pi / 180.0;   // DIP may be off that to lie on
+constexpr double kReleaseMcp = 8.0 * std::numbers::pi / 180.0;  // opened to move a finger aside
+constexpr double kReleasePip = 20.0 * std::numbers::pi / 180.0;
+constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
+constexpr double kShareRange = 0.3;   // over which that fades
 constexpr int kLongestAdvance = 60;  // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
@@ -31,11 +36,10 @@ constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Fin
 
 std::size_t index_of(Segment segment) { return static_cast<std::size_t>(segment); }
 
-int levels_of(Finger finger) { return finger == Finger::kThumb ? 2 : 3; }
-
 }  // namespace
 
 HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
+  if (spacing > 0.0) care_ = {0.1, 3.0};
   const SkinSample sample = sample_skin(hand, spacing);
   const auto group_of = [&](auto&& belongs) {
     std::vector<int> vertices;
@@ -67,12 +71,10 @@ HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(
           });
     }
   }
-  thumb_.emplace(hand, cones_, groups_[static_cast<std::size_t>(Finger::kThumb)]);
-}
-
-Posture HandCloser::open_posture() const {
-  const Skeleton& skeleton = hand_->skeleton;
-  Posture posture = reference_posture(skeleton);
+  thumb_.emplace(hand, cones_, groups_[static_cast<std::size_t>(Finger::kThumb)], care_);
+  const Skeleton& skeleton = hand.skeleton;
+  Posture& posture = open_posture_;
+  posture = reference_posture(skeleton);
   for (const Finger finger : kFingers) {
     for (int level = 0; level < 3; ++level) {
       const JointDof& dof = skeleton.dof(flexion_of(finger, level));
@@ -89,14 +91,29 @@ Posture HandCloser::open_posture() const {
                                              upper_of(*hand_, Dof::kThumbMpFlexion));
   posture[Dof::kThumbIpFlexion] = std::clamp(0.0, lower_of(*hand_, Dof::kThumbIpFlexion),
                                              upper_of(*hand_, Dof::kThumbIpFlexion));
+  palm_.skin.pose(posture, open_palm_);
+}
+
+Posture HandCloser::start_posture(const ClosingStyle& style) const {
+  Posture posture = open_posture_;
+  const auto fan = [&](Finger finger, double share) {
+    const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
+    const double end = share > 0.0 ? dof.upper : dof.lower;
+    posture[dof.dof] += std::abs(share) * (end - posture[dof.dof]);
+  };
+  if (style.spread > 0.0) {
+    fan(Finger::kIndex, style.spread);
+    fan(Finger::kRing, -0.5 * style.spread);
+    fan(Finger::kLittle, -style.spread);
+  }
   return posture;
 }
 
 double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& limits,
-                               const Posture& posture, const Vec3& direction,
+                               const ClosingStyle& style, const Vec3& direction,
                                double longest) const {
-  std::vector<Vec3> posed;
-  palm_.skin.pose(posture, posed);
+  const std::vector<Vec3>& posed = open_palm_;
+  const double shared = style.hook ? 1.0 : kSharedLimit;
   const Vec3 step = product.product_from_hand.rotation * direction;
   std::vector<Vec3> points(posed.size());
   std::vector<DistanceSample> samples(posed.size());
@@ -112,7 +129,7 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
     for (std::size_t k = 0; k < posed.size(); ++k) {
       double limit = limits.palm;
       if (palm_.segment[k] != Segment::kPalm) {
-        limit = kSharedLimit * limits.finger;
+        limit = shared * limits.finger;
       } else if (palm_.region[k] == Region::kThenar) {
         limit = kBallShare * limits.palm;
       }
@@ -122,10 +139,10 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
       const double planar = !is_near(samples[k]) ? slack
                             : approach > 0.0     ? 0.9 * slack / approach
                                                  : std::numeric_limits<double>::infinity();
-      advance = std::min(advance, std::max(slack, std::min(planar, kGlide)));
+      advance = std::min(advance, std::max(slack, std::min(planar, care_.glide)));
     }
-    if (least <= kTolerance) break;
-    travel += std::max(advance, 0.5 * kTolerance);
+    if (least <= care_.tolerance) break;
+    travel += std::max(advance, 0.5 * care_.tolerance);
   }
   return std::min(travel, longest);
 }
@@ -145,11 +162,12 @@ Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& lim
   const Dof mcp = flexion_of(finger, 0);
   posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
   for (; share > 0.05; share -= 0.25) {
-    for (int level = 1; level < 3; ++level) {
-      const JointDof& dof = skeleton.dof(flexion_of(finger, level));
-      const auto l = static_cast<std::size_t>(level);
-      posture[dof.dof] = std::clamp(share * (turn[l - 1] + turn[l]), dof.lower, dof.upper);
-    }
+    const JointDof& pip = skeleton.dof(flexion_of(finger, 1));
+    const JointDof& dip = skeleton.dof(flexion_of(finger, 2));
+    posture[pip.dof] = std::clamp(share * (turn[0] + turn[1]), pip.lower, pip.upper);
+    posture[dip.dof] =
+        std::clamp(std::min(share * (turn[1] + turn[2]), kCoupling * posture[pip.dof] + kDipLeave),
+                   dip.lower, dip.upper);
     if (is_free(product, limits, finger, posture)) return posture;
   }
   return start;
@@ -165,57 +183,99 @@ bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, 
 }
 
 Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& limits,
-                                 Finger finger, Posture posture,
+                                 const ClosingStyle& style, Finger finger, Posture posture,
                                  std::array<SegmentStop, kSegmentCount>& stops) const {
   std::vector<Obstacle> palm;
   for (const RoundCone& cone : cones_.posed(hand_->skeleton, posture)) {
     if (cone.level == 0) palm.push_back({cone, kPalmGive});
   }
   const auto segments = segments_of(finger);
-  for (int level = 0; level < levels_of(finger); ++level) {
-    const Dof dof = flexion_of(finger, level);
-    Posture closed = posture;
-    closed[dof] = upper_of(*hand_, dof);
-    const SkinGroup& group =
-        groups_[static_cast<std::size_t>(finger)][static_cast<std::size_t>(level)];
+  const auto stop_of = [&](std::size_t level) -> SegmentStop& {
+    return stops[index_of(*segments[level])];
+  };
+  const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+  const JointDof& pip = hand_->skeleton.dof(flexion_of(finger, 1));
+  const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
+  const auto coupled = [&](double off) {
+    return std::clamp(kCoupling * posture[pip.dof] + off, dip.lower, dip.upper);
+  };
+  const auto advance = [&](std::size_t level, const Posture& to) {
+    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][level];
     // A proximal phalanx can't meet the palm.
-    const Advance way = advance_skin(group, product, limits,
-                                     level == 0 ? std::vector<Obstacle>{} : palm, posture, closed);
+    const Advance way = advance_skin(
+        group, product, limits, level == 0 ? std::vector<Obstacle>{} : palm, posture, to, care_);
     posture = way.posture;
-    SegmentStop& stop = stops[index_of(*segments[static_cast<std::size_t>(level)])];
-    stop.segment = *segments[static_cast<std::size_t>(level)];
-    if (level == 0) {
-      for (int outer = 0; outer < 2; ++outer) {
-        const Segment segment = *segments[static_cast<std::size_t>(outer)];
-        stops[index_of(segment)].penetration = way.deepest[static_cast<std::size_t>(outer)];
-      }
-    }
-    stop.reason = way.reason_for(stop.segment);
+    stop_of(level).segment = *segments[level];
+    stop_of(level).reason = way.reason_for(*segments[level]);
+    return way;
+  };
+  for (SegmentStop* stop : {&stop_of(0), &stop_of(1), &stop_of(2)}) stop->penetration = -kSkinRange;
+  Posture to = posture;
+  if (style.hook) {
+    stop_of(0).segment = *segments[0];
+    stop_of(0).reason = StopReason::kProximalStop;
+  } else {
+    to[mcp.dof] = mcp.upper;
+    const Advance way = advance(0, to);
+    stop_of(0).penetration = way.deepest[0];
+    stop_of(1).penetration = way.deepest[1];
   }
+  // DIP goes along with PIP. If it brings the tip to the product before the middle phalanx lies on
+  // it, it gives way.
+  to = posture;
+  to[pip.dof] = pip.upper;
+  to[dip.dof] =
+      std::max(posture[dip.dof], std::clamp(kCoupling * pip.upper - kDipLag, dip.lower, dip.upper));
+  Advance way = advance(1, to);
+  if (way.is_stopped && way.by_product && way.segment == *segments[2] &&
+      way.deepest[1] < limits.finger) {
+    const double back = coupled(-kDipLeave);
+    if (back < posture[dip.dof]) {
+      posture[dip.dof] = back;
+      to = posture;
+      to[pip.dof] = pip.upper;
+      to[dip.dof] =
+          std::max(back, std::clamp(kCoupling * pip.upper - kDipLeave, dip.lower, dip.upper));
+      advance(1, to);
+    }
+  }
+  to = posture;
+  to[dip.dof] = std::max(posture[dip.dof], coupled(kDipLeave));
+  advance(2, to);
   return posture;
 }
 
-Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits& limits,
-                                  Posture start,
-                                  std::array<SegmentStop, kSegmentCount>& stops) const {
-  Posture open = start;
-  Posture posture = start;
-  for (int round = 0;; ++round) {
-    posture = open;
-    for (const Finger finger : kFingers) {
-      // Bent too much, the fingertip meets the product first and the rest hangs in the air.
-      const Posture before = posture;
-      for (const double share : {kPreshape, 0.5 * kPreshape, 0.0}) {
-        const Posture shaped = preshaped(product, limits, finger, product.diameter, share, before);
-        const bool is_last = share == 0.0;
-        posture = close_finger(product, limits, finger, shaped, stops);
-        const auto segments = segments_of(finger);
-        const SegmentStop& proximal = stops[index_of(*segments[0])];
-        if (is_last || proximal.reason != StopReason::kDistalStop) break;
-        if (proximal.penetration > 0.0 || stops[index_of(*segments[1])].penetration > 0.0) break;
-      }
+Posture HandCloser::reach_and_close(const HeldProduct& product, const DepthLimits& limits,
+                                    const ClosingStyle& style, Finger finger, const Posture& start,
+                                    std::array<SegmentStop, kSegmentCount>& stops) const {
+  if (style.hook) {
+    Posture straight = start;
+    const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+    straight[mcp.dof] = std::clamp(*style.hook, mcp.lower, mcp.upper);
+    return close_finger(product, limits, style, finger, straight, stops);
+  }
+  // Bent too much, the fingertip meets the product first and the rest hangs in the air.
+  for (const double share : {kPreshape, 0.5 * kPreshape, 0.0}) {
+    const Posture shaped = preshaped(product, limits, finger, product.diameter, share, start);
+    const Posture closed = close_finger(product, limits, style, finger, shaped, stops);
+    const auto segments = segments_of(finger);
+    const SegmentStop& proximal = stops[index_of(*segments[0])];
+    if (share == 0.0 || proximal.reason != StopReason::kDistalStop || proximal.penetration > 0.0 ||
+        stops[index_of(*segments[1])].penetration > 0.0) {
+      return closed;
     }
-    if (round == 3) break;
+  }
+  return start;
+}
+
+Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits& limits,
+                                  const ClosingStyle& style, Posture start, int rounds,
+                                  std::array<SegmentStop, kSegmentCount>& stops) const {
+  Posture posture = start;
+  for (const Finger finger : kFingers) {
+    posture = reach_and_close(product, limits, style, finger, posture, stops);
+  }
+  for (int round = 0; round < rounds; ++round) {
     // Flexing fingers converge; where two would share space, spread them at the knuckle and close
     // again. The middle finger stays, the others give way outwards.
     const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, posture);
@@ -230,25 +290,47 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
         }
       }
       if (deepest > 0.5 * kNeighbourGive) return deepest / arm;
-      return deepest < -kUsualGap ? (deepest + kUsualGap) / arm : 0.0;
+      return deepest < -kUsualGap && style.spread == 0.0 ? (deepest + kUsualGap) / arm : 0.0;
     };
     const double index = crossing(Finger::kIndex, Finger::kMiddle);
     const double ring = crossing(Finger::kMiddle, Finger::kRing);
     const double little = crossing(Finger::kRing, Finger::kLittle);
-    if (std::max({std::abs(index), std::abs(ring), std::abs(little)}) < kLeastSpread) break;
+    bool is_changed = false;
     const auto spread = [&](Finger finger, double angle) {
+      if (std::abs(angle) < kLeastSpread) return;
       const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
-      open[dof.dof] = std::clamp(open[dof.dof] + angle, dof.lower, dof.upper);
+      const double next = std::clamp(posture[dof.dof] + angle, dof.lower, dof.upper);
+      if (std::abs(next - posture[dof.dof]) < 0.5 * kLeastSpread) return;
+      is_changed = true;
+      // A little open is enough to move aside, as a rule.
+      Posture aside = posture;
+      aside[dof.dof] = next;
+      const auto open = [&](int level, double by) {
+        const JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
+        aside[flexion.dof] = std::max(flexion.lower, aside[flexion.dof] - by);
+      };
+      if (!style.hook) open(0, kReleaseMcp);
+      open(1, kReleasePip);
+      open(2, kReleasePip);
+      if (is_free(product, limits, finger, aside)) {
+        posture = close_finger(product, limits, style, finger, aside, stops);
+        return;
+      }
+      for (int level = 0; level < 3; ++level) {
+        aside[flexion_of(finger, level)] = start[flexion_of(finger, level)];
+      }
+      posture = reach_and_close(product, limits, style, finger, aside, stops);
     };
     spread(Finger::kIndex, index);
     spread(Finger::kRing, -ring);
     spread(Finger::kLittle, -ring - little);
+    if (!is_changed) break;
   }
   return posture;
 }
 
-HoldMeasure HandCloser::measure(const HeldProduct& product, const Posture& posture,
-                                const Vec3& axis_in_hand) const {
+HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& limits,
+                                const Posture& posture, const Vec3& axis_in_hand) const {
   const SkinLook look = look_at_skin(all_, product, posture);
   const std::vector<DistanceSample>& samples = look.sample;
   HoldMeasure measure;
@@ -266,10 +348,12 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const Posture& postu
     }
     deepest = std::max(deepest, depth);
     if (depth <= 0.0) continue;
-    // Full from half a millimetre, so that the area of a sparse sample changes without steps.
-    measure.contact_area += std::min(1.0, 2.0 * depth) * all_.area[k];
+    // Skin gives way beside the deepest place: as under a ball, about half of the overlap stays.
+    const double limit = all_.segment[k] == Segment::kPalm ? limits.palm : limits.finger;
+    const double share = std::clamp((depth / limit - kLeastShare) / kShareRange, 0.0, 1.0);
+    measure.contact_area += share * all_.area[k];
     if (finger_of(all_.segment[k]) == Finger::kThumb || all_.region[k] == Region::kThenar) {
-      measure.thumb_area += all_.area[k];
+      measure.thumb_area += share * all_.area[k];
     }
     const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
     if (Vec3(normal - axis_in_hand * axis_in_hand.dot(normal)).norm() > 0.5) {
@@ -278,7 +362,7 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const Posture& postu
   }
   std::array<bool, kFingerCount> touches{};
   for (std::size_t s = 1; s < measure.penetration.size(); ++s) {
-    measure.touching += std::clamp(0.5 * (measure.penetration[s] + 1.0), 0.0, 1.0);
+    measure.touching += std::clamp(0.25 * (measure.penetration[s] + 3.0), 0.0, 1.0);
     if (measure.penetration[s] <= 0.0) continue;
     ++measure.segments;
     touches[static_cast<std::size_t>(*finger_of(static_cast<Segment>(s)))] = true;

@@ -9,27 +9,25 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/closing.h"
+#include "palmar/grasp/grasp_verdict.h"
 #include "palmar/grasp/grip_axis.h"
+#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/placement.h"
 #include "palmar/grasp/site_distance.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kCoarse = 5.0;  // mm between the skin points that the search looks at
-constexpr double kRival = 0.85;  // share of the best site's score from which one is tried too
-// Contacts hold from opposite sides if no gap between them exceeds half a turn by more than two
-// friction angles; 30 degrees is a coefficient of 0.58, ordinary for dry skin.
-constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
-constexpr int kSettleRounds = 6;          // product and fingers give way to each other in turn
-constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans from thumb to fingertip
-constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
-constexpr double kShownDepth = 0.05;      // mm into the palm of what is only laid on it
+constexpr double kCoarse = 5.0;   // mm between the skin points that the search looks at
+constexpr double kRival = 0.85;   // share of the best site's score from which one is tried too
+constexpr int kSettleRounds = 6;  // product and fingers give way to each other in turn
+constexpr std::size_t kTriedSites = 2;
+constexpr double kSphereSpread = 0.5;  // of the range of abduction
+constexpr double kShownDepth = 0.05;   // mm into the palm of what is only laid on it
 constexpr int kTrimRounds = 8;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
-constexpr double kAtLimit = 0.1;  // mm; that near to the limit depth counts as there
 
 std::string format(const char* text, double value) {
   std::array<char, 160> buffer{};
@@ -38,7 +36,7 @@ std::string format(const char* text, double value) {
 }
 
 // Turn of `facing` from the site's wide direction, for a turn asked for in the product's own frame.
-double lay_turn(const GripSite& site, double asked) {
+double lay_turn(const Hand& hand, const GripSite& site, double asked) {
   // Zero: the coordinate axis that is most square to the grip axis, made square to it.
   int least = 0;
   for (int c = 1; c < 3; ++c) {
@@ -48,14 +46,15 @@ double lay_turn(const GripSite& site, double asked) {
   zero = (zero - site.axis * site.axis.dot(zero)).normalized();
   const Vec3 facing = Eigen::AngleAxisd(asked, site.axis) * zero;
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
-  return std::atan2(site.axis.dot(wide.cross(facing)), wide.dot(facing));
+  const double turn = std::atan2(site.axis.dot(wide.cross(facing)), wide.dot(facing));
+  return hand.side == Side::kRight ? turn : -turn;
 }
 
 // The quick distance is right to a few hundredths of a millimetre: what went too deep by the exact
 // one is opened again at its own joint.
 HoldMeasure trimmed(const HandCloser& closer, const HeldProduct& product, const DepthLimits& limits,
                     const Vec3& axis_in_hand, Posture& posture) {
-  HoldMeasure measure = closer.measure(product, posture, axis_in_hand);
+  HoldMeasure measure = closer.measure(product, limits, posture, axis_in_hand);
   for (int round = 0; round < kTrimRounds; ++round) {
     bool is_changed = false;
     for (int s = 1; s < kSegmentCount; ++s) {
@@ -70,108 +69,132 @@ HoldMeasure trimmed(const HandCloser& closer, const HeldProduct& product, const 
       }
     }
     if (!is_changed) break;
-    measure = closer.measure(product, posture, axis_in_hand);
+    measure = closer.measure(product, limits, posture, axis_in_hand);
   }
   return measure;
 }
 
-void finish_stops(const Hand& hand, const HoldMeasure& measure, const DepthLimits& limits,
-                  Grasp& grasp) {
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
-    SegmentStop& stop = grasp.stops[static_cast<std::size_t>(s)];
-    stop.segment = segment;
-    stop.penetration = measure.penetration[static_cast<std::size_t>(s)];
-    const double limit = segment == Segment::kPalm ? limits.palm : limits.finger;
-    if (segment == Segment::kPalm) {
-      stop.reason = stop.penetration > limit - kAtLimit ? StopReason::kLimitDepth
-                    : stop.penetration > 0.0            ? StopReason::kDistalStop
-                                                        : StopReason::kNotReached;
-      continue;
+// Where to look, and the grip meant there.
+struct Sites {
+  std::vector<GripSite> sites;
+  Grip grip = Grip::kMediumWrap;
+};
+
+// Middle of the surface that lies in a box, mm; nothing if none does.
+std::optional<Vec3> middle_of(const TriangleMesh& mesh, const Box3& region) {
+  Vec3 moment = Vec3::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
+    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3 centre = (a + b + c) / 3.0;
+    if (!region.contains(centre)) continue;
+    const double weight = (b - a).cross(c - a).norm();
+    moment += weight * centre;
+    area += weight;
+  }
+  if (area <= 0.0) return {};
+  return Vec3(moment / area);
+}
+
+Sites find_sites(const Hand& hand, const Product& product, const PowerGraspOptions& options) {
+  Sites found;
+  const PlacementRequest& asked = options.placement;
+  GripSearchOptions search;
+  search.hand_length = hand.dimensions.hand_length;
+  search.palm_breadth = hand.dimensions.hand_width;
+  search.at = asked.at;
+  if (asked.axis) search.axis = asked.axis->normalized();
+  if (asked.region) {
+    search.near = middle_of(product.mesh, *asked.region);
+    if (!search.near) {
+      throw UsageError("placement: the region holds no part of the surface of " + product.name +
+                       "; corners are in mm in the product's own frame");
     }
-    if (stop.penetration > limit - kAtLimit) {
-      stop.reason = StopReason::kLimitDepth;
-    } else if (stop.reason == StopReason::kRangeOfMotion && stop.penetration <= 0.0) {
-      stop.reason = StopReason::kNotReached;
-    } else if (stop.reason == StopReason::kLimitDepth) {
-      // Its own skin stopped it on the way, then the rest of the finger moved on.
-      stop.reason = StopReason::kProximalStop;
+  }
+  if (asked.product_from_hand) {
+    const PalmLine line = palm_line(hand);
+    search.near = *asked.product_from_hand * line.point;
+    search.axis = (asked.product_from_hand->rotation * line.axis).normalized();
+  }
+  const bool is_free = !asked.at && !asked.axis && !asked.region && !asked.product_from_hand;
+  const bool is_sphere_asked = options.grip == Grip::kPowerSphere;
+  if (is_free && (is_sphere_asked || !options.grip)) {
+    const BodyShape shape = body_shape(product.mesh);
+    if (is_sphere_asked || is_ball_like(shape)) {
+      found.grip = Grip::kPowerSphere;
+      found.sites = ball_sites(product.mesh, shape);
+      return found;
     }
   }
-  (void)hand;
+  found.grip = options.grip.value_or(Grip::kMediumWrap);
+  found.sites = find_grip_sites(product.mesh, search);
+  return found;
 }
 
-std::string words_of(Segment segment) {
-  static constexpr std::array<const char*, 3> kPart = {"base", "middle part", "tip"};
-  const Finger finger = *finger_of(segment);
-  const auto segments = segments_of(finger);
-  std::size_t level = 0;
-  while (segments[level] != segment) ++level;
-  if (finger == Finger::kThumb) return std::string("the thumb's ") + kPart[2 * level];
-  return std::string("the ") + kPart[level] + " of the " + std::string(name_of(finger)) + " finger";
+std::vector<ClosingStyle> styles_for(Grip grip) {
+  if (grip == Grip::kPowerSphere) return {ClosingStyle{.spread = kSphereSpread, .hook = {}}};
+  if (grip == Grip::kFixedHook) return {ClosingStyle{.spread = 0.0, .hook = 0.0}};
+  return {ClosingStyle{}};
 }
 
-// A clause about the phalanges without contact; empty if all touch.
-std::string open_segments(const Grasp& grasp) {
-  std::vector<std::string> list;
-  for (std::size_t s = 1; s < grasp.stops.size(); ++s) {
-    if (grasp.stops[s].penetration <= 0.0) list.push_back(words_of(grasp.stops[s].segment));
+// A wrap is called by its size unless it was asked for by name.
+Grip grip_of(Grip grip, const PowerGraspOptions& options, const GripSite& site, const Hand& hand) {
+  if (options.grip || grip == Grip::kPowerSphere) return grip;
+  return wrap_for(site.girth, hand.dimensions.hand_length);
+}
+
+struct Distances {
+  const DistanceField* quick;
+  const DistanceField* exact;
+};
+
+// Closes the hand on all of its skin and by the exact distance. The product gives way where closing
+// folds the palm further into it, if it may.
+HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
+                         const Distances& distances, const GripSite& site,
+                         const DepthLimits& limits, const Hold& hold, Placement& placement,
+                         bool may_give_way, const Progress& progress, Grasp& grasp) {
+  HeldProduct held{distances.quick, placement.product_from_hand, site.point, site.axis,
+                   site.girth / std::numbers::pi};
+  const auto exact = exact_where_touched(*distances.quick, *distances.exact, kTouched);
+  const auto exact_held = [&exact](HeldProduct seen) {
+    seen.distance = exact.get();
+    return seen;
+  };
+  Posture start = fine.start_posture(hold.style);
+  for (int f = 1; f < kFingerCount && may_give_way; ++f) {
+    const Dof dof = abduction_of(static_cast<Finger>(f));
+    start[dof] = hold.posture[dof];
   }
-  if (list.empty()) return "";
-  std::string clause = "; ";
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const bool is_last = i + 1 == list.size();
-    clause += (i == 0 ? "" : is_last ? " and " : ", ") + list[i];
+  ThumbWay way;
+  HoldMeasure measure;
+  for (int round = 0; round < kSettleRounds; ++round) {
+    progress.throw_if_cancelled();
+    grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
+    if (!hold.style.hook) {
+      if (round == 0) {
+        const ThumbCloser& thumb = coarse.thumb();
+        const Vec3& axis = placement.axis_in_hand;
+        const ThumbWay first =
+            may_give_way ? hold.thumb : thumb.find_way(held, limits, grasp.posture, axis);
+        way =
+            fine.thumb().best_of({first, thumb.bettered(first, held, limits, grasp.posture, axis)},
+                                 held, limits, grasp.posture, axis);
+      }
+      grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
+    }
+    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
+    const double excess = measure.penetration[0] - limits.palm;
+    if (excess <= kTrimTolerance || !may_give_way) break;
+    held.product_from_hand.translation +=
+        held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
+    if (round + 1 < kSettleRounds) continue;
+    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
   }
-  return clause + (list.size() == 1 ? " does not touch" : " do not touch");
-}
-
-std::string count_words(int fingers) {
-  static constexpr std::array<const char*, 6> kNumber = {"no",    "one",  "two",
-                                                         "three", "four", "five"};
-  return std::string(kNumber[static_cast<std::size_t>(fingers)]) +
-         (fingers == 1 ? " finger" : " fingers");
-}
-
-void judge(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp) {
-  const std::string open = open_segments(grasp);
-  const std::string girth = format("its girth at the grip is %.0f mm", site.girth);
-  if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
-    grasp.status = GraspStatus::kTooLarge;
-    grasp.message = girth +
-                    format("; the hand reaches %.0f degrees round it", 360.0 * measure.wrap) +
-                    format(", %.0f degrees are needed to hold it", 360.0 * kHalfRound);
-  } else if (measure.fingers >= 3 && measure.wrap >= kHalfRound) {
-    grasp.status = GraspStatus::kHeld;
-    grasp.message = "held by " + count_words(measure.fingers) + open;
-  } else if (measure.fingers > 0) {
-    grasp.status = GraspStatus::kPartlyHeld;
-    grasp.message = "touched by " + count_words(measure.fingers) +
-                    format(", which reach %.0f degrees round it", 360.0 * measure.wrap) + open;
-  } else if (site.girth < kLargeGirth * hand.dimensions.hand_length) {
-    grasp.status = GraspStatus::kTooSmall;
-    grasp.message = girth + "; the fingers close without meeting it";
-  } else {
-    grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = girth + "; no finger reaches it";
-  }
-}
-
-// Shapes that skin can't be closed on, told before trying.
-bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Grasp& grasp) {
-  if (site.thickness >= options.finger_limit_depth) return false;
-  const std::string thin = format("it is %.1f mm thick at the best place", site.thickness) +
-                           format(" and %.1f mm wide", site.width);
-  const std::string give = format("thinner than the %.1f mm that the skin of a finger gives",
-                                  options.finger_limit_depth);
-  if (site.width < kSheetWidth * options.finger_limit_depth) {
-    grasp.status = GraspStatus::kTooSmall;
-    grasp.message = thin + ", " + give + ": the fist closes on itself";
-  } else {
-    grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = thin + ", " + give + ": a sheet has nothing to close a hand round";
-  }
-  return true;
+  placement.product_from_hand = held.product_from_hand;
+  return measure;
 }
 
 }  // namespace
@@ -191,6 +214,27 @@ void PowerGraspOptions::check() const {
   if (placement.axis && !(placement.axis->allFinite() && placement.axis->norm() > 1e-9)) {
     throw UsageError("placement: axis has no direction; three numbers, not all 0, are required");
   }
+  if (grip && !is_power(*grip)) {
+    throw UsageError("grip: " + std::string(name_of(*grip)) +
+                     " is no power grip; medium_wrap, large_diameter, small_diameter, "
+                     "power_sphere or fixed_hook is allowed");
+  }
+  if (candidates < 1) {
+    throw UsageError("candidates: " + std::to_string(candidates) + "; at least 1 is required");
+  }
+  if (placement.region) {
+    const Vec3 size = placement.region->sizes();
+    if (!size.allFinite() || !(size.minCoeff() > 0.0)) {
+      throw UsageError(
+          "placement: the region has no inside; its corners have to differ in x, y and z");
+    }
+  }
+  if (placement.product_from_hand &&
+      (placement.at || placement.axis || placement.turn || placement.region)) {
+    throw UsageError(
+        "placement: a full placement leaves nothing to choose; at, axis, turn or region can't be "
+        "given with it");
+  }
   if (placement.turn && !std::isfinite(*placement.turn)) {
     throw UsageError("placement: turn is not a number; an angle is required");
   }
@@ -205,16 +249,13 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   }
   grasp.posture = reference_posture(hand.skeleton);
   progress.update(0.0, "finding a place to hold " + product.name);
-  GripSearchOptions search;
-  search.hand_length = hand.dimensions.hand_length;
-  search.palm_breadth = hand.dimensions.hand_width;
-  search.at = options.placement.at;
-  if (options.placement.axis) search.axis = options.placement.axis->normalized();
-  std::vector<GripSite> sites = find_grip_sites(product.mesh, search);
+  const Sites found = find_sites(hand, product, options);
+  std::vector<GripSite> sites = found.sites;
+  grasp.grip = found.grip;
   if (sites.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = options.placement.at
-                        ? "nothing near the given point is bar-like enough for a power grip"
+    grasp.message = options.placement.at || options.placement.region
+                        ? "nothing near the given place is bar-like enough for a power grip"
                         : "no part of the product is bar-like enough for a power grip";
     // Nobody holds it: the hand is shown beside the product, touching nothing.
     const Box3 box = product.distance->bounding_box();
@@ -233,67 +274,65 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     const DepthLimits least{kShownDepth, kShownDepth};
     const auto quick = distance_near(product.mesh, product.distance, site);
     grasp.posture = hint.open_posture();
-    grasp.product_from_hand = place(hint, *quick, least, site, {}).product_from_hand;
+    grasp.product_from_hand = place(hint, *quick, least, {}, site, {}).product_from_hand;
     return grasp;
   }
 
   progress.update(0.2, "trying ways to hold " + product.name);
   const DepthLimits asked{options.palm_limit_depth, options.finger_limit_depth};
-  std::optional<double> turn;
-  if (options.placement.turn) turn = lay_turn(sites.front(), *options.placement.turn);
   const HandCloser coarse(hand, kCoarse);
   std::vector<std::unique_ptr<DistanceField>> near;
   std::vector<const DistanceField*> distances;
   for (GripSite& candidate : sites) {
-    if (near.size() == 2 || candidate.score < kRival * sites.front().score) break;
+    if (near.size() == kTriedSites || candidate.score < kRival * sites.front().score) break;
     candidate.wall =
         wall_at(product.mesh, *product.distance, candidate, hand.dimensions.hand_width);
     near.push_back(distance_near(product.mesh, product.distance, candidate));
     distances.push_back(near.back().get());
   }
-  const auto hold =
-      find_hold(coarse, distances, sites, asked, turn, options.placement.at.has_value(), progress);
-  const GripSite& site = sites[hold->site];
-  const DepthLimits limits = limits_for(asked, site);
+  HoldSearch search;
+  search.styles = styles_for(grasp.grip);
+  search.is_place_fixed = options.placement.at || options.placement.region;
+  search.most = options.candidates;
+  if (options.placement.turn) search.turn = lay_turn(hand, sites.front(), *options.placement.turn);
+  Hold hold;
+  if (options.placement.product_from_hand) {
+    hold.placement.product_from_hand = *options.placement.product_from_hand;
+    const Quat back = hold.placement.product_from_hand.rotation.conjugate();
+    hold.placement.axis_in_hand = back * sites.front().axis;
+    hold.style = search.styles.front();
+    grasp.candidates = 1;
+  } else {
+    HoldsFound holds = find_holds(coarse, distances, sites, asked, search, progress);
+    hold = holds.holds.front();
+    grasp.candidates = holds.tried;
+    for (std::size_t k = 1; k < holds.holds.size(); ++k) {
+      const Hold& other = holds.holds[k];
+      grasp.runners_up.push_back({grip_of(found.grip, options, sites[other.site], hand),
+                                  other.posture, other.placement.product_from_hand, other.rank});
+    }
+  }
+  const GripSite& site = sites[hold.site];
+  grasp.grip = grip_of(found.grip, options, site, hand);
+  grasp.score = hold.rank;
 
   progress.update(0.6, "closing the hand round " + product.name);
+  const DepthLimits limits = limits_for(asked, site);
   const HandCloser fine(hand, 0.0);
-  const DistanceField& quick = *distances[hold->site];
-  const Placement placement = place(fine, quick, limits, site, hold->placement.lay);
-  HeldProduct held{&quick, placement.product_from_hand, site.point, site.axis,
-                   site.girth / std::numbers::pi};
-  const auto exact = exact_where_touched(quick, *product.distance, kTouched);
-  const auto exact_held = [&exact](HeldProduct seen) {
-    seen.distance = exact.get();
-    return seen;
-  };
-  ThumbWay way;
-  HoldMeasure measure;
-  for (int round = 0; round < kSettleRounds; ++round) {
-    progress.throw_if_cancelled();
-    grasp.posture = fine.close_fingers(held, limits, fine.open_posture(), grasp.stops);
-    if (round == 0) {
-      way = fine.thumb().best_of(
-          coarse.thumb().find_ways(held, limits, grasp.posture, placement.axis_in_hand), held,
-          limits, grasp.posture, placement.axis_in_hand);
-    }
-    grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
-    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
-    const double excess = measure.penetration[0] - limits.palm;
-    if (excess <= kTrimTolerance) break;
-    // Closing has folded the palm's skin further in: the product gives way.
-    held.product_from_hand.translation +=
-        held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
-    if (round + 1 < kSettleRounds) continue;
-    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
+  const DistanceField& quick = *distances[hold.site];
+  Placement placement = hold.placement;
+  if (!options.placement.product_from_hand) {
+    placement = place(fine, quick, limits, hold.style, site, hold.placement.lay);
   }
-  grasp.product_from_hand = held.product_from_hand;
+  const HoldMeasure measure =
+      close_finely(fine, coarse, {&quick, product.distance.get()}, site, limits, hold, placement,
+                   !options.placement.product_from_hand, progress, grasp);
+  grasp.product_from_hand = placement.product_from_hand;
   grasp.grip_axis = site.axis;
-  grasp.grip_point = site.point + hold->placement.lay.along * site.axis;
+  grasp.grip_point = site.point + hold.placement.lay.along * site.axis;
   grasp.grip_girth = site.girth;
-  finish_stops(hand, measure, limits, grasp);
-
-  judge(hand, measure, site, grasp);
+  finish_stops(measure, limits, grasp);
+  judge_hold(hand, measure, site, grasp);
   return grasp;
 }
 

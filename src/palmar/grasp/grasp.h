@@ -38,6 +38,9 @@ struct PlacementRequest {
   std::optional<Vec3> at;    ///< point of the grip axis that lies in mid-palm, product frame, mm
   std::optional<Vec3> axis;  ///< direction of the grip axis (towards the thumb side), product frame
   std::optional<double> turn;  ///< turn of the hand about the grip axis, rad
+  std::optional<Box3> region;  ///< hold it by the surface that lies in this box, product frame, mm
+  /// Placement in full; only the fingers close. Nothing else may be given with it.
+  std::optional<Rigid3> product_from_hand;
 };
 
 struct PowerGraspOptions {
@@ -45,7 +48,8 @@ struct PowerGraspOptions {
   double palm_limit_depth = 7.0;    ///< mm; Xie 2014, 5.5.1
   double finger_limit_depth = 4.0;  ///< mm; Xie 2014, 5.5.1
   PlacementRequest placement;
-  void check() const;  ///< throws UsageError: field, value, allowed range
+  int candidates = 200;  ///< placements that the search may try
+  void check() const;    ///< throws UsageError: field, value, allowed range
 };
 
 enum class GraspStatus {

@@ -25,6 +25,8 @@ constexpr double kRoundLoss = 0.2;     // loss of a quite round one: more often 
 constexpr double kSmallestScore = 1e-12;  // below: not a handle in any sense
 constexpr int kDirections = 16;           // with the principal axes they cover the half sphere
 constexpr int kRefinements = 2;
+constexpr double kBridged = 24.0;        // mm of a bar that something beside it may hide
+constexpr double kLargestLug = 1.4;      // area of the section with what hides it
 constexpr double kFingersBreadth = 0.8;  // four fingers round a handle / palm breadth
 constexpr double kWorthwhile = 0.15;     // share of the best score below which a site is dropped
 constexpr std::size_t kKept = 4;
@@ -33,15 +35,43 @@ constexpr std::size_t kKept = 4;
 struct Bar {
   std::vector<double> station;
   std::vector<SectionOutline> outline;
+  int missed = 0;  // sections in a row without a successor
 };
+
+// Outlines between two of a bar, where something else hid it.
+void bridge(Bar& bar, double station, const SectionOutline& next, double spacing) {
+  const SectionOutline last = bar.outline.back();
+  const double from = bar.station.back();
+  for (int k = 1; k <= bar.missed; ++k) {
+    const double share = k * spacing / (station - from);
+    SectionOutline between = share < 0.5 ? last : next;
+    between.centroid = (1.0 - share) * last.centroid + share * next.centroid;
+    bar.station.push_back(from + k * spacing);
+    bar.outline.push_back(between);
+  }
+  bar.missed = 0;
+}
 
 double diameter(const SectionOutline& outline) { return outline.girth / std::numbers::pi; }
 
-bool follows(const SectionOutline& a, const SectionOutline& b, const Vec3& axis, double spacing) {
+bool follows(const SectionOutline& a, const SectionOutline& b, const Vec3& axis,
+             double step_length) {
   const Vec3 step = b.centroid - a.centroid;
   const double sideways = (step - axis * axis.dot(step)).norm();
   const double taper = std::abs(diameter(a) - diameter(b)) / 2.0;
-  return sideways <= kLargestLean * spacing && taper <= kLargestTaper * spacing;
+  return sideways <= kLargestLean * step_length && taper <= kLargestTaper * step_length;
+}
+
+// Beyond a lug (where a mug's handle begins) a body goes on as it was before.
+bool resumes(const SectionOutline& a, const SectionOutline& b) {
+  return std::abs(a.girth - b.girth) < 0.15 * a.girth &&
+         (a.centroid - b.centroid).norm() < kBridged + 0.1 * diameter(a);
+}
+
+// Whether an outline could be a bar with a lug at its side.
+bool hides(const SectionOutline& outline, const SectionOutline& bar) {
+  return outline.area > bar.area && outline.area < kLargestLug * bar.area &&
+         (outline.centroid - bar.centroid).norm() < kBridged + 0.25 * diameter(bar);
 }
 
 std::vector<Bar> bars_in(const std::vector<Section>& sections, const Vec3& axis, double spacing) {
@@ -55,7 +85,9 @@ std::vector<Bar> bars_in(const std::vector<Section>& sections, const Vec3& axis,
       double best_distance = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < section.outlines.size(); ++i) {
         if (taken[i] != 0) continue;
-        if (!follows(bar.outline.back(), section.outlines[i], axis, spacing)) continue;
+        const double gap = section.station - bar.station.back();
+        if (!follows(bar.outline.back(), section.outlines[i], axis, gap)) continue;
+        if (bar.missed > 0 && !resumes(bar.outline.back(), section.outlines[i])) continue;
         const double distance = (section.outlines[i].centroid - bar.outline.back().centroid).norm();
         if (distance < best_distance) {
           best_distance = distance;
@@ -64,8 +96,15 @@ std::vector<Bar> bars_in(const std::vector<Section>& sections, const Vec3& axis,
       }
       if (best) {
         taken[*best] = 1;
+        if (bar.missed > 0) bridge(bar, section.station, section.outlines[*best], spacing);
         bar.station.push_back(section.station);
         bar.outline.push_back(section.outlines[*best]);
+        still_open.push_back(std::move(bar));
+      } else if ((bar.missed + 1) * spacing <= kBridged && bar.station.size() >= 3 &&
+                 std::any_of(
+                     section.outlines.begin(), section.outlines.end(),
+                     [&](const SectionOutline& o) { return hides(o, bar.outline.back()); })) {
+        ++bar.missed;
         still_open.push_back(std::move(bar));
       } else {
         done.push_back(std::move(bar));
@@ -162,10 +201,10 @@ std::optional<Window> best_window(const Bar& bar, double spacing, const Vec3& ax
   std::optional<Window> best;
   for (std::size_t first = 0; first + span <= count; ++first) {
     Window window = score_window(bar, first, first + span - 1, spacing, axis, gravity, options);
-    if (options.at && std::abs(axis.dot(*options.at) - window.centre) > 0.75 * spacing &&
-        count > span) {
+    const std::optional<Vec3>& place = options.at ? options.at : options.near;
+    if (place && std::abs(axis.dot(*place) - window.centre) > 0.75 * spacing && count > span) {
       // Asked for a place: the window nearest to it, whatever its neighbours score.
-      window.score *= std::exp(-std::abs(axis.dot(*options.at) - window.centre) / spacing);
+      window.score *= std::exp(-std::abs(axis.dot(*place) - window.centre) / spacing);
     }
     if (!best || window.score > best->score) best = window;
   }
@@ -361,10 +400,11 @@ std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearch
     for (const Bar& bar : bars_in(sections_along(mesh, axis, spacing), axis, spacing)) {
       const auto window = best_window(bar, spacing, axis, frame.centre, options);
       if (!window || window->score < kSmallestScore) continue;
-      if (options.at) {
-        const Vec3 gap = *options.at - window->point;
+      if (options.at || options.near) {
+        const Vec3 gap = (options.at ? *options.at : *options.near) - window->point;
         const double sideways = (gap - axis * axis.dot(gap)).norm();
         if (sideways > diameter(window->outline)) continue;
+        if (options.near && std::abs(axis.dot(gap)) > 0.5 * options.palm_breadth) continue;
       }
       candidates.push_back({*window, axis});
     }
@@ -388,6 +428,7 @@ std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearch
     GripSite site;
     site.axis = best.axis;
     site.point = options.at ? *options.at : best.window.point;
+    if (options.near) site.point += site.axis * site.axis.dot(*options.near - site.point);
     site.girth = best.window.outline.girth;
     site.thickness = best.window.outline.thickness;
     site.width = best.window.outline.width;

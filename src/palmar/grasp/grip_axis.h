@@ -28,8 +28,9 @@ struct GripSite {
 struct GripSearchOptions {
   double hand_length = 190.0;  ///< L, mm
   double palm_breadth = 85.0;  ///< W: what a power grip covers of a handle, mm
-  std::optional<Vec3> at;      ///< only sites near this point (product frame, mm) ...
-  std::optional<Vec3> axis;    ///< ... or along this direction
+  std::optional<Vec3> near;  ///< only sites with this point beside them (product frame, mm), or ...
+  std::optional<Vec3> at;    ///< ... with this point on the axis, mm ...
+  std::optional<Vec3> axis;  ///< ... or along this direction
 };
 
 /// Finds where a person would take a product in a power grip, best first; empty if no part of it

@@ -18,21 +18,39 @@ constexpr double kNoseCredit = 3000.0;    // mm^2 for a working end that points 
 constexpr double kStrainCost = 5.0;       // mm^2 per degree
 // Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small
 // changes of a product then change its grasp a little, not from one lay to another.
-constexpr double kLeaveCost = 2500.0;  // mm^2
+constexpr double kLeaveCost = 400.0;   // mm^2
 constexpr double kProximalUnit = 6.0;  // mm
-constexpr double kAlongUnit = 12.0;    // mm
-constexpr double kMostAlong = 15.0;    // mm from the site along its axis
+constexpr double kAlongUnit = 16.0;    // mm
+constexpr double kMostAlong = 24.0;    // mm from the site along its axis
 constexpr double kSlantUnit = 6.0 * kDeg;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
-constexpr double kLeastProximal = 10.0;  // mm from the knuckles: nearer, the thumb can't reach over
+constexpr double kUsualProximal = 0.068;  // hand lengths from the knuckles to the grip axis
+constexpr double kPalmToAxis = 30.0;      // mm from the bones of the palm to an ordinary grip axis
+constexpr double kThinTilt = 0.13;        // rad more out of the palm ...
+constexpr double kThin = 0.13,
+                 kThick = 0.165;        // ... from the one diameter / hand length to the other
+constexpr double kWideOblique = -0.15;  // rad more for the line of a wide body ...
+constexpr double kSlim = 0.28,
+                 kWide = 0.45;          // ... from the one diameter / hand length to the other
+constexpr double kLeastProximal = 8.0;  // mm from the knuckles: nearer, the thumb can't reach over
+constexpr double kMostProximal = 45.0;  // mm
+constexpr double kHookShare = 0.62;  // of the middle finger's proximal phalanx, to a hooked handle
+constexpr double kHookOblique =
+    0.15;  // rad; the finger joints lie more obliquely than the knuckles
 // A slab is held by its edges with the palm behind it, if the hand spans it: as one holds a phone.
 constexpr double kFlat = 0.35;          // thickness / width up to which a section is a slab
 constexpr double kSpan = 0.55;          // hand lengths between its edges that a hand spans
 constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
-constexpr double kAlike = 0.005;        // share of the score within which holds are the same
+constexpr double kAlike = 0.01;         // share of the score within which holds are the same
 constexpr int kTurns = 8;
+constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
+constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
+constexpr std::size_t kBettered = 4;  // holds that are looked at more finely
+constexpr std::size_t kKept = 4;      // holds that are given back
+constexpr double kOtherAngle = 30.0 * kDeg;  // beyond which a way of holding is another one
+constexpr double kOtherPlace = 20.0;         // mm; the same
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
 struct PalmFrame {
@@ -70,13 +88,6 @@ double strain_of(const Posture& posture) {
   return strain;
 }
 
-// A short product moves towards the little finger, so that the thumb meets it and not its rim.
-Lay usual_lay(const GripSite& site, bool is_place_fixed) {
-  Lay lay;
-  if (!is_place_fixed) lay.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
-  return lay;
-}
-
 double leave_cost(const Lay& lay, const Lay& usual) {
   const auto square = [](double x) { return x * x; };
   return kLeaveCost * (square((lay.oblique - usual.oblique) / kSlantUnit) +
@@ -102,22 +113,94 @@ double score_of(const HoldMeasure& measure, const GripSite& site, const Placemen
   return score;
 }
 
-Hold try_hold(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-              std::size_t site_index, const DepthLimits& limits, const Lay& lay, const Lay& usual) {
-  Hold hold;
-  hold.site = site_index;
-  hold.placement = place(closer, product, limits, site, lay);
-  const HeldProduct held{&product, hold.placement.product_from_hand, site.point, site.axis,
-                         site.girth / std::numbers::pi};
-  std::array<SegmentStop, kSegmentCount> stops;
-  hold.posture = closer.close_fingers(held, limits, closer.open_posture(), stops);
-  hold.measure = closer.measure(held, hold.posture, hold.placement.axis_in_hand);
-  hold.score = score_of(hold.measure, site, hold.placement, usual,
-                        closer.hand().dimensions.hand_length, hold.posture);
-  return hold;
+// One placement closed from a given start, and what it is worth.
+struct Trial {
+  const HandCloser& closer;
+  const DistanceField& product;
+  const GripSite& site;
+  DepthLimits limits;
+  Lay usual;
+
+  HeldProduct held(const Placement& placement) const {
+    return {&product, placement.product_from_hand, site.point, site.axis,
+            site.girth / std::numbers::pi};
+  }
+  void judge(Hold& hold) const {
+    hold.measure =
+        closer.measure(held(hold.placement), limits, hold.posture, hold.placement.axis_in_hand);
+    hold.score = score_of(hold.measure, site, hold.placement, usual,
+                          closer.hand().dimensions.hand_length, hold.posture);
+  }
+  void add_thumb(Hold& hold) const {
+    if (hold.style.hook) return;
+    const HeldProduct at = held(hold.placement);
+    const Vec3& axis = hold.placement.axis_in_hand;
+    const ThumbCloser& thumb = closer.thumb();
+    hold.thumb = thumb.find_way(at, limits, hold.posture, axis);
+    std::array<SegmentStop, kSegmentCount> stops;
+    hold.posture = thumb.wrap(at, limits, hold.posture, hold.thumb, stops);
+    judge(hold);
+    hold.score += kThumbShare * thumb.score(at, hold.posture, axis);
+  }
+  Hold run(std::size_t site_index, const ClosingStyle& style, const Lay& lay, const Posture& start,
+           int rounds) const {
+    Hold hold;
+    hold.site = site_index;
+    hold.style = style;
+    hold.placement = place(closer, product, limits, style, site, lay);
+    std::array<SegmentStop, kSegmentCount> stops;
+    hold.posture = closer.close_fingers(held(hold.placement), limits, style, start, rounds, stops);
+    judge(hold);
+    return hold;
+  }
+};
+
+// The open hand with the fingers abducted as in a hold that was found.
+Posture start_like(const HandCloser& closer, const Hold& hold) {
+  Posture start = closer.start_posture(hold.style);
+  for (int f = 1; f < kFingerCount; ++f) {
+    const Dof dof = abduction_of(static_cast<Finger>(f));
+    start[dof] = hold.posture[dof];
+  }
+  return start;
 }
 
 }  // namespace
+
+// A short product moves towards the little finger, so that the thumb meets it and not its rim.
+Lay usual_lay(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+              bool is_place_fixed) {
+  Lay lay;
+  lay.proximal = kUsualProximal * hand.dimensions.hand_length;
+  // Round a thin handle the index finger finds room only if the handle leaves its base.
+  const double share = site.girth / std::numbers::pi / hand.dimensions.hand_length;
+  lay.oblique += kWideOblique * std::clamp((share - kSlim) / (kWide - kSlim), 0.0, 1.0);
+  lay.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
+  if (style.hook) {
+    const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;
+    const Vec3& pip = hand.skeleton.joint(JointId::kMiddlePip).centre;
+    lay.proximal = -kHookShare * (pip - mcp).norm();
+    lay.oblique = kHookOblique;
+    lay.tilt = 0.0;
+  } else if (!is_place_fixed) {
+    lay.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
+  }
+  return lay;
+}
+
+PalmLine palm_line(const Hand& hand) {
+  const PalmFrame palm = palm_frame(hand.skeleton);
+  const Lay lay;
+  return {palm.heads - kUsualProximal * hand.dimensions.hand_length * palm.distal +
+              kPalmToAxis * palm.palmar,
+          std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal};
+}
+
+bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other) {
+  const Vec3 heads = palm_frame(hand.skeleton).heads;
+  return product_from_hand.rotation.angularDistance(other.rotation) > kOtherAngle ||
+         (product_from_hand * heads - other * heads).norm() > kOtherPlace;
+}
 
 DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
   const double thickness = std::min(site.thickness, site.wall);
@@ -126,7 +209,7 @@ DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
 }
 
 Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
-                const GripSite& site, const Lay& lay) {
+                const ClosingStyle& style, const GripSite& site, const Lay& lay) {
   const PalmFrame palm = palm_frame(closer.hand().skeleton);
   Vec3 axis = std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal;
   axis = std::cos(lay.tilt) * axis + std::sin(lay.tilt) * palm.palmar;
@@ -135,7 +218,9 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   Eigen::Matrix3d in_hand;  // grip axis, towards the palm, third
   in_hand << axis, -outward, axis.cross(-outward);
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
-  const Vec3 facing = Eigen::AngleAxisd(lay.turn, site.axis) * wide;
+  // A left hand turns its product the other way.
+  const double turn = closer.hand().side == Side::kRight ? lay.turn : -lay.turn;
+  const Vec3 facing = Eigen::AngleAxisd(turn, site.axis) * wide;
   Eigen::Matrix3d in_product;
   in_product << site.axis, facing, site.axis.cross(facing);
 
@@ -151,76 +236,129 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   const HeldProduct held{&product, placement.product_from_hand, site.point, site.axis,
                          site.girth / std::numbers::pi};
   const double travel =
-      closer.free_travel(held, limits, closer.open_posture(), placement.push_in_hand, 2.0 * reach);
+      closer.free_travel(held, limits, style, placement.push_in_hand, 2.0 * reach);
   placement.product_from_hand.translation -=
       placement.product_from_hand.rotation * (travel * placement.push_in_hand);
   return placement;
 }
 
-std::optional<Hold> find_hold(const HandCloser& closer,
-                              const std::vector<const DistanceField*>& distances,
-                              const std::vector<GripSite>& sites, const DepthLimits& limits,
-                              std::optional<double> turn, bool is_place_fixed,
-                              const Progress& progress) {
-  struct Rated {
-    Hold hold;
-    double rank = 0.0;
-  };
-  std::vector<Rated> tried;
+HoldsFound find_holds(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+                      const std::vector<GripSite>& sites, const DepthLimits& limits,
+                      const HoldSearch& search, const Progress& progress) {
+  HoldsFound found;
+  const Hand& hand = closer.hand();
   const double best_site = sites.empty() ? 1.0 : sites.front().score;
-  const auto rank_of = [&](const Hold& hold) {
+  const auto finish = [&](Hold& hold) {
     // A part that is less of a handle must hold much better to be preferred.
     const double share = sites[hold.site].score / best_site;
-    return hold.score * (hold.score > 0.0 ? std::pow(share, 4) : 1.0);
+    hold.rank = hold.score * (hold.score > 0.0 ? std::pow(share, 4) : 1.0);
+    ++found.tried;
   };
+  const auto trial_at = [&](std::size_t s, const ClosingStyle& style) {
+    return Trial{closer, *distances[s], sites[s], limits_for(limits, sites[s]),
+                 usual_lay(hand, style, sites[s], search.is_place_fixed)};
+  };
+  std::vector<Hold> tried;
   for (std::size_t s = 0; s < distances.size(); ++s) {
-    const DepthLimits here = limits_for(limits, sites[s]);
-    for (int k = 0; k < (turn ? 1 : kTurns); ++k) {
-      progress.throw_if_cancelled();
-      const Lay usual = usual_lay(sites[s], is_place_fixed);
-      Lay lay = usual;
-      lay.turn = turn ? *turn : 2.0 * std::numbers::pi * k / kTurns;
-      const Hold hold = try_hold(closer, *distances[s], sites[s], s, here, lay, usual);
-      tried.push_back({hold, rank_of(hold)});
+    for (const ClosingStyle& style : search.styles) {
+      const Trial trial = trial_at(s, style);
+      Posture start = closer.start_posture(style);
+      const std::size_t first = tried.size();
+      for (int k = 0; k < (search.turn ? 1 : kTurns); ++k) {
+        progress.throw_if_cancelled();
+        Lay lay = trial.usual;
+        lay.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
+        Hold hold = trial.run(s, style, lay, start, k == 0 ? 2 : 1);
+        finish(hold);
+        if (k == 0) start = start_like(closer, hold);
+        tried.push_back(std::move(hold));
+        // Round: it lies the same whichever way it is turned.
+        const auto is_alike = [&](const Hold& other) {
+          return std::abs(other.score - tried[first].score) < kAlike * std::abs(tried[first].score);
+        };
+        if (k == 2 && is_alike(tried[first + 1]) && is_alike(tried[first + 2])) {
+          tried.resize(first + 1);
+          break;
+        }
+      }
     }
   }
-  if (tried.empty()) return {};
-  std::stable_sort(tried.begin(), tried.end(),
-                   [](const Rated& a, const Rated& b) { return a.rank > b.rank; });
-  // A finer look at the two best: one number after the other.
-  std::optional<Rated> best;
-  for (std::size_t k = 0; k < std::min<std::size_t>(tried.size(), 2); ++k) {
-    Rated current = tried[k];
-    // Round handles lie alike whichever way they are turned.
-    if (k > 0 && current.hold.site == tried[0].hold.site &&
-        current.rank > (1.0 - kAlike) * tried[0].rank) {
-      break;
-    }
-    const GripSite& site = sites[current.hold.site];
-    const DepthLimits here = limits_for(limits, site);
-    const Lay usual = usual_lay(site, is_place_fixed);
-    const auto improve = [&](double Lay::*what, double low, double high,
-                             std::initializer_list<double> steps) {
-      const Lay from = current.hold.placement.lay;
-      for (const double step : steps) {
+  const auto by_rank = [](const Hold& a, const Hold& b) { return a.rank > b.rank; };
+  std::stable_sort(tried.begin(), tried.end(), by_rank);
+
+  // A finer look at the best: one number after the other, with smaller and smaller steps.
+  const auto better = [&](Hold& current, double scale) {
+    const GripSite& site = sites[current.site];
+    const Trial trial = trial_at(current.site, current.style);
+    const Posture start = start_like(closer, current);
+    bool is_changed = false;
+    const auto improve = [&](double Lay::*what, double step, double low, double high) {
+      const Lay from = current.placement.lay;
+      for (const double by : {scale * step, -scale * step}) {
+        if (found.tried >= search.most) return;
         progress.throw_if_cancelled();
         Lay lay = from;
-        lay.*what += step;
+        lay.*what += by;
         if (lay.*what < low || lay.*what > high) continue;
-        const Hold hold = try_hold(closer, *distances[current.hold.site], site, current.hold.site,
-                                   here, lay, usual);
-        if (rank_of(hold) > current.rank) current = {hold, rank_of(hold)};
+        Hold hold = trial.run(current.site, current.style, lay, start, 0);
+        finish(hold);
+        if (hold.rank <= current.rank) continue;
+        current = std::move(hold);
+        is_changed = true;
       }
     };
-    improve(&Lay::proximal, kLeastProximal, 45.0, {6.0, 12.0, 20.0});
-    improve(&Lay::tilt, -15 * kDeg, 15 * kDeg, {-6 * kDeg, 6 * kDeg});
-    improve(&Lay::oblique, 4 * kDeg, 26 * kDeg, {-6 * kDeg, 6 * kDeg});
-    if (!is_place_fixed) improve(&Lay::along, -kMostAlong, kMostAlong, {-8.0, 8.0});
-    if (!turn) improve(&Lay::turn, -100.0, 100.0, {-15 * kDeg, 15 * kDeg});
-    improve(&Lay::proximal, kLeastProximal, 45.0, {-4.0, 4.0});
-    if (!best || current.rank > best->rank) best = current;
+    const double usual = trial.usual.proximal;
+    const bool is_hook = current.style.hook.has_value();
+    improve(&Lay::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
+            is_hook ? usual + 8.0 : kMostProximal);
+    improve(&Lay::tilt, 5.0 * kDeg, -15.0 * kDeg, 15.0 * kDeg);
+    improve(&Lay::oblique, 6.0 * kDeg, 2.0 * kDeg, 30.0 * kDeg);
+    if (!search.is_place_fixed) improve(&Lay::along, 8.0, -kMostAlong, kMostAlong);
+    if (!search.turn && site.thickness < 0.98 * site.width) {
+      improve(&Lay::turn, 15.0 * kDeg, -100.0, 100.0);
+    }
+    return is_changed;
+  };
+  std::vector<Hold> bettered;
+  for (std::size_t k = 0; k < tried.size() && bettered.size() < kBettered; ++k) {
+    if (tried[k].rank < kPromising * tried.front().rank && !bettered.empty()) break;
+    Hold current = tried[k];
+    better(current, 1.0);
+    bettered.push_back(std::move(current));
   }
-  return best->hold;
+  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
+  for (std::size_t k = 0; k < std::min<std::size_t>(bettered.size(), 2); ++k) {
+    for (const double scale : {0.6, 0.3}) better(bettered[k], scale);
+  }
+  for (std::size_t k = 0; k < bettered.size(); ++k) {
+    // Once more with the fingers brought side by side, and with the thumb, for which the best are
+    // shifted along the product, too.
+    const Hold from = bettered[k];
+    const Trial trial = trial_at(from.site, from.style);
+    const auto with_thumb = [&](double along) {
+      progress.throw_if_cancelled();
+      Lay lay = from.placement.lay;
+      lay.along = std::clamp(lay.along + along, -kMostAlong, kMostAlong);
+      Hold hold = trial.run(from.site, from.style, lay, start_like(closer, from), 2);
+      trial.add_thumb(hold);
+      finish(hold);
+      return hold;
+    };
+    bettered[k] = with_thumb(0.0);
+    if (k > 1 || search.is_place_fixed || from.style.hook) continue;
+    for (const double along : {-16.0, -8.0, 8.0}) {
+      Hold other = with_thumb(along);
+      if (other.rank > bettered[k].rank) bettered[k] = std::move(other);
+    }
+  }
+  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
+  for (Hold& hold : bettered) {
+    const bool is_new = std::all_of(found.holds.begin(), found.holds.end(), [&](const Hold& other) {
+      return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
+    });
+    if (is_new && found.holds.size() < kKept) found.holds.push_back(std::move(hold));
+  }
+  return found;
 }
 
 }  // namespace palmar

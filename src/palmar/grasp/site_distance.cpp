@@ -17,6 +17,7 @@ namespace {
 constexpr double kFinest = 2.0;  // mm between nodes; the final closing is checked exactly
 constexpr double kCoarsest = 5.0;
 constexpr double kPerDiameter = 14.0;  // nodes along the handle's diameter
+constexpr double kPerWall = 0.4;       // of the wall of a hollow product
 constexpr double kAlong = 110.0;       // mm from the site along its axis that a hand can touch
 constexpr double kSideways = 130.0;    // ... across it
 
@@ -96,10 +97,14 @@ std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
   const Vec3 reach(kAlong, kSideways, kSideways);
   window = window.intersection(Box3(-reach, reach));
   GridDistanceOptions options;
-  options.spacing = std::clamp(site.girth / std::numbers::pi / kPerDiameter, kFinest, kCoarsest);
-  // Nodes in mirrored places for a mirrored product: there the third axis points the other way.
-  const double side = std::max(-window.min().z(), window.max().z());
-  window.max().z() = std::ceil(side / options.spacing) * options.spacing;
+  options.spacing =
+      std::clamp(std::min(site.girth / std::numbers::pi / kPerDiameter, kPerWall * site.wall),
+                 kFinest, kCoarsest);
+  // Nodes in mirrored places for a mirrored product (there the third axis points the other way) and
+  // none in the middle plane, where a symmetric product leaves the gradient open.
+  const double margin = kSiteBand + 2.0 * options.spacing;  // that the grid adds
+  const double side = std::max(-window.min().z(), window.max().z()) + margin;
+  window.max().z() = (std::ceil(side / options.spacing - 0.5) + 0.5) * options.spacing - margin;
   window.min().z() = -window.max().z();
   auto near = std::make_shared<TurnedField>(std::move(product), product_from_site, window);
   options.band = kSiteBand;

@@ -9,8 +9,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kTolerance = 0.02;  // mm; how near to a limit counts as there
-constexpr double kGlide = 1.5;       // mm; longest step along a surface between two looks
+constexpr double kOtherSide = -0.3;  // cosine between normals of the two sides of a wall
 constexpr int kLongestAdvance = 60;  // steps
 
 }  // namespace
@@ -54,8 +53,8 @@ StopReason Advance::reason_for(Segment moved) const {
 }
 
 Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const DepthLimits& limits,
-                     const std::vector<Obstacle>& obstacles, const Posture& from,
-                     const Posture& to) {
+                     const std::vector<Obstacle>& obstacles, const Posture& from, const Posture& to,
+                     const AdvanceCare& care) {
   const std::size_t count = group.segment.size();
   const auto posture_at = [&](double s) {
     Posture posture = from;
@@ -74,9 +73,19 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
     std::size_t who = 0;
     bool by_product = true;
   };
+  // Obstacles farther than that from a point say nothing.
+  std::vector<Vec3> middle;
+  std::vector<double> farthest;  // squared, mm^2
+  for (const Obstacle& obstacle : obstacles) {
+    const RoundCone& cone = obstacle.cone;
+    middle.push_back(0.5 * (cone.a + cone.b));
+    const double far =
+        0.5 * (cone.b - cone.a).norm() + std::max(cone.radius_a, cone.radius_b) + kSkinRange;
+    farthest.push_back(far * far);
+  }
   std::vector<double> forgiven(count, 0.0), forgiven_clearance(count, 0.0);
   std::vector<Vec3> points(count);
-  const auto look_at = [&](double s, Look& look) {
+  const auto look_at = [&](double s, Look& look, const Look* before) {
     look.share = s;
     group.skin.pose(posture_at(s), look.skin);
     for (std::size_t k = 0; k < count; ++k) points[k] = product.product_from_hand * look.skin[k];
@@ -88,9 +97,16 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
     for (std::size_t k = 0; k < count; ++k) {
       const double limit = group.segment[k] == Segment::kPalm ? limits.palm : limits.finger;
       look.slack[k] = look.sample[k].distance + limit + forgiven[k];
-      for (const Obstacle& obstacle : obstacles) {
-        look.clearance[k] =
-            std::min(look.clearance[k], distance_to(obstacle.cone, look.skin[k]) + obstacle.give);
+      // Past the middle of a thin wall the other side is nearer: that is deeper still, not out
+      // again.
+      if (before != nullptr && look.sample[k].distance < 0.0 && is_near(before->sample[k]) &&
+          look.sample[k].normal.dot(before->sample[k].normal) < kOtherSide) {
+        look.slack[k] = std::min(look.slack[k], -0.5 * limit);
+      }
+      for (std::size_t i = 0; i < obstacles.size(); ++i) {
+        if ((look.skin[k] - middle[i]).squaredNorm() > farthest[i]) continue;
+        look.clearance[k] = std::min(
+            look.clearance[k], distance_to(obstacles[i].cone, look.skin[k]) + obstacles[i].give);
       }
       look.clearance[k] += forgiven_clearance[k];
       const double least = std::min(look.slack[k], look.clearance[k]);
@@ -103,23 +119,30 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
   };
 
   Look now, next;
-  look_at(0.0, now);
+  look_at(0.0, now, nullptr);
   // Skin that starts beyond a limit (pressed in by the palm) may stay, but go no deeper.
+  now.least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < count; ++k) {
-    forgiven[k] = std::max(0.0, kTolerance + 0.05 - now.slack[k]);
-    forgiven_clearance[k] = std::max(0.0, kTolerance + 0.05 - now.clearance[k]);
+    forgiven[k] = std::max(0.0, care.tolerance + 0.05 - now.slack[k]);
+    forgiven_clearance[k] = std::max(0.0, care.tolerance + 0.05 - now.clearance[k]);
+    now.slack[k] += forgiven[k];
+    now.clearance[k] += forgiven_clearance[k];
+    const double least = std::min(now.slack[k], now.clearance[k]);
+    if (least >= now.least) continue;
+    now.least = least;
+    now.who = k;
+    now.by_product = now.slack[k] <= now.clearance[k];
   }
-  look_at(0.0, now);
-  look_at(1e-3, next);
   std::vector<Vec3> velocity(count, Vec3::Zero());
+  group.skin.pose(posture_at(1e-3), next.skin);
   for (std::size_t k = 0; k < count; ++k) velocity[k] = (next.skin[k] - now.skin[k]) / 1e-3;
 
-  for (int i = 0; i < kLongestAdvance && now.share < 1.0 && now.least > kTolerance; ++i) {
+  for (int i = 0; i < kLongestAdvance && now.share < 1.0 && now.least > care.tolerance; ++i) {
     double step = 1.0 - now.share;
     for (std::size_t k = 0; k < count; ++k) {
       const double speed = velocity[k].norm();
       if (speed < 1e-9) continue;
-      const double glide = kGlide / speed;
+      const double glide = care.glide / speed;
       double reach = now.slack[k] / speed;
       if (is_near(now.sample[k])) {
         const Vec3 normal = product.product_from_hand.rotation.conjugate() * now.sample[k].normal;
@@ -130,13 +153,13 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
       const double passing = std::max(now.clearance[k] / speed, 0.2 * glide);
       step = std::min({step, reach, passing});
     }
-    look_at(now.share + std::max(step, 1e-5), next);
+    look_at(now.share + std::max(step, 1e-5), next, &now);
     // Too far after all: back between the last good place and here.
     double good = now.share, bad = next.share;
     double good_slack = now.least, bad_slack = next.least;
     for (int back = 0; back < 12 && next.least < 0.0; ++back) {
       const double mix = std::clamp(good_slack / (good_slack - bad_slack), 0.1, 0.9);
-      look_at(good + mix * (bad - good), next);
+      look_at(good + mix * (bad - good), next, &now);
       if (next.least < 0.0) {
         bad = next.share;
         bad_slack = next.least;

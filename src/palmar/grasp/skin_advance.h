@@ -52,6 +52,12 @@ struct Obstacle {
   double give = 0.0;  ///< mm
 };
 
+/// How closely a movement is followed.
+struct AdvanceCare {
+  double tolerance = 0.02;  ///< mm; how near to a limit counts as there
+  double glide = 1.5;       ///< mm; longest step along a surface between two looks
+};
+
 /// How far a movement got.
 struct Advance {
   Posture posture;
@@ -70,8 +76,8 @@ struct Advance {
 /// or meets an obstacle. Every step is so small that no skin point can pass through the product
 /// unseen: the distance field changes by at most the way travelled.
 Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const DepthLimits& limits,
-                     const std::vector<Obstacle>& obstacles, const Posture& from,
-                     const Posture& to);
+                     const std::vector<Obstacle>& obstacles, const Posture& from, const Posture& to,
+                     const AdvanceCare& care = {});
 
 /// Whether a sample says more than "far".
 bool is_near(const DistanceSample& sample);

@@ -12,8 +12,8 @@ namespace palmar {
 namespace {
 
 constexpr double kEndFace = 0.7;  // of the normal along the grip axis: not held, but hooked
-constexpr double kStraightIp = 45.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
-constexpr std::size_t kKeptWays = 2;                             // looked at more closely
+constexpr double kStraightIp = 40.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
+constexpr double kStraightMp = 30.0 * std::numbers::pi / 180.0;  // ... of the MP joint
 
 }  // namespace
 
@@ -24,17 +24,18 @@ Posture ThumbCloser::wrap(const HeldProduct& product, const DepthLimits& limits,
   // First out of the palm's plane, clear of the product, then across it.
   Posture target = start;
   target[Dof::kThumbCmcAbduction] = way.cmc_abduction;
-  Posture posture = advance_skin((*groups_)[2], product, limits, fingers, start, target).posture;
+  Posture posture =
+      advance_skin((*groups_)[2], product, limits, fingers, start, target, care_).posture;
   target = posture;
   target[Dof::kThumbCmcFlexion] = way.cmc_flexion;
-  posture = advance_skin((*groups_)[2], product, limits, fingers, posture, target).posture;
+  posture = advance_skin((*groups_)[2], product, limits, fingers, posture, target, care_).posture;
   const std::array<Segment, 2> segments = {Segment::kThumbProximal, Segment::kThumbDistal};
   for (int level = 0; level < 2; ++level) {
     const Dof dof = flexion_of(Finger::kThumb, level);
     target = posture;
     target[dof] = hand_->skeleton.dof(dof).upper;
     const Advance moved = advance_skin((*groups_)[static_cast<std::size_t>(level)], product, limits,
-                                       fingers, posture, target);
+                                       fingers, posture, target, care_);
     posture = moved.posture;
     SegmentStop& stop = stops[static_cast<std::size_t>(segments[static_cast<std::size_t>(level)])];
     stop.segment = segments[static_cast<std::size_t>(level)];
@@ -48,10 +49,13 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
   const SkinGroup& group = (*groups_)[2];
   const SkinLook look = look_at_skin(group, product, posture);
   const std::vector<DistanceSample>& samples = look.sample;
-  double area = 0.0, other = 0.0, gap = kSkinRange, reach = 0.0;
+  double area = 0.0, other = 0.0, gap = kSkinRange, base_gap = kSkinRange, reach = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k])) {
       gap = std::min(gap, samples[k].distance);
+    }
+    if (group.segment[k] == Segment::kThumbProximal && is_palmar(group.region[k])) {
+      base_gap = std::min(base_gap, samples[k].distance);
     }
     if (samples[k].distance > 0.0) continue;
     // Full from half a millimetre: no steps as the thumb moves on.
@@ -76,10 +80,12 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
   const Vec3 base = pose.segment[static_cast<std::size_t>(Segment::kThumbProximal)] *
                     hand_->skeleton.joint(JointId::kThumbMp).centre;
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
-  // A thumb hooked over an edge bends at its tip alone.
-  const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp);
-  return area - 2.0 * other + reach - 250.0 * hooked +
-         800.0 * across * std::clamp(1.0 - gap / 3.0, 0.0, 1.0) - 10.0 * std::max(0.0, gap);
+  // A thumb hooked over an edge bends at its tip alone; one that reaches round the air, at its MP.
+  const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp) +
+                        0.5 * std::max(0.0, posture[Dof::kThumbMpFlexion] - kStraightMp);
+  return area - 2.0 * other + reach - 400.0 * hooked +
+         800.0 * across * std::clamp(1.0 - gap / 3.0, 0.0, 1.0) - 10.0 * std::max(0.0, gap) -
+         20.0 * std::max(0.0, base_gap);
 }
 
 std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
@@ -90,44 +96,46 @@ std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
   return list;
 }
 
-std::vector<ThumbWay> ThumbCloser::find_ways(const HeldProduct& product, const DepthLimits& limits,
-                                             const Posture& start,
-                                             const Vec3& grip_axis_in_hand) const {
+ThumbWay ThumbCloser::find_way(const HeldProduct& product, const DepthLimits& limits,
+                               const Posture& start, const Vec3& grip_axis_in_hand) const {
   const JointDof& flexion = hand_->skeleton.dof(Dof::kThumbCmcFlexion);
   const JointDof& abduction = hand_->skeleton.dof(Dof::kThumbCmcAbduction);
-  const auto at = [](const JointDof& dof, double share) {
-    return dof.lower + share * (dof.upper - dof.lower);
-  };
-  struct Rated {
-    double flexion = 0.5, abduction = 0.5;  // shares of the range
-    double score = 0.0;
-  };
-  std::array<SegmentStop, kSegmentCount> stops;
-  const auto rated = [&](double f, double a) {
-    const Posture posture = wrap(product, limits, start, {at(flexion, f), at(abduction, a)}, stops);
-    return Rated{f, a, score(product, posture, grip_axis_in_hand)};
-  };
-  std::vector<Rated> tried;
-  for (const double f : {0.1, 0.4, 0.7, 1.0}) {
-    for (const double a : {0.1, 0.4, 0.7, 1.0}) tried.push_back(rated(f, a));
-  }
-  std::stable_sort(tried.begin(), tried.end(),
-                   [](const Rated& a, const Rated& b) { return a.score > b.score; });
-  tried.resize(kKeptWays);
   std::vector<ThumbWay> ways;
-  for (Rated best : tried) {
-    for (const double step : {0.15, 0.075}) {
-      const Rated from = best;
-      for (const auto& [df, da] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
-        const double f = from.flexion + df, a = from.abduction + da;
-        if (f < 0.0 || f > 1.0 || a < 0.0 || a > 1.0) continue;
-        const Rated next = rated(f, a);
-        if (next.score > best.score) best = next;
-      }
+  for (const double f : {0.1, 0.4, 0.7, 1.0}) {
+    for (const double a : {0.15, 0.5, 0.85}) {
+      ways.push_back({flexion.lower + f * (flexion.upper - flexion.lower),
+                      abduction.lower + a * (abduction.upper - abduction.lower)});
     }
-    ways.push_back({at(flexion, best.flexion), at(abduction, best.abduction)});
   }
-  return ways;
+  return best_of(ways, product, limits, start, grip_axis_in_hand);
+}
+
+ThumbWay ThumbCloser::bettered(const ThumbWay& way, const HeldProduct& product,
+                               const DepthLimits& limits, const Posture& start,
+                               const Vec3& grip_axis_in_hand) const {
+  const JointDof& flexion = hand_->skeleton.dof(Dof::kThumbCmcFlexion);
+  const JointDof& abduction = hand_->skeleton.dof(Dof::kThumbCmcAbduction);
+  std::array<SegmentStop, kSegmentCount> stops;
+  const auto rated = [&](const ThumbWay& tried) {
+    return score(product, wrap(product, limits, start, tried, stops), grip_axis_in_hand);
+  };
+  ThumbWay best = way;
+  double best_score = rated(way);
+  for (const double step : {0.15, 0.075}) {
+    const ThumbWay from = best;
+    for (const auto& [f, a] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
+      const ThumbWay next = {
+          std::clamp(from.cmc_flexion + f * (flexion.upper - flexion.lower), flexion.lower,
+                     flexion.upper),
+          std::clamp(from.cmc_abduction + a * (abduction.upper - abduction.lower), abduction.lower,
+                     abduction.upper)};
+      const double here = rated(next);
+      if (here <= best_score) continue;
+      best_score = here;
+      best = next;
+    }
+  }
+  return best;
 }
 
 ThumbWay ThumbCloser::best_of(const std::vector<ThumbWay>& ways, const HeldProduct& product,
