@@ -11,6 +11,7 @@
 #include "grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/io/assessment_json.h"
+#include "palmar/io/index_json.h"
 #include "palmar/io/product_file.h"
 #include "palmar/product/check.h"
 #include "palmar/report/assessment_report.h"
@@ -43,7 +44,7 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
   std::string text =
       fmt::format("== {}\n{}{}{}", product.name, grasp_text(assessment.grasp),
                   balance_text(assessment.balance), contact_text(assessment.contact)) +
-      friction_text(hand, assessment);
+      friction_text(hand, assessment) + index_text(assessment.indices);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,

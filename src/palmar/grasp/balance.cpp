@@ -280,7 +280,7 @@ bool Settling::judge_way(Balance& balance) const {
 }
 
 void Settling::finish(Balance& balance) const {
-  const GripForce grip = mechanics_.grip();
+  const Squeeze grip = mechanics_.grip();
   balance.grip_force = grip.force;
   balance.sum_of_normals = grip.sum_of_normals;
   balance.friction = options_->friction;

@@ -8,8 +8,8 @@
 
 namespace palmar {
 
-GripForce grip_force(const std::vector<Vec3>& forces) {
-  GripForce best;
+Squeeze grip_force(const std::vector<Vec3>& forces) {
+  Squeeze best;
   for (const Vec3& f : forces) best.sum_of_normals += f.norm();
   // sum |f . e| is convex in e: from any start, e along the sum of the forces, each counted to the
   // side on which it lies, squeezes at least as much. Starts: a half sphere of directions.
@@ -38,7 +38,7 @@ GripForce grip_force(const std::vector<Vec3>& forces) {
   return best;
 }
 
-GripForce grip_force(const ContactResult& contact, const DistanceField& product) {
+Squeeze grip_force(const ContactResult& contact, const DistanceField& product) {
   const std::vector<int> loaded = loaded_vertices(contact);
   std::vector<Vec3> forces = contact_normals(contact, product, loaded);
   for (std::size_t k = 0; k < loaded.size(); ++k) {

@@ -10,7 +10,7 @@
 namespace palmar {
 
 /// How hard a product is squeezed.
-struct GripForce {
+struct Squeeze {
   double force = 0.0;           ///< N; half the sum of |f . across|
   Vec3 across = Vec3::UnitZ();  ///< unit direction in which the squeeze is largest
   double sum_of_normals = 0.0;  ///< N; sum of |f|: between 2 and pi times the grip force for
@@ -21,9 +21,9 @@ struct GripForce {
 /// press on a load cell between them, if the forces were in balance. A dynamometer's reading is
 /// one such force; the sum of normal forces is 2 (two opposed fingers) to pi times it (even
 /// pressure round a cylinder).
-GripForce grip_force(const std::vector<Vec3>& forces);
+Squeeze grip_force(const std::vector<Vec3>& forces);
 
 /// Of the normal forces of a solved contact, product frame.
-GripForce grip_force(const ContactResult& contact, const DistanceField& product);
+Squeeze grip_force(const ContactResult& contact, const DistanceField& product);
 
 }  // namespace palmar

@@ -12,7 +12,7 @@ namespace {
 
 TEST(GripForce, OfTwoOpposedFingersIsTheirForce) {
   const Vec3 along = Vec3(1.0, -2.0, 0.5).normalized();
-  const GripForce grip = grip_force({7.0 * along, -7.0 * along});
+  const Squeeze grip = grip_force({7.0 * along, -7.0 * along});
   EXPECT_NEAR(grip.force, 7.0, 1e-12);
   EXPECT_NEAR(grip.sum_of_normals, 14.0, 1e-12);
   EXPECT_NEAR(std::abs(grip.across.dot(along)), 1.0, 1e-9);
@@ -25,7 +25,7 @@ TEST(GripForce, OfEvenPressureRoundACylinderIsTheSumOverPi) {
     const double angle = 2.0 * std::numbers::pi * i / kCount;
     forces.emplace_back(0.0, std::cos(angle), std::sin(angle));
   }
-  const GripForce grip = grip_force(forces);
+  const Squeeze grip = grip_force(forces);
   EXPECT_NEAR(grip.sum_of_normals / grip.force, std::numbers::pi, 1e-4);
 }
 
@@ -36,7 +36,7 @@ TEST(GripForce, OfThreeJawsIsThatOfOneJaw) {
     const double angle = 2.0 * std::numbers::pi * i / 3.0 + 0.3;
     forces.emplace_back(5.0 * std::cos(angle), 5.0 * std::sin(angle), 0.0);
   }
-  const GripForce grip = grip_force(forces);
+  const Squeeze grip = grip_force(forces);
   EXPECT_NEAR(grip.force, 5.0, 1e-9);
 }
 
@@ -57,7 +57,7 @@ TEST(GripForce, FindsTheLargestOfManyDirections) {
       most = std::max(most, sum);
     }
   }
-  const GripForce grip = grip_force(forces);
+  const Squeeze grip = grip_force(forces);
   EXPECT_GE(grip.force, most);
   EXPECT_LT(grip.force, 1.001 * most);
 }

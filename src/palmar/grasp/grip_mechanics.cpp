@@ -155,7 +155,7 @@ bool GripMechanics::look(const GripState& state) {
   return true;
 }
 
-GripForce GripMechanics::grip() const {
+Squeeze GripMechanics::grip() const {
   std::vector<Vec3> forces(loaded_.size());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     forces[k] = -contact_.force[static_cast<std::size_t>(loaded_[k])] * normal_[k];

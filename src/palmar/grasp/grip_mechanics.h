@@ -53,7 +53,7 @@ class GripMechanics {
   const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
   double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
   double friction_use() const { return friction_use_; }
-  GripForce grip() const;
+  Squeeze grip() const;
   /// Of the skin on the product, per skin vertex, product frame, N.
   std::vector<Vec3> friction_force() const;
 

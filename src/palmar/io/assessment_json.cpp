@@ -7,6 +7,7 @@
 #include <set>
 
 #include "palmar/core/version.h"
+#include "palmar/io/index_json.h"
 
 namespace palmar {
 namespace {
@@ -250,7 +251,7 @@ Json hand_object(const Hand& hand) {
 }
 
 /// Measures of the grasp as a whole.
-Json indices_object(const ContactResult& contact) {
+Json indices_object(const ContactResult& contact, const GraspIndices& indices) {
   std::set<Finger> fingers;
   for (const RegionContact& region : contact.regions) {
     const auto segment = segment_of(region.region);
@@ -259,9 +260,11 @@ Json indices_object(const ContactResult& contact) {
   }
   Json in_contact = Json::array();
   for (const Finger finger : fingers) in_contact.push_back(name_of(finger));
-  return {{"fingers_in_contact", std::move(in_contact)},
-          {"regions_in_contact", contact.regions.size()},
-          {"net_force_n", contact.total.force_vector.norm()}};
+  Json json = {{"fingers_in_contact", std::move(in_contact)},
+               {"regions_in_contact", contact.regions.size()},
+               {"net_force_n", contact.total.force_vector.norm()}};
+  json.update(index_values(indices));
+  return json;
 }
 
 Json coating_array(const std::vector<Coating>& coatings) {
@@ -333,11 +336,13 @@ std::string assessment_json(const AssessmentSet& set) {
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
                   {"contact", contact_object(assessment.contact)},
-                  {"indices", indices_object(assessment.contact)},
+                  {"indices", indices_object(assessment.contact, assessment.indices)},
+                  {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};
     Json times = {{"grasp", assessment.times.grasp},
                   {"balance", assessment.times.balance},
-                  {"contact", assessment.times.contact}};
+                  {"contact", assessment.times.contact},
+                  {"indices", assessment.times.indices}};
     if (assessment.options.friction.is_on()) {
       entry["friction"] = friction_object(assessment.friction, assessment.options.friction);
       times["friction"] = assessment.times.friction;

@@ -13,6 +13,7 @@
 #include "palmar/report/html_style.h"
 #include "palmar/report/html_tables.h"
 #include "palmar/report/html_text.h"
+#include "palmar/report/index_section.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/pressure_limits.h"
 #include "palmar/report/scene_data.h"
@@ -157,6 +158,7 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
             region_contact_table(contact) + "</details>\n";
   }
   html += friction_section(hand, one);
+  html += index_section(one.assessment.indices);
   html += gallery(pictures);
   html += "<details><summary>What stopped each segment</summary>" + stop_table(assessment.grasp) +
           "</details>\n<details><summary>Posture and placement</summary>" +

@@ -23,7 +23,7 @@ class Stopwatch {
 }  // namespace
 
 Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-                    const AssessOptions& options, const Progress& progress) {
+                    const AssessOptions& options, const Progress& progress, Balance balance) {
   options.contact.check();
   options.friction.check();
 
@@ -31,6 +31,7 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   result.hand_name = hand.hand().name;
   result.options = options;
   result.grasp = grasp;
+  result.balance = std::move(balance);
 
   progress.update(0.6, "solving the contact");
   const Stopwatch contact_watch;
@@ -46,6 +47,21 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
                                      centre_of_volume(product.mesh), options.friction);
     result.times.friction = friction_watch.seconds();
   }
+
+  progress.update(0.85, "judging the grasp");
+  const Stopwatch index_watch;
+  IndexOptions indices = options.indices;
+  indices.stability.reduction.friction = options.friction.is_on()
+                                             ? options.friction.coefficient
+                                             : options.indices.stability.reduction.friction;
+  const ProductLoad& load = options.friction.is_on() ? options.friction.load : options.balance.load;
+  if (load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0)) {
+    indices.stability.load = load;
+  }
+  result.indices = grasp_indices(
+      hand.hand(), product, {result.grasp, result.balance, result.contact, result.posed_skin},
+      load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
+  result.times.indices = index_watch.seconds();
 
   progress.update(0.9, "mapping the pressure to the product");
   result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
@@ -72,8 +88,7 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   Balance balance;
   if (is_held) balance = balance_grasp(hand, product, grasp, options.balance, options.contact);
   const double balance_seconds = balance_watch.seconds();
-  Assessment result = evaluate(hand, product, grasp, options, progress);
-  result.balance = std::move(balance);
+  Assessment result = evaluate(hand, product, grasp, options, progress, std::move(balance));
   result.times.grasp = seconds;
   result.times.balance = balance_seconds;
   return result;

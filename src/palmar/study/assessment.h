@@ -15,6 +15,7 @@
 #include "palmar/grasp/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
+#include "palmar/study/grasp_indices.h"
 
 namespace palmar {
 
@@ -22,6 +23,7 @@ struct AssessOptions {
   GraspOptions grasp;
   BalanceOptions balance;  ///< on unless switched off
   ContactOptions contact;
+  IndexOptions indices;
   FrictionOptions friction;  ///< off unless it has a coefficient
   std::uint64_t seed =
       0;  ///< written into the results; the power grasp itself draws no random numbers
@@ -33,6 +35,7 @@ struct AssessTimes {
   double balance = 0.0;   ///< s
   double contact = 0.0;   ///< s
   double friction = 0.0;  ///< s
+  double indices = 0.0;   ///< s
 };
 
 /// One hand holding one product: grasp, contact, footprint.
@@ -44,6 +47,7 @@ struct Assessment {
   ContactResult contact;
   FrictionResult friction;
   ProductFootprint footprint;
+  GraspIndices indices;  ///< empty if switched off
   AssessOptions options;
   AssessTimes times;
 };
@@ -62,10 +66,12 @@ struct AssessmentSet {
 };
 
 /// What a given way of holding does to hand and product: contact, friction, footprint. Posture and
-/// placement are taken as they are, from find_grasp() or from a measurement. Throws UsageError,
+/// placement are taken as they are, from find_grasp() or from a measurement; `balance` tells how
+/// they came to rest, if they did. Throws UsageError,
 /// Cancelled.
 Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-                    const AssessOptions& options = {}, const Progress& progress = {});
+                    const AssessOptions& options = {}, const Progress& progress = {},
+                    Balance balance = {});
 
 /// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
 /// an assessment whose grasp says why; one that slips out is shown as the hand was closed. Throws

@@ -183,6 +183,7 @@ const HeldCylinder& ValidationBench::cylinder(double diameter) {
     auto held = std::make_unique<HeldCylinder>();
     held->product = make_cylinder_product(options);
     held->grasp = close_power_grasp(*hand_, held->product);
+    held->balance = balance_grasp(prepared({}), held->product, held->grasp);
     held->posed_skin = pose_skin(*hand_, held->grasp.posture);
     slot = std::move(held);
   }

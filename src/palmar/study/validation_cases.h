@@ -9,16 +9,18 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/core/progress.h"
+#include "palmar/grasp/balance.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
 #include "palmar/study/validation.h"
 
 namespace palmar {
 
-/// A cylinder in the template's power grasp, before the skin gives way.
+/// A cylinder in the template's power grasp, at rest.
 struct HeldCylinder {
   Product product;
   Grasp grasp;
+  Balance balance;
   std::vector<Vec3> posed_skin;  ///< hand frame, mm
 };
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "palmar/grasp/grip_force.h"
 #include "palmar/hand/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/study/validation_cases.h"
@@ -16,28 +17,12 @@
 namespace palmar {
 namespace {
 
-/// Sum of normal forces over the grip force: half the sum of |F . e| for the direction e square to
-/// the grip axis that makes it largest. 2 for two opposed forces, pi for even pressure all round.
+/// Sum of normal forces over the grip force: 2 for two opposed forces, pi for even pressure all
+/// round.
 double normal_over_grip(const HeldCylinder& held, const ContactResult& contact) {
-  std::vector<Vec3> forces;
-  double sum = 0.0;
-  for (std::size_t v = 0; v < contact.force.size(); ++v) {
-    if (!(contact.force[v] > 0.0)) continue;
-    const Vec3 normal = held.product.distance->at(contact.undeformed[v]).normal;
-    forces.push_back(contact.force[v] * normal);
-    sum += contact.force[v];
-  }
-  const Vec3 u = held.grasp.grip_axis.unitOrthogonal();
-  const Vec3 w = held.grasp.grip_axis.cross(u);
-  double grip = 0.0;
-  for (int k = 0; k < 360; ++k) {
-    const double angle = k * std::numbers::pi / 360.0;
-    const Vec3 e = std::cos(angle) * u + std::sin(angle) * w;
-    double across = 0.0;
-    for (const Vec3& force : forces) across += 0.5 * std::abs(force.dot(e));
-    grip = std::max(grip, across);
-  }
-  return grip > 0.0 ? sum / grip : std::numeric_limits<double>::quiet_NaN();
+  const Squeeze squeeze = grip_force(contact, *held.product.distance);
+  return squeeze.force > 0.0 ? squeeze.sum_of_normals / squeeze.force
+                             : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The seven parts of the hand of a Manugraphy report.
@@ -112,6 +97,8 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
   const HeldCylinder& held = bench.cylinder(51.0);
   const std::string exact = "bounds: opposed forces, even pressure";
   const std::string measured = "2.50, SD 0.18, ten conditions, 51.2 mm handle";
+  rows.push_back(judge("palmar, forces out of balance / grip force", "",
+                       held.balance.residual_share, at_most(0.01, "at rest below 1 %")));
   const double ours = normal_over_grip(held, bench.contact(held, {}));
   rows.push_back(judge("palmar, sum of normal forces / grip force", "", ours,
                        between(2.0, std::numbers::pi, exact)));

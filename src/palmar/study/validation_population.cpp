@@ -77,15 +77,18 @@ ValidationRows validate_contact_area(ValidationBench& bench) {
     bench.update(static_cast<double>(i) / kHands,
                  "case G3, hand " + std::to_string(i + 1) + " of " + std::to_string(kHands));
     const auto hand = std::make_shared<const Hand>(scaled(bench.hand(), length / template_length));
-    const Grasp grasp = close_power_grasp(*hand, product);
-    const std::vector<Vec3> skin = pose_skin(*hand, grasp.posture);
-    const auto area = [&](const ContactModel& model) {
-      const PreparedHand prepared(hand, model);
-      return solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance)
+    // The thesis' hands are as they were closed; ours come to rest.
+    const Grasp closed = close_power_grasp(*hand, product);
+    const auto area = [&](const PreparedHand& prepared, const Grasp& grasp) {
+      return solve_hand_contact(prepared, pose_skin(*hand, grasp.posture), grasp.product_from_hand,
+                                *product.distance)
           .total.area;
     };
-    coupled.push_back(area({}));
-    thesis.push_back(area(xie2014_model()));
+    const PreparedHand prepared(hand);
+    Grasp rest = closed;
+    balance_grasp(prepared, product, rest);
+    coupled.push_back(area(prepared, rest));
+    thesis.push_back(area(PreparedHand(hand, xie2014_model()), closed));
   }
   ValidationRows rows;
   add_areas(rows, "palmar", coupled);
