@@ -36,6 +36,7 @@ struct Context {
 void add_assess_command(CLI::App& app, Context& context);
 void add_contact_commands(CLI::App& app, Context& context);
 void add_doctor_command(CLI::App& app, Context& context);
+void add_effort_commands(CLI::App& app, Context& context);
 void add_grasp_commands(CLI::App& app, Context& context);
 void add_hand_commands(CLI::App& app, Context& context);
 void add_product_commands(CLI::App& app, Context& context);

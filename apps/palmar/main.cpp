@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   add_product_commands(app, context);
   add_grasp_commands(app, context);
   add_contact_commands(app, context);
+  add_effort_commands(app, context);
   add_validate_command(app, context);
   add_doctor_command(app, context);
 
