@@ -49,7 +49,9 @@ std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& butto
         "grip kept\n",
         reach.button.name, reach.message);
     for (const FingerReach& one : reach.fingers) {
-      const char* words = !one.is_reached ? "no" : one.is_awkward ? "awkward" : "yes";
+      const char* words = one.is_reached   ? one.is_awkward ? "awkward" : "yes"
+                          : one.is_blocked ? "blocked"
+                                           : "no";
       text += one.miss > 50.0 ? fmt::format("  {:<8} {:<8}    > 50\n", name_of(one.finger), words)
                               : fmt::format("  {:<8} {:<8} {:9.1f} {:14.0f} {:13.0f}    {}\n",
                                             name_of(one.finger), words, one.miss, degrees(one.tilt),

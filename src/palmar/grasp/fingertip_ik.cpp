@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "palmar/grasp/finger_motion.h"
 #include "palmar/grasp/skin_advance.h"
@@ -21,8 +22,6 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-constexpr double kNormalSpread = 0.3;     // rad
-constexpr double kSlide = 15.0;           // mm; how far a sliding fingertip likes to go
 constexpr double kFlexionSpread = 0.35;   // rad
 constexpr double kThumbSpread = 0.3;      // rad
 constexpr double kAbductionSpread = 0.2;  // rad
@@ -36,6 +35,9 @@ constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
 constexpr double kNextGive = 0.5;     // mm, phalanges next to one that touches
 constexpr double kFarOff = 45.0;      // mm; more than any ball
+constexpr double kPulp = 4.0;         // mm; radius of the pulp where it slides: rolls over edges
+constexpr double kBendStep = 0.5;     // mm
+constexpr double kEverywhere = 1e6;   // mm
 constexpr double kSmallStep = 1e-7;   // rad or mm
 constexpr double kSmallGain = 1e-6;   // relative
 
@@ -134,8 +136,7 @@ bool may_cross(const RoundCone& p, const RoundCone& q) {
 
 }  // namespace
 
-double posture_strain(const Skeleton& /*skeleton*/, const Posture& natural,
-                      const Posture& posture) {
+double posture_strain(const Posture& natural, const Posture& posture) {
   double sum = 0.0;
   for (const PostureTerm& term : posture_terms(natural)) {
     const double r = value_of(term, posture);
@@ -197,10 +198,34 @@ class FingertipSystem {
       row[column_of(m.dof)] += factor * seen.dot(m.of_point(in_hand));
     }
   }
+  /// Derivatives of a direction that a part carries, seen along `axis` of the product.
+  void direction_row(const State& state, const std::vector<DofMotion>& moving, const Vec3& in_hand,
+                     const Vec3& axis, double factor, Row& row) const {
+    row.segment<3>(3) += factor * (state.product_from_hand.rotation * in_hand).cross(axis);
+    const Vec3 seen = state.product_from_hand.rotation.conjugate() * axis;
+    for (const DofMotion& m : moving) {
+      row[column_of(m.dof)] += factor * seen.dot(m.of_direction(in_hand));
+    }
+  }
   Vec3 in_hand(const FingerMotion& motion, const FingertipGoal& goal) const {
     return motion.posed().segment[static_cast<std::size_t>(goal.fingertip.segment)] *
            goal.fingertip.point;
   }
+  bool slides(const FingertipGoal& goal) const {
+    return goal.is_sliding && problem_->product != nullptr;
+  }
+  /// A pulp near the product, as a ball of radius kPulp whose skin is the fingertip point.
+  struct Touch {
+    Vec3 in_hand = Vec3::Zero();                     ///< centre of the ball
+    double height = 0.0;                             ///< of its skin over the surface, mm
+    Vec3 normal = Vec3::UnitZ();                     ///< of the product, product frame
+    Vec3 surface = Vec3::Zero();                     ///< nearest point of the product
+    Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();  ///< how the normal changes, 1/mm
+  };
+  Touch touch_of(const State& state, const FingerMotion& motion, const FingertipGoal& goal,
+                 bool with_bend) const;
+  void add_sliding_goal(const State& state, const FingerMotion& motion, const FingertipGoal& goal,
+                        const Stage& stage);
   void add_goals(const State& state, const FingerMotion& motion, const Stage& stage);
   void add_posture(const State& state, const Stage& stage);
   void add_crossings(const State& state, const FingerMotion& motion);
@@ -224,53 +249,85 @@ class FingertipSystem {
   Square* h_ = nullptr;
   Row* g_ = nullptr;
   std::vector<Vec3> points_, points_in_hand_;
-  std::vector<DistanceSample> samples_, goal_samples_;
+  std::vector<DistanceSample> samples_;
   int iterations_ = 0;
 };
 
+FingertipSystem::Touch FingertipSystem::touch_of(const State& state, const FingerMotion& motion,
+                                                 const FingertipGoal& goal, bool with_bend) const {
+  Touch touch;
+  touch.in_hand = motion.posed().segment[static_cast<std::size_t>(goal.fingertip.segment)] *
+                  Vec3(goal.fingertip.point - kPulp * goal.fingertip.normal);
+  // One call for the point and for its normal's changes along the hand's axes, so that a turned
+  // product or a left hand goes the same way.
+  std::array<Vec3, 4> points;
+  points.fill(state.product_from_hand * touch.in_hand);
+  Eigen::Matrix3d axes = state.product_from_hand.rotation.toRotationMatrix();
+  if (ik_->hand().side == Side::kLeft) axes.col(0) = -axes.col(0);
+  for (int c = 0; c < 3; ++c) points[static_cast<std::size_t>(c + 1)] += kBendStep * axes.col(c);
+  std::array<DistanceSample, 4> samples;
+  const std::size_t count = with_bend ? 4 : 1;
+  problem_->product->sample(std::span(points).first(count), kEverywhere,
+                            std::span(samples).first(count));
+  touch.height = samples[0].distance - kPulp;
+  touch.normal = samples[0].normal;
+  touch.surface = points[0] - samples[0].distance * samples[0].normal;
+  for (std::size_t c = 1; c < count; ++c) {
+    touch.bend += (samples[c].normal - samples[0].normal) / kBendStep *
+                  axes.col(static_cast<int>(c) - 1).transpose();
+  }
+  return touch;
+}
+
+void FingertipSystem::add_sliding_goal(const State& state, const FingerMotion& motion,
+                                       const FingertipGoal& goal, const Stage& stage) {
+  const std::vector<DofMotion>& moving = motion.moving(goal.fingertip.segment);
+  const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+  const Vec3 x = in_hand(motion, goal);
+  const Vec3 there = state.product_from_hand * x;
+  for (int c = 0; c < 3; ++c) {
+    Row row = Row::Zero();
+    point_row(state, moving, x, Vec3::Unit(c), 1.0 / goal.slide, row);
+    add((there - goal.point)[c] / goal.slide, row);
+  }
+  const Touch touch = touch_of(state, motion, goal, h_ != nullptr);
+  Row height = Row::Zero();
+  point_row(state, moving, touch.in_hand, touch.normal, 1.0 / stage.reach, height);
+  add((touch.height + goal.depth) / stage.reach, height);
+  const Vec3 n = motion.posed().segment[s].rotation * goal.fingertip.normal;
+  for (int c = 0; c < 3; ++c) {
+    Row row = Row::Zero();
+    direction_row(state, moving, n, Vec3::Unit(c), 1.0 / goal.square, row);
+    // The product's normal turns where the fingertip goes.
+    point_row(state, moving, touch.in_hand, touch.bend.row(c).transpose(), 1.0 / goal.square, row);
+    add((state.product_from_hand.rotation * n + touch.normal)[c] / goal.square, row);
+  }
+}
+
 void FingertipSystem::add_goals(const State& state, const FingerMotion& motion,
                                 const Stage& stage) {
-  points_.clear();
   for (const FingertipGoal& goal : problem_->goals) {
-    points_.push_back(state.product_from_hand * in_hand(motion, goal));
-  }
-  goal_samples_.resize(points_.size());
-  if (problem_->product != nullptr) {
-    problem_->product->sample(points_, 1e6, goal_samples_);
-  }
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const FingertipGoal& goal = problem_->goals[k];
-    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+    if (slides(goal)) {
+      add_sliding_goal(state, motion, goal, stage);
+      continue;
+    }
     const std::vector<DofMotion>& moving = motion.moving(goal.fingertip.segment);
+    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
     const Vec3 x = in_hand(motion, goal);
-    const bool is_sliding = goal.is_sliding && problem_->product != nullptr;
-    std::optional<Vec3> normal = goal.normal;
-    if (is_sliding) normal = goal_samples_[k].normal;
-    const Vec3 want =
-        goal.point - (normal && !is_sliding ? Vec3(goal.depth * *normal) : Vec3(Vec3::Zero()));
-    const double reach = is_sliding ? kSlide : stage.reach;
+    const Vec3 there = state.product_from_hand * x;
+    Vec3 want = goal.point;
+    if (goal.normal) want -= goal.depth * *goal.normal;
     for (int c = 0; c < 3; ++c) {
       Row row = Row::Zero();
-      point_row(state, moving, x, Vec3::Unit(c), 1.0 / reach, row);
-      add((points_[k] - want)[c] / reach, row);
+      point_row(state, moving, x, Vec3::Unit(c), 1.0 / stage.reach, row);
+      add((there - want)[c] / stage.reach, row);
     }
-    if (is_sliding) {
-      Row row = Row::Zero();
-      point_row(state, moving, x, *normal, 1.0 / stage.reach, row);
-      add((goal_samples_[k].distance + goal.depth) / stage.reach, row);
-    }
-    if (!normal) continue;
+    if (!goal.normal) continue;
     const Vec3 n = motion.posed().segment[s].rotation * goal.fingertip.normal;
-    const Vec3 n_product = state.product_from_hand.rotation * n;
     for (int c = 0; c < 3; ++c) {
       Row row = Row::Zero();
-      const double factor = 1.0 / kNormalSpread;
-      row.segment<3>(3) = factor * n_product.cross(Vec3::Unit(c));
-      const Vec3 seen = state.product_from_hand.rotation.conjugate() * Vec3::Unit(c);
-      for (const DofMotion& m : moving) {
-        row[column_of(m.dof)] = factor * seen.dot(m.of_direction(n));
-      }
-      add(factor * (n_product + *normal)[c], row);
+      direction_row(state, moving, n, Vec3::Unit(c), 1.0 / goal.square, row);
+      add((state.product_from_hand.rotation * n + *goal.normal)[c] / goal.square, row);
     }
   }
 }
@@ -439,12 +496,16 @@ void FingertipSystem::minimise(State& state, const Stage& stage, int most) {
     double gain = 0.0, length = 0.0;
     for (int trial = 0; trial < 8 && !is_better; ++trial) {
       Square damped = system;
-      // Angles and millimetres: each is damped by its own curvature.
-      damped.diagonal() += damping * (system.diagonal().array() + 1e-3).matrix();
+      // Angles and millimetres: each is damped by its own curvature, the placement's by means over
+      // three axes, which don't turn with the product.
+      Row curvature = system.diagonal();
+      curvature.head<3>().setConstant(curvature.head<3>().mean());
+      curvature.segment<3>(3).setConstant(curvature.segment<3>(3).mean());
+      damped.diagonal() += damping * (curvature.array() + 1e-3).matrix();
       Row step = damped.ldlt().solve(rhs);
       const double turn = step.segment<3>(3).norm();
       if (turn > 0.5) step *= 0.5 / turn;
-      length = step.cwiseAbs().maxCoeff();
+      length = step.norm();
       const State next = stepped(state, step);
       double next_cost = 0.0;
       Square next_h;
@@ -473,21 +534,25 @@ FingertipSolution FingertipSystem::solution(const State& state) {
   double cost = 0.0;
   evaluate(state, kStages.back(), cost, nullptr, nullptr);
   result.clash = clash_;
-  result.strain = posture_strain(ik_->hand().skeleton, problem_->natural, state.posture);
+  result.strain = posture_strain(problem_->natural, state.posture);
   result.iterations = iterations_;
   const FingerMotion motion(ik_->hand().skeleton, state.posture);
-  for (std::size_t k = 0; k < problem_->goals.size(); ++k) {
-    const FingertipGoal& goal = problem_->goals[k];
+  for (const FingertipGoal& goal : problem_->goals) {
     const auto s = static_cast<std::size_t>(goal.fingertip.segment);
     const Vec3 x = state.product_from_hand * in_hand(motion, goal);
-    const bool is_sliding = goal.is_sliding && problem_->product != nullptr;
     std::optional<Vec3> normal = goal.normal;
-    if (is_sliding) normal = goal_samples_[k].normal;
+    if (slides(goal)) {
+      const Touch touch = touch_of(state, motion, goal, false);
+      normal = touch.normal;
+      result.reached.push_back(touch.surface);
+      result.miss.push_back(std::abs(touch.height + goal.depth));
+    } else {
+      result.reached.push_back(normal ? Vec3(x + goal.depth * *normal) : x);
+      result.miss.push_back((result.reached.back() - goal.point).norm());
+    }
+    result.normal.push_back(normal.value_or(Vec3::Zero()));
     const Vec3 n = state.product_from_hand.rotation *
                    (motion.posed().segment[s].rotation * goal.fingertip.normal);
-    result.reached.push_back(normal ? Vec3(x + goal.depth * *normal) : x);
-    result.miss.push_back(is_sliding ? std::abs(goal_samples_[k].distance + goal.depth)
-                                     : (result.reached.back() - goal.point).norm());
     result.tilt.push_back(normal ? std::acos(std::clamp(-n.dot(*normal), -1.0, 1.0)) : 0.0);
     result.worst_miss = std::max(result.worst_miss, result.miss.back());
   }

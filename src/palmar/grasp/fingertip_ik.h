@@ -20,6 +20,8 @@ struct FingertipGoal {
   double depth = 0.0;          ///< how far below `point` the fingertip ends up, mm
   /// May come down elsewhere on the product's surface; `point` is where it would like to be.
   bool is_sliding = false;
+  double square = 0.3;  ///< spread of its skin's normal about the product's, rad
+  double slide = 6.0;   ///< how far it likes to go from there, mm
 };
 
 struct FingertipProblem {
@@ -38,6 +40,7 @@ struct FingertipSolution {
   Posture posture;
   Rigid3 product_from_hand;
   std::vector<Vec3> reached;  ///< where the fingertips are, product frame, mm, per goal
+  std::vector<Vec3> normal;   ///< of the product there, as far as known (else zero), per goal
   std::vector<double> miss;   ///< to what was asked (sliding: to the surface), mm, per goal
   std::vector<double> tilt;   ///< of the skin's normal against the product's, rad, per goal
   double worst_miss = 0.0;    ///< mm
@@ -51,15 +54,16 @@ struct FingertipSolution {
 /// derivatives (finger_motion.h) and active bounds on
 ///
 ///     sum |x_i - (t_i - depth_i m_i)|^2 / s^2          fingertips to their points
-///   + sum |n_i + m_i|^2 / 0.3^2                        skin square to the product
+///   + sum |n_i + m_i|^2 / square_i^2                   skin square to the product
 ///   + sum (q - q_nat)^2 / s_q^2                        near the natural posture of the grip
 ///   + sum (q_DIP - 2/3 q_PIP)^2 / 0.2^2                tendons bend both joints together
 ///   + sum (difference of neighbours' MCP, PIP)^2       fingers move together
 ///   + sum max(0, overlap)^2 / 0.7^2                    fingers and product don't cross (in mm)
 ///
-/// first with s = 3 mm, then 0.5 and 0.05 mm, so that reaching comes first in the end. Fingers are
-/// round cones (finger_cones.h), against the product rows of balls along them; so are palm and
-/// forearm. Deterministic. All weights are our choice.
+/// first with s = 3 mm, then
+/// 0.5 and 0.05 mm, so that reaching comes first in the end. Fingers are round cones
+/// (finger_cones.h), against the product rows of balls along them; so are palm and forearm.
+/// Deterministic. All weights are our choice.
 class FingertipIk {
  public:
   explicit FingertipIk(const Hand& hand);  ///< keeps a pointer to the hand
@@ -91,6 +95,6 @@ class FingertipIk {
 };
 
 /// Sum of the squared posture terms above: natural posture, coupling, neighbours.
-double posture_strain(const Skeleton& skeleton, const Posture& natural, const Posture& posture);
+double posture_strain(const Posture& natural, const Posture& posture);
 
 }  // namespace palmar

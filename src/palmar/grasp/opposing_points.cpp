@@ -31,18 +31,19 @@ constexpr double kPenGrip = 35.0;           // mm behind the tip ...
 constexpr double kPenShare = 0.28;          // ... or this share of the length if that is less
 constexpr double kAlike = 0.92;             // ends whose girths differ less look alike
 
-void add_centroids(const std::array<Vec3, 3>& c, double longest, int depth, const Vec3& normal,
-                   std::vector<SurfacePoint>& points) {
+void add_points(const std::array<Vec3, 3>& c, double longest, int depth, const Vec3& normal,
+                std::vector<SurfacePoint>& points) {
   const double edge = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
   if (edge <= longest || depth == 0) {
-    points.push_back({(c[0] + c[1] + c[2]) / 3.0, normal});
+    // Not quite the centre: rays from there would meet edges on the other side of regular meshes.
+    points.push_back({0.37 * c[0] + 0.34 * c[1] + 0.29 * c[2], normal});
     return;
   }
   const Vec3 ab = 0.5 * (c[0] + c[1]), bc = 0.5 * (c[1] + c[2]), ca = 0.5 * (c[2] + c[0]);
-  add_centroids({c[0], ab, ca}, longest, depth - 1, normal, points);
-  add_centroids({c[1], bc, ab}, longest, depth - 1, normal, points);
-  add_centroids({c[2], ca, bc}, longest, depth - 1, normal, points);
-  add_centroids({ab, bc, ca}, longest, depth - 1, normal, points);
+  add_points({c[0], ab, ca}, longest, depth - 1, normal, points);
+  add_points({c[1], bc, ab}, longest, depth - 1, normal, points);
+  add_points({c[2], ca, bc}, longest, depth - 1, normal, points);
+  add_points({ab, bc, ca}, longest, depth - 1, normal, points);
 }
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -62,7 +63,7 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count) {
     if (normal.norm() < 1e-12) continue;
     // A mirrored mesh has its corners in another order.
     std::sort(t.begin(), t.end());
-    add_centroids({at(t[0]), at(t[1]), at(t[2])}, 0.6 * spacing, 7, normal.normalized(), all);
+    add_points({at(t[0]), at(t[1]), at(t[2])}, 0.6 * spacing, 7, normal.normalized(), all);
   }
   std::vector<SurfacePoint> chosen;
   for (const SurfacePoint& one : all) {

@@ -22,6 +22,7 @@ constexpr double kThinShare = 0.4;   // of a thin product's width may be pressed
 constexpr std::size_t kPressed = 5;  // holds that are pressed and looked at by all their skin
 constexpr double kSkinUnit = 2.0;    // mm; cost of skin deeper than the fingertips
 constexpr double kAtLimit = 0.15;    // mm; that near to the depth counts as there
+constexpr double kDeepSkin = 4.0;    // mm; skin that much deeper than the fingertips can't be
 constexpr double kFar = 1e-9;
 
 std::string words_of(Finger finger) {
@@ -168,6 +169,9 @@ void judge(const PressedHold& hold, const GripOpenings& openings,
       where = s;
     }
   }
+  if (deepest > hold.depth + kDeepSkin && grasp.status == GraspStatus::kHeld) {
+    grasp.status = GraspStatus::kPartlyHeld;  // no hand can be there
+  }
   if (deepest > hold.depth + 1.0) {
     std::string name(name_of(static_cast<Segment>(where)));
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -288,10 +292,9 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     contact.finger = best.goals[k].fingertip.finger;
     contact.target = best.goals[k].point;
     contact.reached = best.solution.reached[k];
-    const DistanceSample there = product.distance->at(contact.target);
-    contact.normal = best.goals[k].normal.value_or(there.normal);
+    contact.normal = best.solution.normal[k];
     if (best.goals[k].is_sliding) {
-      contact.target = there.closest;
+      contact.target = contact.reached;
       contact.miss = best.solution.miss[k];
     } else {
       contact.miss = (contact.reached - contact.target).norm();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr int kTurns = 12;
-constexpr std::size_t kFinalists = 24;
+constexpr std::size_t kFinalists = 40;
 constexpr std::size_t kPerPair = 3;  // finalists
 constexpr std::size_t kStarts = 8;   // for given points
 constexpr double kClashRate = 0.12;  // cost per mm of a coarse look
@@ -21,6 +21,8 @@ constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
 constexpr double kBalanceUnit = 30.0 * kDeg;
 constexpr double kOffsetUnit = 10.0;       // mm
+constexpr double kBallSlide = 8.0;         // mm
+constexpr double kBallSquare = 0.9;        // rad
 constexpr double kPenLean = 0.4;           // cost of a pen square to the way it likes to lean
 constexpr double kAxisWeight = 2.0;        // of the asked axis
 constexpr double kLikeShift = 12.0;        // mm; holds nearer than that ...
@@ -77,6 +79,7 @@ Vec3 zero_for(const PinchShape& shape, const Vec3& direction) {
 
 struct Candidate {
   std::size_t pair = 0;
+  int way = 0;  ///< which side the thumb is on, and the turn
   Vec3 thumb, other;
   Rigid3 product_from_hand;
   double cost = 0.0;
@@ -156,6 +159,10 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
     FingertipGoal goal;
     goal.fingertip = tip;
     goal.is_sliding = true;
+    if (openings_->grip() == Grip::kPrecisionSphere) {
+      goal.slide = kBallSlide;
+      goal.square = kBallSquare;
+    }
     const Vec3 there = candidate.product_from_hand *
                        (posed.segment[static_cast<std::size_t>(tip.segment)] * tip.point);
     const bool is_pinch = openings_->fingertips().size() == 2;
@@ -165,29 +172,24 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
     problem.goals.push_back(goal);
   }
   hold.solution = ik_->solve(problem);
-  hold.cost = pair.cost + hold_cost(hold);
+  hold.cost = pair.cost + opening.strain / kStrainUnit + hold_cost(hold);
   return hold;
 }
 
 double Search::hold_cost(const PrecisionHold& hold) const {
   const FingertipSolution& solution = hold.solution;
   double cost = placing_cost(solution.product_from_hand);
-  cost +=
-      posture_strain(ik_->hand().skeleton, natural_posture(ik_->hand().skeleton, openings_->grip()),
-                     solution.posture) /
-      kStrainUnit;
+  cost += solution.strain / kStrainUnit;
   cost += std::pow(solution.clash / kClashUnit, 2);
   Vec3 others = Vec3::Zero(), push = Vec3::Zero();
-  std::vector<DistanceSample> samples;
   for (std::size_t k = 0; k < solution.reached.size(); ++k) {
     cost += 0.5 * std::pow(solution.tilt[k] / kTiltUnit, 2);
     cost += std::pow(solution.miss[k] / kMissUnit, 2);
-    samples.push_back(product_->distance->at(solution.reached[k]));
     if (k == 0) continue;
     others += solution.reached[k] / static_cast<double>(solution.reached.size() - 1);
-    push -= samples[k].normal;
+    push -= solution.normal[k];
   }
-  const Vec3 thumb = -samples[0].normal;
+  const Vec3 thumb = -solution.normal[0];
   const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
   cost += std::pow(balance / kBalanceUnit, 2);
   const Vec3 arm = others - solution.reached[0];
@@ -246,6 +248,7 @@ PrecisionSearch Search::run(const Progress& progress) const {
       for (int turn = 0; turn < kTurns; ++turn) {
         one.product_from_hand = laid(opening, axes_.radial, one.thumb, one.other, zero,
                                      2.0 * std::numbers::pi * turn / kTurns);
+        one.way = turn + (is_swapped ? kTurns : 0);
         const double clash = ik_->clash_of(*product_->distance, opening.posture,
                                            one.product_from_hand, openings_->fingertips());
         one.cost = pair.cost + opening.strain / kStrainUnit + kClashRate * clash +
@@ -257,11 +260,18 @@ PrecisionSearch Search::run(const Progress& progress) const {
   result.candidates = static_cast<int>(candidates.size());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return costs_less(a.cost, b.cost); });
-  std::vector<std::size_t> used(all.size(), 0);
+  std::vector<std::vector<int>> used(all.size());
   std::size_t taken = 0;
   for (const Candidate& candidate : candidates) {
     if (taken == kFinalists) break;
-    if (used[candidate.pair]++ >= kPerPair) continue;
+    std::vector<int>& ways = used[candidate.pair];
+    // Neighbouring turns slide to the same end.
+    const bool is_like = std::any_of(ways.begin(), ways.end(), [&](int way) {
+      const int apart = std::abs(way - candidate.way) % kTurns;
+      return way / kTurns == candidate.way / kTurns && std::min(apart, kTurns - apart) < 2;
+    });
+    if (ways.size() == kPerPair || is_like) continue;
+    ways.push_back(candidate.way);
     progress.throw_if_cancelled();
     ++taken;
     result.holds.push_back(set_down(candidate, all[candidate.pair]));

@@ -19,7 +19,9 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kReached = 0.5;  // mm
 constexpr double kSquare = 40.0 * kDeg;
 constexpr double kSquareOnBall = 65.0 * kDeg;  // fingertips touch a ball with their sides, too
-constexpr double kSideBySide = 17.0;           // mm between the pads of index and middle finger
+constexpr double kBallSlide = 8.0;             // mm
+constexpr double kBallSquare = 0.9;   // rad; fingers spread round a ball touch with their sides
+constexpr double kSideBySide = 17.0;  // mm between the pads of index and middle finger
 constexpr std::array<double, 12> kWidths = {2, 8, 14, 20, 28, 36, 45, 55, 65, 75, 85, 95};
 
 Posture named(const Skeleton& skeleton, const char* name) {
@@ -74,9 +76,9 @@ Posture natural_posture(const Skeleton& skeleton, Grip grip) {
            {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
         set(posture, finger, {40, 38, 22});
       }
-      posture[Dof::kIndexMcpAbduction] += 6.0 * kDeg;
-      posture[Dof::kRingMcpAbduction] -= 4.0 * kDeg;
-      posture[Dof::kLittleMcpAbduction] -= 10.0 * kDeg;
+      posture[Dof::kIndexMcpAbduction] += 12.0 * kDeg;
+      posture[Dof::kRingMcpAbduction] -= 8.0 * kDeg;
+      posture[Dof::kLittleMcpAbduction] -= 18.0 * kDeg;
       set(posture, Finger::kThumb, {10, 15, 0});
       break;
     default:  // pads of thumb and index finger
@@ -128,6 +130,8 @@ GripOpenings::GripOpenings(const FingertipIk& ik, Grip grip)
       if (is_ball) {
         if (width < 25.0) continue;  // five fingertips don't fit
         goal.is_sliding = true;
+        goal.slide = kBallSlide;
+        goal.square = kBallSquare;
         const Vec3 there = problem.product_from_hand * tips[k];
         goal.point = 0.5 * width * (k == 0 ? side : Vec3(there.normalized()));
       } else {

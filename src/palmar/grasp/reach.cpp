@@ -147,7 +147,8 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal,
       one.margin = margin;
       one.tightest = d;
     }
-    one.is_reached = one.miss <= kReached && one.tilt <= kMostTilt && solution.clash <= kMostClash;
+    one.is_blocked = solution.clash > kMostClash;
+    one.is_reached = one.miss <= kReached && one.tilt <= kMostTilt && !one.is_blocked;
     const double bend = finger == Finger::kThumb
                             ? 0.0
                             : std::abs(solution.posture[flexion_of(finger, 2)] -
@@ -184,10 +185,12 @@ std::string message_of(const ButtonReach& reach) {
       std::min_element(reach.fingers.begin(), reach.fingers.end(),
                        [](const FingerReach& a, const FingerReach& b) { return a.miss < b.miss; });
   if (nearest->miss <= kReached) {
-    return fmt::format(
-        "the {} gets there, but not with its pad: it is turned by {:.0f} degrees or "
-        "the product is in its way",
-        words_of(nearest->finger), nearest->tilt / kDeg);
+    return nearest->is_blocked
+               ? fmt::format("the {} gets there, but the product or another finger is in its way",
+                             words_of(nearest->finger))
+               : fmt::format(
+                     "the {} gets there, but not with its pad, which is {:.0f} degrees askew",
+                     words_of(nearest->finger), nearest->tilt / kDeg);
   }
   return fmt::format("no finger reaches it; the {} comes nearest and misses it by {:.1f} mm",
                      words_of(nearest->finger), nearest->miss);

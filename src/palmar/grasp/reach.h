@@ -24,14 +24,16 @@ struct Button {
 /// One finger sent to one button.
 struct FingerReach {
   Finger finger{};
-  bool is_reached = false;    ///< its pad comes within 1 mm, not tilted by more than 60 degrees
-  double miss = 0.0;          ///< pad to button, mm
-  double tilt = 0.0;          ///< of the pad against the direction of pressing, rad
-  double margin = 0.0;        ///< smallest distance of the finger's joints to the ends of their
-                              ///< ranges, rad; 0 at an end
-  Dof tightest{};             ///< the joint with that margin
-  bool is_awkward = false;    ///< reached with less than 8 degrees of margin, a pad tilted by more
-                              ///< than 35 degrees, or DIP more than 25 degrees from 2/3 PIP
+  bool is_reached = false;  ///< its pad comes within 1 mm, not tilted by more than 60 degrees, and
+                            ///< nothing is in its way
+  bool is_blocked = false;  ///< it would be more than 3 mm in the product or in another finger
+  double miss = 0.0;        ///< pad to button, mm
+  double tilt = 0.0;        ///< of the pad against the direction of pressing, rad
+  double margin = 0.0;      ///< smallest distance of the finger's joints to the ends of their
+                            ///< ranges, rad; 0 at an end
+  Dof tightest{};           ///< the joint with that margin
+  bool is_awkward = false;  ///< reached with less than 8 degrees of margin, a pad tilted by more
+                            ///< than 35 degrees, or DIP more than 25 degrees from 2/3 PIP
   bool is_grip_kept = false;  ///< the rest of the hand still holds; see is_grip_kept_without()
   Posture posture;            ///< of the whole hand, pressing
 };

@@ -22,15 +22,11 @@ Json finger_object(const FingerReach& reach) {
     const auto dof = static_cast<Dof>(d);
     posture[std::string(name_of(dof)) + "_deg"] = reach.posture[dof] * kDegrees;
   }
-  return {{"finger", name_of(reach.finger)},
-          {"reached", reach.is_reached},
-          {"miss_mm", reach.miss},
-          {"tilt_deg", reach.tilt * kDegrees},
-          {"margin_deg", reach.margin * kDegrees},
-          {"tightest", name_of(reach.tightest)},
-          {"awkward", reach.is_awkward},
-          {"grip_kept", reach.is_grip_kept},
-          {"posture", std::move(posture)}};
+  return {{"finger", name_of(reach.finger)},     {"reached", reach.is_reached},
+          {"blocked", reach.is_blocked},         {"miss_mm", reach.miss},
+          {"tilt_deg", reach.tilt * kDegrees},   {"margin_deg", reach.margin * kDegrees},
+          {"tightest", name_of(reach.tightest)}, {"awkward", reach.is_awkward},
+          {"grip_kept", reach.is_grip_kept},     {"posture", std::move(posture)}};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace palmar {
 
 /// What `palmar grasp reach --json` prints: {"grasp": {"grip", "status", "message"}, "buttons":
 /// [{"name", "point_mm", "force_n", "best": finger or null, "message", "fingers": [{"finger",
-/// "reached", "miss_mm", "tilt_deg", "margin_deg", "tightest", "awkward", "grip_kept",
+/// "reached", "blocked", "miss_mm", "tilt_deg", "margin_deg", "tightest", "awkward", "grip_kept",
 /// "posture"}]}], "map": null or {"points", "reached_area_mm2", "surface_area_mm2"}}.
 std::string reach_json(const Grasp& grasp, const std::vector<ButtonReach>& buttons,
                        const ReachMap* map, double surface_area);
