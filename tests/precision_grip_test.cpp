@@ -231,7 +231,7 @@ TEST_F(PrecisionGrip, TripodHoldsABarWithThreePadsPressedIn) {
   EXPECT_LT(grasp.fingertips[0].normal.dot(push.normalized()), -0.8);
   EXPECT_TRUE(clamp_to_range(hand().skeleton, grasp.posture).clamped.empty());
   EXPECT_GE(grasp.runners_up.size(), 1u);
-  EXPECT_LE(grasp.runners_up.front().score, grasp.score);
+  EXPECT_LE(grasp.runners_up.front().score, grasp.score + 1e-6);  // ties by rounding
   EXPECT_GE(grasp.candidates, 200);
 }
 

@@ -103,7 +103,7 @@ TEST_F(Reach, FarButtonIsMissedByAStatedDistance) {
 
 TEST_F(Reach, LessJointRangeNeverImprovesReach) {
   // Points along the bar and round it; ranges shrunk towards the grasp's own angles.
-  for (const double share : {0.7, 0.4}) {
+  for (const double share : {0.5, 0.1}) {
     Hand stiff = hand();
     for (Joint& joint : stiff.skeleton.joints) {
       for (JointDof& dof : joint.dofs) {
@@ -115,8 +115,8 @@ TEST_F(Reach, LessJointRangeNeverImprovesReach) {
       }
     }
     int reached_free = 0, reached_stiff = 0;
-    for (int i = 0; i < 12; ++i) {
-      const double angle = 30.0 * kDeg * i, along = held().grip_point.z() + 4.0 * (i % 5 - 2);
+    for (int i = 0; i < 36; ++i) {
+      const double angle = 70.0 * kDeg * i, along = held().grip_point.z() + 7.0 * (i % 9 - 4);
       const Vec3 point(9.0 * std::cos(angle), 9.0 * std::sin(angle), along);
       const ButtonReach wide = press(hand(), point)[0], narrow = press(stiff, point)[0];
       for (std::size_t f = 0; f < 5; ++f) {
@@ -132,7 +132,10 @@ TEST_F(Reach, LessJointRangeNeverImprovesReach) {
         }
       }
     }
-    EXPECT_GT(reached_free, reached_stiff);
+    EXPECT_GE(reached_free, reached_stiff);
+    if (share < 0.2) {
+      EXPECT_GT(reached_free, reached_stiff);
+    }
   }
 }
 

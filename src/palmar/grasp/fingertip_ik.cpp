@@ -22,6 +22,7 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
+constexpr double kBalanceSpread = 0.3;    // rad; thumb against the others
 constexpr double kFlexionSpread = 0.35;   // rad
 constexpr double kThumbSpread = 0.3;      // rad
 constexpr double kAbductionSpread = 0.2;  // rad
@@ -227,6 +228,7 @@ class FingertipSystem {
   void add_sliding_goal(const State& state, const FingerMotion& motion, const FingertipGoal& goal,
                         const Stage& stage);
   void add_goals(const State& state, const FingerMotion& motion, const Stage& stage);
+  void add_balance(const State& state, const FingerMotion& motion);
   void add_posture(const State& state, const Stage& stage);
   void add_crossings(const State& state, const FingerMotion& motion);
   void add_balls(const State& state, const FingerMotion& motion);
@@ -250,6 +252,7 @@ class FingertipSystem {
   Row* g_ = nullptr;
   std::vector<Vec3> points_, points_in_hand_;
   std::vector<DistanceSample> samples_;
+  std::vector<Touch> touches_;  ///< of sliding goals
   int iterations_ = 0;
 };
 
@@ -291,6 +294,7 @@ void FingertipSystem::add_sliding_goal(const State& state, const FingerMotion& m
     add((there - goal.point)[c] / goal.slide, row);
   }
   const Touch touch = touch_of(state, motion, goal, h_ != nullptr);
+  touches_.push_back(touch);
   Row height = Row::Zero();
   point_row(state, moving, touch.in_hand, touch.normal, 1.0 / stage.reach, height);
   add((touch.height + goal.depth) / stage.reach, height);
@@ -329,6 +333,25 @@ void FingertipSystem::add_goals(const State& state, const FingerMotion& motion,
       direction_row(state, moving, n, Vec3::Unit(c), 1.0 / goal.square, row);
       add((state.product_from_hand.rotation * n + *goal.normal)[c] / goal.square, row);
     }
+  }
+}
+
+void FingertipSystem::add_balance(const State& state, const FingerMotion& motion) {
+  // The thumb, which comes first, against the rest.
+  const std::size_t count = touches_.size();
+  if (count < 2 || count != problem_->goals.size()) return;
+  Vec3 others = Vec3::Zero();
+  for (std::size_t k = 1; k < count; ++k) others += touches_[k].normal;
+  const double length = others.norm();
+  if (length < 0.1) return;
+  for (int c = 0; c < 3; ++c) {
+    Row row = Row::Zero();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double factor = (k == 0 ? 1.0 : 1.0 / length) / kBalanceSpread;
+      point_row(state, motion.moving(problem_->goals[k].fingertip.segment), touches_[k].in_hand,
+                touches_[k].bend.row(c).transpose(), factor, row);
+    }
+    add((touches_[0].normal + others / length)[c] / kBalanceSpread, row);
   }
 }
 
@@ -446,7 +469,9 @@ void FingertipSystem::evaluate(const State& state, const Stage& stage, double& c
     g->setZero();
   }
   const FingerMotion motion(ik_->hand().skeleton, state.posture);
+  touches_.clear();
   add_goals(state, motion, stage);
+  add_balance(state, motion);
   add_posture(state, stage);
   add_crossings(state, motion);
   add_balls(state, motion);
