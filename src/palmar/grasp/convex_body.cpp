@@ -14,7 +14,7 @@
 #include <queue>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/linear_program.h"
+#include "palmar/grasp/cone_projection.h"
 
 namespace palmar {
 namespace {
@@ -417,18 +417,14 @@ std::vector<Eigen::Matrix<double, D, 1>> first_simplex(Support<D>& support, doub
 }
 
 /// A direction in which the body doesn't reach, or nothing if the origin lies strictly inside. It
-/// does just if the points span the space and the negative of their sum is a combination of them
+/// does just if the points span the space and the negative of their mean is a combination of them
 /// with factors >= 0: then 0 is one with all factors > 0.
 template <int D>
 std::optional<Eigen::Matrix<double, D, 1>> unreached(
-    const Eigen::Matrix<double, D, Eigen::Dynamic>& points) {
-  const Eigen::Matrix<double, D, 1> mean = points.rowwise().mean();
-  const ProgramSolution found =
-      solve_linear_program(Eigen::VectorXd::Zero(points.cols()), points, -mean);
-  if (found.status == ProgramStatus::kOptimal) return std::nullopt;
-  Eigen::Matrix<double, D, 1> u = Eigen::Matrix<double, D, 1>::Zero();
-  if (found.dual.size() == D && found.dual.norm() > 0.0) u = found.dual.normalized();
-  return u;
+    const Eigen::Matrix<double, D, Eigen::Dynamic>& points, double size) {
+  const ConeProjection nearest = project_on_cone(points, -points.rowwise().mean());
+  if (nearest.rest.norm() < 1e-9 * size) return std::nullopt;
+  return Eigen::Matrix<double, D, 1>(nearest.rest.normalized());
 }
 
 template <int D>
@@ -571,7 +567,7 @@ BodyMeasures<D> measure(const PointGroups<D>& body, const BodyOptions& options) 
     result.weakest = svd.matrixU().col(D - 1);
     return result;
   }
-  if (const auto direction = unreached<D>(support.points())) {
+  if (const auto direction = unreached<D>(support.points(), support.size())) {
     result.weakest = *direction;
   } else {
     result.contains_origin = true;

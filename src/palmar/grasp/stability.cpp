@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "palmar/core/error.h"
+#include "palmar/grasp/cone_projection.h"
 #include "palmar/grasp/linear_program.h"
 
 namespace palmar {
@@ -188,8 +189,9 @@ GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wren
       solve_linear_program(Eigen::VectorXd::Ones(columns.wrench.cols()), columns.wrench, -w / size);
   if (found.status == ProgramStatus::kInfeasible) {
     result.status = GripForceStatus::kNotHoldable;
-    // w . dual <= 0 for every contact, load . dual < 0: along -dual the load gains.
-    result.escape = escape_motion(contacts, -found.dual, scale, reference);
+    // What of the load no contact force meets: no contact pushes against it.
+    const ConeProjection met = project_on_cone(columns.wrench, -w / size);
+    result.escape = escape_motion(contacts, -met.rest, scale, reference);
     result.message = "the load can't be held however hard the hand presses: the product moves " +
                      motion_words(result.escape.translation, scale * result.escape.rotation) +
                      ", where no contact pushes back";

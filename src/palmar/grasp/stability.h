@@ -57,8 +57,9 @@ struct GripForce {
 ///     min sum f_n   such that   sum w(f) + load = 0,
 ///     min lambda    such that   f_n,i = lambda p_i  as well,   p_i: the known normal forces.
 ///
-/// `load` about the origin of the product frame. Where the first is infeasible, its dual is a
-/// motion against which no contact can push while the load does work (Farkas).
+/// `load` about the origin of the product frame. Where the first is infeasible, what no contact
+/// force can meet of the load (in force and moment over the torque scale) is a motion against which
+/// no contact pushes while the load does work: the escape.
 /// Source: Kerr, Roth 1986 (linear programs for grasp forces).
 GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wrench& load,
                            const Vec3& reference, const WrenchOptions& options = {});

@@ -24,6 +24,7 @@ std::string shown_unit(const std::string& unit) {
 }
 
 std::string group_heading(const std::string& group) {
+  if (group == "grip") return "Grip: how firm, how even, in balance";
   if (group == "stability") return "Stability: how firmly it sits";
   if (group == "ease") return "Ease: how natural the posture is";
   if (group == "fitness") return "Fitness: how well the shapes agree";
