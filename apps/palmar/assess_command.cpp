@@ -11,6 +11,7 @@
 #include "grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/io/assessment_json.h"
+#include "palmar/io/coordination_file.h"
 #include "palmar/io/index_json.h"
 #include "palmar/io/product_file.h"
 #include "palmar/product/check.h"
@@ -29,6 +30,7 @@ struct AssessArguments {
   ContactArguments contact;
   FrictionArguments friction;
   BalanceArguments balance;
+  std::string natural_postures;
   std::string out;
   bool no_pictures = false;
 };
@@ -100,6 +102,9 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(arguments.grasp.hand, arguments.contact.tissue);
+  if (!arguments.natural_postures.empty()) {
+    options.indices.coordination = read_coordination(arguments.natural_postures, hand->skeleton);
+  }
   const PreparedHand prepared(hand, model);
 
   std::vector<AssessedProduct> done;
@@ -175,6 +180,9 @@ void add_assess_command(CLI::App& app, Context& context) {
   arguments->contact.add_to(*verb);
   arguments->friction.add_to(*verb);
   arguments->balance.add_to(*verb);
+  verb->add_option("--natural-postures", arguments->natural_postures,
+                   "CSV of measured grasp postures (degrees, a column per joint angle): basis of "
+                   "the index of ease in place of the built-in one");
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
