@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 100;
 constexpr double kTolerance = 1e-10;
-constexpr double kMissingPrice = 1e5;   // per scaled moment; muscles cost about n / lever
+constexpr double kMissingPrice = 1e4;   // per scaled moment; muscles cost about n / lever
 constexpr double kStopCost = 1e-9;      // makes the moment of two stops unique
 constexpr double kLeastMissing = 1e-6;  // of the largest moment; less is rounding
 constexpr double kLargestResidual = 1e-6;
@@ -108,7 +108,7 @@ class InteriorPoint {
     const double price = std::max(1.0, at_.y.lpNorm<Eigen::Infinity>());
     return (p_.a * at_.x - p_.b).lpNorm<Eigen::Infinity>() < kTolerance &&
            dual_residual().lpNorm<Eigen::Infinity>() < kTolerance * price &&
-           gap() < kTolerance * 1e-4 * price;
+           gap() < 1e-4 * kTolerance * price;
   }
 
   void take_step() {
@@ -246,6 +246,9 @@ MuscleSolution balance_muscles(const MuscleProblem& problem) {
   InteriorPoint method(program);
   solution.iterations = method.run();
   VectorXd x = method.at().x;
+  for (int i = 0; i < muscles; ++i) {
+    if (moments.col(i).isZero(0.0)) x[i] = 0.0;  // moves nothing here
+  }
   solution.kkt_residual = kkt_residual(program, x, method.at().y);
 
   constexpr double kNothing = 1e-9;

@@ -38,7 +38,9 @@ struct Head {
 
 // Table 7. Muscles with broad origins run as several heads of equal share. Points on the radius
 // (the table's last ones of the long tendons) are taken as fixed to the palm. Left out: the point
-// of the deep flexor brevis that the table has 12 cm off the hand.
+// of the deep flexor brevis that the table has 12 cm off the hand, and that of the long flexor at
+// the level of the IP joint, from which the chord to the insertion would pass the axis in deep
+// flexion.
 const std::vector<Head>& heads() {
   static const std::vector<Head> all = {
       {Tendon::kFpl,
@@ -46,7 +48,6 @@ const std::vector<Head>& heads() {
        {{kPalm, 37.9, -22.3, -20.9},
         {kMetacarpal, 59.4, -63.6, -15.6},
         {kProximal, 74.1, -78.5, -9.1},
-        {kProximal, 82.0, -88.2, -4.7},
         {kDistal, 87.5, -96.9, -1.0}}},
       {Tendon::kFpb, 0.5, {{kPalm, 29.1, -42.3, -17.1}, {kProximal, 74.0, -68.1, -18.9}}},
       {Tendon::kFpb, 0.5, {{kPalm, 31.9, -32.1, -13.2}, {kProximal, 70.5, -71.5, -15.8}}},
