@@ -150,5 +150,256 @@ TEST_F(PostureFitTest, MarkersWithoutNoiseGiveTheAnglesBack) {
   }
 }
 
+/// Recorded by the built-in set: skin markers over the joints, posed as skin.
+Measured dorsal_recording(const Hand& of, const Posture& posture, const Rigid3& place, double noise,
+                          unsigned seed) {
+  const MarkerSet set = dorsal_marker_set(of);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> error(0.0, 1.0);
+  Measured measured;
+  for (const Vec3& p : PosablePoints(of, set.point).pose(posture)) {
+    measured.emplace_back(place * p + noise * Vec3(error(random), error(random), error(random)));
+  }
+  return measured;
+}
+
+std::size_t index_of(const MarkerSet& set, const std::string& label) {
+  return static_cast<std::size_t>(std::find(set.label.begin(), set.label.end(), label) -
+                                  set.label.begin());
+}
+
+double worst_degrees(const Posture& a, const Posture& b) {
+  double worst = 0.0;
+  for (int d = 0; d < kDofCount; ++d) {
+    worst = std::max(worst, std::abs(a[static_cast<Dof>(d)] - b[static_cast<Dof>(d)]) / kDegree);
+  }
+  return worst;
+}
+
+TEST_F(PostureFitTest, NoiseComesBackAsResidualAndAsTheAnglesSpread) {
+  // 48 markers with 1 mm of noise per axis: 144 numbers minus 26 unknowns leave a root mean square
+  // of sqrt(3 (1 - 26/144)) mm per marker. Angles err as the covariance says.
+  constexpr double kNoise = 1.0;
+  const Plates all = plates(hand());
+  const PostureFitter fitter(hand(), all.point, {.point_sd = kNoise});
+  std::mt19937 random(7);
+  double squares = 0.0, normalised = 0.0;
+  int trials = 0, angles = 0;
+  for (; trials < 12; ++trials) {
+    const Posture truth = drawn_posture(hand().skeleton, random);
+    const PostureFit fit = fitter.fit(recorded(hand(), all, truth, kPlace, kNoise, random));
+    ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+    EXPECT_TRUE(fit.outliers.empty());
+    squares += fit.rms * fit.rms;
+    for (int d = static_cast<int>(Dof::kThumbMpFlexion); d < kDofCount; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      const double error = fit.posture.angle[k] - truth.angle[k];
+      EXPECT_LT(std::abs(error) / kDegree, 25.0) << name_of(static_cast<Dof>(d));
+      normalised += std::pow(error / fit.sd[k], 2);
+      ++angles;
+    }
+  }
+  const double expected = std::sqrt(3.0 * (1.0 - 26.0 / 144.0)) * kNoise;
+  // 12 x 118 degrees of freedom: 2 % of standard error.
+  EXPECT_NEAR(std::sqrt(squares / trials), expected, 0.08 * expected);
+  // 216 squares of unit variance: standard error 10 %; ranges of motion cut some errors off.
+  EXPECT_NEAR(normalised / angles, 1.0, 0.3);
+}
+
+TEST_F(PostureFitTest, TheBuiltInSetTellsEveryAngle) {
+  Posture truth = *named_posture(hand().skeleton, "cylinder_grip");
+  truth[Dof::kWristFlexion] = -25 * kDegree;
+  truth[Dof::kWristDeviation] = 10 * kDegree;
+  truth[Dof::kWristPronation] = 30 * kDegree;
+  const PostureFitter fitter(hand(), dorsal_marker_set(hand()).point);
+  const PostureFit fit = fitter.fit(dorsal_recording(hand(), truth, kPlace, 0.0, 1));
+  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  EXPECT_LT(fit.rms, 0.05);
+  EXPECT_LT(worst_degrees(fit.posture, truth), 1.0);
+  EXPECT_TRUE(fit.not_observed.empty());
+}
+
+TEST_F(PostureFitTest, EveryNamedPostureIsFoundFromNoisyMarkers) {
+  const PostureFitter fitter(hand(), dorsal_marker_set(hand()).point);
+  for (const std::string& name : posture_names()) {
+    const Posture truth = *named_posture(hand().skeleton, name);
+    const PostureFit fit = fitter.fit(dorsal_recording(hand(), truth, kPlace, 0.5, 3));
+    ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << name << ": " << fit.message;
+    for (int d = 0; d < kDofCount; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      // sd is for 2 mm, the noise is 0.5 mm: four standard deviations, and a degree for the prior.
+      EXPECT_LT(std::abs(fit.posture.angle[k] - truth.angle[k]),
+                4.0 * fit.sd[k] * 0.25 + 1.5 * kDegree)
+          << name << " " << name_of(static_cast<Dof>(d));
+    }
+  }
+}
+
+TEST_F(PostureFitTest, SwappedMarkersAreNamedAndLeftOut) {
+  const MarkerSet set = dorsal_marker_set(hand());
+  const PostureFitter fitter(hand(), set.point);
+  const Posture truth = *named_posture(hand().skeleton, "relaxed");
+  Measured measured = dorsal_recording(hand(), truth, kPlace, 0.3, 5);
+  const std::size_t a = index_of(set, "index_pip_dorsal"), b = index_of(set, "middle_dip_dorsal");
+  std::swap(measured[a], measured[b]);
+  const PostureFit fit = fitter.fit(measured);
+  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  EXPECT_THAT(fit.outliers,
+              testing::UnorderedElementsAre(static_cast<int>(a), static_cast<int>(b)));
+  ASSERT_EQ(fit.swapped.size(), 1U);
+  EXPECT_EQ(fit.swapped.front(),
+            std::make_pair(static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b))));
+  EXPECT_LT(fit.rms, 1.5);
+  for (int d = 0; d < kDofCount; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    // sd is for 2 mm; beside a lost marker it is larger.
+    EXPECT_LT(std::abs(fit.posture.angle[k] - truth.angle[k]), 3.0 * fit.sd[k])
+        << name_of(static_cast<Dof>(d));
+  }
+  EXPECT_NEAR(fit.posture[Dof::kRingPipFlexion], truth[Dof::kRingPipFlexion], 3 * kDegree);
+}
+
+TEST_F(PostureFitTest, AMarkerFarOffIsLeftOut) {
+  const MarkerSet set = dorsal_marker_set(hand());
+  const PostureFitter fitter(hand(), set.point);
+  const Posture truth = *named_posture(hand().skeleton, "cylinder_grip");
+  Measured measured = dorsal_recording(hand(), truth, kPlace, 0.3, 6);
+  const std::size_t far = index_of(set, "ring_nail");
+  *measured[far] += Vec3(400, -30, 10);
+  const PostureFit fit = fitter.fit(measured);
+  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  EXPECT_THAT(fit.outliers, testing::ElementsAre(static_cast<int>(far)));
+  EXPECT_NEAR(*fit.residual[far], 401, 20);
+  EXPECT_LT(fit.rms, 1.0);
+}
+
+TEST_F(PostureFitTest, WhatMissingMarkersLeaveOpenIsNamed) {
+  const MarkerSet set = dorsal_marker_set(hand());
+  const PostureFitter fitter(hand(), set.point);
+  const Posture truth = *named_posture(hand().skeleton, "relaxed");
+  Measured measured = dorsal_recording(hand(), truth, kPlace, 0.0, 1);
+  for (const char* label :
+       {"middle_dip_dorsal", "middle_nail", "radial_styloid", "ulnar_styloid"}) {
+    measured[index_of(set, label)].reset();
+  }
+  const PostureFit fit = fitter.fit(measured);
+  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  EXPECT_THAT(fit.not_observed, testing::IsSupersetOf({Dof::kMiddleDipFlexion, Dof::kWristFlexion,
+                                                       Dof::kWristDeviation}));
+  EXPECT_EQ(fit.posture[Dof::kMiddleDipFlexion],
+            hand().skeleton.dof(Dof::kMiddleDipFlexion).reference);
+  EXPECT_FALSE(fit.residual[index_of(set, "middle_nail")]);
+  EXPECT_NEAR(fit.posture[Dof::kIndexPipFlexion] / kDegree, truth[Dof::kIndexPipFlexion] / kDegree,
+              1.0);
+}
+
+TEST_F(PostureFitTest, TheOtherHandIsRecognised) {
+  const Hand left = mirrored(hand());
+  const Posture truth = *named_posture(left.skeleton, "cylinder_grip");
+  const Measured measured = dorsal_recording(left, truth, kPlace, 0.5, 1);
+  const PostureFit wrong = PostureFitter(hand(), dorsal_marker_set(hand()).point).fit(measured);
+  EXPECT_EQ(wrong.status, PostureFitStatus::kMirrored) << wrong.message;
+  EXPECT_THAT(wrong.message, HasSubstr("hand mirror"));
+  const PostureFit right = PostureFitter(left, dorsal_marker_set(left).point).fit(measured);
+  EXPECT_EQ(right.status, PostureFitStatus::kFitted) << right.message;
+  EXPECT_LT(right.rms, 1.2);
+}
+
+TEST_F(PostureFitTest, MirroredMarkersOnTheMirroredHandGiveTheSameAngles) {
+  const Hand left = mirrored(hand());
+  Measured measured =
+      dorsal_recording(hand(), *named_posture(hand().skeleton, "tripod"), kPlace, 0.5, 9);
+  const PostureFit here = PostureFitter(hand(), dorsal_marker_set(hand()).point).fit(measured);
+  for (auto& one : measured) one->x() = -one->x();
+  const PostureFit there = PostureFitter(left, dorsal_marker_set(left).point).fit(measured);
+  EXPECT_NEAR(here.rms, there.rms, 1e-3);
+  EXPECT_LT(worst_degrees(here.posture, there.posture), 0.05);
+}
+
+TEST_F(PostureFitTest, AMovedRecordingGivesTheSameAngles) {
+  const Measured measured =
+      dorsal_recording(hand(), *named_posture(hand().skeleton, "tripod"), Rigid3{}, 0.5, 9);
+  Measured moved = measured;
+  for (auto& one : moved) *one = kPlace * *one;
+  const PostureFitter fitter(hand(), dorsal_marker_set(hand()).point);
+  const PostureFit a = fitter.fit(measured), b = fitter.fit(moved);
+  EXPECT_NEAR(a.rms, b.rms, 1e-4);
+  EXPECT_LT(worst_degrees(a.posture, b.posture), 0.02);
+}
+
+TEST_F(PostureFitTest, MetresForMillimetresAreRefused) {
+  Measured measured =
+      dorsal_recording(hand(), *named_posture(hand().skeleton, "flat"), Rigid3{}, 0.0, 1);
+  const PostureFitter fitter(hand(), dorsal_marker_set(hand()).point);
+  for (auto& one : measured) *one *= 0.001;
+  const PostureFit small = fitter.fit(measured);
+  EXPECT_EQ(small.status, PostureFitStatus::kWrongUnit);
+  EXPECT_THAT(small.message, HasSubstr("unit"));
+  for (auto& one : measured) *one *= 1e6;
+  EXPECT_EQ(fitter.fit(measured).status, PostureFitStatus::kWrongUnit);
+}
+
+TEST_F(PostureFitTest, TooFewOrOneFingerAloneIsSaid) {
+  const MarkerSet set = dorsal_marker_set(hand());
+  const PostureFitter fitter(hand(), set.point);
+  Measured measured(set.label.size());
+  EXPECT_EQ(fitter.fit(measured).status, PostureFitStatus::kTooFew);
+  const Measured all =
+      dorsal_recording(hand(), *named_posture(hand().skeleton, "flat"), Rigid3{}, 0.0, 1);
+  for (const char* label :
+       {"index_mcp_dorsal", "index_pip_dorsal", "index_dip_dorsal", "index_nail"}) {
+    measured[index_of(set, label)] = all[index_of(set, label)];
+  }
+  const PostureFit one = fitter.fit(measured);
+  EXPECT_EQ(one.status, PostureFitStatus::kTooFew);
+  EXPECT_THAT(one.message, HasSubstr("palm"));
+}
+
+TEST_F(PostureFitTest, AnotherSizeIsFoundIfAskedFor) {
+  const Hand large = scaled(hand(), 1.12);
+  const Posture truth = *named_posture(large.skeleton, "cylinder_grip");
+  const Measured measured = dorsal_recording(large, truth, kPlace, 0.0, 1);
+  const std::vector<HandPoint> points = dorsal_marker_set(hand()).point;
+  const PostureFit fixed = PostureFitter(hand(), points).fit(measured);
+  const PostureFit free = PostureFitter(hand(), points, {.fits_scale = true}).fit(measured);
+  EXPECT_NEAR(free.scale, 1.12, 0.003);
+  EXPECT_LT(free.rms, 0.1);
+  EXPECT_LT(worst_degrees(free.posture, truth), 1.0);
+  EXPECT_GT(fixed.rms, 10 * free.rms);
+  EXPECT_EQ(fixed.scale, 1.0);
+}
+
+TEST_F(PostureFitTest, ASequenceIsFollowed) {
+  const PostureFitter fitter(hand(), dorsal_marker_set(hand()).point);
+  const Posture from = *named_posture(hand().skeleton, "flat");
+  const Posture to = *named_posture(hand().skeleton, "fist");
+  std::optional<PostureFit> before;
+  for (int f = 0; f <= 20; ++f) {
+    Posture truth;
+    for (std::size_t d = 0; d < kDofCount; ++d) {
+      truth.angle[d] = from.angle[d] + f / 20.0 * (to.angle[d] - from.angle[d]);
+    }
+    const Rigid3 place{kPlace.rotation, kPlace.translation + Vec3(5.0 * f, 0, 0)};
+    const PostureFit fit =
+        fitter.fit(dorsal_recording(hand(), truth, place, 0.3, static_cast<unsigned>(f)),
+                   before ? &*before : nullptr);
+    ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << f << ": " << fit.message;
+    EXPECT_LT(fit.rms, 0.8) << f;
+    EXPECT_LT(worst_degrees(fit.posture, truth), 8.0) << f;
+    before = fit;
+  }
+}
+
+TEST_F(PostureFitTest, BadArgumentsAreRefusedByName) {
+  const std::vector<HandPoint> points = dorsal_marker_set(hand()).point;
+  EXPECT_THROW(PostureFitter(hand(), {}), UsageError);
+  EXPECT_THROW(PostureFitter(hand(), points, {.point_sd = 0.0}), UsageError);
+  const PostureFitter fitter(hand(), points);
+  EXPECT_THROW(fitter.fit(Measured(3)), UsageError);
+  Measured broken(points.size());
+  broken[4] = Vec3(0, std::nan(""), 0);
+  EXPECT_THROW(fitter.fit(broken), UsageError);
+}
+
 }  // namespace
 }  // namespace palmar

@@ -14,8 +14,9 @@
 namespace palmar {
 namespace {
 
-constexpr double kNailShare = 0.6;      // of the way from the last joint to the fingertip
-constexpr double kStyloidBehind = 8.0;  // mm proximal of the wrist joint's centre
+constexpr double kNailShare = 0.6;  // of the way from the last joint to the fingertip
+/// Proximal of the wrist joint's centre, of the way from there to the third MCP joint: 8 mm.
+constexpr double kStyloidShare = 0.09;
 
 enum class Kind { kJoint, kPhalanx, kNail, kTip, kMetacarpal, kStyloid };
 enum class Way { kDorsal, kPalmar, kRadial, kUlnar, kCentre };
@@ -30,12 +31,17 @@ struct Meaning {
 
 std::string text(std::string_view view) { return std::string(view); }
 
-std::vector<std::pair<std::string, Way>> ways_of(Finger finger) {
-  std::vector<std::pair<std::string, Way>> ways = {{"dorsal", Way::kDorsal},
-                                                   {"palmar", Way::kPalmar}};
-  if (finger == Finger::kThumb) return ways;
-  ways.emplace_back("radial", Way::kRadial);
-  ways.emplace_back("ulnar", Way::kUlnar);
+/// Sides that a place on a finger has; between two fingers, and inside the palm, there is none.
+/// `place`: 0 the joint in the palm, 1 the phalanx beyond it, 2 further out.
+std::vector<std::pair<std::string, Way>> ways_of(Finger finger, int place) {
+  std::vector<std::pair<std::string, Way>> ways = {{"dorsal", Way::kDorsal}};
+  if (finger == Finger::kThumb) {
+    if (place > 0) ways.emplace_back("palmar", Way::kPalmar);
+    return ways;
+  }
+  ways.emplace_back("palmar", Way::kPalmar);
+  if (place > 1 || finger == Finger::kIndex) ways.emplace_back("radial", Way::kRadial);
+  if (place > 1 || finger == Finger::kLittle) ways.emplace_back("ulnar", Way::kUlnar);
   return ways;
 }
 
@@ -54,7 +60,7 @@ std::map<std::string, Meaning> make_meanings() {
     const std::string name = text(name_of(finger)) + "_";
     for (int j = 0; j < 3; ++j) {
       const std::string joint = name + joints_of(finger)[static_cast<std::size_t>(j)] + "_";
-      for (const auto& [way, value] : ways_of(finger)) {
+      for (const auto& [way, value] : ways_of(finger, j == 0 ? 0 : 2)) {
         all[joint + way] = {Kind::kJoint, finger, j, value};
       }
       all[joint + "centre"] = {Kind::kJoint, finger, j, Way::kCentre};
@@ -65,7 +71,7 @@ std::map<std::string, Meaning> make_meanings() {
     for (int k = 0; k < 3; ++k) {
       if (!segments[static_cast<std::size_t>(k)]) continue;
       const std::string phalanx = text(name_of(*segments[static_cast<std::size_t>(k)])) + "_";
-      for (const auto& [way, value] : ways_of(finger)) {
+      for (const auto& [way, value] : ways_of(finger, k + 1)) {
         all[phalanx + way] = {Kind::kPhalanx, finger, k, value};
       }
     }
@@ -123,20 +129,23 @@ Vec3 direction(const Hand& hand, const Ray& ray, std::size_t joint, Way way) {
   }
 }
 
-/// The end of a metacarpal bone towards the wrist.
-Vec3 base_of(const Hand& hand, const std::string& bone, const Vec3& head) {
+/// The end of a finger's metacarpal bone towards the wrist.
+Vec3 base_of(const Hand& hand, Finger finger, const Vec3& head) {
+  const std::string bone = text(name_of(finger)) + "_metacarpal";
   const auto found = std::find_if(hand.bones.begin(), hand.bones.end(),
                                   [&](const Bone& one) { return one.name == bone; });
   if (found == hand.bones.end() || found->mesh.vertices.empty()) {
-    throw InputError("landmark " + bone + "_base: the hand has no bone " + bone);
+    throw InputError("base of the " + text(name_of(finger)) + " metacarpal: the hand has no bone " +
+                     bone);
   }
   const std::vector<Vec3>& vertices = found->mesh.vertices;
   double longest = 0.0;
   for (const Vec3& v : vertices) longest = std::max(longest, (v - head).norm());
+  constexpr double kEnd = 0.9;  // of the length: what lies beyond is the base
   Vec3 sum = Vec3::Zero();
   double count = 0.0;
   for (const Vec3& v : vertices) {
-    if ((v - head).norm() < 0.9 * longest) continue;
+    if ((v - head).norm() < kEnd * longest) continue;
     sum += v;
     count += 1.0;
   }
@@ -174,7 +183,9 @@ HandPoint Landmarks::at(const std::string& name) const {
     const Vec3 out =
         (meaning.way == Way::kRadial ? 1.0 : -1.0) * radial_sign(*hand_) * Vec3::UnitX();
     const Vec3 centre = hand_->skeleton.joint(JointId::kWrist).centre;
-    const HandPoint skin = on_skin(name, centre - kStyloidBehind * Vec3::UnitY(), out);
+    const double behind =
+        kStyloidShare * (hand_->skeleton.joint(JointId::kMiddleMcp).centre - centre).norm();
+    const HandPoint skin = on_skin(name, centre - behind * Vec3::UnitY(), out);
     return part_point("forearm", skin.reference);
   }
   const Ray ray = ray_of(*hand_, meaning.finger);
@@ -196,11 +207,7 @@ HandPoint Landmarks::at(const std::string& name) const {
       const Vec3& head = ray.node[head_node];
       const Vec3 dorsal = direction(*hand_, ray, head_node, Way::kDorsal);
       if (meaning.place == 0) return on_skin(name, head, dorsal);
-      const Vec3 base = base_of(*hand_,
-                                name.substr(0, name.rfind('_')) == "first_metacarpal"
-                                    ? "thumb_metacarpal"
-                                    : name.substr(0, name.rfind('_')),
-                                head);
+      const Vec3 base = base_of(*hand_, meaning.finger, head);
       return on_skin(name, meaning.place == 1 ? Vec3(0.5 * (head + base)) : base, dorsal);
     }
     default:

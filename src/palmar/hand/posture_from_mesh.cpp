@@ -145,16 +145,22 @@ MeshFit fit_posture_to_mesh(const Hand& hand, const TriangleMesh& mesh,
       return fit;
     }
     fit = registered(hand, target, options, progress);
-    if (fit.status == PostureFitStatus::kPoor) {
+    // A hand bends into the other one's shape astonishingly well: only what lies close by nearly
+    // everywhere is beyond doubt.
+    constexpr double kDoubtfulDistance = 3.0, kDoubtfulShare = 0.9;
+    if (fit.status == PostureFitStatus::kPoor || fit.percentile_95 > kDoubtfulDistance ||
+        fit.partner_share < kDoubtfulShare) {
       const registration::Target other_side(mirrored(mesh));
       const MeshFit other = registered(hand, other_side, options, progress);
       fit.iterations += other.iterations;
-      if (other.status == PostureFitStatus::kFitted && other.median < 0.6 * fit.median) {
+      constexpr double kMuchBetter = 0.7;
+      if (other.status == PostureFitStatus::kFitted && other.mean < kMuchBetter * fit.mean &&
+          other.partner_share > 0.95 * fit.partner_share) {
         fit.status = PostureFitStatus::kMirrored;
         fit.message = fmt::format(
-            "the mesh fits the mirrored hand within {:.1f} mm (median), this one only within "
+            "the mesh fits the mirrored hand within {:.1f} mm on average, this one only within "
             "{:.1f} mm: is it the other hand? `palmar hand mirror` makes it",
-            other.median, fit.median);
+            other.mean, fit.mean);
         return fit;
       }
     }

@@ -16,7 +16,7 @@ namespace palmar {
 struct MeshFitOptions {
   bool fits_scale = false;   ///< also one overall size of the hand
   double reach = 10.0;       ///< mm; skin farther from the mesh than this has no partner there
-  double poor_median = 3.0;  ///< mm; a worse fit is called poor, and looked at in the mirror
+  double poor_median = 3.0;  ///< mm; a worse fit is called poor
   int max_iterations = 60;   ///< of the last stage
   void check() const;        ///< throws UsageError: field, value, allowed range
 };
@@ -53,8 +53,8 @@ struct MeshFit {
 /// by the fingers' end (a forearm moves the middle), goes on with the best few, and looks once at
 /// every finger bent otherwise. Skin without partner, the forearm of the mesh included, has no say.
 ///
-/// Finding none is a status. Deterministic. Throws UsageError, Cancelled; InputError for a mesh
-/// without area.
+/// A fit that leaves doubt is tried on the mirrored mesh, too. Finding none is a status.
+/// Deterministic. Throws UsageError, Cancelled; InputError for a mesh without area.
 ///
 /// Source: Chen, Medioni 1992 (point to plane); Pellegrini et al. 2008 (articulated).
 MeshFit fit_posture_to_mesh(const Hand& hand, const TriangleMesh& mesh,
