@@ -11,8 +11,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh_measures.h"
+#include "palmar/grasp/finger_cones.h"
 #include "palmar/grasp/grip_mechanics.h"
 #include "palmar/grasp/joint_strength.h"
+#include "palmar/grasp/skin_advance.h"
 #include "palmar/hand/skeleton.h"
 
 namespace palmar {
@@ -67,7 +69,10 @@ class Settling {
         is_by_muscles_(is_power(grasp.grip)),
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
+        cones_(hand.hand()),
+        start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
         mechanics_(hand, product, contact, options.friction, start_) {
+    is_held_[static_cast<std::size_t>(Finger::kThumb)] = is_by_muscles_;
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     load_ =
         wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
@@ -87,8 +92,10 @@ class Settling {
     double sum() const { return of_product + of_joints + of_level; }
   };
 
-  /// Skin beyond the joint is loaded.
-  bool is_loaded(std::size_t joint) const { return mechanics_.is_loaded()[joint]; }
+  /// Skin beyond the joint is loaded, and no other digit holds it.
+  bool is_loaded(std::size_t joint) const {
+    return mechanics_.is_loaded()[joint] && !is_held_[joint / 3];
+  }
   bool is_stuck(std::size_t joint, double residual) const;
   void add_coupling(GripVector& residual, GripMatrix& stiffness) const;
   void add_load(GripVector& residual) const;
@@ -97,11 +104,15 @@ class Settling {
   void step(const Misfit& misfit, double missing);
   void finish(Balance& balance) const;
   bool judge_way(Balance& balance) const;
+  Posture without_crossing(const Posture& next);
 
   const Hand* hand_;
   const BalanceOptions* options_;
   bool is_by_muscles_;
   GripState start_, state_;
+  FingerCones cones_;
+  std::vector<RoundCone> start_cones_;
+  std::array<bool, kFingerCount> is_held_{};  // stays as it is: the thumb, a finger that met it
   GripMechanics mechanics_;
   Wrench load_;              // product frame
   double target_ = 0.0;      // grip force, N
@@ -140,9 +151,9 @@ double Settling::first_level() const {
   double along = 0.0, size = 0.0;
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
     if (!is_loaded(j)) continue;
-    const double strength = flexion_strength(kSqueezeDofs[j]);
-    along -= strength * mechanics_.force()[static_cast<Eigen::Index>(j)];
-    size += strength * strength;
+    const double muscles = flexion_strength(kSqueezeDofs[j]);
+    along -= muscles * mechanics_.force()[static_cast<Eigen::Index>(j)];
+    size += muscles * muscles;
   }
   return size > 0.0 ? std::max(1e-4, along / size) : 1e-4;
 }
@@ -179,6 +190,28 @@ Settling::Misfit Settling::misfit(double grip) const {
   result.force = result.residual.segment<3>(kSqueezeJoints).norm();
   result.moment = result.residual.tail<3>().norm();
   result.of_product = std::max(result.force, result.moment / mechanics_.arm()) / grip;
+  return result;
+}
+
+/// `next` without the flexion of fingers that would go into the thumb: their cones overlap at most
+/// as at the start or by kNeighbourGive. Such a finger stays where it is from then on: the thumb
+/// carries it.
+Posture Settling::without_crossing(const Posture& next) {
+  Posture result = next;
+  const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, result);
+  for (std::size_t a = 0; a < cones.size(); ++a) {
+    if (cones[a].finger != Finger::kThumb || cones[a].level == 0) continue;
+    for (std::size_t b = 0; b < cones.size(); ++b) {
+      if (cones[b].finger == Finger::kThumb || cones[b].level == 0) continue;
+      const double allowed = std::max(kNeighbourGive, overlap(start_cones_[a], start_cones_[b]));
+      if (overlap(cones[a], cones[b]) > allowed + 1e-6) {
+        is_held_[static_cast<std::size_t>(cones[b].finger)] = true;
+      }
+    }
+  }
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    if (is_held_[j / 3]) result[kSqueezeDofs[j]] = state_.posture[kSqueezeDofs[j]];
+  }
   return result;
 }
 
@@ -256,12 +289,14 @@ void Settling::step(const Misfit& misfit, double missing) {
   level *= share;
   if (is_by_muscles_) muscles_ += level;
 
+  Posture turned = state_.posture;
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
     const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[j]);
-    double& angle = state_.posture[dof.dof];
-    const double turned = angle + way[static_cast<Eigen::Index>(j)];
-    angle = std::clamp(turned, std::min(dof.lower, angle), std::max(dof.upper, angle));
+    const double angle = state_.posture[dof.dof];
+    turned[dof.dof] = std::clamp(angle + way[static_cast<Eigen::Index>(j)],
+                                 std::min(dof.lower, angle), std::max(dof.upper, angle));
   }
+  state_.posture = without_crossing(turned);
   const Vec3 turn = way.tail<3>(), shift = way.segment<3>(kSqueezeJoints);
   Rigid3 motion;
   if (turn.norm() > 0.0) {
@@ -390,7 +425,7 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   ContactOptions plain = contact;
   plain.error_band = false;
   Settling settling(hand, product, grasp, options, plain);
-  Balance balance = settling.run(progress);
+  const Balance balance = settling.run(progress);
   if (balance.status == BalanceStatus::kBalanced ||
       balance.status == BalanceStatus::kNotConverged) {
     grasp.posture = settling.state().posture;

@@ -58,9 +58,9 @@ struct Balance {
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
 /// friction and load add up to nothing on the product; in a power grip also at every flexion joint
-/// of a finger in contact, with muscle moments in the proportions of flexion_strength(). `grasp`
-/// gets the new posture and placement. Precision grips: joints are held, all of them close or open
-/// together to reach a grip force.
+/// of a finger in contact, with muscle moments in the proportions of flexion_strength(); palm and
+/// thumb hold against them. `grasp` gets the new posture and placement. Precision grips: joints are
+/// held, all of them close or open together to reach a grip force.
 ///
 /// Friction is that of skin that sticks where it was when the hand was closed and gives way
 /// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal

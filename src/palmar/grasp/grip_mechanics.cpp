@@ -163,6 +163,18 @@ Squeeze GripMechanics::grip() const {
   return grip_force(forces);
 }
 
+Eigen::Matrix<double, 6, 1> GripMechanics::wrench_of(std::optional<Finger> finger) const {
+  Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded_[k]);
+    if (finger_of(hand_->hand().segment[v]) != finger) continue;
+    const Vec3 force = -contact_.force[v] * normal_[k];
+    wrench.head<3>() += force;
+    wrench.tail<3>() += (posed_[v] - centre_).cross(force);
+  }
+  return wrench;
+}
+
 std::vector<Vec3> GripMechanics::friction_force() const {
   std::vector<Vec3> result(contact_.force.size(), Vec3::Zero());
   const Quat product_from_hand = hand_from_product_.conjugate();

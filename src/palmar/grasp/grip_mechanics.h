@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "palmar/contact/contact.h"
@@ -54,6 +55,9 @@ class GripMechanics {
   double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
   double friction_use() const { return friction_use_; }
   Squeeze grip() const;
+  /// Wrench on the product of the normal forces of one digit's phalanges; about the centre, hand
+  /// frame, N and N mm. Nothing: of the palm (and all else).
+  Eigen::Matrix<double, 6, 1> wrench_of(std::optional<Finger> finger) const;
   /// Of the skin on the product, per skin vertex, product frame, N.
   std::vector<Vec3> friction_force() const;
 

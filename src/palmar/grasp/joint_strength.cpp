@@ -7,14 +7,7 @@
 namespace palmar {
 
 double flexion_strength(Dof dof) {
-  constexpr double kKeyPinch = 117.4, kShare = 0.5;  // N
   switch (dof) {
-    case Dof::kThumbCmcFlexion:
-      return kShare * kKeyPinch * 95.0;
-    case Dof::kThumbMpFlexion:
-      return kShare * kKeyPinch * 54.0;
-    case Dof::kThumbIpFlexion:
-      return kShare * kKeyPinch * 22.0;
     case Dof::kIndexMcpFlexion:
       return 2513.0;
     case Dof::kIndexPipFlexion:

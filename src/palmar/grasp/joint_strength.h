@@ -10,11 +10,9 @@
 
 namespace palmar {
 
-/// Flexion moment [N mm] that muscles can put on a joint of a finger or of the thumb; 0 for other
-/// degrees of freedom. Fingers: Li, Zatsiorsky & Latash 2000, Clin Biomech 15:203-211 (lowest
-/// values of their table 3, at second hand). Thumb: half of the moments of a key pinch of 117 N
-/// (Mathiowetz et al. 1985, men of 30-34 years) at 22, 54 and 95 mm from the joints; half, since a
-/// power grip leaves the thumb the lesser part. That half is our choice.
+/// Flexion moment [N mm] that muscles can put on a joint of a finger; 0 for other degrees of
+/// freedom. Li, Zatsiorsky & Latash 2000, Clin Biomech 15:203-211 (lowest values of their table 3,
+/// at second hand).
 double flexion_strength(Dof dof);
 
 enum class Sex { kMale, kFemale };
