@@ -207,8 +207,8 @@ TEST_F(FingertipKinematics, PointsMadeByAnotherPostureAreReached) {
     }
     if (solution.worst_miss < 1.0) ++reached;
   }
-  // Random postures have crossed fingers among them, which the solver refuses.
-  EXPECT_GE(reached, kSamples * 8 / 10);
+  // Random postures may have crossed fingers among them, which the solver refuses.
+  EXPECT_GE(reached, kSamples * 19 / 20);
 }
 
 using PrecisionGrip = TemplateTest;
