@@ -47,6 +47,19 @@ FingertipTarget parse_fingertip(const std::string& text) {
   return {*finger, parse_vector("--fingertip", text.substr(colon + 1))};
 }
 
+Box3 parse_region(const std::string& text) {
+  const std::vector<double> values = parse_list("--region", text);
+  if (values.size() != 6) {
+    throw UsageError(
+        fmt::format("--region: \"{}\" has {} numbers; two corners of a box in mm are "
+                    "required (6 numbers)",
+                    text, values.size()));
+  }
+  Box3 box;
+  box.extend(Vec3(values[0], values[1], values[2])).extend(Vec3(values[3], values[4], values[5]));
+  return box;
+}
+
 }  // namespace
 
 void GraspArguments::add_to(CLI::App& verb) {
@@ -69,6 +82,9 @@ void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option(
       "--axis", axis,
       "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
+  verb.add_option("--region", region,
+                  "Hold it by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in "
+                  "the product's frame (power grips)");
   verb.add_option("--turn-deg", turn_deg, "Turn of the hand about the grip axis, deg");
   verb.add_option("--palm-limit-depth-mm", palm_limit_depth, "Deepest penetration of the palm, mm")
       ->capture_default_str();
@@ -84,6 +100,7 @@ GraspOptions GraspArguments::options() const {
   result.power.finger_limit_depth = finger_limit_depth;
   PlacementRequest& placement = result.power.placement;
   if (!at.empty()) placement.at = parse_vector("--at", at);
+  if (!region.empty()) placement.region = parse_region(region);
   if (!axis.empty()) placement.axis = parse_vector("--axis", axis);
   if (turn_deg) placement.turn = radians(*turn_deg);
   result.precision.placement = placement;
@@ -95,6 +112,10 @@ GraspOptions GraspArguments::options() const {
     throw UsageError("--fingertip: grip " + grip +
                      " holds with the whole hand; a precision grip is required, as in "
                      "--grip tripod");
+  }
+  if (!region.empty() && result.grip && !is_power(*result.grip)) {
+    throw UsageError("--region: grip " + grip +
+                     " takes fingertips to points; --at or --fingertip says where");
   }
   result.check();
   return result;

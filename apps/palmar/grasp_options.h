@@ -14,7 +14,7 @@ namespace palmar::cli {
 
 /// The options by which assess and grasp place and close the hand, as typed.
 struct GraspArguments {
-  std::string hand = "template", grip = "power", unit, at, axis;
+  std::string hand = "template", grip = "power", unit, at, axis, region;
   std::optional<double> turn_deg;
   double palm_limit_depth = PowerGraspOptions{}.palm_limit_depth;
   double finger_limit_depth = PowerGraspOptions{}.finger_limit_depth;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "palmar/grasp/site_distance.h"
 #include "palmar/grasp/skin_sampling.h"
@@ -25,11 +26,14 @@ constexpr double kPreshape = 0.8;        // of the bend that fits the handle, be
 constexpr double kCoupling = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
 constexpr double kDipLag = 10.0 * std::numbers::pi / 180.0;     // DIP behind that while PIP closes
 constexpr double kDipLeave = 25.0 * std::numbers::pi / 180.0;   // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * std::numbers::pi / 180.0;   // that a hook's MCP may flex
 constexpr double kReleaseMcp = 8.0 * std::numbers::pi / 180.0;  // opened to move a finger aside
 constexpr double kReleasePip = 20.0 * std::numbers::pi / 180.0;
 constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
 constexpr double kShareRange = 0.3;   // over which that fades
-constexpr int kLongestAdvance = 60;  // steps
+constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
+constexpr double kIdleMore = 5.0 * std::numbers::pi / 180.0;  // that it bends beyond its neighbour
+constexpr int kLongestAdvance = 60;                           // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
@@ -101,6 +105,13 @@ Posture HandCloser::start_posture(const ClosingStyle& style) const {
     const double end = share > 0.0 ? dof.upper : dof.lower;
     posture[dof.dof] += std::abs(share) * (end - posture[dof.dof]);
   };
+  if (style.hook) {
+    const Posture rest = reference_posture(hand_->skeleton);
+    for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
+                          Dof::kThumbIpFlexion}) {
+      posture[dof] = rest[dof];
+    }
+  }
   if (style.spread > 0.0) {
     fan(Finger::kIndex, style.spread);
     fan(Finger::kRing, -0.5 * style.spread);
@@ -211,15 +222,10 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
   };
   for (SegmentStop* stop : {&stop_of(0), &stop_of(1), &stop_of(2)}) stop->penetration = -kSkinRange;
   Posture to = posture;
-  if (style.hook) {
-    stop_of(0).segment = *segments[0];
-    stop_of(0).reason = StopReason::kProximalStop;
-  } else {
-    to[mcp.dof] = mcp.upper;
-    const Advance way = advance(0, to);
-    stop_of(0).penetration = way.deepest[0];
-    stop_of(1).penetration = way.deepest[1];
-  }
+  to[mcp.dof] = style.hook ? std::clamp(*style.hook + kHookGive, mcp.lower, mcp.upper) : mcp.upper;
+  const Advance first = advance(0, to);
+  stop_of(0).penetration = first.deepest[0];
+  stop_of(1).penetration = first.deepest[1];
   // DIP goes along with PIP. If it brings the tip to the product before the middle phalanx lies on
   // it, it gives way.
   to = posture;
@@ -309,7 +315,7 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
         const JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
         aside[flexion.dof] = std::max(flexion.lower, aside[flexion.dof] - by);
       };
-      if (!style.hook) open(0, kReleaseMcp);
+      open(0, kReleaseMcp);
       open(1, kReleasePip);
       open(2, kReleasePip);
       if (is_free(product, limits, finger, aside)) {
@@ -326,7 +332,33 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
     spread(Finger::kLittle, -ring - little);
     if (!is_changed) break;
   }
+  rest_idle_fingers(product, limits, posture);
   return posture;
+}
+
+// A finger that meets nothing isn't clenched in the air: it goes with its neighbour.
+void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
+                                   Posture& posture) const {
+  const auto is_idle = [&](Finger finger) {
+    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][0];
+    const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
+    return std::all_of(samples.begin(), samples.end(),
+                       [](const DistanceSample& sample) { return sample.distance > kIdleGap; });
+  };
+  using Pair = std::pair<Finger, Finger>;
+  for (const auto& [finger, neighbour] :
+       {Pair{Finger::kIndex, Finger::kMiddle}, Pair{Finger::kRing, Finger::kMiddle},
+        Pair{Finger::kLittle, Finger::kRing}}) {
+    if (!is_idle(finger)) continue;
+    Posture resting = posture;
+    for (int level = 0; level < 3; ++level) {
+      const JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
+      resting[dof.dof] =
+          std::clamp(std::min(posture[dof.dof], posture[flexion_of(neighbour, level)] + kIdleMore),
+                     dof.lower, dof.upper);
+    }
+    if (is_free(product, limits, finger, resting)) posture = resting;
+  }
 }
 
 HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& limits,

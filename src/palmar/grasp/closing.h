@@ -34,7 +34,7 @@ struct ClosingStyle {
   /// Share of their range of abduction by which fingers are fanned out before closing; 0: they lie
   /// side by side. For round bodies.
   double spread = 0.0;
-  /// MCP joints stay at this flexion, rad, and only PIP and DIP close: a hook.
+  /// MCP joints stay within 20 degrees of this flexion, rad; PIP and DIP close: a hook.
   std::optional<double> hook;
 };
 
@@ -76,8 +76,8 @@ class HandCloser {
   const ThumbCloser& thumb() const { return *thumb_; }
 
   /// Contact and penetrations in a posture. `axis_in_hand`: grip axis, unit.
-  HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits,
-                      const Posture& posture, const Vec3& axis_in_hand) const;
+  HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
+                      const Vec3& axis_in_hand) const;
 
  private:
   /// Fingers reach out already bent to the handle's curvature, as far as it is out of the way.
@@ -92,6 +92,9 @@ class HandCloser {
   Posture close_finger(const HeldProduct& product, const DepthLimits& limits,
                        const ClosingStyle& style, Finger finger, Posture posture,
                        std::array<SegmentStop, kSegmentCount>& stops) const;
+
+  void rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
+                         Posture& posture) const;
 
   const Hand* hand_;
   AdvanceCare care_;

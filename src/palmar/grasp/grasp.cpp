@@ -18,13 +18,14 @@
 namespace palmar {
 namespace {
 
-constexpr double kCoarse = 5.0;   // mm between the skin points that the search looks at
+constexpr double kCoarse = 3.5;   // mm between the skin points that the search looks at
 constexpr double kRival = 0.85;   // share of the best site's score from which one is tried too
 constexpr int kSettleRounds = 6;  // product and fingers give way to each other in turn
 constexpr std::size_t kTriedSites = 2;
-constexpr double kSphereSpread = 0.5;  // of the range of abduction
+constexpr double kMostSpread = 0.6;  // of the range of abduction, round a large ball
+constexpr double kSmallBall = 0.3, kLargeBall = 0.65;  // hand lengths; none to most
 constexpr double kShownDepth = 0.05;   // mm into the palm of what is only laid on it
-constexpr int kTrimRounds = 8;
+constexpr int kTrimRounds = 16;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
@@ -133,8 +134,14 @@ Sites find_sites(const Hand& hand, const Product& product, const PowerGraspOptio
   return found;
 }
 
-std::vector<ClosingStyle> styles_for(Grip grip) {
-  if (grip == Grip::kPowerSphere) return {ClosingStyle{.spread = kSphereSpread, .hook = {}}};
+std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_length) {
+  if (grip == Grip::kPowerSphere) {
+    // Round a ball smaller than the palm fingers stay together.
+    const double share =
+        std::clamp((diameter / hand_length - kSmallBall) / (kLargeBall - kSmallBall), 0.0, 1.0);
+    return {ClosingStyle{.spread = kMostSpread * share, .hook = {}},
+            ClosingStyle{.spread = 0.5 * kMostSpread * share, .hook = {}}};
+  }
   if (grip == Grip::kFixedHook) return {ClosingStyle{.spread = 0.0, .hook = 0.0}};
   return {ClosingStyle{}};
 }
@@ -291,7 +298,8 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
     distances.push_back(near.back().get());
   }
   HoldSearch search;
-  search.styles = styles_for(grasp.grip);
+  search.styles =
+      styles_for(grasp.grip, sites.front().girth / std::numbers::pi, hand.dimensions.hand_length);
   search.is_place_fixed = options.placement.at || options.placement.region;
   search.most = options.candidates;
   if (options.placement.turn) search.turn = lay_turn(hand, sites.front(), *options.placement.turn);

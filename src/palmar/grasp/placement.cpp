@@ -30,12 +30,9 @@ constexpr double kPalmToAxis = 30.0;      // mm from the bones of the palm to an
 constexpr double kThinTilt = 0.13;        // rad more out of the palm ...
 constexpr double kThin = 0.13,
                  kThick = 0.165;        // ... from the one diameter / hand length to the other
-constexpr double kWideOblique = -0.15;  // rad more for the line of a wide body ...
-constexpr double kSlim = 0.28,
-                 kWide = 0.45;          // ... from the one diameter / hand length to the other
 constexpr double kLeastProximal = 8.0;  // mm from the knuckles: nearer, the thumb can't reach over
 constexpr double kMostProximal = 45.0;  // mm
-constexpr double kHookShare = 0.62;  // of the middle finger's proximal phalanx, to a hooked handle
+constexpr double kHookShare = 0.5;  // of the middle finger's proximal phalanx, to a hooked handle
 constexpr double kHookOblique =
     0.15;  // rad; the finger joints lie more obliquely than the knuckles
 // A slab is held by its edges with the palm behind it, if the hand spans it: as one holds a phone.
@@ -174,7 +171,6 @@ Lay usual_lay(const Hand& hand, const ClosingStyle& style, const GripSite& site,
   lay.proximal = kUsualProximal * hand.dimensions.hand_length;
   // Round a thin handle the index finger finds room only if the handle leaves its base.
   const double share = site.girth / std::numbers::pi / hand.dimensions.hand_length;
-  lay.oblique += kWideOblique * std::clamp((share - kSlim) / (kWide - kSlim), 0.0, 1.0);
   lay.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
   if (style.hook) {
     const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;

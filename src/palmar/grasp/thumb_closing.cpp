@@ -12,7 +12,7 @@ namespace palmar {
 namespace {
 
 constexpr double kEndFace = 0.7;  // of the normal along the grip axis: not held, but hooked
-constexpr double kStraightIp = 40.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
+constexpr double kStraightIp = 50.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
 constexpr double kStraightMp = 30.0 * std::numbers::pi / 180.0;  // ... of the MP joint
 
 }  // namespace
@@ -83,9 +83,9 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
   // A thumb hooked over an edge bends at its tip alone; one that reaches round the air, at its MP.
   const double hooked = std::max(0.0, posture[Dof::kThumbIpFlexion] - kStraightIp) +
                         0.5 * std::max(0.0, posture[Dof::kThumbMpFlexion] - kStraightMp);
-  return area - 2.0 * other + reach - 400.0 * hooked +
-         800.0 * across * std::clamp(1.0 - gap / 3.0, 0.0, 1.0) - 10.0 * std::max(0.0, gap) -
-         20.0 * std::max(0.0, base_gap);
+  return area - 2.0 * other + reach - 250.0 * hooked +
+         (300.0 + 800.0 * across) * std::clamp(1.0 - gap / 3.0, 0.0, 1.0) -
+         10.0 * std::max(0.0, gap) - 20.0 * std::max(0.0, base_gap);
 }
 
 std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
