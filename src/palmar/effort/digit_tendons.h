@@ -43,7 +43,7 @@ enum class FingerPoints {
 
 struct TendonModel {
   FingerPoints points = FingerPoints::kSynek2019;
-  ExtensorHood hood;
+  ExtensorHood hood{};
 };
 
 /// The tendons of one digit on the joints of one hand, in the order of tendons_of(finger).

@@ -23,7 +23,7 @@ struct EffortOptions {
   double strength = 1.0;         ///< of the person over that of the cadavers' muscles; above 0
   bool joint_stops = true;       ///< a joint at the end of its range is held there by its ligaments
   double stop_margin = 0.00873;  ///< rad (0.5 degrees); this near the end counts as at the end
-  TendonModel tendons;
+  TendonModel tendons{};
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
