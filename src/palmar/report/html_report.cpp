@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/version.h"
 #include "palmar/io/vtk.h"
+#include "palmar/report/balance_section.h"
 #include "palmar/report/error_band.h"
 #include "palmar/report/friction_section.h"
 #include "palmar/report/html_comparison.h"
@@ -116,10 +117,7 @@ std::string gallery(const std::vector<EncodedPicture>& pictures) {
 std::string notes_of(const AssessedProduct& one) {
   const ContactResult& contact = one.assessment.contact;
   const GraspStatus status = one.assessment.grasp.status;
-  std::string message = one.assessment.grasp.message;
-  if (!message.empty() && message[0] >= 'a' && message[0] <= 'z') {
-    message[0] = static_cast<char>(message[0] - 'a' + 'A');
-  }
+  const std::string message = capitalised(one.assessment.grasp.message);
   std::string html = "<p class=\"note " + status_class(one.assessment) + "\"><strong>" +
                      html_escaped(plain_words(status)) + ".</strong> " + html_escaped(message) +
                      "</p>\n";
@@ -144,12 +142,7 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
                      html_escaped(one.product.name) + "</h2>\n" + notes_of(one) +
                      pressure_verdict(assessment);
   const bool is_judged = is_in_hand(assessment);
-  if (is_judged) {
-    html += "<p>The forces of the skin on the product add up to " +
-            short_number(contact.total.force_vector.norm()) + " N as a vector, against " +
-            short_number(contact.total.force) +
-            " N as a sum of amounts: what is left over is not balanced by this grasp alone.</p>\n";
-  }
+  if (is_judged) html += balance_section(assessment);
   html += scene_view(hand, one, scale, "scene-" + std::to_string(index));
   if (is_judged) {
     html += charts(contact) + region_contact_table(contact) + error_band_section(assessment);

@@ -244,10 +244,16 @@ std::string settings_table(const Assessment& assessment) {
   const bool is_given = placement.at || placement.axis || placement.turn;
   return table(
       "Settings", {{"Setting"}, {"Value"}},
-      setting("Limit depth of the palm", short_number(options.grasp.power.palm_limit_depth) + " mm") +
+      setting("Limit depth of the palm",
+              short_number(options.grasp.power.palm_limit_depth) + " mm") +
           setting("Limit depth of the fingers",
                   short_number(options.grasp.power.finger_limit_depth) + " mm") +
           setting("Placement", is_given ? "as asked" : "found from the product's shape") +
+          setting("Grip", std::string(name_of(assessment.grasp.grip))) +
+          setting("Grip force", options.balance.grip_force
+                                    ? short_number(*options.balance.grip_force) + " N asked for"
+                                    : "as firm as closing to the limit depths") +
+          setting("Comes to rest", options.balance.is_on ? "yes" : "no") +
           setting("Equations of the contact", name_of(model)) +
           setting("Kernel", model.kernel == Kernel::kPatch
                                 ? "patch (uniform pressure on each vertex's area)"

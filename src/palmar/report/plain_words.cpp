@@ -104,6 +104,13 @@ std::string plain_words(GraspStatus status) {
   return spaced(name_of(status));
 }
 
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  }
+  return text;
+}
+
 std::string plain_words(Dof dof) {
   std::string words = spaced(name_of(dof));
   for (const std::string joint : {" mcp ", " pip ", " dip ", " cmc ", " mp ", " ip "}) {

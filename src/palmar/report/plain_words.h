@@ -23,6 +23,9 @@ std::string plain_words(GraspStatus status);
 /// "index PIP flexion"
 std::string plain_words(Dof dof);
 
+/// The text with a capital at the beginning.
+std::string capitalised(std::string text);
+
 /// The double printed shortest so that it reads back exactly, as in assessment.json.
 std::string exact_number(double value);
 
