@@ -9,6 +9,7 @@
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/section.h"
 #include "palmar/grasp/fingertip_press.h"
 #include "palmar/grasp/precision_search.h"
 
@@ -310,6 +311,11 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
                                           hand.skeleton.joint(JointId::kLittleMcp).centre);
   grasp.grip_point = 0.5 * (thumb + others);
   grasp.grip_axis = (radial - line * line.dot(radial)).normalized();
+  std::vector<Vec3> section;
+  for (const SectionCurve& curve : plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
+    section.insert(section.end(), curve.point.begin(), curve.point.end());
+  }
+  grasp.grip_girth = girth(section, grasp.grip_axis);
   finish_stops(best, grasp);
   judge(best, openings, options, width, grasp);
   return grasp;
