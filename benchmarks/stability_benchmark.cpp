@@ -11,9 +11,9 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -27,6 +27,9 @@
 #include "palmar/study/assessment.h"
 
 namespace {
+
+/// Processor time, ms.
+double now() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Held {
   palmar::Product product;
@@ -45,7 +48,7 @@ Held hold_cylinder(const palmar::PreparedHand& hand, double diameter) {
 
 #ifdef PALMAR_WITH_QHULL
 struct WholeHull {
-  double distance = 0.0, volume = 0.0, seconds = 0.0;
+  double distance = 0.0, volume = 0.0, time = 0.0;
   int facets = 0;
 };
 
@@ -54,7 +57,7 @@ WholeHull whole_hull(const palmar::PointGroups<6>& groups) {
   for (const auto& group : groups.group) {
     for (const auto& w : group) points.insert(points.end(), w.data(), w.data() + 6);
   }
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now();
   WholeHull result;
   qhT memory;
   qhT* qh = &memory;
@@ -72,7 +75,7 @@ WholeHull whole_hull(const palmar::PointGroups<6>& groups) {
     result.volume = qh->totvol;
   }
   qh_freeqhull(qh, qh_ALL);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.time = now() - start;
   return result;
 }
 #endif
@@ -87,20 +90,19 @@ bool compare_hulls(const Held& held, const palmar::Hand& hand, int contacts) {
   palmar::BodyOptions options;
   options.max_volume_facets = 1'000'000;
   options.with_volume = false;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now();
   const auto distance = palmar::measure(groups, options);
-  const auto middle = std::chrono::steady_clock::now();
+  const double middle = now();
   options.with_volume = true;
   const auto ours = palmar::measure(groups, options);
-  const auto end = std::chrono::steady_clock::now();
+  const double end = now();
   std::printf("%2zu contacts: epsilon %.9f in %.1f ms; with volume %.9g (%d facets) in %.1f ms\n",
-              reduced.size(), distance.distance,
-              1e3 * std::chrono::duration<double>(middle - start).count(), ours.volume, ours.facets,
-              1e3 * std::chrono::duration<double>(end - middle).count());
+              reduced.size(), distance.distance, middle - start, ours.volume, ours.facets,
+              end - middle);
 #ifdef PALMAR_WITH_QHULL
   const WholeHull theirs = whole_hull(groups);
   std::printf("    Qhull:   epsilon %.9f,            volume %.9g (%d facets) in %.1f ms\n",
-              theirs.distance, theirs.volume, theirs.facets, 1e3 * theirs.seconds);
+              theirs.distance, theirs.volume, theirs.facets, theirs.time);
   return std::abs(ours.distance - theirs.distance) < 1e-6 &&
          std::abs(ours.volume - theirs.volume) < 1e-6 * theirs.volume;
 #else

@@ -61,11 +61,12 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
   index.unit = unit;
   index.better = better;
   index.source = "after Endo et al. 2007 (Digital Hand)";
-  char text[64];
+  char text[96];
   if (result.total.area > 0.0) {
     index.value = value;
-    std::snprintf(text, sizeof text, "palmar skin within %g mm that faces the product",
-                  result.reach);
+    std::snprintf(text, sizeof text,
+                  "palmar skin within %g mm that faces the product within %.0f deg", result.reach,
+                  result.facing * 180.0 / std::numbers::pi);
   } else {
     std::snprintf(text, sizeof text, "no palmar skin within %g mm of the product", result.reach);
   }
@@ -80,6 +81,10 @@ void FitnessOptions::check() const {
     throw UsageError("fitness: reach is " + std::to_string(reach) +
                      " mm; more than 0 and at most 50 mm is required");
   }
+  if (!(facing > 0.0 && facing <= 0.5 * std::numbers::pi)) {
+    throw UsageError("fitness: facing angle is " + std::to_string(facing) +
+                     " rad; more than 0 and at most pi / 2 is required");
+  }
 }
 
 FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_skin,
@@ -92,6 +97,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   }
   FitnessResult result;
   result.reach = options.reach;
+  result.facing = options.facing;
   std::vector<Vec3> points;
   points.reserve(posed_skin.size());
   for (const Vec3& p : posed_skin) points.push_back(product_from_hand * p);
@@ -103,6 +109,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   std::array<std::vector<NearVertex>, kRegionCount> near;
   std::array<double, kRegionCount> skin_area{};
   double palmar = 0.0, touching = 0.0;
+  const double least = std::cos(options.facing);
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (hand.region[v] == Region::kDorsum) continue;
     const auto r = static_cast<std::size_t>(hand.region[v]);
@@ -110,7 +117,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
     palmar += areas[v];
     const double facing = -normals[v].dot(samples[v].normal);
     // Samples out of range come back at +-range.
-    if (std::abs(samples[v].distance) >= options.reach || !(facing > 0.0)) continue;
+    if (std::abs(samples[v].distance) >= options.reach || !(facing > least)) continue;
     near[r].push_back({samples[v].distance, areas[v], std::acos(std::clamp(facing, -1.0, 1.0))});
     if (samples[v].distance <= 0.0) touching += areas[v];
   }
@@ -173,7 +180,7 @@ GraspIndices to_indices(const FitnessResult& result) {
   GraspIndex angle = row("normal_angle_deg", "angle between skin and product", "deg", Better::kDown,
                          result, gap.normal_angle * 180.0 / std::numbers::pi);
   angle.lowest = 0.0;
-  angle.highest = 90.0;
+  angle.highest = result.facing * 180.0 / std::numbers::pi;
   angle.definition = "mean, by area, of the angle between the surfaces of skin and product";
   rows.push_back(angle);
   GraspIndex share = row("skin_near_product_percent", "palmar skin near the product", "%",
@@ -181,7 +188,7 @@ GraspIndices to_indices(const FitnessResult& result) {
   share.lowest = 0.0;
   share.highest = 100.0;
   share.value = 100.0 * result.contact_share;
-  share.definition = "share of all palmar skin that faces the product within the stated distance";
+  share.definition = "share of all palmar skin that is so near to the product and faces it";
   rows.push_back(share);
   GraspIndex touching = row("near_skin_touching_percent", "of that skin, share that touches", "%",
                             Better::kUp, result, 100.0 * result.touching_share);

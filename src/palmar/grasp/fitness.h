@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "palmar/geometry/distance_field.h"
@@ -12,8 +13,12 @@
 namespace palmar {
 
 struct FitnessOptions {
-  /// Palmar skin within this distance of the product, on either side, and facing it takes part, mm.
+  /// Palmar skin within this distance of the product, on either side, and facing it takes part,
+  /// mm.
   double reach = 8.0;
+  /// Largest angle between skin and product at which the skin counts as facing it, rad; beyond are
+  /// the sides of fingers that lie along the product.
+  double facing = std::numbers::pi / 3.0;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -41,6 +46,7 @@ struct FitnessResult {
   double contact_share = 0.0;          ///< of the palmar skin's area: takes part
   double touching_share = 0.0;         ///< of the skin that takes part: inside or on the product
   double reach = 0.0;                  ///< that was used, mm
+  double facing = 0.0;                 ///< that was used, rad
 };
 
 /// Fitness of a grasp: the gap d(x) between undeformed posed palmar skin and product, over the skin

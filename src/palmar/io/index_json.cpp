@@ -85,17 +85,19 @@ std::string index_text(const GraspIndices& indices) {
     value_width = std::max(value_width, value.size());
     values.push_back(std::move(value));
   }
-  std::string text, group;
+  std::string text, group, remark;
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const GraspIndex& index = indices[k];
     if (index.group != group) {
       group = index.group;
       text += group + "\n";
+      remark.clear();
     }
     std::string line = "  " + padded(index.name, name_width) + "  " +
                        padded(values[k], value_width) + "  " +
                        padded(better_words(index.better), 14);
-    if (!index.remark.empty()) line += "  " + index.remark;
+    if (!index.remark.empty() && index.remark != remark) line += "  " + index.remark;
+    remark = index.remark;
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;

@@ -55,6 +55,7 @@ figure img{display:block;width:100%;height:auto}
 figcaption{font-size:.85rem;color:var(--soft);padding:.3rem .7rem;border-top:1px solid var(--line)}
 .charts{display:grid;grid-template-columns:1fr 1fr;gap:24px;align-items:start}.charts svg{width:100%;height:auto}h1,h2,figcaption,code,p{overflow-wrap:anywhere}
 details{margin:.8rem 0}summary{cursor:pointer;font-weight:600}
+table.indices details{margin:0}table.indices summary{font-weight:500}table.indices details p{margin:.3rem 0;font-weight:400}table.indices thead th:nth-child(2){width:8rem}table.indices thead th:nth-child(3){width:8.5rem}table.indices thead th:nth-child(4){width:9.5rem}
 pre{white-space:pre-wrap;font-size:.8rem;background:var(--wash);padding:.8rem;overflow-x:auto}
 footer{color:var(--soft);font-size:.88rem;padding-bottom:40px}
 @media(max-width:720px){main,header,footer{padding:0 14px}.charts{grid-template-columns:1fr}.wide table{min-width:680px}.view-canvas{height:480px}.view-bar{padding:14px 2px}.pictures{grid-template-columns:1fr}.view-body{grid-template-columns:1fr 104px}}

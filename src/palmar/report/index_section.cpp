@@ -56,13 +56,14 @@ std::string value_cell(const GraspIndex* index) {
          short_number(*index->value) + unit + "</td>";
 }
 
-std::string row(const GraspIndex& index) {
+/// `last_remark`: of the row above, not told twice.
+std::string row(const GraspIndex& index, const std::string& last_remark) {
   std::string html = "<tr data-index=\"" + html_escaped(index.key) + "\"><th scope=\"row\">" +
                      "<details><summary>" + html_escaped(index.name) + "</summary><p>" +
                      html_escaped(index.definition) + ".</p>";
   if (!index.source.empty()) html += "<p>Source: " + html_escaped(index.source) + ".</p>";
   html += "<p>Key: <code>" + html_escaped(index.key) + "</code></p></details>";
-  if (!index.remark.empty()) {
+  if (!index.remark.empty() && index.remark != last_remark) {
     html += "<span class=\"range\">" + html_escaped(index.remark) + "</span>";
   }
   return html + "</th>" + value_cell(&index) + "<td>" + range_words(index) + "</td><td>" +
@@ -83,18 +84,20 @@ std::string index_section(const GraspIndices& indices) {
       "<h3>Indices of this grasp</h3>\n<p>Each stands for itself: they are never added up to one "
       "number, and those of different groups can't be weighed against each other. Open a name for "
       "its definition and source.</p>\n";
-  std::string group;
+  std::string group, remark;
   for (const GraspIndex& index : indices) {
     if (group.empty() || index.group != group) {
       if (!group.empty()) html += "</tbody></table></div>\n";
       group = index.group;
+      remark.clear();
       html += "<div class=\"wide\"><table class=\"indices\"><caption>" +
               html_escaped(group_heading(group)) +
               "</caption><thead><tr><th scope=\"col\">Index</th><th scope=\"col\" class=\"n\">"
               "Value</th><th scope=\"col\">Possible range</th><th scope=\"col\">Better</th></tr>"
               "</thead><tbody>";
     }
-    html += row(index);
+    html += row(index, remark);
+    remark = index.remark;
   }
   return html + "</tbody></table></div>\n";
 }
@@ -127,7 +130,7 @@ std::string index_comparison(const std::vector<std::string>& names,
   std::stable_sort(rows.begin(), rows.end(),
                    [&](const GraspIndex* a, const GraspIndex* b) { return place(a) < place(b); });
   std::string html =
-      "<div class=\"wide\"><table class=\"indices\"><caption>Indices side by side</caption><thead>"
+      "<div class=\"wide\"><table><caption>Indices side by side</caption><thead>"
       "<tr><th scope=\"col\">Index</th>";
   for (const std::string& name : names) {
     html += "<th scope=\"col\" class=\"n\">" + html_escaped(name) + "</th>";
