@@ -18,7 +18,8 @@ namespace palmar::cli {
 namespace {
 
 struct EvaluateArguments {
-  std::string product, unit, hand = "template", posture, grasp, placement, out;
+  std::string product, unit, hand = "template", posture, grasp, placement, measured_from_product,
+                             out;
   std::optional<int> frame;
   ContactArguments contact;
   FrictionArguments friction;
@@ -36,10 +37,22 @@ PostureFrame read_given(const EvaluateArguments& arguments, const Skeleton& skel
   if (!arguments.placement.empty()) {
     frame.product_from_hand = parse_placement("--placement", arguments.placement);
   }
+  if (!arguments.measured_from_product.empty()) {
+    if (!arguments.placement.empty()) {
+      throw UsageError("--placement and --measured-from-product exclude each other");
+    }
+    if (!frame.measured_from_hand) {
+      throw UsageError("--measured-from-product: " + path +
+                       " doesn't say where the hand is (measured_from_hand)");
+    }
+    const Rigid3 measured_from_product =
+        parse_placement("--measured-from-product", arguments.measured_from_product);
+    frame.product_from_hand = measured_from_product.inverse() * *frame.measured_from_hand;
+  }
   if (!frame.product_from_hand) {
     throw UsageError(path +
                      " doesn't say where the product is (product_from_hand); --placement "
-                     "X,Y,Z,QW,QX,QY,QZ is needed");
+                     "X,Y,Z,QW,QX,QY,QZ or --measured-from-product is needed");
   }
   return frame;
 }
@@ -103,6 +116,9 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
   verb->add_option("--frame", o->frame, "Which posture of a file with several, from 1");
   verb->add_option("--placement", o->placement,
                    "product_from_hand: X,Y,Z in mm and a unit quaternion W,X,Y,Z; over the file's");
+  verb->add_option("--measured-from-product", o->measured_from_product,
+                   "Where the product is in the frame of the recording (or mesh) that the posture "
+                   "was found from, as seven numbers likewise");
   o->contact.add_to(*verb);
   o->friction.add_to(*verb);
   verb->add_option("--out", o->out, "Folder of the report; none by default");

@@ -161,7 +161,7 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
       .hand = hand.name, .source = arguments.markers, .labels = matched.set.label, .postures = {}};
   const Progress progress = make_progress(common);
   std::optional<PostureFit> before;
-  int skipped = 0;
+  int skipped = 0, changes = 0;
   double sum = 0.0, worst = 0.0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const std::size_t i = chosen[k];
@@ -181,6 +181,11 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
     // Of a long recording the first frame is told in full, the others are summed up.
     if (report.postures.empty() || fit.status == PostureFitStatus::kPoor || !fit.outliers.empty()) {
       note_fit(common, place, fit, matched.set);
+    }
+    if (before && fit.not_observed != before->not_observed && ++changes <= 5) {
+      note(common, place + (fit.not_observed.empty()
+                                ? ": all angles are observed"
+                                : ": the markers don't tell " + names_of(fit.not_observed)));
     }
     before = fit;
     sum += fit.rms;

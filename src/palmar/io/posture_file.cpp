@@ -172,13 +172,17 @@ class JsonPostures {
     if (json.contains("time_s") && json["time_s"].is_number()) {
       frame.time = json["time_s"].get<double>();
     }
-    if (json.contains("product_from_hand")) {
+    const auto placement = [&](const char* key, std::optional<Rigid3>& to) {
+      if (!json.contains(key)) return;
       try {
-        frame.product_from_hand = placement_from_json(json["product_from_hand"]);
+        to = placement_from_json(json[key]);
       } catch (const InputError& error) {
-        fail(name, std::string("product_from_hand: ") + error.what());
+        fail(name, std::string(key) + ": " + error.what());
       }
-    }
+    };
+    placement("product_from_hand", frame.product_from_hand);
+    placement("measured_from_hand", frame.measured_from_hand);
+    placement("mesh_from_hand", frame.measured_from_hand);
     if (json.contains("grip") && json["grip"].is_string()) {
       const auto grip = json["grip"].get<std::string>();
       frame.grip = grip_named(grip);

@@ -20,7 +20,9 @@ struct PostureFrame {
   std::vector<ClampedAngle> clamped;        ///< angles that were outside the range of motion
   std::vector<Dof> missing;                 ///< not in the file: at the reference posture's angle
   std::optional<Rigid3> product_from_hand;  ///< where the hand holds a product, if the file says so
-  std::optional<Grip> grip;                 ///< by which grip, likewise
+  /// Where the hand is in the frame of markers or mesh it was found from, if the file says so.
+  std::optional<Rigid3> measured_from_hand;
+  std::optional<Grip> grip;  ///< by which grip, likewise
 };
 
 struct PostureFile {
