@@ -271,6 +271,14 @@ TEST_F(PrecisionGrip, ThinThingsAreNotPressedThrough) {
   EXPECT_THAT(grasp.message, HasSubstr("thick"));
 }
 
+TEST_F(PrecisionGrip, FiveFingertipsHaveNoRoomOnABead) {
+  SphereProductOptions bead;
+  bead.diameter = 4.0;
+  const Grasp grasp = close(hand(), make_sphere_product(bead), Grip::kPrecisionSphere);
+  EXPECT_EQ(grasp.status, GraspStatus::kTooSmall);
+  EXPECT_THAT(grasp.message, HasSubstr("in each other"));
+}
+
 TEST_F(PrecisionGrip, WhatNoHandSpansIsNotGraspable) {
   const Product block = of_mesh(make_box({220.0, 230.0, 240.0}, 6), "block");
   const Grasp grasp = close(hand(), block, Grip::kPalmarPinch);

@@ -35,6 +35,7 @@ constexpr double kEndSpread = 5.0 * kDeg;
 constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
 constexpr double kNextGive = 0.5;     // mm, phalanges next to one that touches
+constexpr double kFacingGive = 4.0;   // mm, of thumb and finger on a thin thing
 constexpr double kFarOff = 45.0;      // mm; more than any ball
 constexpr double kPulp = 4.0;         // mm; radius of the pulp where it slides: rolls over edges
 constexpr double kBendStep = 0.5;     // mm
@@ -388,14 +389,12 @@ void FingertipSystem::add_crossings(const State& state, const FingerMotion& moti
       if (!may_cross(p, q)) continue;
       if (!is_moving(p.finger) && !is_moving(q.finger)) continue;
       const Segment sp = phalanx_of(p), sq = phalanx_of(q);
-      // Between two that touch lies the product.
-      const bool is_thumb = p.finger == Finger::kThumb;
-      if (is_thumb && is_contact_[static_cast<std::size_t>(sp)] &&
-          is_contact_[static_cast<std::size_t>(sq)]) {
-        continue;
-      }
+      // Two that touch the product face each other over it, flattened.
+      const bool is_facing = p.finger == Finger::kThumb &&
+                             is_contact_[static_cast<std::size_t>(sp)] &&
+                             is_contact_[static_cast<std::size_t>(sq)];
       const Crossing crossing = crossing_of(p, q);
-      const double excess = crossing.overlap - kNeighbourGive;
+      const double excess = crossing.overlap - (is_facing ? kFacingGive : kNeighbourGive);
       if (excess <= 0.0) continue;
       clash_ = std::max(clash_, excess);
       const Vec3 apart = crossing.p - crossing.q;

@@ -16,14 +16,16 @@
 namespace palmar {
 namespace {
 
-constexpr double kReached = 1.0;     // mm; what counts as reached
-constexpr double kOffSurface = 2.0;  // mm; targets may be that far from the surface
-constexpr double kPadOffset = 3.0;   // mm off the surface, where its distance is smooth
-constexpr double kThinShare = 0.4;   // of a thin product's width may be pressed in from each side
-constexpr std::size_t kPressed = 5;  // holds that are pressed and looked at by all their skin
-constexpr double kSkinUnit = 2.0;    // mm; cost of skin deeper than the fingertips
-constexpr double kAtLimit = 0.15;    // mm; that near to the depth counts as there
-constexpr double kDeepSkin = 4.0;    // mm; skin that much deeper than the fingertips can't be
+constexpr double kReached = 1.0;      // mm; what counts as reached
+constexpr double kOffSurface = 2.0;   // mm; targets may be that far from the surface
+constexpr double kPadOffset = 3.0;    // mm off the surface, where its distance is smooth
+constexpr double kThinShare = 0.4;    // of a thin product's width may be pressed in from each side
+constexpr std::size_t kPressed = 5;   // holds that are pressed and looked at by all their skin
+constexpr double kSkinUnit = 2.0;     // mm; cost of skin deeper than the fingertips
+constexpr double kAtLimit = 0.15;     // mm; that near to the depth counts as there
+constexpr double kDeepSkin = 4.0;     // mm; skin that much deeper than the fingertips can't be
+constexpr double kCrossing = 1.0;     // mm; fingers that much in each other can't be
+constexpr double kSmallWidth = 20.0;  // mm; then it is for want of room
 constexpr double kFar = 1e-9;
 
 std::string words_of(Finger finger) {
@@ -170,6 +172,13 @@ void judge(const PressedHold& hold, const GripOpenings& openings,
       where = s;
     }
   }
+  if (hold.solution.clash > kCrossing) {
+    if (grasp.status == GraspStatus::kHeld) {
+      grasp.status = width < kSmallWidth ? GraspStatus::kTooSmall : GraspStatus::kPartlyHeld;
+    }
+    grasp.message += fmt::format("; fingers would be {:.1f} mm in each other or the product",
+                                 hold.solution.clash);
+  }
   if (deepest > hold.depth + kDeepSkin && grasp.status == GraspStatus::kHeld) {
     grasp.status = GraspStatus::kPartlyHeld;  // no hand can be there
   }
@@ -258,8 +267,7 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     grasp.status = GraspStatus::kNotGraspable;
     grasp.message = fmt::format(
         "no two opposite places of it within the hand's span of {:.0f} mm for grip {}{}",
-        openings.widest(), name_of(options.grip),
-        options.placement.at ? " near the given point" : "");
+        search.widest, name_of(options.grip), options.placement.at ? " near the given point" : "");
     put_beside(hand, product, grasp);
     return grasp;
   }

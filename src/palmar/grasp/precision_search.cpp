@@ -101,7 +101,7 @@ class Search {
   PrecisionSearch run(const Progress& progress) const;
 
  private:
-  std::vector<OpposingPair> pairs() const;
+  std::vector<OpposingPair> pairs(double& widest) const;
   double placing_cost(const Rigid3& product_from_hand) const;
   PrecisionHold set_down(const Candidate& candidate, const OpposingPair& pair) const;
   double hold_cost(const PrecisionHold& hold) const;
@@ -114,7 +114,7 @@ class Search {
   HandAxes axes_;
 };
 
-std::vector<OpposingPair> Search::pairs() const {
+std::vector<OpposingPair> Search::pairs(double& widest) const {
   const bool is_lateral = openings_->grip() == Grip::kLateral;
   const bool is_ball = openings_->grip() == Grip::kPrecisionSphere;
   const double length = ik_->hand().dimensions.hand_length;
@@ -124,6 +124,7 @@ std::vector<OpposingPair> Search::pairs() const {
   options.central = is_lateral ? 0.5 : 1.0;
   options.most = options_->candidates;
   options.at = options_->placement.at;
+  widest = options.widest;
   return find_opposing_pairs(*product_, shape_, options);
 }
 
@@ -232,7 +233,7 @@ double width_of(const FingertipSolution& solution) {
 
 PrecisionSearch Search::run(const Progress& progress) const {
   PrecisionSearch result;
-  const std::vector<OpposingPair> all = pairs();
+  const std::vector<OpposingPair> all = pairs(result.widest);
   result.pairs = static_cast<int>(all.size());
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -22,6 +22,7 @@ struct PrecisionHold {
 struct PrecisionSearch {
   std::vector<PrecisionHold> holds;  ///< best first, each unlike the ones before
   int candidates = 0;                ///< placements looked at
+  double widest = 0.0;               ///< between the points of a pair, mm
   int pairs = 0;                     ///< opposing pairs on the product within the hand's width
 };
 
