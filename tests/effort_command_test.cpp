@@ -60,7 +60,7 @@ TEST(EffortCommand, BadFingertipInputIsNamed) {
       {"--finger toe", "thumb, index, middle, ring or little", 2},
       {"--finger middle --tendon fpl", "it has fdp, fds, edc, lum, ri, ui", 2},
       {"--finger middle --posture mcp=140", "mcp is 140 deg; the range of middle MCP flexion", 2},
-      {"--finger middle --posture mpc=10", "did you mean mcp?", 2},
+      {"--finger middle --posture mpcp=10", "no angle \"mpcp\"", 2},
       {"--finger middle --posture mcp=bent", "NAME=DEGREES", 2},
       {"--finger middle --posture mcp=1,mcp=2", "given twice", 2},
       {"--finger thumb --posture pip=10", "it has cmc-flexion, cmc-abduction, mp, ip", 2},

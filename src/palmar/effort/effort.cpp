@@ -19,11 +19,21 @@ void check_range(const char* name, double value, double least, double most, cons
                    " is allowed");
 }
 
-/// Whether the joint's ligaments can push the angle up (+1), down (-1) or not at all (0).
-int stop_at(const JointDof& dof, double angle, const EffortOptions& options) {
+/// How the joint's ligaments can push the angle, see MuscleProblem::stop.
+int stop_at(const Skeleton& skeleton, Dof which, const Posture& posture,
+            const EffortOptions& options) {
   if (!options.joint_stops) return 0;
-  if (angle >= dof.upper - options.stop_margin) return -1;
-  if (angle <= dof.lower + options.stop_margin) return 1;
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.dofs.size() != 2 || joint.id == JointId::kThumbCmc) continue;
+    // A finger's MCP: flexion and abduction.
+    const bool flexes_first = name_of(joint.dofs[0].dof).ends_with("flexion");
+    const Dof flexion = joint.dofs[flexes_first ? 0 : 1].dof;
+    const Dof abduction = joint.dofs[flexes_first ? 1 : 0].dof;
+    if (which == abduction && posture[flexion] >= options.tight_mcp_flexion) return 2;
+  }
+  const JointDof& dof = skeleton.dof(which);
+  if (posture[which] >= dof.upper - options.stop_margin) return -1;
+  if (posture[which] <= dof.lower + options.stop_margin) return 1;
   return 0;
 }
 
@@ -59,7 +69,7 @@ DigitEffort effort_of_digit(const Hand& hand, Finger finger, const Posture& post
     effort.joints[i].dof = digit.dof[i];
     effort.joints[i].external = external.moment[i];
     problem.required[k] = -external.moment[i];
-    problem.stop[k] = stop_at(hand.skeleton.dof(digit.dof[i]), posture[digit.dof[i]], options);
+    problem.stop[k] = stop_at(hand.skeleton, digit.dof[i], posture, options);
     for (std::size_t t = 0; t < own.size(); ++t) {
       problem.moment_at_strength(k, static_cast<Eigen::Index>(t)) =
           effort.tendons[t].strength * arms[t][i];
@@ -111,6 +121,7 @@ void EffortOptions::check() const {
   }
   check_range("specific tension", specific_tension, 0.01, 10.0, "MPa");
   check_range("strength", strength, 0.01, 10.0, "times the cadavers'");
+  check_range("flexion of tight MCP ligaments", tight_mcp_flexion, 0.0, 10.0, "rad");
   check_range("stop margin", stop_margin, 0.0, 0.5, "rad");
   tendons.hood.check();
 }

@@ -20,8 +20,11 @@ struct EffortOptions {
   /// asks), 2 is also common.
   int exponent = 3;
   double specific_tension = kSpecificTension;  ///< MPa, times the cross-section = strength
-  double strength = 1.0;         ///< of the person over that of the cadavers' muscles; above 0
-  bool joint_stops = true;       ///< a joint at the end of its range is held there by its ligaments
+  double strength = 1.0;    ///< of the person over that of the cadavers' muscles; above 0
+  bool joint_stops = true;  ///< a joint at the end of its range is held there by its ligaments
+  /// Collateral ligaments of a finger's MCP are tight when it is bent: from this flexion on they
+  /// take moments of abduction, both ways. rad (60 degrees); our choice, only with joint_stops.
+  double tight_mcp_flexion = 1.0472;
   double stop_margin = 0.00873;  ///< rad (0.5 degrees); this near the end counts as at the end
   TendonModel tendons{};
   void check() const;  ///< throws UsageError: field, value, allowed range

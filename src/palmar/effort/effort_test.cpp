@@ -247,6 +247,21 @@ TEST(Effort, JointAtItsEndIsHeldByLigaments) {
   EXPECT_LE(cost(with), cost(without) + 1e-9);
 }
 
+TEST(Effort, BentMcpIsHeldSidewaysByLigaments) {
+  const Hand hand = plain_hand();
+  for (const double flexion : {50.0, 70.0}) {
+    const Posture posture = effort_test::posture_of(Finger::kRing, flexion, 30, 30);
+    std::vector<SkinLoad> loads = grip_loads(hand, posture, 1.0);
+    for (SkinLoad& load : loads) load.force.x() += 1.0;  // towards the thumb
+    const EffortResult effort = assess_effort(hand, posture, loads);
+    for (const JointEffort& joint : effort.digits[3].joints) {
+      if (joint.dof != Dof::kRingMcpAbduction) continue;
+      EXPECT_GT(joint.external, 50.0);
+      EXPECT_EQ(joint.stop<-10.0, flexion> 60.0) << joint.stop;
+    }
+  }
+}
+
 TEST(Effort, BadOptionsAreNamed) {
   const Hand hand = plain_hand();
   const auto with = [&](const EffortOptions& options) {

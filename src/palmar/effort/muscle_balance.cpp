@@ -18,8 +18,9 @@ using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 100;
 constexpr double kTolerance = 1e-10;
-constexpr double kMissingPrice = 1e4;   // per scaled moment; muscles cost about n / lever
-constexpr double kStopCost = 1e-9;      // makes the moment of two stops unique
+constexpr double kMissingPrice = 1e4;  // per scaled moment; muscles cost about n / lever
+constexpr double kStopCost = 1e-9;     // makes the moment of two stops unique
+constexpr int kBothWays = 2;
 constexpr double kLeastMissing = 1e-6;  // of the largest moment; less is rounding
 constexpr double kLargestResidual = 1e-6;
 
@@ -230,12 +231,15 @@ MuscleSolution balance_muscles(const MuscleProblem& problem) {
   program.axes = axes;
   program.muscles = muscles;
   program.exponent = problem.exponent;
-  program.stops = static_cast<int>((problem.stop.array() != 0).count());
+  program.stops = static_cast<int>((problem.stop.array() != 0).count() +
+                                   (problem.stop.array() == kBothWays).count());
   const int n = muscles + program.stops + 2 * axes;
   program.a = MatrixXd::Zero(axes, n);
   program.a.leftCols(muscles) = capacity.cwiseInverse().asDiagonal() * moments;
   for (int k = 0, column = muscles; k < axes; ++k) {
-    if (problem.stop[k] != 0) program.a(k, column++) = problem.stop[k];
+    if (problem.stop[k] == 0) continue;
+    program.a(k, column++) = problem.stop[k] == -1 ? -1.0 : 1.0;
+    if (problem.stop[k] == kBothWays) program.a(k, column++) = -1.0;
   }
   program.a.middleCols(n - 2 * axes, axes).setIdentity();
   program.a.rightCols(axes) = -MatrixXd::Identity(axes, axes);
@@ -257,8 +261,10 @@ MuscleSolution balance_muscles(const MuscleProblem& problem) {
   }
   for (int k = 0, column = muscles; k < axes; ++k) {
     if (problem.stop[k] == 0) continue;
-    const double moment = x[column++];
-    solution.stop[k] = moment < kNothing ? 0.0 : problem.stop[k] * load * capacity[k] * moment;
+    double moment = problem.stop[k] == -1 ? -x[column] : x[column];
+    ++column;
+    if (problem.stop[k] == kBothWays) moment -= x[column++];
+    if (std::abs(moment) > kNothing) solution.stop[k] = load * capacity[k] * moment;
   }
   bool is_missing = false;
   for (int k = 0; k < axes; ++k) {

@@ -17,8 +17,9 @@ namespace palmar {
 struct MuscleProblem {
   Eigen::MatrixXd moment_at_strength;  ///< B, axes x muscles, N mm
   Eigen::VectorXd required;            ///< m, N mm
-  Eigen::VectorXi stop;  ///< per axis: +1 the stop can push the angle up, -1 down, 0 not there
-  int exponent = 3;      ///< n, 2 or 3
+  /// Per axis: +1 the joint's stop can push the angle up, -1 down, 2 both ways, 0 not there.
+  Eigen::VectorXi stop;
+  int exponent = 3;  ///< n, 2 or 3
 };
 
 enum class MuscleStatus {

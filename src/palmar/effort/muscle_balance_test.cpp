@@ -86,6 +86,17 @@ TEST(BalanceMuscles, StopHoldsInItsDirectionOnly) {
   EXPECT_NEAR(by_muscle.stop[0], 0.0, 1e-6);
 }
 
+TEST(BalanceMuscles, StopOfBothWaysHoldsEither) {
+  for (const double required : {-80.0, 80.0}) {
+    MuscleProblem problem = one_axis({100, -100}, required, 3);
+    problem.stop[0] = 2;
+    const MuscleSolution held = balance_muscles(problem);
+    EXPECT_EQ(held.status, MuscleStatus::kBalanced);
+    EXPECT_NEAR(held.stop[0], required, 0.1);  // N mm; resting muscles end at 1e-3 for n = 3
+    EXPECT_LT(held.activation.maxCoeff(), 2e-3);
+  }
+}
+
 TEST(BalanceMuscles, NoLoadNoForce) {
   const MuscleSolution solution = balance_muscles(one_axis({100, -100}, 0.0, 3));
   EXPECT_EQ(solution.status, MuscleStatus::kBalanced);
