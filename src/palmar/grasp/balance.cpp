@@ -63,10 +63,11 @@ std::string way_words(const Hand& hand, Vec3 way) {
 class Settling {
  public:
   Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-           const BalanceOptions& options, const ContactOptions& contact)
+           const BalanceOptions& options, const ContactOptions& contact, bool is_by_muscles)
       : hand_(&hand.hand()),
         options_(&options),
-        is_by_muscles_(is_power(grasp.grip)),
+        is_by_muscles_(is_by_muscles),
+        has_level_(is_power(grasp.grip) || options.grip_force),
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
         cones_(hand.hand()),
@@ -109,6 +110,7 @@ class Settling {
   const Hand* hand_;
   const BalanceOptions* options_;
   bool is_by_muscles_;
+  bool has_level_;  // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   FingerCones cones_;
   std::vector<RoundCone> start_cones_;
@@ -186,7 +188,7 @@ Settling::Misfit Settling::misfit(double grip) const {
       result.of_joints = std::max(result.of_joints, std::abs(residual) / strongest);
     }
   }
-  if (is_by_muscles_ || options_->grip_force) result.of_level = std::abs(grip / target_ - 1.0);
+  if (has_level_) result.of_level = std::abs(grip / target_ - 1.0);
   result.force = result.residual.segment<3>(kSqueezeJoints).norm();
   result.moment = result.residual.tail<3>().norm();
   result.of_product = std::max(result.force, result.moment / mechanics_.arm()) / grip;
@@ -261,7 +263,7 @@ void Settling::step(const Misfit& misfit, double missing) {
   };
   GripVector way = solved(misfit.residual);
   double level = 0.0;
-  if (is_by_muscles_ || options_->grip_force) {
+  if (has_level_) {
     const GripVector gain = solved(per_level) + closing;
     const double rate = mechanics_.squeeze().dot(gain);
     if (rate > 1e-12) {
@@ -424,12 +426,23 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   if (!options.is_on) return {};
   ContactOptions plain = contact;
   plain.error_band = false;
-  Settling settling(hand, product, grasp, options, plain);
-  const Balance balance = settling.run(progress);
-  if (balance.status == BalanceStatus::kBalanced ||
-      balance.status == BalanceStatus::kNotConverged) {
-    grasp.posture = settling.state().posture;
-    grasp.product_from_hand = settling.state().product_from_hand;
+  // A large body slips past fingers that all give the same share of their strength. Then the hand
+  // is tried stiff: all joints held as they were closed.
+  Balance balance;
+  for (const bool is_by_muscles : {true, false}) {
+    if (is_by_muscles && !is_power(grasp.grip)) continue;
+    Settling settling(hand, product, grasp, options, plain, is_by_muscles);
+    Balance attempt = settling.run(progress);
+    const bool is_second = !is_by_muscles && is_power(grasp.grip);
+    const bool is_at_rest = attempt.status == BalanceStatus::kBalanced;
+    const bool slips = attempt.status == BalanceStatus::kSlipsOut;
+    if (is_at_rest || (!is_second && attempt.status == BalanceStatus::kNotConverged)) {
+      grasp.posture = settling.state().posture;
+      grasp.product_from_hand = settling.state().product_from_hand;
+    }
+    if (is_at_rest || !is_second) balance = std::move(attempt);
+    if (is_at_rest && is_second) balance.message += ", by fingers that are held stiff";
+    if (!slips) break;
   }
   return balance;
 }

@@ -178,12 +178,16 @@ std::string method_limits(const AssessmentSet& set) {
               : "The skin is one elastic layer over bone, as deep as the bones of this hand stand "
                 "under it; fat, nail and tendons are not told apart.";
   const bool has_friction = is_known && set.assessments.front().assessment.options.friction.is_on();
+  const bool has_balance = is_known && set.assessments.front().assessment.options.balance.is_on;
+  html +=
+      has_balance
+          ? "</li>\n<li>Product and fingers come to rest once; people also change their hold, "
+            "spread the fingers and press harder when they feel it slip.</li>\n"
+          : "</li>\n<li>The hand is as it was closed to given depths: forces don't balance.</li>\n";
   html += has_friction
-              ? "</li>\n<li>The pressures don't answer to weight and tool forces, which friction "
-                "alone carries here: the fingers close to a given depth, they don't grip with a "
-                "chosen force.</li>\n"
-              : "</li>\n<li>No friction, no slip, no weight of the product, no tool forces: the "
-                "fingers close to a given depth, they don't grip with a chosen force.</li>\n";
+              ? "<li>The margin against slip is that of friction alone at these pressures, "
+                "whose own sum is not in it.</li>\n"
+              : "<li>No weight of the product and no tool forces were given.</li>\n";
   html +=
       "<li>The sum of the forces is not the reading of a dynamometer, nor the grip force across a "
       "plane: the three differ by a factor of 2 to 3.</li>\n<li>";
