@@ -88,7 +88,9 @@ TEST(DigitTendons, ArmsOfAn1979) {
 }
 
 TEST(DigitTendons, ArmsOfSynek2019) {
-  const ArmRow rows[] = {{"TE", kDip, -3.72, -3.72, -3.72},  {"FDP", kDip, 3.90, 4.39, 3.61},
+  // The profundus at 60 degrees of the DIP: the chord alone would fall to 3.61 mm; its largest arm
+  // is the distance of the insertion from the axis, 23.63 hypot(0.17 - 0.0352, 0.1277) = 4.39 mm.
+  const ArmRow rows[] = {{"TE", kDip, -3.72, -3.72, -3.72},  {"FDP", kDip, 3.90, 4.39, 4.39},
                          {"FDP", kPip, 6.83, 9.38, 11.24},   {"RB", kPip, -2.52, -1.47, -0.22},
                          {"UB", kPip, -2.22, -1.18, 0.02},   {"FDS", kPip, 3.42, 5.68, 7.46},
                          {"ES", kPip, -5.44, -5.44, -5.44},  {"FDP", kMcp, 10.14, 12.87, 14.70},

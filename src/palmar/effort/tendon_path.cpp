@@ -15,7 +15,28 @@ struct Course {
   bool wraps = false;
   Vec3 t1, t2;
   double length = 0.0;
+  std::optional<double> held_arm;  ///< of a chord past its largest arm, see TendonCylinder
 };
+
+/// Whether the span crosses one hinge alone, that of its cylinder.
+bool crosses_one_axis(const TendonSpan& span) {
+  return span.distal.body == span.proximal.body + 1 && span.cylinder->body == span.proximal.body;
+}
+
+/// A chord between points at distances p and q from the axis has its largest arm, the smaller of
+/// these, where it is square to the shorter one, cos psi = p / q. Nearer together it would pass
+/// through the joint's soft parts: length goes on falling by that arm.
+void hold_largest_arm(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double axial,
+                      double sense, Course& course) {
+  const double arm = std::min(a.norm(), b.norm()), other = std::max(a.norm(), b.norm());
+  if (arm <= 0.0) return;
+  const double largest = std::acos(arm / other);
+  const double psi = std::acos(std::clamp(a.dot(b) / (arm * other), -1.0, 1.0));
+  if (psi >= largest) return;
+  const double planar = std::sqrt(other * other - arm * arm) - arm * (largest - psi);
+  course.length = std::hypot(planar, axial);
+  course.held_arm = course.length > 0.0 ? -sense * arm * planar / course.length : 0.0;
+}
 
 Course course_of(const TendonSpan& span, const PosedDigit& digit) {
   Course course;
@@ -39,7 +60,9 @@ Course course_of(const TendonSpan& span, const PosedDigit& digit) {
   const double arm = cylinder.sense * (a.x() * along.y() - a.y() * along.x()) / reach;
   const double r = cylinder.radius;
   // A point inside the cylinder has no tangent: the tendon runs straight there.
-  if (arm >= r || a.norm() < r || b.norm() < r) return course;
+  const double axial = (course.b - course.a).dot(u);
+  if (arm > 0.0 && crosses_one_axis(span)) hold_largest_arm(a, b, axial, cylinder.sense, course);
+  if (course.held_arm || arm >= r || a.norm() < r || b.norm() < r) return course;
 
   const double out_a = std::acos(std::clamp(r / a.norm(), -1.0, 1.0));
   const double out_b = std::acos(std::clamp(r / b.norm(), -1.0, 1.0));
@@ -52,7 +75,6 @@ Course course_of(const TendonSpan& span, const PosedDigit& digit) {
   const double to_t1 = std::sqrt(std::max(0.0, a.squaredNorm() - r * r));
   const double from_t2 = std::sqrt(std::max(0.0, b.squaredNorm() - r * r));
   const double planar = to_t1 + r * arc + from_t2;
-  const double axial = (course.b - course.a).dot(u);
   const double start = (course.a - centre).dot(u);
   const auto on_cylinder = [&](double angle, double way) {
     return Vec3(centre + r * (std::cos(angle) * e1 + std::sin(angle) * e2) +
@@ -88,7 +110,9 @@ std::array<double, kDigitDofs> moment_arms(const TendonPath& path, const PosedDi
       const Vec3 rate_a = digit.velocity(k, span.proximal.body, course.a);
       const Vec3 rate_b = digit.velocity(k, span.distal.body, course.b);
       double rate = 0.0;
-      if (course.wraps) {
+      if (course.held_arm) {
+        if (digit.moves[static_cast<std::size_t>(k)] == span.distal.body) rate = -*course.held_arm;
+      } else if (course.wraps) {
         const int body = span.cylinder->body;
         rate = lengthening(course.a, course.t1, rate_a, digit.velocity(k, body, course.t1)) +
                lengthening(course.t2, course.b, digit.velocity(k, body, course.t2), rate_b);

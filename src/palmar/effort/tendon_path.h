@@ -20,6 +20,8 @@ struct TendonPoint {
 /// Cylinder of a joint over which a tendon is drawn when the straight line between two of its
 /// points would cut through it. With sense +1 a tendon followed from the palm outwards runs round
 /// the axis right-handed.
+/// Over a single hinge it also keeps a bowstringing tendon from collapsing: past the angle at which
+/// its chord has the largest arm, that arm is kept.
 struct TendonCylinder {
   int body = 0;
   Vec3 centre = Vec3::Zero();  ///< on the axis; hand frame, reference posture, mm

@@ -70,6 +70,21 @@ TEST(TendonPath, ExtensorLeavesTheCylinderInExtension) {
               1e-12);
 }
 
+TEST(TendonPath, FlexorKeepsItsLargestArmInDeepFlexion) {
+  // Points 5 and 10 mm from the axis: the chord's arm grows to 5 mm where it is square to the
+  // shorter one, at an angle of acos(5 / 10) = 60 degrees between them, 120 degrees of flexion from
+  // opposite.
+  const TendonPath path = {{{0, Vec3(0, -10, 0)},
+                            {1, Vec3(0, 5, 0)},
+                            TendonCylinder{0, Vec3::Zero(), Vec3::UnitX(), 1.0, -1.0},
+                            1.0}};
+  const double length = std::sqrt(75.0);  // of the chord there
+  EXPECT_NEAR(path_length(path, hinge_digit(120.0 * kDeg)), length, 1e-9);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(119.9 * kDeg))[0], 5.0, 1e-4);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(150.0 * kDeg))[0], 5.0, 1e-12);
+  EXPECT_NEAR(path_length(path, hinge_digit(150.0 * kDeg)), length - 5.0 * 30.0 * kDeg, 1e-9);
+}
+
 TEST(TendonPath, RunsAsAHelixAcrossTheCylinder) {
   const double theta = 0.8;
   EXPECT_NEAR(path_length(extensor(6.0), hinge_digit(theta)), std::hypot(24.0 + 5.0 * theta, 6.0),
