@@ -7,6 +7,8 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/given_grasp.h"
 #include "palmar/io/assessment_json.h"
+#include "palmar/io/coordination_file.h"
+#include "palmar/io/index_json.h"
 #include "palmar/io/posture_file.h"
 #include "palmar/io/product_file.h"
 #include "palmar/report/assessment_report.h"
@@ -19,7 +21,7 @@ namespace {
 
 struct EvaluateArguments {
   std::string product, unit, hand = "template", posture, grasp, placement, measured_from_product,
-                             out;
+                             natural_postures, out;
   std::optional<int> frame;
   ContactArguments contact;
   FrictionArguments friction;
@@ -63,13 +65,13 @@ int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
   }
   AssessOptions options;
   options.contact = arguments.contact.options();
-  options.friction = arguments.friction.options();
   options.seed = context.common.seed;
   const ContactModel model = arguments.contact.model();
   const Progress progress = make_progress(context.common);
   if (!arguments.out.empty()) check_report_folder(arguments.out);
 
   const Product product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
+  options.friction = arguments.friction.options_for(product);
   for (const std::string& text : product.notes) {
     note(context.common, arguments.product + ": " + text);
   }
@@ -78,6 +80,9 @@ int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
   Grasp grasp = given_grasp(*hand, product, given.posture, *given.product_from_hand);
   if (given.grip) grasp.grip = *given.grip;
 
+  if (!arguments.natural_postures.empty()) {
+    options.indices.coordination = read_coordination(arguments.natural_postures, hand->skeleton);
+  }
   if (progress.report) progress.report(0.0, "preparing the hand");
   const PreparedHand prepared(hand, model);
   AssessmentSet set{.hand = hand, .assessments = {}, .command_line = context.command_line};
@@ -91,7 +96,7 @@ int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
     print(assessment_json(set) + "\n");
   } else {
     print(grasp_text(assessment.grasp) + contact_text(assessment.contact) +
-          friction_text(*hand, assessment));
+          friction_text(*hand, assessment) + index_text(assessment.indices));
     if (!arguments.out.empty()) print("Report: " + arguments.out + "/report.html\n");
   }
   if (assessment.contact.status != ContactStatus::kNotConverged) return 0;
@@ -121,6 +126,8 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
                    "was found from, as seven numbers likewise");
   o->contact.add_to(*verb);
   o->friction.add_to(*verb);
+  verb->add_option("--natural-postures", o->natural_postures,
+                   "CSV of measured grasp postures: basis of the index of ease");
   verb->add_option("--out", o->out, "Folder of the report; none by default");
   verb->add_flag("--no-pictures", o->no_pictures, "Leave out the PNG pictures");
   verb->callback(

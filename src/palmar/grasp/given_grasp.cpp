@@ -55,7 +55,7 @@ void judge(Grasp& grasp) {
                                                  : GraspStatus::kNotGraspable;
   grasp.message = "given posture and placement: ";
   if (touching.empty() && !has_palm) {
-    const std::string gap = std::to_string(std::lround(-10.0 * nearest) / 10);
+    const std::string gap = std::to_string(std::lround(-nearest));
     grasp.message += "no palmar skin touches the product; the nearest is " + gap +
                      " mm away. Is the placement product_from_hand, in mm?";
     return;
