@@ -18,7 +18,7 @@ struct StabilityOptions {
   ReductionOptions reduction;
   /// Bounds are close enough when they differ by a thousandth.
   WrenchOptions wrench{
-      .body = {.distance_gap = 1e-3, .max_facets = 8000, .max_volume_facets = 15000}};
+      .body = {.distance_gap = 1e-3, .max_facets = 8000, .max_volume_facets = 22000}};
   bool with_linf = true;
   bool with_volume = true;  ///< of the L1 space; that of Linf is out of reach
   /// Contacts for the volume, 4 to 64: the hull of more has too many facets for 50 ms.
