@@ -77,7 +77,13 @@ class Reacher {
     }
   }
 
-  FingerReach send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force) const;
+  /// Not tried where the finger's length alone leaves more than `hopeless` [mm].
+  FingerReach send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
+                   double hopeless) const;
+
+  bool may_leave(Finger finger, const Vec3& force) const {
+    return is_grip_kept_without(finger, touching_, force);
+  }
 
  private:
   std::vector<Posture> starts(Finger finger) const;
@@ -107,8 +113,8 @@ std::vector<Posture> Reacher::starts(Finger finger) const {
   return result;
 }
 
-FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal,
-                          const Vec3& force) const {
+FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
+                          double hopeless) const {
   const auto f = static_cast<std::size_t>(finger);
   FingerReach best;
   best.finger = finger;
@@ -116,7 +122,7 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal,
   best.is_grip_kept = is_grip_kept_without(finger, touching_, force);
   best.miss = (point - roots_[f]).norm() - lengths_[f];
   best.tightest = dofs_of(finger).front();
-  if (best.miss > kFar) return best;
+  if (best.miss > hopeless) return best;
   best.miss = std::numeric_limits<double>::infinity();
   FingertipProblem problem;
   problem.product = product_->distance.get();
@@ -281,8 +287,8 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
     ButtonReach reach;
     reach.button = buttons[i];
     for (int f = 0; f < kFingerCount; ++f) {
-      reach.fingers.push_back(
-          reacher.send(static_cast<Finger>(f), places[i].point, places[i].normal, places[i].force));
+      reach.fingers.push_back(reacher.send(static_cast<Finger>(f), places[i].point,
+                                           places[i].normal, places[i].force, kFar));
     }
     for (const FingerReach& one : reach.fingers) {
       if (!one.is_reached || !one.is_grip_kept) continue;
@@ -316,10 +322,12 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
     Value& value = values[i];
     std::optional<FingerReach> best;
     for (int f = 0; f < kFingerCount; ++f) {
-      const FingerReach one = reacher.send(static_cast<Finger>(f), places[i].point,
-                                           places[i].normal, -places[i].normal);
+      const auto finger = static_cast<Finger>(f);
+      if (!reacher.may_leave(finger, -places[i].normal)) continue;
+      const FingerReach one =
+          reacher.send(finger, places[i].point, places[i].normal, -places[i].normal, kReached);
       value.miss = std::min(value.miss, std::max(0.0, one.miss));
-      if (one.is_reached && one.is_grip_kept && (!best || is_preferred(one, *best))) best = one;
+      if (one.is_reached && (!best || is_preferred(one, *best))) best = one;
     }
     if (!best) return;
     value = {static_cast<int>(best->finger), best->margin, 0.0};

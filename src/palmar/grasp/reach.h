@@ -76,7 +76,8 @@ bool is_grip_kept_without(Finger finger, const std::vector<TouchingSegment>& tou
 struct ReachMap {
   std::vector<int> finger;     ///< per vertex of the product: 0 thumb ... 4 little, -1 nobody
   std::vector<double> margin;  ///< of that finger, rad; 0 where nobody reaches
-  std::vector<double> miss;    ///< of the nearest finger, mm; 0 where one reaches; at most 50
+  std::vector<double> miss;    ///< of the nearest finger that may leave, mm, at least; 0 where one
+                               ///< reaches, 50 at most
   double reached_area = 0.0;   ///< of the surface, mm^2
   int points = 0;              ///< that were tried; vertices take the values of the nearest one
 };
