@@ -9,6 +9,7 @@
 #include <span>
 
 #include "palmar/grasp/finger_motion.h"
+#include "palmar/grasp/posture_terms.h"
 #include "palmar/grasp/skin_advance.h"
 
 namespace palmar {
@@ -22,15 +23,8 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-constexpr double kBalanceSpread = 0.3;    // rad; thumb against the others
-constexpr double kFlexionSpread = 0.35;   // rad
-constexpr double kThumbSpread = 0.3;      // rad
-constexpr double kAbductionSpread = 0.2;  // rad
-constexpr double kCouplingSpread = 0.2;   // rad
-constexpr double kMcpSpread = 0.35;       // rad, between neighbours
-constexpr double kPipSpread = 0.5;        // rad, between neighbours
-constexpr double kCoupling = 2.0 / 3.0;   // DIP per PIP
-constexpr double kEnd = 5.0 * kDeg;       // last part of a range, which hands avoid
+constexpr double kBalanceSpread = 0.3;  // rad; thumb against the others
+constexpr double kEnd = 5.0 * kDeg;     // last part of a range, which hands avoid
 constexpr double kEndSpread = 5.0 * kDeg;
 constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
@@ -49,58 +43,12 @@ struct Stage {
 };
 constexpr std::array<Stage, 3> kStages = {{{3.0, 1.0}, {0.5, 1.0}, {0.05, 0.3}}};
 
-constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
-                                            Finger::kLittle};
-
 int column_of(Dof dof) { return kPlacement + static_cast<int>(dof) - kFirstDof; }
-
-bool is_abduction(Dof dof) {
-  return std::any_of(kFingers.begin(), kFingers.end(),
-                     [&](Finger f) { return dof == abduction_of(f); });
-}
-
-double spread_of(Dof dof) {
-  if (is_abduction(dof)) return kAbductionSpread;
-  return dof <= Dof::kThumbIpFlexion ? kThumbSpread : kFlexionSpread;
-}
 
 Finger finger_of_dof(Dof dof) {
   if (dof <= Dof::kThumbIpFlexion) return Finger::kThumb;
   return static_cast<Finger>(1 +
                              (static_cast<int>(dof) - static_cast<int>(Dof::kIndexMcpFlexion)) / 4);
-}
-
-/// A posture term: sum of some angles times factors, minus a value, over a spread.
-struct PostureTerm {
-  std::array<Dof, 2> dof{};
-  std::array<double, 2> factor{};
-  double value = 0.0, spread = 1.0;
-};
-
-std::vector<PostureTerm> posture_terms(const Posture& natural) {
-  std::vector<PostureTerm> terms;
-  for (int d = kFirstDof; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
-    terms.push_back({{dof, dof}, {1.0, 0.0}, natural[dof], spread_of(dof)});
-  }
-  for (const Finger finger : kFingers) {
-    terms.push_back(
-        {{flexion_of(finger, 2), flexion_of(finger, 1)}, {1.0, -kCoupling}, 0.0, kCouplingSpread});
-  }
-  for (std::size_t f = 0; f + 1 < kFingers.size(); ++f) {
-    for (int level = 0; level < 2; ++level) {
-      const Dof a = flexion_of(kFingers[f], level), b = flexion_of(kFingers[f + 1], level);
-      terms.push_back(
-          {{a, b}, {1.0, -1.0}, natural[a] - natural[b], level == 0 ? kMcpSpread : kPipSpread});
-    }
-  }
-  return terms;
-}
-
-double value_of(const PostureTerm& term, const Posture& posture) {
-  return (term.factor[0] * posture[term.dof[0]] + term.factor[1] * posture[term.dof[1]] -
-          term.value) /
-         term.spread;
 }
 
 double foot(const Vec3& a, const Vec3& b, const Vec3& point) {
@@ -137,15 +85,6 @@ bool may_cross(const RoundCone& p, const RoundCone& q) {
 }
 
 }  // namespace
-
-double posture_strain(const Posture& natural, const Posture& posture) {
-  double sum = 0.0;
-  for (const PostureTerm& term : posture_terms(natural)) {
-    const double r = value_of(term, posture);
-    sum += r * r;
-  }
-  return sum;
-}
 
 /// Residuals of one problem in one state, summed up as normal equations.
 class FingertipSystem {

@@ -95,7 +95,4 @@ class FingertipIk {
   std::vector<Ball> balls_;
 };
 
-/// Sum of the squared posture terms above: natural posture, coupling, neighbours.
-double posture_strain(const Posture& natural, const Posture& posture);
-
 }  // namespace palmar
