@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
@@ -50,6 +51,62 @@ TEST(EffortCommand, EveryFingerAndTendonAnswers) {
   const Json thumb = fingertip_json("--finger thumb --posture cmc-abduction=20,mp=20,ip=30");
   EXPECT_EQ(thumb.at("tendons").size(), 8U);
   EXPECT_THAT(fingertip("--finger thumb --posture mp=20,ip=30").out, HasSubstr("fpl"));
+}
+
+/// Moment arms of `--tendon all`: tendon, then angle without the finger's name.
+std::map<std::string, std::map<std::string, double>> arms_of(const std::string& arguments) {
+  std::map<std::string, std::map<std::string, double>> arms;
+  const Json all = fingertip_json(arguments);
+  for (const Json& tendon : all.at("tendons")) {
+    for (const Json& joint : tendon.at("joints")) {
+      const auto angle = joint.at("angle").get<std::string>();
+      arms[tendon.at("tendon").get<std::string>()][angle.substr(angle.find('_') + 1)] =
+          joint.at("moment_arm_mm").get<double>();
+    }
+  }
+  return arms;
+}
+
+TEST(EffortCommand, ThumbMusclesActAsInCadavers) {
+  // Smutz et al. 1998 (abstract): what each muscle does at the CMC.
+  auto arms = arms_of("--finger thumb --posture cmc-abduction=25,mp=15,ip=20");
+  for (const std::string flexor : {"fpl", "fpb", "adp", "opp"}) {
+    EXPECT_GT(arms[flexor]["cmc_flexion"], 3.0) << flexor;
+  }
+  for (const std::string extensor : {"epl", "epb", "apl"}) {
+    EXPECT_LT(arms[extensor]["cmc_flexion"], -3.0) << extensor;
+  }
+  for (const std::string abductor : {"apb", "apl", "opp"}) {
+    EXPECT_GT(arms[abductor]["cmc_abduction"], 0.0) << abductor;
+  }
+  for (const std::string adductor : {"adp", "epl", "fpb"}) {
+    EXPECT_LT(arms[adductor]["cmc_abduction"], 0.0) << adductor;
+  }
+  EXPECT_LT(arms["epl"]["ip_flexion"], -3.0);
+  EXPECT_LT(arms["epb"]["mp_flexion"], -2.0);
+  // Straight lines through the specimen of Mirakhorlo et al. 2016 as it lay: 7.04 and 10.25 mm;
+  // ours is another hand in another posture.
+  EXPECT_NEAR(arms["fpl"]["ip_flexion"], 7.04, 0.2 * 7.04);
+  EXPECT_NEAR(arms["fpl"]["mp_flexion"], 10.25, 0.3 * 10.25);
+}
+
+TEST(EffortCommand, FingersDifferAsInCadavers) {
+  // Arms over those of the middle finger (Ketchum et al. 1978, 11.6 mm at the MCP, 10.7 at the
+  // PIP).
+  const struct {
+    const char* finger;
+    double mcp, pip;
+  } cadavers[] = {{"index", 10.1 / 11.6, 9.8 / 10.7},
+                  {"ring", 10.4 / 11.6, 10.4 / 10.7},
+                  {"little", 8.9 / 11.6, 8.5 / 10.7}};
+  const std::string posture = " --posture mcp=40,pip=40,dip=30";
+  auto middle = arms_of("--finger middle" + posture);
+  for (const auto& c : cadavers) {
+    auto arms = arms_of(std::string("--finger ") + c.finger + posture);
+    // Hands differ: the template's index is as wide as its middle finger.
+    EXPECT_NEAR(arms["fdp"]["mcp_flexion"] / middle["fdp"]["mcp_flexion"], c.mcp, 0.16) << c.finger;
+    EXPECT_NEAR(arms["fdp"]["pip_flexion"] / middle["fdp"]["pip_flexion"], c.pip, 0.16) << c.finger;
+  }
 }
 
 TEST(EffortCommand, BadFingertipInputIsNamed) {
