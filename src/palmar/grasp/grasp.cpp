@@ -18,13 +18,13 @@
 namespace palmar {
 namespace {
 
-constexpr double kCoarse = 3.5;   // mm between the skin points that the search looks at
+constexpr double kCoarse = 4.2;   // mm between the skin points that the search looks at
 constexpr double kRival = 0.85;   // share of the best site's score from which one is tried too
 constexpr int kSettleRounds = 6;  // product and fingers give way to each other in turn
 constexpr std::size_t kTriedSites = 2;
 constexpr double kMostSpread = 0.6;  // of the range of abduction, round a large ball
 constexpr double kSmallBall = 0.3, kLargeBall = 0.65;  // hand lengths; none to most
-constexpr double kShownDepth = 0.05;   // mm into the palm of what is only laid on it
+constexpr double kShownDepth = 0.05;  // mm into the palm of what is only laid on it
 constexpr int kTrimRounds = 16;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses

@@ -25,7 +25,7 @@ constexpr double kMostAlong = 24.0;    // mm from the site along its axis
 constexpr double kSlantUnit = 6.0 * kDeg;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
-constexpr double kUsualProximal = 0.068;  // hand lengths from the knuckles to the grip axis
+constexpr double kUsualProximal = 0.074;  // hand lengths from the knuckles to the grip axis
 constexpr double kPalmToAxis = 30.0;      // mm from the bones of the palm to an ordinary grip axis
 constexpr double kThinTilt = 0.13;        // rad more out of the palm ...
 constexpr double kThin = 0.13,
@@ -44,7 +44,7 @@ constexpr double kAlike = 0.01;         // share of the score within which holds
 constexpr int kTurns = 8;
 constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
 constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
-constexpr std::size_t kBettered = 4;  // holds that are looked at more finely
+constexpr std::size_t kBettered = 3;  // holds that are looked at more finely
 constexpr std::size_t kKept = 4;      // holds that are given back
 constexpr double kOtherAngle = 30.0 * kDeg;  // beyond which a way of holding is another one
 constexpr double kOtherPlace = 20.0;         // mm; the same
@@ -315,15 +315,17 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     }
     return is_changed;
   };
+  // Fingers fanned out in more than one way leave more to be told apart.
+  const std::size_t finest = search.styles.size() > 1 ? 2 : 1;
   std::vector<Hold> bettered;
-  for (std::size_t k = 0; k < tried.size() && bettered.size() < kBettered; ++k) {
+  for (std::size_t k = 0; k < tried.size() && bettered.size() < kBettered + finest - 1; ++k) {
     if (tried[k].rank < kPromising * tried.front().rank && !bettered.empty()) break;
     Hold current = tried[k];
     better(current, 1.0);
     bettered.push_back(std::move(current));
   }
   std::stable_sort(bettered.begin(), bettered.end(), by_rank);
-  for (std::size_t k = 0; k < std::min<std::size_t>(bettered.size(), 2); ++k) {
+  for (std::size_t k = 0; k < std::min(bettered.size(), finest); ++k) {
     for (const double scale : {0.6, 0.3}) better(bettered[k], scale);
   }
   for (std::size_t k = 0; k < bettered.size(); ++k) {
@@ -341,7 +343,7 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
       return hold;
     };
     bettered[k] = with_thumb(0.0);
-    if (k > 1 || search.is_place_fixed || from.style.hook) continue;
+    if (k >= finest || search.is_place_fixed || from.style.hook) continue;
     for (const double along : {-16.0, -8.0, 8.0}) {
       Hold other = with_thumb(along);
       if (other.rank > bettered[k].rank) bettered[k] = std::move(other);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kFinest = 2.0;  // mm between nodes; the final closing is checked exactly
 constexpr double kCoarsest = 5.0;
 constexpr double kPerDiameter = 14.0;  // nodes along the handle's diameter
-constexpr double kPerWall = 0.4;       // of the wall of a hollow product
+constexpr double kPerWall = 0.5;       // of the wall of a hollow product
 constexpr double kAlong = 110.0;       // mm from the site along its axis that a hand can touch
 constexpr double kSideways = 130.0;    // ... across it
 
