@@ -38,6 +38,7 @@ constexpr double kLostShare = 0.05;  // of the grip force at the start; less is 
 constexpr double kDipPerPip = 2.0 / 3.0;
 constexpr double kCouplingFree = 10.0 / 57.29578;  // rad
 constexpr double kCoupling = 1500.0;               // N mm/rad; our choice
+constexpr double kMostMuscles = 1.5;  // of flexion_strength(); its figures are the lowest measured
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
 std::string format(const char* text, double a, double b = 0.0) {
@@ -101,6 +102,7 @@ class Settling {
   void add_coupling(GripVector& residual, GripMatrix& stiffness) const;
   void add_load(GripVector& residual) const;
   double first_level() const;
+  double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
   void finish(Balance& balance) const;
@@ -158,6 +160,12 @@ double Settling::first_level() const {
     size += muscles * muscles;
   }
   return size > 0.0 ? std::max(1e-4, along / size) : 1e-4;
+}
+
+/// People press the harder the heavier a thing is: by what two opposed contacts need to hold the
+/// load by friction (Westling & Johansson 1984), N.
+double Settling::extra_grip() const {
+  return options_->friction > 0.0 ? 0.5 * load_.force.norm() / options_->friction : 0.0;
 }
 
 /// At the end of its range and pushed against it.
@@ -289,7 +297,7 @@ void Settling::step(const Misfit& misfit, double missing) {
   share *= relaxation_;
   way *= share;
   level *= share;
-  if (is_by_muscles_) muscles_ += level;
+  if (is_by_muscles_) muscles_ = std::min(muscles_ + level, kMostMuscles);
 
   Posture turned = state_.posture;
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
@@ -349,7 +357,7 @@ Balance Settling::run(const Progress& progress) {
     const double grip = mechanics_.grip().force;
     if (i == 0) {
       start_grip = grip;
-      target_ = options_->grip_force.value_or(grip);
+      target_ = options_->grip_force.value_or(grip + extra_grip());
       if (grip == 0.0) {
         balance.status = BalanceStatus::kNoContact;
         balance.message = "nothing is touched, so nothing can come to rest";

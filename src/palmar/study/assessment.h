@@ -32,10 +32,10 @@ struct AssessOptions {
 /// Seconds spent, for the record; not part of the deterministic result.
 struct AssessTimes {
   double grasp = 0.0;     ///< s
-  double balance = 0.0;   ///< s
   double contact = 0.0;   ///< s
   double friction = 0.0;  ///< s
   double indices = 0.0;   ///< s
+  double balance = 0.0;   ///< s
 };
 
 /// One hand holding one product: grasp, contact, footprint.
