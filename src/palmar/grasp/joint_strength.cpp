@@ -7,31 +7,32 @@
 namespace palmar {
 
 double flexion_strength(Dof dof) {
+  constexpr double kMcp = 1.34, kDip = 0.31;  // of the PIP moment
   switch (dof) {
     case Dof::kIndexMcpFlexion:
-      return 2513.0;
+      return kMcp * 1293.0;
     case Dof::kIndexPipFlexion:
       return 1293.0;
     case Dof::kIndexDipFlexion:
-      return 431.0;
+      return kDip * 1293.0;
     case Dof::kMiddleMcpFlexion:
-      return 2664.0;
+      return kMcp * 1457.0;
     case Dof::kMiddlePipFlexion:
       return 1457.0;
     case Dof::kMiddleDipFlexion:
-      return 417.0;
+      return kDip * 1457.0;
     case Dof::kRingMcpFlexion:
-      return 1869.0;
+      return kMcp * 908.0;
     case Dof::kRingPipFlexion:
       return 908.0;
     case Dof::kRingDipFlexion:
-      return 287.0;
+      return kDip * 908.0;
     case Dof::kLittleMcpFlexion:
-      return 1304.0;
+      return kMcp * 475.0;
     case Dof::kLittlePipFlexion:
       return 475.0;
     case Dof::kLittleDipFlexion:
-      return 206.0;
+      return kDip * 475.0;
     default:
       return 0.0;
   }

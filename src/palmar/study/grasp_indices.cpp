@@ -62,7 +62,8 @@ GraspIndices grip_indices(const Balance& balance) {
                                  "", balance.strength_use);
   strength.better = Better::kDown;
   strength.definition =
-      "common level of the flexion moments that hold the grip, over those that people reach; above "
+      "common level of the flexion moments that hold the grip, over those that the muscles of a "
+      "power grip reach; above "
       "1 the grip can't be held";
   strength.source = "Li, Zatsiorsky & Latash 2000 (fingers); docs/method/balance.md (thumb)";
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
