@@ -8,6 +8,7 @@
 
 #include "palmar/core/version.h"
 #include "palmar/io/index_json.h"
+#include "palmar/io/json_values.h"
 
 namespace palmar {
 namespace {
@@ -19,13 +20,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// File names may hold bytes that are no UTF-8; they must not stop the output.
 std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
-Json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json placement(const Rigid3& product_from_hand) {

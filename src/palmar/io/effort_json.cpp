@@ -6,13 +6,12 @@
 #include <numbers>
 
 #include "palmar/core/version.h"
+#include "palmar/io/json_values.h"
 
 namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json fingertip_object(const FingertipForce& tip, const Posture& posture) {
   Json joints = Json::array();
@@ -88,7 +87,7 @@ std::string effort_json(const EffortResult& effort) {
   Json digits = Json::array(), indices = Json::object();
   for (const DigitEffort& digit : effort.digits) digits.push_back(digit_object(digit));
   for (const GraspIndex& index : effort_indices(effort)) {
-    indices[index.key] = index.value ? Json(*index.value) : Json(nullptr);
+    indices[index.key] = or_null(index.value);
   }
   const Json json = {
       {"status", name_of(effort.status)},      {"message", effort.message},

@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/hand_json.h"
+#include "palmar/io/json_values.h"
 #include "palmar/io/skeleton_json.h"
 
 #include <nlohmann/json.hpp>
@@ -13,12 +14,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-Json point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
 Json dof_json(const JointDof& dof) {
   return {{"dof", name_of(dof.dof)},
-          {"axis", point(dof.axis)},
-          {"centre_mm", point(dof.centre)},
+          {"axis", vector3(dof.axis)},
+          {"centre_mm", vector3(dof.centre)},
           {"lower_deg", dof.lower * kDegrees},
           {"upper_deg", dof.upper * kDegrees},
           {"reference_deg", dof.reference * kDegrees},
@@ -42,7 +41,7 @@ std::string hand_info_json(const Hand& hand) {
     for (const JointDof& dof : joint.dofs) dofs.push_back(dof_json(dof));
     dof_count += static_cast<int>(joint.dofs.size());
     joints.push_back({{"joint", name_of(joint.id)},
-                      {"centre_mm", point(joint.centre)},
+                      {"centre_mm", vector3(joint.centre)},
                       {"degrees_of_freedom", std::move(dofs)}});
   }
   Json bones = Json::array();

@@ -7,18 +7,15 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string_view>
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/io/file.h"
+#include "palmar/io/csv_reader.h"
 #include "palmar/io/text_scan.h"
 
 namespace palmar {
 namespace {
-
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28;
 
 enum class Quantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
 
@@ -49,74 +46,24 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == text.npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 class Reader {
  public:
-  explicit Reader(std::string path) : path_(std::move(path)) {}
+  explicit Reader(const CsvFile& file) : file_(file) {}
 
-  MeasuredCurves read(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-      text.remove_prefix(kByteOrderMark.size());
+  MeasuredCurves read() {
+    read_header();
+    for (const CsvFile::Row& row : file_.rows) read_row(row);
+    if (curves_.points.empty()) {
+      throw InputError(file_.path + ": it has no readings below the header");
     }
-    TextScanner scanner(text);
-    bool has_header = false;
-    while (const auto line = scanner.next_line()) {
-      line_ = scanner.line();
-      if (trimmed(*line).empty() || line->front() == '#') continue;
-      if (has_header) {
-        read_row(cells(*line));
-      } else {
-        delimiter_ = line->find(';') != line->npos    ? ';'
-                     : line->find('\t') != line->npos ? '\t'
-                                                      : ',';
-        read_header(cells(*line));
-        has_header = true;
-      }
-    }
-    if (!has_header) throw InputError(path_ + ": it has no header; depth_mm,force_n is needed");
-    if (curves_.points.empty()) throw InputError(path_ + ": it has no readings below the header");
     return std::move(curves_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(path_ + ":" + std::to_string(line_) + ": " + why);
-  }
+  [[noreturn]] void fail(const std::string& why) const { file_.fail(file_.header_line, why); }
 
-  std::vector<std::string> cells(std::string_view line) const {
-    std::vector<std::string> result(1);
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const char c = line[i];
-      if (is_quoted) {
-        if (c != '"') {
-          result.back() += c;
-        } else if (i + 1 < line.size() && line[i + 1] == '"') {
-          result.back() += line[++i];
-        } else {
-          is_quoted = false;
-        }
-      } else if (c == '"') {
-        is_quoted = true;
-      } else if (c == delimiter_) {
-        result.emplace_back();
-      } else {
-        result.back() += c;
-      }
-    }
-    if (is_quoted) fail("a quote is not closed in this line");
-    for (std::string& cell : result) cell = trimmed(cell);
-    return result;
-  }
-
-  void read_header(const std::vector<std::string>& names) {
-    header_ = names;
+  void read_header() {
+    const std::vector<std::string>& names = file_.header;
     column_.assign(names.size(), nullptr);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::string name = lower(names[i]);
@@ -165,60 +112,55 @@ class Reader {
   void require(Quantity quantity, const std::string& name) const {
     if (of_quantity_.count(quantity) > 0) return;
     std::string found;
-    for (const std::string& one : header_) found += (found.empty() ? "" : ", ") + one;
+    for (const std::string& one : file_.header) found += (found.empty() ? "" : ", ") + one;
     const std::string nearest = nearest_name(name.substr(0, name.find(' ')), curves_.ignored);
     fail("column " + name + " is missing; the header has " + found +
          (nearest.empty() ? "" : " (is " + nearest + " meant?)"));
   }
 
-  double number(std::size_t i, const std::string& cell) const {
-    const std::optional<double> value = parse_double(cell);
-    if (!value || !std::isfinite(*value)) {
-      fail(header_[i] + " is " + in_quotes(cell) + "; a number is needed" +
-           (cell.find(',') != cell.npos ? " (with a decimal point)" : ""));
-    }
-    return *value * column_[i]->factor;
+  double number(const CsvFile::Row& row, std::size_t i) const {
+    return file_.number(row, i) * column_[i]->factor;
   }
 
-  double at_least_zero(std::size_t i, const std::string& cell) const {
-    const double value = number(i, cell);
-    if (value < 0.0) fail(header_[i] + " is " + cell + "; 0 or more is needed");
+  double at_least_zero(const CsvFile::Row& row, std::size_t i) const {
+    const double value = number(row, i);
+    if (value < 0.0) file_.fail(row.line, shown(row, i) + "; 0 or more is needed");
     return value;
   }
 
-  double above_zero(std::size_t i, const std::string& cell) const {
-    const double value = number(i, cell);
-    if (!(value > 0.0)) fail(header_[i] + " is " + cell + "; more than 0 is needed");
+  double above_zero(const CsvFile::Row& row, std::size_t i) const {
+    const double value = number(row, i);
+    if (!(value > 0.0)) file_.fail(row.line, shown(row, i) + "; more than 0 is needed");
     return value;
   }
 
-  void read_row(const std::vector<std::string>& row) {
-    if (row.size() != header_.size()) {
-      fail("it has " + std::to_string(row.size()) + " cells; the header has " +
-           std::to_string(header_.size()));
-    }
+  std::string shown(const CsvFile::Row& row, std::size_t i) const {
+    return file_.header[i] + " is " + row.cells[i];
+  }
+
+  void read_row(const CsvFile::Row& row) {
     MeasuredPoint point;
-    point.line = line_;
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    point.line = row.line;
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
       if (column_[i] == nullptr) continue;
       switch (column_[i]->quantity) {
         case Quantity::kDepth:
-          point.depth = at_least_zero(i, row[i]);
+          point.depth = at_least_zero(row, i);
           break;
         case Quantity::kForce:
-          point.force = at_least_zero(i, row[i]);
+          point.force = at_least_zero(row, i);
           break;
         case Quantity::kArea:
-          if (!row[i].empty()) point.area = at_least_zero(i, row[i]);
+          if (!row.cells[i].empty()) point.area = at_least_zero(row, i);
           break;
         case Quantity::kWeight:
-          point.weight = above_zero(i, row[i]);
+          point.weight = above_zero(row, i);
           break;
         case Quantity::kForceSd:
-          point.weight = std::pow(above_zero(i, row[i]), -2);
+          point.weight = std::pow(above_zero(row, i), -2);
           break;
         case Quantity::kSubject:
-          point.subject = row[i];
+          point.subject = row.cells[i];
           break;
       }
     }
@@ -229,10 +171,7 @@ class Reader {
     }
   }
 
-  std::string path_;
-  int line_ = 0;
-  char delimiter_ = ',';
-  std::vector<std::string> header_;
+  const CsvFile& file_;
   std::vector<const Column*> column_;  ///< per cell; null: ignored
   std::map<Quantity, std::size_t> of_quantity_;
   MeasuredCurves curves_;
@@ -241,11 +180,8 @@ class Reader {
 }  // namespace
 
 MeasuredCurves read_measured_curves(const std::string& path) {
-  const std::string text = read_file(path, kMaxBytes);
-  if (!looks_like_text(std::string_view(text).substr(0, 4096))) {
-    throw InputError(path + ": no text; a CSV file is needed");
-  }
-  return Reader(path).read(text);
+  const CsvFile file = read_csv(path);
+  return Reader(file).read();
 }
 
 }  // namespace palmar

@@ -16,8 +16,7 @@ struct MeasuredCurves {
   int zero_depths = 0;                ///< rows at depth 0, left out: they tell nothing
 };
 
-/// CSV with one header line; cells parted by comma, semicolon or tab (whichever the header has),
-/// quoted as in RFC 4180 but within one line; lines that start with # are comments. Columns:
+/// A CSV file as read_csv() takes it apart. Columns:
 ///
 ///     depth_mm                     from first touch
 ///     force_n or force_mn          newton or millinewton
@@ -25,9 +24,9 @@ struct MeasuredCurves {
 ///     subject                      optional: whose curve
 ///     weight or force_sd_n, force_sd_mn   optional: of the reading
 ///
-/// Throws InputError naming file, line, column and what is needed: missing or doubled column,
-/// unknown unit, row of another length, no number, depth, force or area below 0, weight or standard
-/// deviation not above 0, no reading.
+/// Throws InputError naming file, line, column and what is needed: missing, doubled or nameless
+/// column, unknown unit, row of another length, no number, depth, force or area below 0, weight or
+/// standard deviation not above 0, no reading.
 MeasuredCurves read_measured_curves(const std::string& path);
 
 }  // namespace palmar

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "palmar/io/csv.h"
+#include "palmar/io/json_values.h"
 #include "palmar/io/text_scan.h"
 
 namespace palmar {
@@ -42,7 +43,7 @@ void add_markers(const PostureFit& fit, const std::vector<std::string>& labels, 
   json["rms_mm"] = fit.rms;
   Json residuals = Json::object();
   for (std::size_t i = 0; i < fit.residual.size(); ++i) {
-    residuals[labels.at(i)] = fit.residual[i] ? Json(*fit.residual[i]) : Json(nullptr);
+    residuals[labels.at(i)] = or_null(fit.residual[i]);
   }
   json["residuals_mm"] = std::move(residuals);
   json["outliers"] = labels_of(fit.outliers, labels);

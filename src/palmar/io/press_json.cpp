@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "palmar/core/version.h"
+#include "palmar/io/json_values.h"
 #include "palmar/io/text_scan.h"
 
 namespace palmar {
@@ -33,8 +34,6 @@ const char* name_of_level(TissueLevel level) {
   if (level == TissueLevel::kLow) return "low";
   return level == TissueLevel::kHigh ? "high" : "nominal";
 }
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json coating_object(const std::optional<Coating>& coating) {
   if (!coating) return nullptr;

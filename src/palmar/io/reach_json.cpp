@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "palmar/io/json_values.h"
 #include "palmar/io/vtk.h"
 
 namespace palmar {
@@ -13,8 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-Json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json finger_object(const FingerReach& reach) {
   Json posture = Json::object();

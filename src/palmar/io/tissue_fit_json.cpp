@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/version.h"
+#include "palmar/io/json_values.h"
 
 namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json law(const StiffeningLaw& one) {
   return {{"g0_kpa", 1000.0 * one.g0},
@@ -50,8 +49,8 @@ std::string tissue_fit_json(const TissueFit& fit, const std::string& test, doubl
     json["parameters"].push_back({{"name", one.name},
                                   {"unit", one.unit},
                                   {"value", one.value},
-                                  {"lower", optional(one.lower)},
-                                  {"upper", optional(one.upper)},
+                                  {"lower", or_null(one.lower)},
+                                  {"upper", or_null(one.upper)},
                                   {"status", name_of(one.status)},
                                   {"remark", one.remark}});
   }
@@ -68,12 +67,12 @@ std::string tissue_fit_json(const TissueFit& fit, const std::string& test, doubl
   json["force_rms_n"] = fit.force_rms;
   json["force_rms_relative"] = fit.force_rms_relative;
   json["r_squared"] = fit.r_squared;
-  json["area_measured_over_model"] = optional(fit.area_ratio);
-  json["area_rms_relative"] = optional(fit.area_rms_relative);
+  json["area_measured_over_model"] = or_null(fit.area_ratio);
+  json["area_rms_relative"] = or_null(fit.area_rms_relative);
   json["tissue"] = {{"nominal", law(fit.stiffness.nominal)},
                     {"low", law(fit.stiffness.low)},
                     {"high", law(fit.stiffness.high)}};
-  json["layer_mm"] = optional(fit.layer_thickness);
+  json["layer_mm"] = or_null(fit.layer_thickness);
   json["subjects"] = Json::array();
   for (const SubjectFit& one : fit.subjects) {
     Json entry = {{"subject", one.subject}, {"readings", one.points}};
