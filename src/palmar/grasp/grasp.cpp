@@ -262,7 +262,7 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   if (sites.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
     grasp.message = options.placement.at || options.placement.region
-                        ? "nothing near the given place is bar-like enough for a power grip"
+                        ? "nothing near the given point or region is bar-like enough for a power grip"
                         : "no part of the product is bar-like enough for a power grip";
     // Nobody holds it: the hand is shown beside the product, touching nothing.
     const Box3 box = product.distance->bounding_box();
