@@ -82,6 +82,10 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   options.contact = arguments.contact.options();
   options.friction = arguments.friction.options();
   options.balance = arguments.balance.options(arguments.friction, options.grasp.grip);
+  // The thesis leaves the hand as it was closed.
+  if (arguments.contact.preset == "xie2014" && !options.balance.grip_force) {
+    options.balance.is_on = false;
+  }
   const ContactModel model = arguments.contact.model();
   options.seed = context.common.seed;
   const Progress progress = make_progress(context.common);

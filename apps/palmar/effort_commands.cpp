@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "balance_arguments.h"
 #include "cli.h"
 #include "friction_arguments.h"
 #include "grasp_options.h"
@@ -257,6 +258,7 @@ void add_grasp(CLI::App& effort, Context& context) {
     GraspArguments grasp;
     ContactArguments contact;
     FrictionArguments friction;
+    BalanceArguments balance;
     ModelArguments model;
     EffortOptions effort;
   };
@@ -270,6 +272,7 @@ void add_grasp(CLI::App& effort, Context& context) {
   o->grasp.add_to(*verb);
   o->contact.add_to(*verb);
   o->friction.add_to(*verb);
+  o->balance.add_to(*verb);
   o->model.add_to(*verb);
   verb->add_option("--exponent", o->effort.exponent,
                    "n of the smallest sum (force / cross-section)^n: 2 or 3")
@@ -290,6 +293,9 @@ void add_grasp(CLI::App& effort, Context& context) {
       const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
       for (const std::string& text : product.notes) note(context.common, text);
       options.friction = o->friction.options_for(product);
+      options.balance = o->balance.options(o->friction, options.grasp.grip);
+      options.balance.load = options.friction.load;
+      options.indices.is_on = false;
       const auto hand = load_hand(o->grasp.hand, o->contact.tissue);
       const PreparedHand prepared(hand, o->contact.model());
       const Progress progress = make_progress(context.common);
@@ -307,7 +313,12 @@ void add_grasp(CLI::App& effort, Context& context) {
                         options, progress);
       }
       finish_progress();
-      const bool has_friction = options.friction.is_on();
+      // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
+      if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
+        held.friction.force = held.balance.friction_force;
+      }
+      const bool has_friction =
+          !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
       const EffortResult result =
           assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
                         *product.distance, asked, has_friction ? &held.friction : nullptr);

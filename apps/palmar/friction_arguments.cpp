@@ -27,11 +27,13 @@ void FrictionArguments::add_to(CLI::App& verb) {
                   "whether the hand holds the load; default: 0.5 while the grasp comes to rest and "
                   "for a given load. 0: none");
   CLI::Option* mass = verb.add_option("--mass-kg", mass_kg, "Mass of the product, kg");
-  verb.add_option("--weight-n", weight_n, "Weight of the product instead of its mass, N")
-      ->excludes(mass);
+  CLI::Option* weight =
+      verb.add_option("--weight-n", weight_n, "Weight of the product instead of its mass, N")
+          ->excludes(mass);
   verb.add_option("--density-g-cm3", density,
                   "Density of the product, solid throughout, instead of its mass, g/cm3")
-      ->excludes(mass);
+      ->excludes(mass)
+      ->excludes(weight);
   verb.add_option("--gravity", gravity,
                   "Direction of gravity in the product's frame, x,y,z; default 0,0,-1");
   verb.add_option("--mass-at", mass_at,

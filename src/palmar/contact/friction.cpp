@@ -130,6 +130,19 @@ void FrictionOptions::check() const {
   require_finite(load.gravity, "gravity", "(direction)");
   require_finite(load.force, "force", "N");
   require_finite(load.torque, "torque", "N mm");
+  constexpr double kMostForce = 1e5, kMostTorque = 1e7, kFarthest = 1e4;
+  const auto require_below = [](double size, double most, const char* name, const char* unit) {
+    if (size <= most) return;
+    char text[160];
+    std::snprintf(text, sizeof text, "friction: %s is %.4g %s; at most %g %s is allowed", name,
+                  size, unit, most, unit);
+    throw UsageError(text);
+  };
+  require_below(load.force.norm(), kMostForce, "force", "N");
+  require_below(load.torque.norm(), kMostTorque, "torque", "N mm");
+  for (const auto& point : {load.mass_centre, load.force_at}) {
+    if (point) require_below(point->norm(), kFarthest, "a point of the load", "mm from the origin");
+  }
   if (load.mass_centre) require_finite(*load.mass_centre, "mass_centre", "mm");
   if (load.force_at) require_finite(*load.force_at, "force_at", "mm");
   if (load.weight > 0.0 && !(load.gravity.norm() > 0.0)) {

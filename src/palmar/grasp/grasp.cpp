@@ -18,9 +18,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kCoarse = 4.2;   // mm between the skin points that the search looks at
-constexpr double kRival = 0.85;   // share of the best site's score from which one is tried too
-constexpr int kSettleRounds = 6;  // product and fingers give way to each other in turn
+constexpr double kFarPoint = 40.0;  // mm off the product; no hollow of a handle is wider
+constexpr double kCoarse = 4.2;     // mm between the skin points that the search looks at
+constexpr double kRival = 0.85;     // share of the best site's score from which one is tried too
+constexpr int kSettleRounds = 6;    // product and fingers give way to each other in turn
 constexpr std::size_t kTriedSites = 2;
 constexpr double kMostSpread = 0.6;  // of the range of abduction, round a large ball
 constexpr double kSmallBall = 0.3, kLargeBall = 0.65;  // hand lengths; none to most
@@ -247,6 +248,17 @@ void PowerGraspOptions::check() const {
   }
 }
 
+namespace {
+
+/// Nobody holds it: the hand is shown beside the product, touching nothing.
+void lay_beside(const Hand& hand, const Product& product, Grasp& grasp) {
+  const Box3 box = product.distance->bounding_box();
+  const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
+  grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
+}
+
+}  // namespace
+
 Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGraspOptions& options,
                         const Progress& progress) {
   options.check();
@@ -256,18 +268,29 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   }
   grasp.posture = reference_posture(hand.skeleton);
   progress.update(0.0, "finding a place to hold " + product.name);
+  if (options.placement.at) {
+    // A point of the grip's axis lies in the product, or in the hollow of a thin-walled one.
+    const std::vector<Vec3> point = {*options.placement.at};
+    std::vector<DistanceSample> sample(1);
+    product.distance->sample(point, 1e6, sample);
+    if (sample.front().distance > kFarPoint) {
+      grasp.status = GraspStatus::kNotGraspable;
+      grasp.message =
+          format("the given point lies %.0f mm off the product", sample.front().distance);
+      lay_beside(hand, product, grasp);
+      return grasp;
+    }
+  }
   const Sites found = find_sites(hand, product, options);
   std::vector<GripSite> sites = found.sites;
   grasp.grip = found.grip;
   if (sites.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = options.placement.at || options.placement.region
-                        ? "nothing near the given point or region is bar-like enough for a power grip"
-                        : "no part of the product is bar-like enough for a power grip";
-    // Nobody holds it: the hand is shown beside the product, touching nothing.
-    const Box3 box = product.distance->bounding_box();
-    const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
-    grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
+    grasp.message =
+        options.placement.at || options.placement.region
+            ? "nothing near the given point or region is bar-like enough for a power grip"
+            : "no part of the product is bar-like enough for a power grip";
+    lay_beside(hand, product, grasp);
     return grasp;
   }
 

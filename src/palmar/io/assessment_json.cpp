@@ -203,6 +203,9 @@ Json friction_object(const FrictionResult& friction, const FrictionOptions& opti
 }
 
 Json balance_object(const Balance& balance) {
+  if (balance.status == BalanceStatus::kOff) {
+    return {{"status", name_of(balance.status)}, {"message", balance.message}};
+  }
   return {{"status", name_of(balance.status)},
           {"message", balance.message},
           {"friction_coefficient", balance.friction},

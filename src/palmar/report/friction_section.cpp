@@ -86,8 +86,17 @@ std::string friction_verdict(const Hand& hand, const Assessment& assessment) {
   const FrictionResult& friction = assessment.friction;
   const std::string with = "With a friction coefficient of " +
                            short_number(assessment.options.friction.coefficient, 2) + " ";
-  const std::string rest = " The pressures' own sum, " + short_number(friction.grip.force.norm()) +
-                           " N, is not part of this balance: it is taken as held by the grip.";
+  std::string rest = " The pressures' own sum, " + short_number(friction.grip.force.norm()) +
+                     " N, is not part of this balance: it is taken as held by the grip.";
+  if (assessment.balance.status == BalanceStatus::kSlipsOut) {
+    rest = " But the grasp itself does not come to rest: the product " +
+           assessment.balance.message + "; this is of the hand as it was closed.";
+  } else if (assessment.balance.status == BalanceStatus::kBalanced &&
+             friction.status == FrictionStatus::kSlips) {
+    rest =
+        " In the grasp at rest the pressures carry a part of the load, which this margin of "
+        "friction alone leaves out: it holds, with nothing to spare by friction.";
+  }
   switch (friction.status) {
     case FrictionStatus::kOff:
       return {};

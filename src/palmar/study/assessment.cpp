@@ -51,9 +51,9 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   progress.update(0.85, "judging the grasp");
   const Stopwatch index_watch;
   IndexOptions indices = options.indices;
-  indices.stability.reduction.friction = options.friction.is_on()
-                                             ? options.friction.coefficient
-                                             : options.indices.stability.reduction.friction;
+  // One coefficient in one run.
+  indices.stability.reduction.friction =
+      options.friction.is_on() ? options.friction.coefficient : options.balance.friction;
   const ProductLoad& load = options.friction.is_on() ? options.friction.load : options.balance.load;
   if (load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0)) {
     indices.stability.load = load;
@@ -88,6 +88,10 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   Balance balance;
   if (is_held) balance = balance_grasp(hand, product, grasp, options.balance, options.contact);
   const double balance_seconds = balance_watch.seconds();
+  if (balance.status == BalanceStatus::kSlipsOut) {
+    grasp.status = GraspStatus::kPartlyHeld;
+    grasp.message += "; but it " + balance.message;
+  }
   Assessment result = evaluate(hand, product, grasp, options, progress, std::move(balance));
   result.times.grasp = seconds;
   result.times.balance = balance_seconds;

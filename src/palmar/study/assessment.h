@@ -74,7 +74,8 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
                     Balance balance = {});
 
 /// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
-/// an assessment whose grasp says why; one that slips out is shown as the hand was closed. Throws
+/// an assessment whose grasp says why; one that slips out is partly held and shown as the hand was
+/// closed. Throws
 /// UsageError, Cancelled.
 Assessment assess(const PreparedHand& hand, const Product& product,
                   const AssessOptions& options = {}, const Progress& progress = {});

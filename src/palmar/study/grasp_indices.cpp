@@ -22,7 +22,9 @@ GraspIndex grip_row(const char* key, const char* name, const char* unit,
 }
 
 GraspIndices grip_indices(const Balance& balance) {
-  const bool is_known = balance.grip_force > 0.0;
+  // A grasp that slips out is shown as it was closed: its last state on the way out says nothing.
+  const bool slips = balance.status == BalanceStatus::kSlipsOut;
+  const bool is_known = balance.grip_force > 0.0 && !slips;
   const auto known = [&](double value) { return is_known ? std::optional(value) : std::nullopt; };
   GraspIndices rows;
 
@@ -59,7 +61,7 @@ GraspIndices grip_indices(const Balance& balance) {
   rows.push_back(friction);
 
   GraspIndex strength = grip_row("flexion_strength_in_use", "share of the joints' flexion strength",
-                                 "", balance.strength_use);
+                                 "", slips ? std::nullopt : balance.strength_use);
   strength.better = Better::kDown;
   strength.definition =
       "common level of the flexion moments that hold the grip, over those that the muscles of a "
@@ -69,7 +71,10 @@ GraspIndices grip_indices(const Balance& balance) {
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
   rows.push_back(strength);
   if (!is_known) {
-    for (GraspIndex& row : rows) row.remark = "the grasp was not let come to rest";
+    for (GraspIndex& row : rows) {
+      row.remark = slips ? "the product slips out; all other rows are of the hand as it was closed"
+                         : "the grasp was not let come to rest";
+    }
   }
   return rows;
 }
@@ -101,7 +106,9 @@ GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldP
                                          *product.distance)));
   append(rows, to_indices(assess_comfort(hand, held.contact)));
   FrictionResult friction;
-  friction.force = held.balance.friction_force;
+  if (held.balance.status != BalanceStatus::kSlipsOut) {
+    friction.force = held.balance.friction_force;
+  }
   append(rows,
          effort_indices(assess_effort(
              hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
