@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh_measures.h"
@@ -78,6 +79,7 @@ class Settling {
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     load_ =
         wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
+    has_level_ = has_level_ || extra_grip() > 0.0;
   }
 
   Balance run(const Progress& progress);
@@ -112,7 +114,8 @@ class Settling {
   const Hand* hand_;
   const BalanceOptions* options_;
   bool is_by_muscles_;
-  bool has_level_;  // the squeeze is brought to the grip force asked for
+  double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
+  bool has_level_;           // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   FingerCones cones_;
   std::vector<RoundCone> start_cones_;
@@ -146,8 +149,9 @@ void Settling::add_load(GripVector& residual) const {
   // From the origin of the product frame to the centre of contact in the hand frame.
   const Rigid3 hand_from_product = state_.product_from_hand.inverse();
   const Vec3 centre = state_.product_from_hand * mechanics_.centre();
-  residual.segment<3>(kSqueezeJoints) += hand_from_product.rotation * load_.force;
-  residual.tail<3>() += hand_from_product.rotation * (load_.moment - centre.cross(load_.force));
+  residual.segment<3>(kSqueezeJoints) += load_share_ * (hand_from_product.rotation * load_.force);
+  residual.tail<3>() +=
+      load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
 }
 
 /// The common level of muscle moments that suits the moments of the contact best.
@@ -368,10 +372,15 @@ Balance Settling::run(const Progress& progress) {
     if (is_lost || judge_way(balance)) {
       balance.status = BalanceStatus::kSlipsOut;
       balance.slip = moved_.norm() > 0.0 ? Vec3(moved_.normalized()) : Vec3(Vec3::UnitY());
-      balance.message = "slips out, towards " + way_words(*hand_, *balance.slip);
+      balance.message = balance.turned > kOutTurn && balance.moved < kOut
+                            ? format("turns by more than %.0f degrees in the hand",
+                                     kOutTurn * 180.0 / std::numbers::pi)
+                            : "slips out, towards " + way_words(*hand_, *balance.slip);
       break;
     }
 
+    // People take hold before they lift.
+    load_share_ = has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
     if (i == 0) muscles_ = first_level() * target_ / grip;
     now = misfit(grip);
     balance.residual_force = now.force;
@@ -395,6 +404,14 @@ Balance Settling::run(const Progress& progress) {
       muscles_ = best.muscles;
       moved_ = best.moved;
     }
+  }
+  if (balance.status == BalanceStatus::kBalanced && load_share_ < 1.0) {
+    balance.status = BalanceStatus::kSlipsOut;
+    balance.slip = (state_.product_from_hand.rotation.conjugate() * load_.force).normalized();
+    balance.message = format(
+        "slips out under its load: the hand reaches a grip force of %.0f N, "
+        "%.0f N are needed",
+        mechanics_.grip().force, target_);
   }
   if (balance.status == BalanceStatus::kBalanced) {
     balance.message = format("in balance at a grip force of %.0f N", mechanics_.grip().force);
