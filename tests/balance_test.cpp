@@ -195,6 +195,25 @@ TEST_F(BalanceTest, ASmoothBarSlipsOutAlongItsLoad) {
   }
 }
 
+TEST_F(BalanceTest, AGripForceOutOfReachIsNoSlip) {
+  // Without a load nothing can slip under it, however far the hand stays below what was asked for.
+  const Product thin = cylinder(20.0);
+  BalanceOptions options;
+  options.grip_force = 250.0;
+  const Rest rest = settle(thin, close_power_grasp(hand(), thin), options);
+  EXPECT_THAT(rest.balance.message, ::testing::Not(HasSubstr("under its load")));
+  EXPECT_NEAR(rest.balance.slip.value_or(Vec3::UnitX()).norm(), 1.0, 1e-9);
+}
+
+TEST_F(BalanceTest, ATorqueAloneIsALoad) {
+  BalanceOptions options;
+  options.load.torque = 100.0 * closed().grip_axis;
+  const Rest rest = settle(options);
+  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  const Sums sums = sums_on_product(rest.contact, rest.balance, bar(), rest.contact.total.centre);
+  EXPECT_LT((sums.moment + options.load.torque).norm(), 0.01 * rest.balance.grip_force * 40.0);
+}
+
 TEST_F(BalanceTest, NothingTouchedIsSaid) {
   Grasp away = closed();
   away.product_from_hand.translation += Vec3(500.0, 0.0, 0.0);

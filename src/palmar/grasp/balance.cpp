@@ -24,11 +24,10 @@ namespace {
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kAim = 0.002;       // what is aimed at
 constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
+constexpr double kJointSaid = 0.05;  // the same; more is told
 constexpr double kLevelAim = 0.005;  // of the grip force asked for
 constexpr int kMostSteps = 60;
 constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
-constexpr double kShortestStep = 0.02;
-constexpr int kPatience = 4;  // steps without a gain
 constexpr double kLeastRelaxation = 0.1;
 constexpr double kReach = 40.0;      // mm; arm by which turns are counted as way
 constexpr double kOut = 25.0;        // mm; a product that went farther has left the hand
@@ -77,6 +76,7 @@ class Settling {
         mechanics_(hand, product, contact, options.friction, start_) {
     is_held_[static_cast<std::size_t>(Finger::kThumb)] = is_by_muscles_;
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
+    has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =
         wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
     has_level_ = has_level_ || extra_grip() > 0.0;
@@ -121,7 +121,8 @@ class Settling {
   std::vector<RoundCone> start_cones_;
   std::array<bool, kFingerCount> is_held_{};  // stays as it is: the thumb, a finger that met it
   GripMechanics mechanics_;
-  Wrench load_;              // product frame
+  Wrench load_;  // product frame
+  bool has_load_ = false;
   double target_ = 0.0;      // grip force, N
   double muscles_ = 0.0;     // moments over flexion_strength()
   double relaxation_ = 1.0;  // share of a step that is taken
@@ -380,7 +381,8 @@ Balance Settling::run(const Progress& progress) {
     }
 
     // People take hold before they lift.
-    load_share_ = has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
+    load_share_ =
+        has_load_ && has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
     if (i == 0) muscles_ = first_level() * target_ / grip;
     now = misfit(grip);
     balance.residual_force = now.force;
@@ -407,7 +409,8 @@ Balance Settling::run(const Progress& progress) {
   }
   if (balance.status == BalanceStatus::kBalanced && load_share_ < 1.0) {
     balance.status = BalanceStatus::kSlipsOut;
-    balance.slip = (state_.product_from_hand.rotation.conjugate() * load_.force).normalized();
+    const Vec3 pull = state_.product_from_hand.rotation.conjugate() * load_.force;
+    if (pull.norm() > 0.0) balance.slip = pull.normalized();
     balance.message = format(
         "slips out under its load: the hand reaches a grip force of %.0f N, "
         "%.0f N are needed",
@@ -417,6 +420,10 @@ Balance Settling::run(const Progress& progress) {
     balance.message = format("in balance at a grip force of %.0f N", mechanics_.grip().force);
     if (now.of_level > 0.05) {
       balance.message += format("; %.0f N were asked for, which the hand doesn't reach", target_);
+    }
+    if (now.of_joints > kJointSaid) {
+      balance.message += format("; a finger joint is still %.0f %% off its muscles' moment",
+                                100.0 * now.of_joints);
     }
   } else if (balance.status == BalanceStatus::kNotConverged) {
     balance.message = format("not in balance after %.0f steps: ", kMostSteps) +

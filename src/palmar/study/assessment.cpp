@@ -86,7 +86,11 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   const bool is_held =
       grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
   Balance balance;
-  if (is_held) balance = balance_grasp(hand, product, grasp, options.balance, options.contact);
+  Progress stoppable = progress;
+  stoppable.report = nullptr;  // its share is not that of the whole
+  if (is_held) {
+    balance = balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
+  }
   const double balance_seconds = balance_watch.seconds();
   if (balance.status == BalanceStatus::kSlipsOut) {
     grasp.status = GraspStatus::kPartlyHeld;

@@ -32,7 +32,7 @@ GraspIndices grip_indices(const Balance& balance) {
   force.definition =
       "half the sum of |normal force . e| for the direction e that makes it largest: what a "
       "dynamometer between the product's halves would read";
-  force.source = "METHOD: VALIDATION trap 4; docs/method/balance.md";
+  force.source = "docs/method/balance.md";
   rows.push_back(force);
 
   GraspIndex ratio = grip_row("normal_over_grip_force", "sum of normal forces over grip force", "",
