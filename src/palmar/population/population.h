@@ -1,0 +1,69 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "palmar/grasp/joint_strength.h"
+#include "palmar/hand/hand_dimension.h"
+
+namespace palmar {
+
+/// How a dimension of a population is known.
+enum class Evidence {
+  kMeasured,   ///< on the people themselves
+  kRegressed,  ///< from measured dimensions, by a regression found on these or other people
+  kScaled      ///< in the template's proportions
+};
+std::string name_of(Evidence evidence);  ///< "measured", "regressed", "scaled"
+
+/// One dimension of the joint normal distribution.
+struct DrivingDimension {
+  HandDimension dimension;
+  double mean = 0.0;  ///< mm
+  double sd = 0.0;    ///< mm; 0: only the mean is known
+  std::string source;
+};
+
+/// y = intercept + sum_k slope_k x_k + residual; residual normal with the given deviation,
+/// independent of everything else. The x are driving dimensions.
+struct DimensionRegression {
+  HandDimension dimension;
+  double intercept = 0.0;  ///< mm
+  struct Term {
+    HandDimension predictor;
+    double slope = 0.0;  ///< mm per mm
+  };
+  std::vector<Term> terms;
+  double residual_sd = 0.0;  ///< mm
+  Evidence evidence = Evidence::kRegressed;
+  std::string source;
+};
+
+/// People that one normal distribution describes: one sex, usually.
+struct Stratum {
+  std::string name;           ///< "women"
+  std::optional<Sex> sex;     ///< nothing: mixed or unknown
+  double share = 1.0;         ///< of the population
+  std::optional<double> age;  ///< mean, years; for grip strength
+  std::vector<DrivingDimension> driving;
+  Eigen::MatrixXd correlation;  ///< of `driving`, symmetric, unit diagonal, positive definite
+  std::vector<DimensionRegression> regressions;
+};
+
+/// Whose hands: a mixture of strata. Dimensions that neither drive nor are regressed follow in the
+/// template's proportions (make_hand_instance()).
+struct Population {
+  std::string name;   ///< "ansur2_women"; as on the command line
+  std::string title;  ///< for people
+  std::vector<Stratum> strata;
+  std::string source;
+  std::vector<std::string> cautions;  ///< told with every result: mixed sexes, means only ...
+  void check() const;  ///< throws UsageError: stratum, dimension, value, what is allowed
+};
+
+}  // namespace palmar

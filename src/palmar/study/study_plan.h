@@ -1,0 +1,86 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/grasp/grip.h"
+#include "palmar/population/hand_profile.h"
+#include "palmar/population/hand_sample.h"
+#include "palmar/population/population.h"
+#include "palmar/study/assessment.h"
+
+namespace palmar {
+
+/// One population with how its hands are drawn.
+struct StudyPopulation {
+  Population population;
+  SamplingOptions sampling;
+};
+
+/// One hand of a study.
+struct StudyHand {
+  int population = 0;  ///< index into StudyPlan::populations
+  HandSample sample;
+};
+
+/// One product of a study, in one size.
+struct StudyProduct {
+  std::string name;              ///< unique in the study: "handle r3", "handle r3 x 0.9"
+  std::string family;            ///< what its sizes share: "handle r3"
+  double size = 1.0;             ///< factor on the file's lengths
+  std::string file;              ///< path as told, or the generating words
+  std::string content_hash;      ///< SHA-256 of mesh in mm, hex
+  std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
+  double mass = 0.0;             ///< kg; 0: no load
+};
+
+/// One set of equations and grasp settings under which everything is run.
+struct StudySetting {
+  std::string name = "default";
+  double palm_limit_depth = 7.0;         ///< mm
+  double finger_limit_depth = 4.0;       ///< mm
+  std::optional<double> grip_force;      ///< N
+  std::optional<double> strength_share;  ///< of the person's own grip strength
+  double friction = 0.5;
+  ContactModel model;
+  bool indices = true;
+  /// Where a product is held: found once on the mean hand and kept for all (only pressing in and
+  /// closing are done anew), or searched for every hand.
+  bool is_place_per_hand = false;
+};
+
+/// Share of hands inside is what accommodation means; unset edges don't limit.
+struct StudyLimit {
+  std::string quantity;  ///< key of a result: "peak_pressure_cells_mpa", "force_n", an index's key
+  std::optional<double> lowest, highest;
+};
+
+/// Everything a study runs: populations x profiles x products x grips x settings.
+struct StudyPlan {
+  std::string name, title;
+  std::uint64_t seed = 1;
+  std::vector<StudyPopulation> populations;
+  std::vector<HandProfile> profiles;  ///< at least "none"
+  std::vector<StudyHand> hands;       ///< all populations, drawn
+  std::vector<StudyProduct> products;
+  std::vector<std::optional<Grip>> grips;  ///< nothing: the power grip that suits the shape
+  std::vector<StudySetting> settings;
+  std::vector<StudyLimit> limits;
+  std::string hand_hash;  ///< of the hand that is scaled
+  void check() const;     ///< throws UsageError: object, value, what is allowed
+};
+
+/// One grasp of the plan. Tasks are numbered hand by hand, so that a hand is prepared once.
+struct StudyTask {
+  int hand = 0, profile = 0, setting = 0, product = 0, grip = 0;
+  auto operator<=>(const StudyTask&) const = default;
+};
+std::int64_t task_count(const StudyPlan& plan);
+StudyTask task_at(const StudyPlan& plan, std::int64_t number);
+std::int64_t number_of(const StudyPlan& plan, const StudyTask& task);
+
+}  // namespace palmar

@@ -1,0 +1,27 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/study_record.h"
+
+namespace palmar {
+
+std::string name_of(StudyOutcome outcome) {
+  switch (outcome) {
+    case StudyOutcome::kHeld:
+      return "held";
+    case StudyOutcome::kPartlyHeld:
+      return "partly_held";
+    case StudyOutcome::kSlipsOut:
+      return "slips_out";
+    case StudyOutcome::kTooLarge:
+      return "too_large";
+    case StudyOutcome::kTooSmall:
+      return "too_small";
+    case StudyOutcome::kNotGraspable:
+      return "not_graspable";
+    case StudyOutcome::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+}  // namespace palmar

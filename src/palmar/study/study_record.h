@@ -1,0 +1,82 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/study/assessment.h"
+#include "palmar/study/study_plan.h"
+
+namespace palmar {
+
+/// A field on the vertices of a mesh that is 0 almost everywhere.
+struct SparseField {
+  std::vector<int> vertex;  ///< ascending
+  std::vector<float> value;
+};
+
+enum class StudyOutcome {
+  kHeld,
+  kPartlyHeld,
+  kSlipsOut,
+  kTooLarge,
+  kTooSmall,
+  kNotGraspable,
+  kFailed  ///< no answer: `reason` says which method gave up on what
+};
+std::string name_of(StudyOutcome outcome);  ///< "held", "slips_out", ...
+
+struct RegionRecord {
+  Region region{};
+  double force = 0.0;                ///< N
+  double area = 0.0;                 ///< mm^2
+  double peak_pressure = 0.0;        ///< MPa
+  double peak_pressure_cells = 0.0;  ///< MPa
+  double mean_pressure = 0.0;        ///< MPa
+};
+
+struct IndexRecord {
+  std::string key;  ///< as GraspIndex::key
+  double value = 0.0;
+};
+
+/// What a grasp asks of its owner; decides who is excluded (docs/method/profiles.md).
+struct GraspDemand {
+  double range_share = 0.0;    ///< smallest HandProfile::range_share that allows the posture
+  double grip_strength = 0.0;  ///< N; smallest that holds the load, 0 without load
+  double nail_room = 0.0;      ///< mm; longest nail that touches nothing
+};
+
+/// One finished grasp of a study: a pure function of plan and task.
+struct StudyRecord {
+  std::int64_t number = 0;  ///< of the task
+  StudyOutcome outcome = StudyOutcome::kFailed;
+  std::string reason;  ///< empty if held
+  Grip grip = Grip::kMediumWrap;
+  bool is_balanced = false;
+  // Of the whole hand; 0 without contact.
+  double force = 0.0;                ///< N; sum of normal forces
+  double grip_force = 0.0;           ///< N; across the plane of largest squeeze
+  double area = 0.0;                 ///< mm^2
+  double peak_pressure = 0.0;        ///< MPa, of one vertex
+  double peak_pressure_cells = 0.0;  ///< MPa, of one sensor cell
+  double mean_pressure = 0.0;        ///< MPa
+  GraspDemand demand;
+  std::vector<RegionRecord> regions;  ///< in contact, ascending
+  std::vector<IndexRecord> indices;   ///< those with a value
+  Posture posture;
+  Rigid3 product_from_hand;
+  SparseField skin_pressure;     ///< MPa, per vertex of the hand's skin
+  SparseField product_pressure;  ///< MPa, per vertex of the product's map (product_map())
+  double seconds = 0.0;          ///< spent; not a result
+};
+
+/// The mesh on which a product's pressure maps are kept: its own, split until no edge is longer
+/// than `edge` mm. The same for all hands.
+TriangleMesh product_map(const TriangleMesh& product, double edge = 3.0);
+
+}  // namespace palmar
