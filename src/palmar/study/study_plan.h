@@ -36,6 +36,10 @@ struct StudyProduct {
   std::string content_hash;      ///< SHA-256 of mesh in mm, hex
   std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
   double mass = 0.0;             ///< kg; 0: no load
+  /// Name of the product of the same study and size whose grasp at rest is kept, posture and
+  /// placement as they are (Xie 2014, 5.5.3: prisms with two fillets in one posture); TOML
+  /// `posture_of`. Empty: grasped by itself.
+  std::string posture_of;
 };
 
 /// One set of equations and grasp settings under which everything is run.
