@@ -5,18 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 #include "palmar/contact/skin_geometry.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/split_edges.h"
 
 namespace palmar {
 namespace {
 
 constexpr double kReach = 1.0;     // mm; the skin's facets stand off a curved product by less
 constexpr double kFacing = 0.3;    // cosine; skin and product normals must not agree by more
-constexpr int kMaxRounds = 16;     // halves 65 m to 1 mm
 constexpr double kMaxRatio = 2.0;  // of areas; skin folded into a crease has next to none left
 
 /// Loaded points sorted along x, for finding those near a triangle.
@@ -52,87 +51,6 @@ class LoadedPoints {
  private:
   std::vector<Vec3> points_;
 };
-
-using Edge = std::pair<int, int>;
-
-Edge edge_between(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// Splits a triangle at the midpoints (-1: none) of its edges 01, 12, 20.
-void split_triangle(const Triangle& t, const std::array<int, 3>& middle,
-                    std::vector<Triangle>& triangles) {
-  const int count =
-      static_cast<int>(std::count_if(middle.begin(), middle.end(), [](int m) { return m >= 0; }));
-  if (count == 0) {
-    triangles.push_back(t);
-    return;
-  }
-  if (count == 3) {
-    triangles.push_back({t[0], middle[0], middle[2]});
-    triangles.push_back({middle[0], t[1], middle[1]});
-    triangles.push_back({middle[2], middle[1], t[2]});
-    triangles.push_back(middle);
-    return;
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int a = t[k];
-    const int b = t[(k + 1) % 3];
-    const int c = t[(k + 2) % 3];
-    const int ab = middle[k];
-    const int bc = middle[(k + 1) % 3];
-    if (count == 1 && ab >= 0) {
-      triangles.push_back({a, ab, c});
-      triangles.push_back({ab, b, c});
-    }
-    if (count == 2 && ab >= 0 && bc >= 0) {
-      triangles.push_back({ab, b, bc});
-      triangles.push_back({a, ab, bc});
-      triangles.push_back({a, bc, c});
-    }
-  }
-}
-
-/// One round of splitting; returns false if nothing had to be split.
-bool refine_once(const LoadedPoints& loaded, double edge_length, TriangleMesh& mesh) {
-  std::vector<Edge> marked;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3& b = mesh.vertices[t[1]];
-    const Vec3& c = mesh.vertices[t[2]];
-    const double longest =
-        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    if (longest <= edge_length || !loaded.any_near(a, b, c, 2.0 * edge_length)) continue;
-    // The long edges of a triangle first: a needle gets rounder with every round.
-    const double limit = std::max(edge_length, 0.6 * longest);
-    for (int k = 0; k < 3; ++k) {
-      const int i = t[k];
-      const int j = t[(k + 1) % 3];
-      if ((mesh.vertices[i] - mesh.vertices[j]).norm() > limit)
-        marked.push_back(edge_between(i, j));
-    }
-  }
-  if (marked.empty()) return false;
-  std::sort(marked.begin(), marked.end());
-  marked.erase(std::unique(marked.begin(), marked.end()), marked.end());
-  const int first_middle = mesh.vertex_count();
-  for (const auto& [i, j] : marked) {
-    mesh.vertices.push_back(0.5 * (mesh.vertices[i] + mesh.vertices[j]));
-  }
-  std::vector<Triangle> triangles;
-  triangles.reserve(mesh.triangles.size() + 2 * marked.size());
-  for (const Triangle& t : mesh.triangles) {
-    std::array<int, 3> middle = {-1, -1, -1};
-    for (int k = 0; k < 3; ++k) {
-      const Edge edge = edge_between(t[k], t[(k + 1) % 3]);
-      const auto found = std::lower_bound(marked.begin(), marked.end(), edge);
-      if (found != marked.end() && *found == edge) {
-        middle[k] = first_middle + static_cast<int>(found - marked.begin());
-      }
-    }
-    split_triangle(t, middle, triangles);
-  }
-  mesh.triangles = std::move(triangles);
-  return true;
-}
 
 /// Pressure per area of the skin as it lies on the product, MPa. ContactResult counts per area of
 /// the reference posture; bent and flattened skin covers more or less of the product than that.
@@ -170,10 +88,11 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   ProductFootprint footprint{product, std::vector<double>(product.vertices.size(), 0.0)};
   const LoadedPoints loaded(contact);
   if (loaded.empty()) return footprint;
-  TriangleMesh& surface = footprint.surface;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    if (!refine_once(loaded, edge_length, surface)) break;
-  }
+  footprint.surface =
+      split_long_edges(product, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return loaded.any_near(a, b, c, 2.0 * edge_length);
+      });
+  const TriangleMesh& surface = footprint.surface;
 
   TriangleMesh skin{contact.deformed, {}};
   Box3 box;

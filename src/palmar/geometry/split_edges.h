@@ -1,0 +1,23 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// Whether the triangle with these corners [mm] is to be refined.
+using TriangleChoice = std::function<bool(const Vec3&, const Vec3&, const Vec3&)>;
+
+/// The mesh with edges longer than `edge_length` [mm] split at their middles, round by round and in
+/// every triangle its long edges first, so that needles get rounder. The surface is the same; the
+/// first vertices are those of the input, in order; neighbours are split together, so a closed mesh
+/// stays closed. With `where` only the long edges of chosen triangles are split. Deterministic.
+/// Throws UsageError unless 0.1 <= edge_length <= 1000, InputError on a corner outside the vertex
+/// list.
+TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
+                              const TriangleChoice& where = {});
+
+}  // namespace palmar
