@@ -359,4 +359,29 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
   return found;
 }
 
+Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+               const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
+               int& tried, const Progress& progress) {
+  progress.throw_if_cancelled();
+  const Hand& hand = closer.hand();
+  const Lay theirs = usual_lay(other, of_other.style, site, !may_shift);
+  const Trial trial{closer, product, site, limits_for(limits, site),
+                    usual_lay(hand, of_other.style, site, !may_shift)};
+  Lay lay = of_other.placement.lay;
+  const double size = hand.dimensions.hand_length / other.dimensions.hand_length;
+  lay.proximal = trial.usual.proximal + size * (lay.proximal - theirs.proximal);
+  lay.tilt += trial.usual.tilt - theirs.tilt;
+  lay.along += trial.usual.along - theirs.along;
+  Posture start = start_like(closer, of_other);
+  for (int f = 1; f < kFingerCount; ++f) {
+    const JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<Finger>(f)));
+    start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
+  }
+  Hold hold = trial.run(of_other.site, of_other.style, lay, start, 2);
+  hold.rank = hold.score;
+  hold.thumb = of_other.thumb;
+  tried = 1;
+  return hold;
+}
+
 }  // namespace palmar

@@ -78,6 +78,13 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
                       const HoldSearch& search, const Progress& progress);
 
+/// The way of holding that another hand found at a site, for this one: its lay stands off the usual
+/// lay as that hand's does (lengths in hand lengths), fingers start as far abducted, the thumb goes
+/// the same way. `tried` counts the placements that were closed.
+Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+               const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
+               int& tried, const Progress& progress);
+
 /// Whether two ways of holding differ by more than 30 degrees or 20 mm.
 bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other);
 
