@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@ enum class Evidence {
   kScaled      ///< in the template's proportions
 };
 std::string name_of(Evidence evidence);  ///< "measured", "regressed", "scaled"
+std::optional<Evidence> evidence_named(std::string_view name);
 
 /// One dimension of the joint normal distribution.
 struct DrivingDimension {
@@ -27,10 +29,11 @@ struct DrivingDimension {
   double mean = 0.0;  ///< mm
   double sd = 0.0;    ///< mm; 0: only the mean is known
   std::string source;
+  Evidence evidence = Evidence::kMeasured;  ///< kScaled: in part borrowed from other people
 };
 
 /// y = intercept + sum_k slope_k x_k + residual; residual normal with the given deviation,
-/// independent of everything else. The x are driving dimensions.
+/// independent of everything else. The x are driving dimensions or ones regressed before.
 struct DimensionRegression {
   HandDimension dimension;
   double intercept = 0.0;  ///< mm
@@ -55,6 +58,18 @@ struct Stratum {
   std::vector<DimensionRegression> regressions;
 };
 
+/// What is wrong with a stratum by itself (numbers, names, correlation), naming dimension, value
+/// and what is allowed; empty if nothing is. Means lie within 1 to 400 mm, deviations below a fifth
+/// of the mean, so that no hand gets a length of nothing.
+std::string fault_of(const Stratum& stratum);
+
+/// Mean and standard deviation [mm] of a dimension over a stratum, as the model has them; nothing
+/// if it neither drives nor is regressed.
+struct DimensionMoments {
+  double mean = 0.0, sd = 0.0;
+};
+std::optional<DimensionMoments> moments_of(const Stratum& stratum, HandDimension dimension);
+
 /// Whose hands: a mixture of strata. Dimensions that neither drive nor are regressed follow in the
 /// template's proportions (make_hand_instance()).
 struct Population {
@@ -65,5 +80,8 @@ struct Population {
   std::vector<std::string> cautions;  ///< told with every result: mixed sexes, means only ...
   void check() const;  ///< throws UsageError: stratum, dimension, value, what is allowed
 };
+
+/// What is wrong with a population apart from its strata's own faults; empty if nothing is.
+std::string fault_of(const Population& population);
 
 }  // namespace palmar
