@@ -4,6 +4,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <exception>
 #include <memory>
@@ -39,6 +40,8 @@ void parallel_for(int count, const std::function<void(int)>& body) {
   });
   if (first) std::rethrow_exception(first);
 }
+
+void run_isolated(const std::function<void()>& body) { tbb::this_task_arena::isolate(body); }
 
 void set_thread_count(int count) {
   if (count < 0) {

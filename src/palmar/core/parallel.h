@@ -11,6 +11,10 @@ namespace palmar {
 /// smallest index wins and is rethrown.
 void parallel_for(int count, const std::function<void(int)>& body);
 
+/// Runs `body`; a thread that waits for a parallel_for() in it only takes up work of that body
+/// meanwhile, so no second large piece of work begins on top of the first.
+void run_isolated(const std::function<void()>& body);
+
 /// Largest number of threads that parallel_for() uses from now on; 0 = all cores. Throws UsageError
 /// below 0.
 void set_thread_count(int count);

@@ -63,8 +63,10 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
       load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
   result.times.indices = index_watch.seconds();
 
-  progress.update(0.9, "mapping the pressure to the product");
-  result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+  if (options.footprint) {
+    progress.update(0.9, "mapping the pressure to the product");
+    result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+  }
   // Finished is finished: who cancels now still gets it.
   if (progress.report) progress.report(1.0, "assessed");
   return result;

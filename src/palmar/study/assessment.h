@@ -25,6 +25,7 @@ struct AssessOptions {
   ContactOptions contact;
   IndexOptions indices;
   FrictionOptions friction;  ///< off unless it has a coefficient
+  bool footprint = true;     ///< map the pressure to the product
   std::uint64_t seed =
       0;  ///< written into the results; the power grasp itself draws no random numbers
 };

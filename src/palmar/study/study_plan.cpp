@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/study/study_plan.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
 #include <string>
 
 #include "palmar/core/error.h"
@@ -9,9 +13,112 @@
 namespace palmar {
 namespace {
 
+constexpr double kSmallestSize = 0.05, kLargestSize = 20.0;  // factors on a product's lengths
+constexpr double kHeaviest = 100.0;                          // kg
+constexpr double kLargestGripForce = 5000.0;                 // N
+constexpr double kDeepest = 15.0;                            // mm; skin deeper carries no force
+
 std::int64_t size_of(const auto& list) { return static_cast<std::int64_t>(list.size()); }
 
+void check_between(const std::string& what, const std::string& field, double value, double lowest,
+                   double highest, const std::string& unit = "") {
+  if (value >= lowest && value <= highest) return;
+  const std::string blank = unit.empty() ? "" : " ";
+  throw UsageError(fmt::format("{}: {} is {:g}{}{}; {:g} to {:g}{}{} is allowed", what, field,
+                               value, blank, unit, lowest, highest, blank, unit));
+}
+
+template <typename List>
+void check_some(const List& list, const std::string& what) {
+  if (list.empty()) throw UsageError("study: has no " + what + "; at least one is required");
+}
+
+/// Names that people tell things by must not be given twice.
+template <typename List>
+void check_names(const List& list, const std::string& what) {
+  std::set<std::string> seen;
+  for (const auto& one : list) {
+    if (one.name.empty()) throw UsageError("study: a " + what + " has no name");
+    if (!seen.insert(one.name).second) {
+      throw UsageError("study: two " + what + "s are called \"" + one.name +
+                       "\"; every name is allowed once");
+    }
+  }
+}
+
+void check_setting(const StudySetting& setting) {
+  const std::string what = "setting \"" + setting.name + "\"";
+  check_between(what, "palm limit depth", setting.palm_limit_depth, 0.1, kDeepest, "mm");
+  check_between(what, "finger limit depth", setting.finger_limit_depth, 0.1, kDeepest, "mm");
+  check_between(what, "friction", setting.friction, 0.0, 3.0);
+  if (setting.grip_force && setting.strength_share) {
+    throw UsageError(what + ": grip force and strength share are both given; one is allowed");
+  }
+  if (setting.grip_force) {
+    check_between(what, "grip force", *setting.grip_force, 0.1, kLargestGripForce, "N");
+  }
+  if (setting.strength_share) {
+    check_between(what, "strength share", *setting.strength_share, 0.001, 1.0);
+  }
+}
+
+void check_product(const StudyPlan& plan, const StudyProduct& product) {
+  const std::string what = "product \"" + product.name + "\"";
+  check_between(what, "size", product.size, kSmallestSize, kLargestSize);
+  check_between(what, "mass", product.mass, 0.0, kHeaviest, "kg");
+  if (product.axis && !(product.axis->norm() > 0.0)) {
+    throw UsageError(what + ": its axis is 0, 0, 0; a direction is required");
+  }
+  if (product.posture_of.empty()) return;
+  for (const StudyProduct& other : plan.products) {
+    if (other.name != product.posture_of) continue;
+    if (&other == &product) throw UsageError(what + ": keeps the posture of itself");
+    if (!other.posture_of.empty()) {
+      throw UsageError(what + ": keeps the posture of \"" + other.name +
+                       "\", which keeps that of \"" + other.posture_of +
+                       "\"; only a product grasped by itself is allowed");
+    }
+    return;
+  }
+  throw UsageError(what + ": keeps the posture of \"" + product.posture_of +
+                   "\", which is no product of the study");
+}
+
 }  // namespace
+
+void StudyPlan::check() const {
+  check_some(populations, "population");
+  check_some(profiles, "profile");
+  check_some(hands, "hand");
+  check_some(products, "product");
+  check_some(grips, "grip");
+  check_some(settings, "setting");
+  check_names(profiles, "profile");
+  check_names(products, "product");
+  check_names(settings, "setting");
+  for (const HandProfile& profile : profiles) profile.check();
+  for (const StudyProduct& product : products) check_product(*this, product);
+  for (const StudySetting& setting : settings) check_setting(setting);
+  for (const StudyHand& hand : hands) {
+    if (hand.population < 0 || hand.population >= size_of(populations)) {
+      throw UsageError(fmt::format("study: hand \"{}\" is of population {}; there are {}",
+                                   hand.sample.label, hand.population, populations.size()));
+    }
+  }
+  for (const StudyLimit& limit : limits) {
+    if (limit.quantity.empty()) throw UsageError("study: a limit names no quantity");
+    if (!limit.lowest && !limit.highest) {
+      throw UsageError("limit of \"" + limit.quantity +
+                       "\": has neither lowest nor highest; at least one is required");
+    }
+    if (limit.lowest && limit.highest && *limit.lowest > *limit.highest) {
+      throw UsageError(
+          fmt::format("limit of \"{}\": lowest is {:g}, highest {:g}; lowest must "
+                      "not be above highest",
+                      limit.quantity, *limit.lowest, *limit.highest));
+    }
+  }
+}
 
 std::int64_t task_count(const StudyPlan& plan) {
   return size_of(plan.hands) * size_of(plan.profiles) * size_of(plan.settings) *
@@ -43,6 +150,28 @@ std::int64_t number_of(const StudyPlan& plan, const StudyTask& task) {
   number = number * size_of(plan.settings) + task.setting;
   number = number * size_of(plan.products) + task.product;
   return number * size_of(plan.grips) + task.grip;
+}
+
+void StudyShard::check() const {
+  if (n >= 1 && k >= 1 && k <= n) return;
+  throw UsageError(fmt::format("shard is {}/{}; k/n with 1 <= k <= n is required", k, n));
+}
+
+std::string name_of(StudyShard shard) { return fmt::format("{}/{}", shard.k, shard.n); }
+
+std::vector<std::int64_t> tasks_of(const StudyPlan& plan, StudyShard shard) {
+  shard.check();
+  const std::int64_t hands = size_of(plan.hands);
+  if (shard.n > hands) {
+    throw UsageError(fmt::format("the study has {} hand{}; {} shards would leave some without one",
+                                 hands, hands == 1 ? "" : "s", shard.n));
+  }
+  const std::int64_t per_hand = task_count(plan) / hands;
+  std::vector<std::int64_t> tasks;
+  for (std::int64_t hand = shard.k - 1; hand < hands; hand += shard.n) {
+    for (std::int64_t i = 0; i < per_hand; ++i) tasks.push_back(hand * per_hand + i);
+  }
+  return tasks;
 }
 
 }  // namespace palmar

@@ -87,4 +87,15 @@ std::int64_t task_count(const StudyPlan& plan);
 StudyTask task_at(const StudyPlan& plan, std::int64_t number);
 std::int64_t number_of(const StudyPlan& plan, const StudyTask& task);
 
+/// Part `k` of `n`, from 1: every n-th hand with all that is done with it, so that a hand is
+/// prepared once.
+struct StudyShard {
+  int k = 1, n = 1;
+  void check() const;  ///< throws UsageError
+  bool operator==(const StudyShard&) const = default;
+};
+std::string name_of(StudyShard shard);  ///< "2/4"
+/// Numbers of its tasks, ascending. Throws UsageError if there are more shards than hands.
+std::vector<std::int64_t> tasks_of(const StudyPlan& plan, StudyShard shard = {});
+
 }  // namespace palmar

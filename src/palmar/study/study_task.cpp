@@ -1,0 +1,333 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/study_task.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "palmar/contact/footprint.h"
+#include "palmar/core/error.h"
+#include "palmar/grasp/grip_force.h"
+#include "palmar/grasp/joint_strength.h"
+#include "palmar/hand/scaled_hand.h"
+#include "palmar/study/assessment.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kGravity = 9.80665;        // m/s^2; standard gravity
+constexpr double kWholeTriangles = 1000.0;  // mm; longer than any edge of a map: none is split
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Why a grasp has no result, for its record.
+struct Failure {
+  std::string reason;
+};
+
+/// A grasp at rest, to be evaluated.
+struct HeldGrasp {
+  Grasp grasp;
+  Balance balance;
+};
+
+StudyOutcome outcome_of(const HeldGrasp& held) {
+  switch (held.grasp.status) {
+    case GraspStatus::kTooLarge:
+      return StudyOutcome::kTooLarge;
+    case GraspStatus::kTooSmall:
+      return StudyOutcome::kTooSmall;
+    case GraspStatus::kNotGraspable:
+      return StudyOutcome::kNotGraspable;
+    case GraspStatus::kHeld:
+    case GraspStatus::kPartlyHeld:
+      break;
+  }
+  if (held.balance.status == BalanceStatus::kSlipsOut) return StudyOutcome::kSlipsOut;
+  return held.grasp.status == GraspStatus::kHeld ? StudyOutcome::kHeld : StudyOutcome::kPartlyHeld;
+}
+
+bool is_held(const Grasp& grasp) {
+  return grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
+}
+
+void take_contact(const ContactResult& contact, StudyRecord& record) {
+  record.force = contact.total.force;
+  record.area = contact.total.area;
+  record.peak_pressure = contact.total.peak_pressure;
+  record.peak_pressure_cells = contact.total.peak_pressure_cells;
+  record.mean_pressure = contact.total.mean_pressure;
+  for (const RegionContact& region : contact.regions) {
+    record.regions.push_back({.region = region.region,
+                              .force = region.force,
+                              .area = region.area,
+                              .peak_pressure = region.peak_pressure,
+                              .peak_pressure_cells = region.peak_pressure_cells,
+                              .mean_pressure = region.mean_pressure});
+  }
+  record.skin_pressure = sparse(contact.pressure);
+}
+
+/// The hand scaled to a person's size.
+Hand hand_of_size(const Hand& base, const std::vector<SizedDimension>& dimensions) {
+  for (const SizedDimension& one : dimensions) {
+    if (one.dimension.kind != DimensionKind::kHandLength) continue;
+    return scaled(base, one.value / base.dimensions.hand_length);
+  }
+  return base;
+}
+
+}  // namespace
+
+struct StudyBench::Impl {
+  Impl(const StudyPlan& the_plan, const StudyInputs& the_inputs)
+      : plan(the_plan), inputs(the_inputs) {
+    plan.check();
+    if (inputs.base == nullptr) throw UsageError("study: has no hand to scale");
+    if (inputs.products.size() != plan.products.size()) {
+      throw UsageError(fmt::format("study: {} products were given; the plan has {}",
+                                   inputs.products.size(), plan.products.size()));
+    }
+    for (const Product& product : inputs.products) maps.push_back(product_map(product.mesh));
+    for (const StudyProduct& product : plan.products) {
+      std::optional<std::size_t> source;
+      for (std::size_t i = 0; i < plan.products.size(); ++i) {
+        if (!product.posture_of.empty() && plan.products[i].name == product.posture_of) source = i;
+      }
+      posture_source.push_back(source);
+    }
+  }
+
+  const StudyPlan& plan;
+  const StudyInputs& inputs;
+  std::vector<TriangleMesh> maps;
+  std::vector<std::optional<std::size_t>> posture_source;  ///< product whose posture one keeps
+};
+
+namespace {
+
+/// One hand under one profile; prepared for the equations that were asked for so far.
+class StudySubject {
+ public:
+  StudySubject(const StudyBench::Impl& bench, int hand, int profile)
+      : bench_(bench),
+        sample_(bench.plan.hands[static_cast<std::size_t>(hand)].sample),
+        profile_(bench.plan.profiles[static_cast<std::size_t>(profile)]) {
+    try {
+      if (profile_.name != "none") throw Failure{"profiles are not built yet"};
+      hand_ = std::make_shared<const Hand>(hand_of_size(*bench.inputs.base, sample_.dimensions));
+    } catch (const Error& error) {
+      failure_ = std::string("the hand can't be made: ") + error.what();
+    }
+  }
+
+  StudyRecord run(const StudyTask& task, const Progress& progress) {
+    if (!failure_.empty()) throw Failure{failure_};
+    const StudySetting& setting = bench_.plan.settings[static_cast<std::size_t>(task.setting)];
+    const auto product_index = static_cast<std::size_t>(task.product);
+    const Product& product = bench_.inputs.products[product_index];
+    const PreparedHand& prepared = prepared_for(setting.model);
+
+    AssessOptions options = options_of(task, setting);
+    HeldGrasp held;
+    if (const auto source = bench_.posture_source[product_index]) {
+      StudyTask other = task;
+      other.product = static_cast<int>(*source);
+      held = at_rest(prepared, other, options_of(other, setting), progress);
+      held.balance = {};  // at rest is the other product
+      options.balance.is_on = false;
+    } else {
+      held = at_rest(prepared, task, options, progress);
+    }
+
+    StudyRecord record;
+    record.outcome = outcome_of(held);
+    record.grip = held.grasp.grip;
+    record.posture = held.grasp.posture;
+    record.product_from_hand = held.grasp.product_from_hand;
+    record.is_balanced = held.balance.status == BalanceStatus::kBalanced;
+    if (record.outcome != StudyOutcome::kHeld) record.reason = held.grasp.message;
+    if (!is_held(held.grasp)) return record;
+    if (options.balance.is_on && !record.is_balanced) record.reason = held.balance.message;
+
+    const Assessment assessment =
+        evaluate(prepared, product, held.grasp, options, progress, held.balance);
+    const ContactResult& contact = assessment.contact;
+    if (contact.status == ContactStatus::kNotConverged) {
+      throw Failure{"contact: " + contact.message};
+    }
+    take_contact(contact, record);
+    if (contact.total.force > 0.0) {
+      record.grip_force = grip_force(contact, *product.distance).force;
+      record.product_pressure = sparse(
+          map_to_product(prepared.hand(), contact, bench_.maps[product_index], kWholeTriangles)
+              .pressure);
+    }
+    for (const GraspIndex& index : assessment.indices) {
+      if (index.value) record.indices.push_back({index.key, *index.value});
+    }
+    return record;
+  }
+
+ private:
+  const PreparedHand& prepared_for(const ContactModel& model) {
+    for (const auto& [known, prepared] : prepared_) {
+      if (known == model) return *prepared;
+    }
+    prepared_.emplace_back(model, std::make_unique<const PreparedHand>(hand_, model));
+    return *prepared_.back().second;
+  }
+
+  AssessOptions options_of(const StudyTask& task, const StudySetting& setting) const {
+    const StudyProduct& product = bench_.plan.products[static_cast<std::size_t>(task.product)];
+    AssessOptions options;
+    options.seed = bench_.plan.seed;
+    options.footprint = false;  // the study's own map serves
+    options.indices.is_on = setting.indices;
+
+    options.grasp.grip = bench_.plan.grips[static_cast<std::size_t>(task.grip)];
+    options.grasp.power.palm_limit_depth = setting.palm_limit_depth;
+    options.grasp.power.finger_limit_depth = setting.finger_limit_depth;
+    PlacementRequest placement;
+    if (product.at) placement.at = product.size * *product.at;
+    placement.axis = product.axis;
+    options.grasp.power.placement = placement;
+    options.grasp.precision.placement = placement;
+
+    options.balance.friction = setting.friction;
+    options.balance.load.weight = product.mass * kGravity;
+    options.balance.grip_force = setting.grip_force;
+    if (setting.strength_share) {
+      if (!(sample_.grip_strength > 0.0)) {
+        throw Failure{"a share of the grip strength is asked for, but the person's isn't known"};
+      }
+      const double of_grip = options.grasp.grip ? strength_share(*options.grasp.grip) : 1.0;
+      options.balance.grip_force =
+          *setting.strength_share * of_grip * profile_.strength_share * sample_.grip_strength;
+    }
+    return options;
+  }
+
+  /// The grasp of a task that doesn't keep another one's posture, come to rest. Kept where another
+  /// product wants the same posture.
+  HeldGrasp at_rest(const PreparedHand& prepared, const StudyTask& task,
+                    const AssessOptions& options, const Progress& progress) {
+    const auto known = at_rest_.find(task);
+    if (known != at_rest_.end()) return known->second;
+    const auto index = static_cast<std::size_t>(task.product);
+    const Product& product = bench_.inputs.products[index];
+    HeldGrasp held;
+    held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
+    if (is_held(held.grasp)) {
+      held.balance =
+          balance_grasp(prepared, product, held.grasp, options.balance, options.contact, progress);
+      if (held.balance.status == BalanceStatus::kSlipsOut) {
+        held.grasp.message += "; but it " + held.balance.message;
+      }
+    }
+    for (const auto& source : bench_.posture_source) {
+      if (source == index) at_rest_[task] = held;
+    }
+    return held;
+  }
+
+  const StudyBench::Impl& bench_;
+  const HandSample& sample_;
+  const HandProfile& profile_;
+  std::shared_ptr<const Hand> hand_;
+  std::string failure_;
+  std::vector<std::pair<ContactModel, std::unique_ptr<const PreparedHand>>> prepared_;
+  std::map<StudyTask, HeldGrasp> at_rest_;
+};
+
+}  // namespace
+
+StudyBench::StudyBench(const StudyPlan& plan, const StudyInputs& inputs)
+    : impl_(std::make_unique<Impl>(plan, inputs)) {}
+StudyBench::~StudyBench() = default;
+
+void StudyBench::run_hand(int hand, std::span<const std::int64_t> tasks,
+                          const std::function<void(const StudyRecord&)>& keep,
+                          const Progress& progress) {
+  std::unique_ptr<StudySubject> subject;
+  int profile = -1;
+  for (const std::int64_t number : tasks) {
+    progress.throw_if_cancelled();
+    const auto start = Clock::now();
+    const StudyTask task = task_at(impl_->plan, number);
+    StudyRecord record;
+    try {
+      if (task.profile != profile) {
+        subject.reset();
+        subject = std::make_unique<StudySubject>(*impl_, hand, task.profile);
+        profile = task.profile;
+      }
+      record = subject->run(task, progress);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;  // says something of the machine, nothing of the grasp
+    } catch (const Failure& failure) {
+      record = {};
+      record.reason = failure.reason;
+    } catch (const std::exception& error) {
+      record = {};
+      record.reason = error.what();
+    }
+    record.number = number;
+    record.seconds = seconds_since(start);
+    keep(record);
+  }
+}
+
+std::vector<SizedDimension> mean_dimensions(const StudyPlan& plan) {
+  std::map<HandDimension, std::pair<double, std::size_t>> sums;
+  for (const StudyHand& hand : plan.hands) {
+    for (const SizedDimension& one : hand.sample.dimensions) {
+      auto& [sum, count] = sums[one.dimension];
+      sum += one.value;
+      ++count;
+    }
+  }
+  std::vector<SizedDimension> means;
+  for (const auto& [dimension, total] : sums) {
+    if (total.second != plan.hands.size()) continue;
+    means.push_back({dimension, total.first / static_cast<double>(total.second)});
+  }
+  return means;
+}
+
+SparseField sparse(const std::vector<double>& field) {
+  SparseField result;
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const auto value = static_cast<float>(field[v]);
+    if (value == 0.0F) continue;
+    result.vertex.push_back(static_cast<int>(v));
+    result.value.push_back(value);
+  }
+  return result;
+}
+
+std::vector<double> dense(const SparseField& field, std::size_t size) {
+  std::vector<double> result(size, 0.0);
+  for (std::size_t i = 0; i < field.vertex.size(); ++i) {
+    const auto v = static_cast<std::size_t>(field.vertex[i]);
+    if (v >= size) {
+      throw UsageError(fmt::format("field: names vertex {}; the mesh has {}", v, size));
+    }
+    result[v] = field.value[i];
+  }
+  return result;
+}
+
+}  // namespace palmar
