@@ -105,11 +105,29 @@ constexpr std::array kGlyphs{
     Glyph{U'<', "- 36 04 32"},
     Glyph{U'>', "- 06 34 02"},
     Glyph{U'\u2265', "- 07 35 03 - 01 31"},
+    Glyph{U'\u2264', "- 37 05 33 - 01 31"},
     Glyph{U'!', "- 08 04 - 02 02"},
     Glyph{U'?', "~ 07 08 48 45 25 24 - 22 22"},
     Glyph{U'\u00b2', "~ 08 09 29 27 05 - 05 25"},
     Glyph{U'\u00b0', "o 08 28 26 06"},
+    Glyph{U'\u00b3', "~ 08 09 29 27 17 ~ 17 27 25 05"},
     Glyph{U'\u00b7', "- 04 04"},
+    Glyph{U'\u00b1', "- 05 45 - 27 23 - 02 42"},
+    Glyph{U'\u2212', "- 04 44"},
+    Glyph{U'[', "- 29 09 01 21"},
+    Glyph{U']', "- 09 29 21 01"},
+    Glyph{U'{', "~ 29 19 16 05 14 11 21"},
+    Glyph{U'}', "~ 09 19 16 25 14 11 01"},
+    Glyph{U'#', "- 12 18 - 32 38 - 04 44 - 06 46"},
+    Glyph{U'&', "~ 53 42 02 05 28 38 07 52"},
+    Glyph{U'*', "- 28 24 - 07 45 - 05 47"},
+    Glyph{U'|', "- 09 01"},
+    Glyph{U'~', "~ 03 05 25 23 43 45"},
+    Glyph{U'^', "- 06 28 46"},
+    Glyph{U'\\', "- 08 31"},
+    Glyph{U'@', "~ 43 45 25 23 43 63 68 08 02 52"},
+    Glyph{U'$', "~ 47 48 08 05 45 42 02 03 - 29 21"},
+    Glyph{U'`', "- 09 17"},
     Glyph{U'\u00d7', "- 03 36 - 06 33"},
 };
 
@@ -118,22 +136,14 @@ constexpr double kGap = 1.9;    // between glyphs, grid units
 constexpr double kSpace = 3.2;  // width of a blank, grid units
 constexpr double kCap = 6.0;    // height of a capital, grid units
 
-std::vector<char32_t> decode_utf8(std::string_view text) {
-  std::vector<char32_t> codes;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    char32_t code = length == 1 ? lead : lead & (0xffU >> (length + 1));
-    for (std::size_t k = 1; k < length && i + k < text.size(); ++k) {
-      code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3fU);
-    }
-    codes.push_back(code);
-    i += length;
-  }
-  return codes;
-}
+// Letters of Latin-1 without their accents, from U+00C0; ' ' where there is none.
+constexpr std::u32string_view kBareLetters =
+    U"AAAAAAACEEEEIIIIDNOOOOO OUUUUYPsaaaaaaaceeeeiiiidnooooo ouuuuypy";
 
 std::string_view strokes_of(char32_t code) {
+  if (code >= 0xc0 && code - 0xc0 < kBareLetters.size() && kBareLetters[code - 0xc0] != U' ') {
+    code = kBareLetters[code - 0xc0];
+  }
   for (const Glyph& glyph : kGlyphs) {
     if (glyph.code == code) return glyph.strokes;
   }
@@ -232,12 +242,46 @@ void draw_strokes(Image& image, const std::vector<Stroke>& strokes, double width
 
 }  // namespace
 
+std::vector<char32_t> code_points(std::string_view text) {
+  std::vector<char32_t> codes;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+    char32_t code = length == 1 ? lead : lead & (0xffU >> (length + 1));
+    for (std::size_t k = 1; k < length && i + k < text.size(); ++k) {
+      code = code << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3fU);
+    }
+    codes.push_back(code);
+    i += length;
+  }
+  return codes;
+}
+
 double text_width(std::string_view text, const TextStyle& style) {
   double width = 0.0;
-  for (const char32_t code : decode_utf8(text)) {
+  for (const char32_t code : code_points(text)) {
     width += code == U' ' ? kSpace : glyph_width(strokes_of(code)) + kGap;
   }
   return std::max(0.0, width - kGap) * style.cap_height / kCap;
+}
+
+std::vector<std::vector<Vec2>> text_strokes(std::string_view text, double cap_height) {
+  const double scale = cap_height / kCap;
+  std::vector<Stroke> result;
+  double pen = 0.0;
+  for (const char32_t code : code_points(text)) {
+    if (code == U' ') {
+      pen += kSpace * scale;
+      continue;
+    }
+    const std::string_view glyph = strokes_of(code);
+    for (Stroke& stroke : parse(glyph)) {
+      for (Vec2& p : stroke) p = Vec2(pen + scale * p.x(), -scale * (p.y() - 2.0));
+      result.push_back(std::move(stroke));
+    }
+    pen += (glyph_width(glyph) + kGap) * scale;
+  }
+  return result;
 }
 
 void draw_text(Image& image, double x, double y, std::string_view text, const TextStyle& style) {
@@ -246,7 +290,7 @@ void draw_text(Image& image, double x, double y, std::string_view text, const Te
   if (style.align != Align::kLeft) {
     pen -= text_width(text, style) * (style.align == Align::kCentre ? 0.5 : 1.0);
   }
-  for (const char32_t code : decode_utf8(text)) {
+  for (const char32_t code : code_points(text)) {
     if (code == U' ') {
       pen += kSpace * scale;
       continue;
