@@ -116,4 +116,22 @@ GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldP
   return rows;
 }
 
+const GraspIndices& index_catalogue() {
+  static const GraspIndices catalogue = [] {
+    GraspIndices rows;
+    append(rows, grip_indices({}));
+    append(rows, to_indices(StabilityResult{}));
+    append(rows, to_indices(EaseResult{}));
+    append(rows, to_indices(FitnessResult{}));
+    append(rows, to_indices(ComfortResult{}));
+    append(rows, effort_indices(EffortResult{}));
+    for (GraspIndex& row : rows) {
+      row.value.reset();
+      row.remark.clear();
+    }
+    return rows;
+  }();
+  return catalogue;
+}
+
 }  // namespace palmar

@@ -34,4 +34,8 @@ struct HeldProductState {
 GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldProductState& held,
                            const Vec3& mass_centre, const IndexOptions& options = {});
 
+/// The rows that grasp_indices() can have, without values: what a key means, its unit, which way is
+/// better. Bounds that depend on the grasp are not in it.
+const GraspIndices& index_catalogue();
+
 }  // namespace palmar
