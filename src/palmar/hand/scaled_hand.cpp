@@ -5,31 +5,39 @@
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/hand/hand_dimension.h"
+#include "palmar/hand/hand_map.h"
 
 namespace palmar {
 namespace {
 
-void scale(std::vector<Vec3>& points, double factor) {
-  for (Vec3& point : points) point *= factor;
-}
+/// Everything times one factor, about the origin of the hand frame.
+class UniformMap : public HandMap {
+ public:
+  UniformMap(const Hand& hand, double factor) : hand_(hand), factor_(factor) {}
 
-void scale(SegmentDimensions& size, double factor) {
-  size.length *= factor;
-  size.width *= factor;
-  size.thickness *= factor;
-}
+  std::vector<Vec3> skin() const override { return scaled(hand_.skin.vertices); }
+  Eigen::Matrix3d skin_stretch(int) const override { return stretch(); }
+  std::vector<Vec3> bone(int index) const override {
+    return scaled(hand_.bones[static_cast<std::size_t>(index)].mesh.vertices);
+  }
+  Vec3 joint(JointId id) const override { return factor_ * hand_.skeleton.joint(id).centre; }
+  Vec3 fingertip(Finger finger) const override {
+    return factor_ * hand_.skeleton.fingertips[static_cast<std::size_t>(finger)];
+  }
+  Vec3 in_palm(const Vec3& point) const override { return factor_ * point; }
+  Eigen::Matrix3d palm_stretch(const Vec3&) const override { return stretch(); }
 
-void scale(Skeleton& skeleton, double factor) {
-  for (Joint& joint : skeleton.joints) {
-    joint.centre *= factor;
-    for (JointDof& dof : joint.dofs) dof.centre *= factor;
+ private:
+  Eigen::Matrix3d stretch() const { return factor_ * Eigen::Matrix3d::Identity(); }
+  std::vector<Vec3> scaled(std::vector<Vec3> points) const {
+    for (Vec3& point : points) point *= factor_;
+    return points;
   }
-  ThumbCmc& cmc = skeleton.thumb_cmc;
-  for (CmcLimit* limit : {&cmc.flexion, &cmc.extension, &cmc.abduction, &cmc.adduction}) {
-    limit->t *= factor;
-  }
-  for (Vec3& tip : skeleton.fingertips) tip *= factor;
-}
+
+  const Hand& hand_;
+  double factor_;
+};
 
 }  // namespace
 
@@ -38,20 +46,13 @@ Hand scaled(const Hand& hand, double factor) {
     throw UsageError("scale of hand \"" + hand.name + "\" is " + std::to_string(factor) +
                      "; 0.2 to 5 is allowed");
   }
-  Hand result = hand;
-  scale(result.skin.vertices, factor);
-  scale(result.skeleton, factor);
-  for (JointWeights& weights : result.weights) scale(weights.bulge, factor);
-  result.thumb_ball.beta /= factor * factor;
-  scale(result.thumb_ball.marker, factor);
-  for (std::vector<Vec3>& coefficient : result.thumb_ball.coefficient) scale(coefficient, factor);
-  for (Bone& bone : result.bones) scale(bone.mesh.vertices, factor);
-  HandDimensions& size = result.dimensions;
-  size.hand_length *= factor;
-  size.hand_circumference *= factor;
-  size.hand_width *= factor;
-  size.hand_thickness *= factor;
-  for (SegmentDimensions& segment : size.segment) scale(segment, factor);
+  Hand result = mapped(hand, UniformMap(hand, factor));
+  for (const HandDimension dimension : all_hand_dimensions()) {
+    set_value(result.dimensions, dimension, factor * value_of(hand.dimensions, dimension));
+  }
+  SegmentDimensions& palm = result.dimensions.segment[static_cast<std::size_t>(Segment::kPalm)];
+  palm.width *= factor;
+  palm.thickness *= factor;
   result.provenance += "; scaled by " + std::to_string(factor);
   return result;
 }

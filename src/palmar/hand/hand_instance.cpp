@@ -1,0 +1,321 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/hand/hand_instance.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/hand/dimensions.h"
+#include "palmar/hand/segment_scaling.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kAllowedMiss = 0.1;  // mm
+constexpr double kSolvedMiss = 0.01;  // mm; a tenth of it, for what the search doesn't see
+constexpr int kMostIterations = 25;
+
+constexpr HandDimension kLength{DimensionKind::kHandLength};
+constexpr HandDimension kGirth{DimensionKind::kHandCircumference};
+constexpr HandDimension kWidth{DimensionKind::kHandWidth};
+constexpr HandDimension kThickness{DimensionKind::kHandThickness};
+constexpr HandDimension kPalmLength{DimensionKind::kSegmentLength, Segment::kPalm};
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+bool is_middle_finger(Segment s) { return finger_of(s) == Finger::kMiddle; }
+
+// The 46 numbers that make an instance: factors of 15 segments, and the bow of the palm.
+constexpr int kBow = 3 * kSegmentCount;
+constexpr int kFactorCount = kBow + 1;
+int factor_of(DimensionKind kind, Segment segment) {
+  const int s = 3 * static_cast<int>(segment);
+  if (kind == DimensionKind::kSegmentLength) return s;
+  return kind == DimensionKind::kSegmentWidth ? s + 1 : s + 2;
+}
+
+// The logarithm of a factor (the bow itself): a constant, or one of the unknowns.
+struct Factor {
+  double constant = 0.0;
+  int unknown = -1;
+};
+using FactorRules = std::array<Factor, kFactorCount>;
+
+struct Problem {
+  FactorRules rule;
+  std::vector<SizedDimension> equation;  ///< one per unknown
+  Eigen::VectorXd start;
+};
+
+class Targets {
+ public:
+  Targets(const std::vector<SizedDimension>& targets, const HandDimensions& base) : base_(base) {
+    const auto& all = all_hand_dimensions();
+    for (const SizedDimension& t : targets) {
+      const std::string name = name_of(t.dimension);
+      if (std::find(all.begin(), all.end(), t.dimension) == all.end()) {
+        throw UsageError("\"" + name + "\" is not one of the 47 dimensions of a hand");
+      }
+      const double own = value_of(base, t.dimension);
+      if (!(t.value >= 0.5 * own && t.value <= 2.0 * own)) {
+        throw UsageError(
+            fmt::format("{} is {:.1f} mm; {:.1f} to {:.1f} mm is allowed (half to "
+                        "twice the {:.1f} mm of the hand that is scaled)",
+                        name, t.value, 0.5 * own, 2.0 * own, own));
+      }
+      if (get(t.dimension)) {
+        throw UsageError(fmt::format("{} is given twice ({:.1f} and {:.1f} mm)", name,
+                                     *get(t.dimension), t.value));
+      }
+      sized_.push_back(t);
+    }
+  }
+
+  std::optional<double> get(HandDimension dimension) const {
+    for (const SizedDimension& t : sized_) {
+      if (t.dimension == dimension) return t.value;
+    }
+    return std::nullopt;
+  }
+  bool has(HandDimension dimension) const { return get(dimension).has_value(); }
+  double base(HandDimension dimension) const { return value_of(base_, dimension); }
+  /// Asked over base's own; 1 if it isn't driven.
+  double ratio(HandDimension dimension) const {
+    const auto value = get(dimension);
+    return value ? *value / base(dimension) : 1.0;
+  }
+  const std::vector<SizedDimension>& all() const { return sized_; }
+
+ private:
+  HandDimensions base_;
+  std::vector<SizedDimension> sized_;
+};
+
+}  // namespace
+
+struct HandInstanceMaker::Impl {
+  explicit Impl(const Hand& base) : hand(&base), scaling(base), dimensions(measure_hand(base)) {}
+
+  Problem pose(const Targets& targets) const;
+  Eigen::MatrixXd sensitivity(const Problem& problem) const;
+  static SegmentScales scales(const Problem& problem, const Eigen::VectorXd& u);
+  HandDimensions measured(const SegmentScales& scales) const {
+    return measure_hand({scaling.skin(scales), hand->skin.triangles}, scaling.skeleton(scales));
+  }
+
+  const Hand* hand;
+  SegmentScaling scaling;
+  HandDimensions dimensions;
+};
+
+Problem HandInstanceMaker::Impl::pose(const Targets& t) const {
+  Problem problem;
+  std::vector<double> start;
+  const auto drive = [&](int factor, HandDimension dimension, double value) {
+    problem.rule[at(factor)].unknown = static_cast<int>(start.size());
+    problem.equation.push_back({dimension, *t.get(dimension)});
+    start.push_back(value);
+  };
+  const auto follow = [&](int factor, double constant) {
+    problem.rule[at(factor)] = {constant, -1};
+  };
+  const bool has_length = t.has(kLength);
+  const bool has_girth = t.has(kGirth) || t.has(kWidth) || t.has(kThickness);
+  double girth = 0.0;
+  for (const HandDimension d : {kThickness, kWidth, kGirth}) {
+    if (t.has(d)) girth = std::log(t.ratio(d));
+  }
+  double length = std::log(t.ratio(kLength));
+  if (!has_length) length = girth;
+  if (!has_girth) girth = length;
+
+  // Across the palm.
+  const int across = factor_of(DimensionKind::kSegmentWidth, Segment::kPalm);
+  const int thick = factor_of(DimensionKind::kSegmentThickness, Segment::kPalm);
+  follow(across, girth);
+  follow(thick, girth);
+  if (t.has(kWidth)) drive(across, kWidth, std::log(t.ratio(kWidth)));
+  if (t.has(kThickness)) drive(thick, kThickness, std::log(t.ratio(kThickness)));
+  if (t.has(kGirth)) {
+    if (t.has(kWidth) && t.has(kThickness)) {
+      drive(kBow, kGirth, 0.0);
+    } else if (t.has(kWidth)) {
+      drive(thick, kGirth, girth);
+    } else {
+      drive(across, kGirth, girth);
+      if (!t.has(kThickness)) problem.rule[at(thick)] = problem.rule[at(across)];
+    }
+  } else if (t.has(kWidth) && !t.has(kThickness)) {
+    problem.rule[at(thick)] = problem.rule[at(across)];
+  } else if (t.has(kThickness) && !t.has(kWidth)) {
+    problem.rule[at(across)] = problem.rule[at(thick)];
+  }
+
+  // Along: what shares the rest of the hand length first.
+  double rest_asked = t.get(kLength).value_or(0.0), rest_own = t.base(kLength);
+  bool is_shared = false;
+  for (const Segment s :
+       {Segment::kPalm, Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal}) {
+    const HandDimension d{DimensionKind::kSegmentLength, s};
+    if (!t.has(d)) {
+      is_shared = true;
+      continue;
+    }
+    rest_asked -= *t.get(d);
+    rest_own -= t.base(d);
+  }
+  const bool solves_length = has_length && is_shared;
+  const double rest = solves_length ? rest_asked / rest_own : 1.0;
+  if (!(rest >= 0.5 && rest <= 2.0)) {
+    throw UsageError(fmt::format(
+        "hand_length is {:.1f} mm, which leaves {:.1f} mm for the parts of it that are not given "
+        "(palm, segments of the middle finger); {:.1f} to {:.1f} mm is allowed (half to twice the "
+        "{:.1f} mm of the hand that is scaled)",
+        *t.get(kLength), rest_asked, 0.5 * rest_own, 2.0 * rest_own, rest_own));
+  }
+  int of_rest = -1;
+  for (int i = 0; i < kSegmentCount; ++i) {
+    const auto s = static_cast<Segment>(i);
+    const HandDimension d{DimensionKind::kSegmentLength, s};
+    const int factor = factor_of(DimensionKind::kSegmentLength, s);
+    const bool is_part = s == Segment::kPalm || is_middle_finger(s);
+    const bool is_of_rest = is_part || (t.has(kPalmLength) && finger_of(s) != Finger::kThumb);
+    if (t.has(d)) {
+      drive(factor, d, std::log(t.ratio(d)));
+    } else if (solves_length && is_of_rest) {
+      if (of_rest < 0) {
+        drive(factor, kLength, std::log(rest));
+        of_rest = problem.rule[at(factor)].unknown;
+      }
+      problem.rule[at(factor)].unknown = of_rest;
+    } else {
+      follow(factor, length);
+    }
+    if (s == Segment::kPalm) continue;
+    for (const DimensionKind kind :
+         {DimensionKind::kSegmentWidth, DimensionKind::kSegmentThickness}) {
+      if (t.has({kind, s})) {
+        drive(factor_of(kind, s), {kind, s}, std::log(t.ratio({kind, s})));
+      } else {
+        follow(factor_of(kind, s), girth);
+      }
+    }
+  }
+  problem.start = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start));
+  return problem;
+}
+
+SegmentScales HandInstanceMaker::Impl::scales(const Problem& problem, const Eigen::VectorXd& u) {
+  SegmentScales result;
+  const auto value = [&](int factor) {
+    const Factor& rule = problem.rule[at(factor)];
+    return rule.unknown >= 0 ? u[rule.unknown] : rule.constant;
+  };
+  for (int s = 0; s < kSegmentCount; ++s) {
+    result.segment[at(s)] = {std::exp(value(3 * s)), std::exp(value(3 * s + 1)),
+                             std::exp(value(3 * s + 2))};
+  }
+  result.bow = value(kBow);
+  return result;
+}
+
+// d log(dimension) / d unknown by forward differences: every column is one measurement, but what
+// belongs to different fingers is told apart and shares one.
+Eigen::MatrixXd HandInstanceMaker::Impl::sensitivity(const Problem& problem) const {
+  const auto n = static_cast<Eigen::Index>(problem.equation.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+  constexpr double kStep = 1e-3;
+  const HandDimensions start = measured(scales(problem, problem.start));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    Eigen::VectorXd u = problem.start;
+    u[j] += kStep;
+    const HandDimensions moved = measured(scales(problem, u));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const HandDimension d = problem.equation[static_cast<std::size_t>(i)].dimension;
+      result(i, j) = std::log(value_of(moved, d) / value_of(start, d)) / kStep;
+    }
+  }
+  return result;
+}
+
+HandInstanceMaker::HandInstanceMaker(const Hand& base) : impl_(std::make_unique<Impl>(base)) {}
+HandInstanceMaker::~HandInstanceMaker() = default;
+HandInstanceMaker::HandInstanceMaker(HandInstanceMaker&&) noexcept = default;
+HandInstanceMaker& HandInstanceMaker::operator=(HandInstanceMaker&&) noexcept = default;
+
+HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets) const {
+  const Targets asked(targets, impl_->dimensions);
+  const Problem problem = impl_->pose(asked);
+  const auto n = static_cast<Eigen::Index>(problem.equation.size());
+  Eigen::VectorXd u = problem.start;
+  HandInstance instance;
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual(n), last_residual, last_step;
+  HandDimensions measured = impl_->dimensions;
+  while (true) {
+    const SegmentScales scales = Impl::scales(problem, u);
+    measured = impl_->measured(scales);
+    double miss = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const SizedDimension& d = problem.equation[static_cast<std::size_t>(i)];
+      const double value = value_of(measured, d.dimension);
+      residual[i] = std::log(value / d.value);
+      miss = std::max(miss, std::abs(value - d.value));
+    }
+    if (!(miss > kSolvedMiss) || instance.iterations == kMostIterations) {
+      instance.hand = impl_->scaling.hand(scales);
+      break;
+    }
+    if (instance.iterations == 0) {
+      jacobian = impl_->sensitivity(problem);
+    } else {
+      // Broyden (1965): the least change that explains the last step.
+      jacobian += (residual - last_residual - jacobian * last_step) * last_step.transpose() /
+                  last_step.squaredNorm();
+    }
+    last_residual = residual;
+    constexpr double kLongestStep = 0.3;  // of a logarithm
+    last_step = -jacobian.partialPivLu().solve(residual);
+    last_step = last_step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
+    u += last_step;
+    ++instance.iterations;
+  }
+  instance.hand.dimensions = measured;
+  std::string worst;
+  std::string list;
+  for (const SizedDimension& t : targets) {
+    const double value = value_of(measured, t.dimension);
+    instance.driven.push_back({t.dimension, t.value, value});
+    const double miss = std::abs(value - t.value);
+    if (!(miss <= instance.largest_miss)) {
+      instance.largest_miss = miss;
+      worst = fmt::format("{} of {:.1f} mm comes out as {:.2f} mm", name_of(t.dimension), t.value,
+                          value);
+    }
+    list += fmt::format("{}{} {:.2f}", list.empty() ? "" : ", ", name_of(t.dimension), t.value);
+  }
+  if (!(instance.largest_miss <= kAllowedMiss)) {
+    if (asked.has(kLength) && worst.starts_with("hand_length")) {
+      throw UsageError(
+          "dimensions contradict each other: palm and middle finger are all given, and with them " +
+          worst + "; 0.1 mm is allowed");
+    }
+    throw NumericalError("hand \"" + impl_->hand->name + "\": " + worst +
+                         " beside the other dimensions given; 0.1 mm is allowed");
+  }
+  if (!list.empty()) instance.hand.provenance += "; scaled segment by segment to " + list + " mm";
+  return instance;
+}
+
+HandInstance make_hand_instance(const Hand& base, const std::vector<SizedDimension>& targets) {
+  return HandInstanceMaker(base).make(targets);
+}
+
+}  // namespace palmar
