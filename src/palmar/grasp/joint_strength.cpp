@@ -38,30 +38,49 @@ double flexion_strength(Dof dof) {
   }
 }
 
-std::optional<double> grip_strength(Sex sex, double age) {
-  struct Row {
-    double until;       // years
-    double men, women;  // kg
-  };
-  constexpr std::array<Row, 14> kRows = {{{20, 47.5, 31.2},
-                                          {25, 50.3, 32.5},
-                                          {30, 51.9, 33.3},
-                                          {35, 53.5, 33.7},
-                                          {40, 53.6, 34.3},
-                                          {45, 53.4, 34.8},
-                                          {50, 53.0, 34.1},
-                                          {55, 50.9, 32.9},
-                                          {60, 49.3, 31.2},
-                                          {65, 47.6, 29.9},
-                                          {70, 45.3, 28.6},
-                                          {75, 42.7, 27.3},
-                                          {80, 39.0, 24.9},
-                                          {91, 34.0, 22.1}}};
-  if (!(age >= 17.0)) return std::nullopt;
-  for (const Row& row : kRows) {
-    if (age < row.until) return 9.80665 * (sex == Sex::kMale ? row.men : row.women);
+namespace {
+
+struct GripRow {
+  double until;            // years
+  double men, men_sd;      // kg
+  double women, women_sd;  // kg
+};
+constexpr std::array<GripRow, 14> kGripRows = {{{20, 47.5, 9.7, 31.2, 6.2},
+                                                {25, 50.3, 8.3, 32.5, 5.4},
+                                                {30, 51.9, 8.3, 33.3, 5.6},
+                                                {35, 53.5, 8.3, 33.7, 5.8},
+                                                {40, 53.6, 9.8, 34.3, 6.1},
+                                                {45, 53.4, 9.4, 34.8, 6.2},
+                                                {50, 53.0, 8.6, 34.1, 6.1},
+                                                {55, 50.9, 8.5, 32.9, 5.9},
+                                                {60, 49.3, 8.4, 31.2, 5.5},
+                                                {65, 47.6, 8.5, 29.9, 5.3},
+                                                {70, 45.3, 7.4, 28.6, 5.2},
+                                                {75, 42.7, 7.5, 27.3, 4.9},
+                                                {80, 39.0, 7.9, 24.9, 4.5},
+                                                {91, 34.0, 7.6, 22.1, 4.1}}};
+constexpr double kNewtonPerKg = 9.80665;
+
+const GripRow* grip_row(double age) {
+  if (!(age >= 17.0)) return nullptr;
+  for (const GripRow& row : kGripRows) {
+    if (age < row.until) return &row;
   }
-  return std::nullopt;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<double> grip_strength(Sex sex, double age) {
+  const GripRow* row = grip_row(age);
+  if (row == nullptr) return std::nullopt;
+  return kNewtonPerKg * (sex == Sex::kMale ? row->men : row->women);
+}
+
+std::optional<double> grip_strength_sd(Sex sex, double age) {
+  const GripRow* row = grip_row(age);
+  if (row == nullptr) return std::nullopt;
+  return kNewtonPerKg * (sex == Sex::kMale ? row->men_sd : row->women_sd);
 }
 
 double strength_share(Grip grip) {

@@ -25,6 +25,9 @@ enum class Sex { kMale, kFemale };
 /// stature 175-179 cm (men), 165-169 cm (women); Steiber 2016, PLoS ONE 11(10):e0163917. Nothing
 /// below 17 or above 90 years.
 std::optional<double> grip_strength(Sex sex, double age);
+/// Standard deviation [N] among people of that sex, age and stature; same source (mean less its
+/// threshold of one deviation).
+std::optional<double> grip_strength_sd(Sex sex, double age);
 
 /// Share of the grip strength that a grip reaches: 1 for power grips; pinches after Mathiowetz et
 /// al. 1985 (men of 30-34 years): key 117.4, palmar 109.9, tip 78.3 N of 541.8 N grip; tripod and

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palmar/hand/hand_dimension.h"
@@ -28,6 +29,9 @@ enum class SamplingDesign {
   kBoundary,        ///< mean and points of an ellipse of two driving dimensions
   kPercentiles      ///< hands whose driving dimensions all stand at a percentile of their stratum
 };
+/// "random", "latin_hypercube", "boundary", "percentiles".
+std::string name_of(SamplingDesign design);
+std::optional<SamplingDesign> sampling_design_named(std::string_view name);
 
 struct SamplingOptions {
   SamplingDesign design = SamplingDesign::kLatinHypercube;
@@ -40,7 +44,21 @@ struct SamplingOptions {
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
-/// Hand k is the same whatever the number of threads or of other hands (kRandom).
+/// Hands of a population. Throws UsageError for a bad population or bad options.
+/// - kRandom: hand k comes from stream k of the seed alone, so it is the same whatever the number
+/// of
+///   other hands.
+/// - kLatinHypercube: strata get hands by their shares; within one, correlated draws are moved into
+///   layers by their ranks (Stein 1987, Technometrics 29:143-151), so that every driving dimension
+///   has one hand in each layer and the correlations stay.
+/// - kBoundary: of every stratum its mean and points on the ellipse of its first two driving
+///   dimensions that holds the stated share of people (chi-square, 2 degrees of freedom). In
+///   standard scores its axes are "both larger" (0 deg) and "the second larger, the first smaller"
+///   (90 deg); other driving dimensions are the mean given the two.
+/// - kPercentiles: every driving dimension at the percentile, which as a whole is rarer than its
+///   name says.
+/// Residuals are drawn in the first two only. Grip strength: mean and deviation by sex and age
+/// (joint_strength.h), independent of hand size; the mean in the last two.
 std::vector<HandSample> sample_hands(const Population& population, const SamplingOptions& options);
 
 }  // namespace palmar
