@@ -50,6 +50,8 @@ struct StudySetting {
   std::optional<double> grip_force;      ///< N
   std::optional<double> strength_share;  ///< of the person's own grip strength
   double friction = 0.5;
+  /// Whether a grasp comes to rest; if not, it stays as the hand was closed (Xie 2014).
+  bool is_balanced = true;
   ContactModel model;
   bool indices = true;
   /// Where a product is held: found once on the mean hand and kept for all (only pressing in and

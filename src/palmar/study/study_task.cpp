@@ -204,6 +204,7 @@ class StudySubject {
     options.grasp.power.placement = placement;
     options.grasp.precision.placement = placement;
 
+    options.balance.is_on = setting.is_balanced;
     options.balance.friction = setting.friction;
     options.balance.load.weight = product.mass * kGravity;
     options.balance.grip_force = setting.grip_force;
