@@ -232,18 +232,15 @@ Hand read_exact(const Reader& reader, const Json& json) {
   return hand;
 }
 
-}  // namespace
-
-void write_hand(const std::string& path, const Hand& hand) {
+Glb make_glb(const Hand& hand) {
   Glb glb = make_hand_scene(hand);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion;
   Json exact = write_exact(glb, hand);
   glb.json["extras"]["palmar_hand"] = std::move(exact);
-  write_glb(glb, path);
+  return glb;
 }
 
-Hand read_hand(const std::string& path) {
-  const Glb glb = read_glb(path);
+Hand hand_of(const Glb& glb, const std::string& path) {
   const auto extras = glb.json.find("extras");
   if (extras == glb.json.end() || !extras->is_object() ||
       !extras->contains("palmar_hand_version") ||
@@ -267,6 +264,21 @@ Hand read_hand(const std::string& path) {
     if (std::string(e.what()).rfind(path, 0) == 0) throw;
     reader.fail(e.what());
   }
+}
+
+}  // namespace
+
+void write_hand(const std::string& path, const Hand& hand) { write_glb(make_glb(hand), path); }
+
+Hand read_hand(const std::string& path) { return hand_of(read_glb(path), path); }
+
+std::string format_hand(const Hand& hand) {
+  const std::vector<std::uint8_t> bytes = format_glb(make_glb(hand));
+  return {bytes.begin(), bytes.end()};
+}
+
+Hand parse_hand(const std::string& bytes, const std::string& name) {
+  return hand_of(parse_glb({bytes.begin(), bytes.end()}, name), name);
 }
 
 }  // namespace palmar

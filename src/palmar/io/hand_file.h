@@ -29,4 +29,8 @@ void write_hand(const std::string& path, const Hand& hand);
 /// indices, weights outside [0, 1], numbers that are not finite).
 Hand read_hand(const std::string& path);
 
+/// The bytes of such a file, the same for the same hand; and back, `name` standing for the path.
+std::string format_hand(const Hand& hand);
+Hand parse_hand(const std::string& bytes, const std::string& name);
+
 }  // namespace palmar

@@ -222,7 +222,10 @@ std::string stratum_toml(const Stratum& stratum) {
 }  // namespace
 
 Population read_population(const std::string& path) {
-  const std::string text = read_file(path, kMaxBytes);
+  return parse_population(read_file(path, kMaxBytes), path);
+}
+
+Population parse_population(const std::string& text, const std::string& path) {
   const toml::table values = parse_toml(text, path);
   const TomlSection file(path, "", values);
   file.allow({"version", "name", "title", "source", "cautions", "stratum"});

@@ -47,6 +47,8 @@ inline constexpr int kPopulationFileVersion = 1;
 /// unknown key, dimension or word (with the nearest known one), a value of the wrong kind or out of
 /// range, and what Population::check() refuses.
 Population read_population(const std::string& path);
+/// The same from the text of such a file.
+Population parse_population(const std::string& text, const std::string& path);
 
 /// Reads back to the same value. Throws OutputError.
 void write_population(const std::string& path, const Population& population);

@@ -1,0 +1,24 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/study/study_plan.h"
+
+namespace palmar {
+
+/// The plan as one JSON object, every number with the shortest digits that read back to the same
+/// double: equal plans give equal text. Keys carry units.
+std::string format_plan(const StudyPlan& plan);
+
+/// Reads it back. Throws InputError; `name` stands in front.
+StudyPlan parse_plan(const std::string& text, const std::string& name);
+
+/// What a plan has otherwise than another, for people, at most `most` lines: "product \"handle\":
+/// size was 1, now 1.1". Empty for equal plans.
+std::vector<std::string> plan_differences(const StudyPlan& before, const StudyPlan& now,
+                                          std::size_t most = 5);
+
+}  // namespace palmar
