@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/hand/hand.h"
+#include "palmar/population/hand_sample.h"
 
 namespace palmar {
 
@@ -21,12 +22,27 @@ struct HandProfile {
   double size_factor = 1.0;          ///< of every length: children
   std::string source;                ///< where the figures come from
   void check() const;                ///< throws UsageError: field, value, allowed range
+  bool operator==(const HandProfile&) const = default;
 };
 
-/// The profiles that come with Palmar, "none" first.
+/// The profiles that come with Palmar, "none" first; docs/method/profiles.md tells where their
+/// figures come from and which are choices.
 const std::vector<HandProfile>& built_in_profiles();
 
-/// The hand with its ranges of motion reduced to `range_share`, about the relaxed posture.
+/// The built-in profile of that name. Throws UsageError naming the nearest one.
+const HandProfile& profile_named(const std::string& name);
+
+/// The hand with its ranges of motion reduced to `range_share`, about the relaxed posture. Every
+/// posture that both hands can take looks the same on both: the thumb's limit postures move inwards
+/// with its range. Throws UsageError unless 0 < range_share <= 1.
 Hand with_range_share(const Hand& hand, double range_share);
+
+/// The person with the profile's size and strength; range, gloves and nails stand in the profile
+/// and count where the hand is posed.
+HandSample with_profile(const HandSample& sample, const HandProfile& profile);
+
+/// The hand with the profile's range and size. Where the hand is made from a sample, give the
+/// sample its size (with_profile()) and the hand its range (with_range_share()) instead.
+Hand with_profile(const Hand& hand, const HandProfile& profile);
 
 }  // namespace palmar
