@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
+#include <utility>
 
 #include "palmar/core/error.h"
 
@@ -30,6 +30,11 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
   const auto height = [&](int i) {
     return normal.dot(mesh.vertices[static_cast<std::size_t>(i)] - point);
   };
+  std::vector<char> side(mesh.vertices.size());
+  for (std::size_t i = 0; i < side.size(); ++i) {
+    side[i] = normal.dot(mesh.vertices[i] - point) >= 0.0 ? 1 : 0;
+  }
+  const auto is_above = [&](int i) { return side[static_cast<std::size_t>(i)] != 0; };
   // Each crossed triangle is a piece from the edge through which its corners, walked in order,
   // leave the normal's side to the edge through which they come back.
   struct Piece {
@@ -37,23 +42,28 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
   };
   const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
   std::vector<Piece> piece;
-  std::map<Edge, std::vector<int>> starting;
-  std::map<Edge, int> ending;
   for (const Triangle& t : mesh.triangles) {
+    if (is_above(t[1]) == is_above(t[0]) && is_above(t[2]) == is_above(t[0])) continue;
     Piece p{};
     int crossings = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      const bool is_above_a = height(a) >= 0.0, is_above_b = height(b) >= 0.0;
-      if (is_above_a == is_above_b) continue;
-      (is_above_b ? p.to : p.from) = edge(a, b);
+      if (is_above(a) == is_above(b)) continue;
+      (is_above(b) ? p.to : p.from) = edge(a, b);
       ++crossings;
     }
     if (crossings != 2) continue;
-    starting[p.from].push_back(static_cast<int>(piece.size()));
-    ++ending[p.to];
     piece.push_back(p);
   }
+  // Pieces by the edge where they start, and the edges where any ends.
+  std::vector<std::pair<Edge, std::size_t>> starting;
+  std::vector<Edge> ending;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    starting.emplace_back(piece[i].from, i);
+    ending.push_back(piece[i].to);
+  }
+  std::sort(starting.begin(), starting.end());
+  std::sort(ending.begin(), ending.end());
   const auto corner = [&](const Edge& e) -> Vec3 {
     const Vec3& a = mesh.vertices[static_cast<std::size_t>(e[0])];
     const Vec3& b = mesh.vertices[static_cast<std::size_t>(e[1])];
@@ -73,19 +83,20 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
         return curve;
       }
       curve.point.push_back(corner(end));
-      const auto next = starting.find(end);
-      if (next == starting.end()) return curve;
-      const auto& options = next->second;
-      const auto free = std::find_if(options.begin(), options.end(),
-                                     [&](int i) { return !is_used[static_cast<std::size_t>(i)]; });
-      if (free == options.end()) return curve;
-      current = static_cast<std::size_t>(*free);
+      auto next =
+          std::lower_bound(starting.begin(), starting.end(), std::pair(end, std::size_t{0}));
+      while (next != starting.end() && next->first == end && is_used[next->second]) ++next;
+      if (next == starting.end() || next->first != end) return curve;
+      current = next->second;
     }
+  };
+  const auto ends = [&](const Edge& e) {
+    return std::binary_search(ending.begin(), ending.end(), e);
   };
   std::vector<SectionCurve> curves;
   // Open curves first, from their ends; what is left are loops.
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    if (!is_used[i] && !ending.contains(piece[i].from)) curves.push_back(follow(i));
+    if (!is_used[i] && !ends(piece[i].from)) curves.push_back(follow(i));
   }
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (!is_used[i]) curves.push_back(follow(i));

@@ -92,6 +92,33 @@ double PlaneCurve::signed_distance(const Vec2& p) const {
   return side * std::sqrt(best);
 }
 
+class HandCreases::RayDistances {
+ public:
+  RayDistances(const TriangleMesh& skin, const HandCreases& creases)
+      : skin_(skin), creases_(creases) {
+    for (std::vector<double>& of_ray : distance_) of_ray.assign(skin.vertices.size(), -1.0);
+  }
+
+  double of(int ray, std::size_t vertex) {
+    double& result = distance_[at(ray)][vertex];
+    if (result >= 0.0) return result;
+    const auto& node = creases_.ray_[at(ray)].node;
+    double best = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 along = node[k + 1] - node[k];
+      const Vec3 arm = skin_.vertices[vertex] - node[k];
+      const double t = std::clamp(arm.dot(along) / along.squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (arm - t * along).squaredNorm());
+    }
+    return result = std::sqrt(best);
+  }
+
+ private:
+  const TriangleMesh& skin_;
+  const HandCreases& creases_;
+  std::array<std::vector<double>, kFingerCount> distance_;
+};
+
 HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
   const Vec3 wrist = skeleton.joint(JointId::kWrist).centre;
   sign_ =
@@ -115,7 +142,8 @@ HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
   const Vec3 to_mcp = ray_[at(static_cast<int>(Finger::kMiddle))].node[1] - wrist;
   scale_ = to_mcp.norm() / kTypicalWristToMcp;
   wrist_ = {wrist + kWristShare * to_mcp, Vec3::UnitY()};
-  for (int k = 0; k + 1 < kFingerCount; ++k) web_[at(k)] = find_web(skin, k);
+  RayDistances distance(skin, *this);
+  for (int k = 0; k + 1 < kFingerCount; ++k) web_[at(k)] = find_web(skin, k, distance);
   lay_web();
   lay_finger_creases();
   lay_palm_creases();
@@ -188,28 +216,36 @@ double HandCreases::palmar_height(const Vec3& point) const {
   return sum / weight;
 }
 
-Vec3 HandCreases::find_web(const TriangleMesh& skin, int k) const {
+Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distance) const {
   const Ray& a = ray_[at(k)];
   const Ray& b = ray_[at(k + 1)];
   const Vec3 distal =
       ((a.node[3] - a.node[2]).normalized() + (b.node[3] - b.node[2]).normalized()).normalized();
   const Vec3 foot = 0.5 * (a.node[1] + b.node[1]);
-  std::vector<double> nearer(skin.vertices.size());
-  for (std::size_t i = 0; i < nearer.size(); ++i) {
-    nearer[i] = project(a, skin.vertices[i]).distance - project(b, skin.vertices[i]).distance;
-  }
+  const auto nearer = [&](std::size_t i) { return distance.of(k, i) - distance.of(k + 1, i); };
+  std::vector<double> level;  // of the vertices; no point of an edge lies higher than its ends
+  level.reserve(skin.vertices.size());
+  for (const Vec3& v : skin.vertices) level.push_back(distal.dot(v - foot));
   double best = -std::numeric_limits<double>::max();
   Vec3 web = Vec3::Zero();
-  for (const Triangle& t : skin.triangles) {
-    for (int e = 0; e < 3; ++e) {
-      const std::size_t i = at(t[at(e)]), j = at(t[at((e + 1) % 3)]);
-      if ((nearer[i] < 0.0) == (nearer[j] < 0.0)) continue;
-      const double s = nearer[i] / (nearer[i] - nearer[j]);
-      const Vec3 p = (1.0 - s) * skin.vertices[i] + s * skin.vertices[j];
-      const double height = distal.dot(p - foot);
-      if (height <= best) continue;
-      best = height;
-      web = p;
+  // What lies proximal of the joints only matters to tell how far it is from being a web.
+  for (const double least : {0.0, best}) {
+    if (best > 0.0) break;
+    for (const Triangle& t : skin.triangles) {
+      const double highest = std::max({level[at(t[0])], level[at(t[1])], level[at(t[2])]});
+      if (highest < std::max(best, least)) continue;
+      for (int e = 0; e < 3; ++e) {
+        const std::size_t i = at(t[at(e)]), j = at(t[at((e + 1) % 3)]);
+        if (std::max(level[i], level[j]) < std::max(best, least)) continue;
+        const double a_nearer = nearer(i), b_nearer = nearer(j);
+        if ((a_nearer < 0.0) == (b_nearer < 0.0)) continue;
+        const double s = a_nearer / (a_nearer - b_nearer);
+        const Vec3 p = (1.0 - s) * skin.vertices[i] + s * skin.vertices[j];
+        const double height = distal.dot(p - foot);
+        if (height <= best) continue;
+        best = height;
+        web = p;
+      }
     }
   }
   if (best <= 0.0) {

@@ -92,7 +92,9 @@ class HandCreases {
   };
   OnRay project(const Ray& ray, const Vec3& point) const;
   int nearest_ray(const Vec3& point) const;
-  Vec3 find_web(const TriangleMesh& skin, int k) const;
+  /// Distances of the skin's vertices from the rays, mm; only those asked for are computed.
+  class RayDistances;
+  Vec3 find_web(const TriangleMesh& skin, int k, RayDistances& distance) const;
   void lay_web();
   void lay_finger_creases();
   void lay_palm_creases();

@@ -3,6 +3,7 @@
 #include "palmar/hand/dimensions.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -67,6 +68,10 @@ Vec3 crease_middle(const TriangleMesh& skin, const CreasePlane& crease, const Ve
   return crease.point + c.highest * outwards;
 }
 
+std::string object_of(Segment segment) {
+  return "segment \"" + std::string(name_of(segment)) + "\"";
+}
+
 double in_palm_plane(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
 
 }  // namespace
@@ -99,39 +104,41 @@ HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton) 
   const Chord thickness = chord(heads, head3, palmar, radial);
   d.hand_thickness = std::max(0.0, thickness.highest - thickness.lowest);
 
+  std::array<Vec3, kSegmentCount> palmar_middle;  // of each segment's proximal crease
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     const auto chain = segments_of(finger);
-    for (std::size_t k = 0; k < 3 && chain[k]; ++k) {
-      const Segment segment = *chain[k];
-      const std::string object = "segment \"" + std::string(name_of(segment)) + "\"";
-      const bool is_last = k == 2 || !chain[k + 1];
-      const CreasePlane& from = creases.proximal_crease(segment);
-      // Nodes of the finger's ray: the palmar direction turns at the joints.
-      const int node = static_cast<int>(k) + (finger == Finger::kThumb ? 2 : 1);
-      const Vec3 from_middle =
-          crease_middle(skin, from, creases.palmar_direction(finger, node), object);
+    // Nodes of the finger's ray: the palmar direction turns at the joints.
+    const int first_node = finger == Finger::kThumb ? 2 : 1;
+    const int count = chain[2] ? 3 : 2;
+    for (int k = 0; k < count; ++k) {
+      const Segment segment = *chain[static_cast<std::size_t>(k)];
+      palmar_middle[static_cast<std::size_t>(segment)] =
+          crease_middle(skin, creases.proximal_crease(segment),
+                        creases.palmar_direction(finger, first_node + k), object_of(segment));
+    }
+    for (int k = 0; k < count; ++k) {
+      const Segment segment = *chain[static_cast<std::size_t>(k)];
+      const Vec3& from = creases.proximal_crease(segment).point;
       const Vec3& tip = skeleton.fingertips[static_cast<std::size_t>(f)];
       Vec3 to = tip, to_middle = tip;
-      if (!is_last) {
-        const CreasePlane& next = creases.proximal_crease(*chain[k + 1]);
-        to = next.point;
-        to_middle = crease_middle(skin, next, creases.palmar_direction(finger, node + 1), object);
+      if (k + 1 < count) {
+        const Segment next = *chain[static_cast<std::size_t>(k + 1)];
+        to = creases.proximal_crease(next).point;
+        to_middle = palmar_middle[static_cast<std::size_t>(next)];
       }
-      const Vec3 along = (to - from.point).normalized();
-      const Vec3 mean_palmar =
-          creases.palmar_direction(finger, node) + creases.palmar_direction(finger, node + 1);
+      const Vec3 along = (to - from).normalized();
+      const Vec3 mean_palmar = creases.palmar_direction(finger, first_node + k) +
+                               creases.palmar_direction(finger, first_node + k + 1);
       const Vec3 across = along.cross(mean_palmar).normalized();
-      const Vec3 half_way = 0.5 * (from.point + to);
-      const SectionCurve middle = curve_round(skin, half_way, along, object);
+      const SectionCurve middle = curve_round(skin, 0.5 * (from + to), along, object_of(segment));
       d.segment[static_cast<std::size_t>(segment)] = {
-          .length = along.dot(to_middle - from_middle),
+          .length = along.dot(to_middle - palmar_middle[static_cast<std::size_t>(segment)]),
           .width = extent(middle.point, across),
           .thickness = extent(middle.point, across.cross(along))};
     }
   }
-  const Vec3 base = crease_middle(skin, creases.proximal_crease(Segment::kMiddleProximal),
-                                  creases.palmar_direction(Finger::kMiddle, 1), "segment \"palm\"");
+  const Vec3& base = palmar_middle[static_cast<std::size_t>(Segment::kMiddleProximal)];
   d.segment[static_cast<std::size_t>(Segment::kPalm)] = {
       .length = base.y() - wrist.point.y(), .width = d.hand_width, .thickness = d.hand_thickness};
   return d;
