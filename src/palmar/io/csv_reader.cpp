@@ -56,10 +56,11 @@ std::vector<std::string> split(const CsvFile& file, int line, std::string_view t
   return result;
 }
 
-void check_header(const CsvFile& file) {
+void check_header(const CsvFile& file, CsvStyle style) {
   std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < file.header.size(); ++i) {
     if (file.header[i].empty()) {
+      if (style == CsvStyle::kSpreadsheet) continue;
       file.fail(file.header_line, "column " + std::to_string(i + 1) + " has no name");
     }
     const auto [other, is_new] = seen.emplace(lower(file.header[i]), i);
@@ -95,7 +96,7 @@ double CsvFile::number(const Row& row, std::size_t column) const {
   return *value;
 }
 
-CsvFile parse_csv(std::string_view text, const std::string& path) {
+CsvFile parse_csv(std::string_view text, const std::string& path, CsvStyle style) {
   CsvFile file;
   file.path = path;
   if (!looks_like_text(text.substr(0, 4096))) {
@@ -104,17 +105,25 @@ CsvFile parse_csv(std::string_view text, const std::string& path) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   TextScanner scanner(text);
-  char delimiter = ',';
+  std::optional<char> told;
   while (const auto line = scanner.next_line()) {
     if (trimmed(*line).empty() || line->front() == '#') continue;
     if (file.header.empty()) {
-      delimiter = line->find(';') != line->npos ? ';' : line->find('\t') != line->npos ? '\t' : ',';
+      if (style == CsvStyle::kSpreadsheet && !told && line->size() == 5 &&
+          lower(*line).starts_with("sep=")) {
+        told = line->back();
+        continue;
+      }
+      file.separator = told                             ? *told
+                       : line->find(';') != line->npos  ? ';'
+                       : line->find('\t') != line->npos ? '\t'
+                                                        : ',';
       file.header_line = scanner.line();
-      file.header = split(file, scanner.line(), *line, delimiter);
-      check_header(file);
+      file.header = split(file, scanner.line(), *line, file.separator);
+      check_header(file, style);
       continue;
     }
-    CsvFile::Row row{scanner.line(), split(file, scanner.line(), *line, delimiter)};
+    CsvFile::Row row{scanner.line(), split(file, scanner.line(), *line, file.separator)};
     if (row.cells.size() != file.header.size()) {
       file.fail(row.line, "it has " + std::to_string(row.cells.size()) + " cells; the header has " +
                               std::to_string(file.header.size()));

@@ -18,6 +18,7 @@ struct CsvFile {
     std::vector<std::string> cells;
   };
   std::string path;
+  char separator = ',';
   int header_line = 0;
   std::vector<std::string> header;
   std::vector<Row> rows;
@@ -30,9 +31,15 @@ struct CsvFile {
   double number(const Row& row, std::size_t column) const;
 };
 
+/// kStrict: every column has a name. kSpreadsheet: as programs write tables for people, where
+/// columns may lack a name (row numbers, empty columns at the end) and a first line "sep=;" tells
+/// the separator.
+enum class CsvStyle { kStrict, kSpreadsheet };
+
 /// Throws InputError naming file and line: no text, no header, a row longer or shorter than the
-/// header, a quote that isn't closed, a column twice or without a name.
-CsvFile parse_csv(std::string_view text, const std::string& path);
+/// header, a quote that isn't closed, a column twice or (kStrict) without a name.
+CsvFile parse_csv(std::string_view text, const std::string& path,
+                  CsvStyle style = CsvStyle::kStrict);
 CsvFile read_csv(const std::string& path);
 
 }  // namespace palmar
