@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/section.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/segment_scaling.h"
 
@@ -21,6 +23,9 @@ namespace {
 constexpr double kAllowedMiss = 0.1;  // mm
 constexpr double kSolvedMiss = 0.01;  // mm; a tenth of it, for what the search doesn't see
 constexpr int kMostIterations = 25;
+// Borders of the palm a third thinner to half thicker beside its middle: what hands of one breadth
+// and thickness may differ in.
+constexpr double kLeastBow = -0.4, kMostBow = 0.8;
 
 constexpr HandDimension kLength{DimensionKind::kHandLength};
 constexpr HandDimension kGirth{DimensionKind::kHandCircumference};
@@ -53,6 +58,25 @@ struct Problem {
   std::vector<SizedDimension> equation;  ///< one per unknown
   Eigen::VectorXd start;
 };
+
+// Points of the section that measure_hand() lays the tape round.
+std::vector<Vec3> section_at_heads(const TriangleMesh& skin, const Skeleton& skeleton) {
+  const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
+  const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
+  const Vec3 radial = (head2 - head5).normalized();
+  const Vec3 palmar = (Vec3::UnitZ() - radial.z() * radial).normalized();
+  const Vec3 between = 0.5 * (head2 + head5);
+  std::vector<Vec3> points;
+  double nearest = std::numeric_limits<double>::max();
+  for (const SectionCurve& curve :
+       plane_section(skin, between, palmar.cross(radial).normalized())) {
+    const double d = (curve_centre(curve) - between).norm();
+    if (d >= nearest) continue;
+    nearest = d;
+    points = curve.point;
+  }
+  return points;
+}
 
 class Targets {
  public:
@@ -101,7 +125,11 @@ class Targets {
 }  // namespace
 
 struct HandInstanceMaker::Impl {
-  explicit Impl(const Hand& base) : hand(&base), scaling(base), dimensions(measure_hand(base)) {}
+  explicit Impl(const Hand& base)
+      : hand(&base),
+        scaling(base),
+        dimensions(measure_hand(base)),
+        knuckles(section_at_heads(base.skin, base.skeleton)) {}
 
   Problem pose(const Targets& targets) const;
   Eigen::MatrixXd sensitivity(const Problem& problem) const;
@@ -110,9 +138,14 @@ struct HandInstanceMaker::Impl {
     return measure_hand({scaling.skin(scales), hand->skin.triangles}, scaling.skeleton(scales));
   }
 
+  /// Tape round the knuckles of the palm stretched by these factors.
+  double girth(const SegmentScales& scales) const;
+  void check_girth(const Problem& problem, const Targets& targets) const;
+
   const Hand* hand;
   SegmentScaling scaling;
   HandDimensions dimensions;
+  std::vector<Vec3> knuckles;  ///< section through the heads of metacarpals II and V
 };
 
 Problem HandInstanceMaker::Impl::pose(const Targets& t) const {
@@ -226,23 +259,128 @@ SegmentScales HandInstanceMaker::Impl::scales(const Problem& problem, const Eige
   return result;
 }
 
-// d log(dimension) / d unknown by forward differences: every column is one measurement, but what
-// belongs to different fingers is told apart and shares one.
+double HandInstanceMaker::Impl::girth(const SegmentScales& scales) const {
+  const auto& joints = hand->skeleton;
+  const auto moved = [&](const Vec3& p) { return scaling.in_palm(p, scales); };
+  const Vec3 radial = moved(joints.joint(JointId::kIndexMcp).centre) -
+                      moved(joints.joint(JointId::kLittleMcp).centre);
+  std::vector<Vec3> points;
+  points.reserve(knuckles.size());
+  for (const Vec3& p : knuckles) points.push_back(moved(p));
+  const Vec3 palmar = Vec3::UnitZ() - radial.z() / radial.squaredNorm() * radial;
+  return palmar::girth(points, palmar.cross(radial).normalized());
+}
+
+// d log(dimension) / d unknown at the start, from what is known of the shape: a segment is made of
+// parts of links, its width and thickness follow their factors, and the girth is that of the
+// stretched section. What this leaves out (webs, slanted creases) Broyden's updates find.
 Eigen::MatrixXd HandInstanceMaker::Impl::sensitivity(const Problem& problem) const {
   const auto n = static_cast<Eigen::Index>(problem.equation.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-  constexpr double kStep = 1e-3;
-  const HandDimensions start = measured(scales(problem, problem.start));
-  for (Eigen::Index j = 0; j < n; ++j) {
-    Eigen::VectorXd u = problem.start;
-    u[j] += kStep;
-    const HandDimensions moved = measured(scales(problem, u));
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const HandDimension d = problem.equation[static_cast<std::size_t>(i)].dimension;
-      result(i, j) = std::log(value_of(moved, d) / value_of(start, d)) / kStep;
+  const SegmentScales start = scales(problem, problem.start);
+  const auto along = [&](Segment s) { return start.segment[static_cast<std::size_t>(s)].along; };
+  const auto add = [&](Eigen::Index i, int factor, double slope) {
+    const int unknown = problem.rule[at(factor)].unknown;
+    if (unknown >= 0) result(i, unknown) += slope;
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const HandDimension d = problem.equation[static_cast<std::size_t>(i)].dimension;
+    const double value = problem.equation[static_cast<std::size_t>(i)].value;
+    switch (d.kind) {
+      case DimensionKind::kHandLength: {
+        double fingers = 0.0;
+        const auto chain = segments_of(Finger::kMiddle);
+        const auto& parts = scaling.parts(Finger::kMiddle);
+        for (std::size_t k = 0; k < 3; ++k) {
+          double link = 0.0;
+          for (std::size_t s = 0; s < 3; ++s) link += parts[s][k] * along(*chain[k]);
+          add(i, factor_of(DimensionKind::kSegmentLength, *chain[k]), link / value);
+          fingers += link;
+        }
+        add(i, factor_of(DimensionKind::kSegmentLength, Segment::kPalm),
+            std::max(0.1, 1.0 - fingers / value));
+        break;
+      }
+      case DimensionKind::kHandCircumference: {
+        constexpr double kStep = 1e-4;
+        const double before = girth(start);
+        for (const int factor :
+             {factor_of(DimensionKind::kSegmentWidth, Segment::kPalm),
+              factor_of(DimensionKind::kSegmentThickness, Segment::kPalm), kBow}) {
+          SegmentScales moved = start;
+          auto& palm = moved.segment[static_cast<std::size_t>(Segment::kPalm)];
+          if (factor == kBow)
+            moved.bow += kStep;
+          else if (factor == factor_of(DimensionKind::kSegmentWidth, Segment::kPalm))
+            palm.across *= std::exp(kStep);
+          else
+            palm.thickness *= std::exp(kStep);
+          add(i, factor, std::log(girth(moved) / before) / kStep);
+        }
+        break;
+      }
+      case DimensionKind::kHandWidth:
+        add(i, factor_of(DimensionKind::kSegmentWidth, Segment::kPalm), 1.0);
+        break;
+      case DimensionKind::kHandThickness:
+        add(i, factor_of(DimensionKind::kSegmentThickness, Segment::kPalm), 1.0);
+        break;
+      case DimensionKind::kSegmentLength: {
+        if (d.segment == Segment::kPalm) {
+          add(i, factor_of(d.kind, d.segment), 1.0);
+          break;
+        }
+        const Finger finger = *finger_of(d.segment);
+        const auto chain = segments_of(finger);
+        const auto& parts = scaling.parts(finger);
+        for (std::size_t s = 0; s < 3; ++s) {
+          if (chain[s] != d.segment) continue;
+          double whole = 0.0;
+          for (std::size_t k = 0; k < 3 && chain[k]; ++k) whole += parts[s][k] * along(*chain[k]);
+          for (std::size_t k = 0; k < 3 && chain[k]; ++k) {
+            add(i, factor_of(d.kind, *chain[k]), parts[s][k] * along(*chain[k]) / whole);
+          }
+        }
+        break;
+      }
+      case DimensionKind::kSegmentWidth:
+      case DimensionKind::kSegmentThickness:
+        add(i, factor_of(d.kind, d.segment), 1.0);
+        break;
     }
   }
   return result;
+}
+
+// Beside a given breadth, how far a tape can reach is a matter of thickness, and the other way
+// round; beside both, of the borders of the palm.
+void HandInstanceMaker::Impl::check_girth(const Problem& problem, const Targets& targets) const {
+  if (!targets.has(kGirth) || (!targets.has(kWidth) && !targets.has(kThickness))) return;
+  SegmentScales least = scales(problem, problem.start), most = least;
+  auto& thin = least.segment[static_cast<std::size_t>(Segment::kPalm)];
+  auto& thick = most.segment[static_cast<std::size_t>(Segment::kPalm)];
+  std::string beside;
+  if (targets.has(kWidth) && targets.has(kThickness)) {
+    least.bow = kLeastBow;
+    most.bow = kMostBow;
+    beside = fmt::format("hand_width {:.1f} mm and hand_thickness {:.1f} mm", *targets.get(kWidth),
+                         *targets.get(kThickness));
+  } else if (targets.has(kWidth)) {
+    thin.thickness = 0.5 * thin.across;
+    thick.thickness = 2.0 * thick.across;
+    beside = fmt::format("hand_width {:.1f} mm", *targets.get(kWidth));
+  } else {
+    thin.across = 0.5 * thin.thickness;
+    thick.across = 2.0 * thick.thickness;
+    beside = fmt::format("hand_thickness {:.1f} mm", *targets.get(kThickness));
+  }
+  const double lowest = girth(least), highest = girth(most);
+  const double asked = *targets.get(kGirth);
+  if (asked >= lowest && asked <= highest) return;
+  throw UsageError(fmt::format(
+      "hand_circumference is {:.1f} mm; beside {} {:.1f} to {:.1f} mm is allowed (for a hand of "
+      "that section)",
+      asked, beside, lowest, highest));
 }
 
 HandInstanceMaker::HandInstanceMaker(const Hand& base) : impl_(std::make_unique<Impl>(base)) {}
@@ -253,6 +391,7 @@ HandInstanceMaker& HandInstanceMaker::operator=(HandInstanceMaker&&) noexcept = 
 HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets) const {
   const Targets asked(targets, impl_->dimensions);
   const Problem problem = impl_->pose(asked);
+  impl_->check_girth(problem, asked);
   const auto n = static_cast<Eigen::Index>(problem.equation.size());
   Eigen::VectorXd u = problem.start;
   HandInstance instance;

@@ -59,11 +59,21 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
     }
     const Vec3 base = creases.proximal_crease(ray.segment[0]).point;
     ray.base = std::clamp(ray.along[0].dot(base - ray.node[0]), 0.0, 0.8 * ray.level[1]);
+    std::array<double, 4> crease{};  // arc lengths, and that of the tip
     for (int k = 0; k < ray.links; ++k) {
       const Vec3& from = creases.proximal_crease(ray.segment[at(k)]).point;
       const Vec3 to = k + 1 < ray.links ? creases.proximal_crease(ray.segment[at(k + 1)]).point
                                         : ray.node[at(ray.links)];
       ray.middle[at(k)] = place(f, 0.5 * (from + to)).level;
+      crease[at(k)] = k == 0 ? ray.base : place(f, from).level;
+    }
+    crease[at(ray.links)] = ray.level[at(ray.links)];
+    for (int s = 0; s < ray.links; ++s) {
+      for (int k = 0; k < ray.links; ++k) {
+        const double begin = std::max(crease[at(s)], ray.level[at(k)]);
+        const double end = std::min(crease[at(s + 1)], ray.level[at(k + 1)]);
+        ray.parts[at(s)][at(k)] = std::max(0.0, end - begin);
+      }
     }
     ray.rounding[0] = 0.5 * std::max(1e-3, std::min(ray.base, ray.middle[0] - ray.base));
     for (int k = 1; k < ray.links; ++k) {

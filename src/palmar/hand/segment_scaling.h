@@ -39,8 +39,11 @@ class SegmentScaling {
  public:
   explicit SegmentScaling(const Hand& hand);
 
-  /// Base crease of a finger above its MCP (thumb: MP) joint, along the proximal phalanx, mm.
-  double base_level(Finger finger) const { return ray_[static_cast<std::size_t>(finger)].base; }
+  /// What of each segment of a finger, from crease to crease, lies on which link of its chain:
+  /// [segment][link], mm. A link follows the factor `along` of the segment of the same number, the
+  /// first one only beyond the base crease.
+  using Parts = std::array<std::array<double, 3>, 3>;
+  const Parts& parts(Finger finger) const { return ray_[static_cast<std::size_t>(finger)].parts; }
 
   std::vector<Vec3> skin(const SegmentScales& scales) const;
   std::vector<Vec3> skin_at(const std::vector<int>& vertices, const SegmentScales& scales) const;
@@ -56,13 +59,14 @@ class SegmentScaling {
     int links = 3;
     std::array<Segment, 3> segment{};
     std::array<JointId, 3> joint{};
-    std::array<Vec3, 4> node;          ///< joints and tip
-    std::array<Vec3, 3> along;         ///< of each link, unit
-    std::array<Vec3, 4> cut;           ///< normals of the planes between links
-    std::array<Vec3, 4> palmar;        ///< at the nodes
-    std::array<double, 4> level{};     ///< arc length of the nodes
-    double base = 0.0;                 ///< arc length of the base crease
-    std::array<double, 3> middle{};    ///< arc length of the segments' middles
+    std::array<Vec3, 4> node;        ///< joints and tip
+    std::array<Vec3, 3> along;       ///< of each link, unit
+    std::array<Vec3, 4> cut;         ///< normals of the planes between links
+    std::array<Vec3, 4> palmar;      ///< at the nodes
+    std::array<double, 4> level{};   ///< arc length of the nodes
+    double base = 0.0;               ///< arc length of the base crease
+    std::array<double, 3> middle{};  ///< arc length of the segments' middles
+    Parts parts{};
     std::array<double, 3> rounding{};  ///< half lengths of the rounded corners of y'
   };
   /// A point laid out on a ray; nothing of it depends on the factors.
