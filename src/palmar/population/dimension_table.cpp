@@ -157,6 +157,18 @@ DimensionTable where(const DimensionTable& table, const std::string& text) {
   return with_rows(table, rows);
 }
 
+DimensionTable having(const DimensionTable& table, const std::vector<std::string>& names) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table.lines.size(); ++row) {
+    const bool is_whole = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      const TableColumn& column = table.column(name);
+      return column.is_number ? column.values[row].has_value() : !column.texts[row].empty();
+    });
+    if (is_whole) rows.push_back(row);
+  }
+  return with_rows(table, rows);
+}
+
 std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& by,
                                 std::vector<std::string>& notes) {
   if (by.empty()) return {{"all", table}};

@@ -48,6 +48,9 @@ struct DimensionTable {
 /// UsageError naming the condition: not understood, no such column, no subject left.
 DimensionTable where(const DimensionTable& table, const std::string& condition);
 
+/// Only the subjects that have a value in each of these columns; perhaps none.
+DimensionTable having(const DimensionTable& table, const std::vector<std::string>& names);
+
 struct TableGroup {
   std::string name;  ///< the cell's text; "20-29" of ages; "all" without groups
   DimensionTable table;

@@ -1,0 +1,151 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/population/table_population.h"
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/population/table_statistics.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kSmallGroup = 30;
+constexpr double kSignificant = 0.05;
+
+/// The regression that the population keeps of one dimension.
+const TableRegression& kept(const std::vector<TableRegression>& regressions,
+                            const std::string& name) {
+  for (const TableRegression& r : regressions) {
+    if (r.name != name || r.predictors.size() < 2) continue;
+    const bool all_help =
+        std::all_of(r.fit.slopes.begin(), r.fit.slopes.end(),
+                    [](const Coefficient& c) { return c.p_value < kSignificant; });
+    if (all_help) return r;
+  }
+  return regressions[static_cast<std::size_t>(best_predictor(regressions, name))];
+}
+
+std::string sentence(const TableRegression& r, const std::string& source) {
+  return source + ": linear regression, n = " + std::to_string(r.fit.n) +
+         ", R2 = " + std::to_string(r.fit.r2).substr(0, 5);
+}
+
+Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driving,
+                   const std::string& source, std::vector<std::string>& cautions) {
+  Stratum stratum;
+  stratum.name = group.name;
+  const DimensionTable table = having(group.table, driving);
+  if (table.subjects() < 3) {
+    table.fail(0, table.column(driving[0]),
+               std::to_string(table.subjects()) + " subjects of \"" + group.name +
+                   "\" have all driving dimensions; at least 3 are needed");
+  }
+  for (const ColumnDescription& d : describe(table, driving)) {
+    DrivingDimension dimension;
+    dimension.dimension = *hand_dimension_named(d.name);
+    dimension.mean = d.summary->mean;
+    dimension.sd = d.summary->sd;
+    dimension.source = source + ", n = " + std::to_string(d.summary->n);
+    stratum.driving.push_back(dimension);
+  }
+  stratum.correlation = Eigen::MatrixXd::Identity(1, 1);
+  if (driving.size() > 1) stratum.correlation = correlate(table, driving).r;
+  std::vector<std::string> others;
+  for (const TableColumn& column : table.columns) {
+    if (!column.dimension || !column.is_number) continue;
+    if (std::find(driving.begin(), driving.end(), column.name) != driving.end()) continue;
+    const auto known = std::count_if(column.values.begin(), column.values.end(),
+                                     [](const auto& value) { return value.has_value(); });
+    if (known == 0) continue;
+    others.push_back(column.name);
+  }
+  const std::vector<TableRegression> regressions =
+      others.empty() ? std::vector<TableRegression>{} : regress(table, driving, others);
+  for (const std::string& name : others) {
+    const TableRegression& r = kept(regressions, name);
+    DimensionRegression regression;
+    regression.dimension = *hand_dimension_named(name);
+    regression.intercept = r.fit.intercept.estimate;
+    for (std::size_t k = 0; k < r.predictors.size(); ++k) {
+      regression.terms.push_back(
+          {*hand_dimension_named(r.predictors[k]), r.fit.slopes[k].estimate});
+    }
+    regression.residual_sd = r.fit.residual_sd;
+    regression.evidence = Evidence::kMeasured;
+    regression.source = sentence(r, source);
+    stratum.regressions.push_back(std::move(regression));
+  }
+  if (table.subjects() < kSmallGroup) {
+    cautions.push_back(group.name + ": only " + std::to_string(table.subjects()) +
+                       " subjects; means and deviations are uncertain");
+  }
+  return stratum;
+}
+
+/// What is known of all people of a group: their sex and mean age.
+void add_sex_and_age(const DimensionTable& table, Stratum& stratum, bool& is_mixed) {
+  for (const TableColumn& column : table.columns) {
+    if (column.quantity == Quantity::kAge && column.is_number) {
+      std::vector<double> ages;
+      for (const auto& age : column.values) {
+        if (age) ages.push_back(*age);
+      }
+      if (!ages.empty()) stratum.age = summarise(ages).mean;
+    }
+    if ((column.name != "sex" && column.name != "gender") || column.is_number) continue;
+    std::optional<Sex> sex;
+    bool is_one = true;
+    for (const std::string& text : column.texts) {
+      const auto one = sex_of_text(text);
+      if (!one) continue;
+      if (sex && *sex != *one) is_one = false;
+      sex = one;
+    }
+    if (is_one) {
+      stratum.sex = sex;
+    } else {
+      is_mixed = true;
+    }
+  }
+}
+
+}  // namespace
+
+Population population_of_table(const std::vector<TableGroup>& groups,
+                               const std::vector<std::string>& driving, const std::string& name,
+                               const std::string& title) {
+  Population population;
+  population.name = name;
+  population.title = title;
+  std::vector<std::string> names;
+  for (const std::string& driver : driving) {
+    const TableColumn& column = groups.front().table.column(driver);
+    if (!column.dimension) {
+      throw UsageError("a population is driven by dimensions of a hand; \"" + column.header +
+                       "\" is none that Palmar knows");
+    }
+    names.push_back(column.name);
+  }
+  int subjects = 0;
+  for (const TableGroup& group : groups) subjects += group.table.subjects();
+  // The path of the file says nothing to others; its name does.
+  const std::string& path = groups.front().table.source;
+  population.source =
+      path.substr(path.find_last_of('/') + 1) + ", " + std::to_string(subjects) + " subjects";
+  bool is_mixed = false;
+  for (const TableGroup& group : groups) {
+    Stratum stratum = stratum_of(group, names, population.source, population.cautions);
+    stratum.share = static_cast<double>(group.table.subjects()) / subjects;
+    add_sex_and_age(group.table, stratum, is_mixed);
+    population.strata.push_back(std::move(stratum));
+  }
+  if (is_mixed) {
+    population.cautions.push_back(
+        "men and women in one normal distribution; part the table by sex for two");
+  }
+  population.check();
+  return population;
+}
+
+}  // namespace palmar
