@@ -1,0 +1,47 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palmar/contact/friction.h"
+#include "palmar/study/grasp_indices.h"
+#include "palmar/study/study_record.h"
+
+namespace palmar {
+
+/// Smallest share s of its ranges of motion, taken about the relaxed posture, with which the hand
+/// can take the posture: every angle lies within with_range_share(hand, s). `hand` has its whole
+/// range. Above 1 for a posture that even that hand can't take.
+double range_share_of(const Hand& hand, const Posture& posture);
+
+/// Smallest grip strength of a dynamometer [N] with which a hand holds the load by friction. With
+/// p the contact's normal forces and lambda the least factor on them, their shares kept, whose
+/// friction cones balance the load (least_grip_force(), stability.h)
+///
+///     strength = grip_force(lambda p) / strength_share(grip).
+///
+/// Where no such factor is, the forces of least sum take its place, shared out as suits the load;
+/// where none hold it, the result is infinite. 0 without load.
+struct StrengthQuestion {
+  double friction = 0.5;  ///< of skin on the product
+  ProductLoad load;
+  Vec3 mass_centre = Vec3::Zero();  ///< product frame, mm; unless the load has its own
+  Grip grip = Grip::kMediumWrap;
+};
+double strength_needed(const Hand& hand, const Product& product, const ContactResult& contact,
+                       const StrengthQuestion& question);
+
+/// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
+/// one with the least room. A nail is a flat strip that leaves the fingertip's dorsal half (a
+/// quarter of the distal segment's thickness dorsal of the tip) straight along the distal phalanx,
+/// two thirds of the segment wide; its room ends where it meets the product or skin of the palm or
+/// of another finger. Curved nails, and nails that bend, have more.
+inline constexpr double kLongestNail = 30.0;  // mm
+double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
+                    const Rigid3& product_from_hand, const Product& product);
+
+/// All three of one grasp. `hand` has its whole range of motion, even where the grasp was found
+/// with less of it.
+GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProductState& held,
+                      const StrengthQuestion& question);
+
+}  // namespace palmar
