@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "palmar/statistics/rank_correlation.h"
+#include "palmar/statistics/correlation.h"
 
 namespace palmar {
 namespace {
@@ -120,7 +120,7 @@ std::optional<SizeDependence> size_dependence(const StudyResults& results,
   }
   if (found.size.size() < 3 || is_constant(found.size)) return std::nullopt;
   found.fit = fit_line(found.size, found.value);
-  found.rank_correlation = rank_correlation(found.size, found.value);
+  found.rank_correlation = spearman(found.size, found.value).r;
   return found;
 }
 

@@ -1,104 +1,164 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// Case G3: contact area over hands of different length. Until hands are sampled, they are the
-// template at different sizes.
+// What 30 hands of the thesis' population do: case G3 (contact area on a cylinder) and the part of
+// G6 that compares prisms over the same hands. Run by the study engine, as a user would.
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numeric>
 #include <string>
+#include <vector>
 
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/core/error.h"
+#include "palmar/population/built_in_populations.h"
+#include "palmar/product/primitives.h"
+#include "palmar/statistics/correlation.h"
+#include "palmar/statistics/paired_test.h"
+#include "palmar/statistics/summary.h"
+#include "palmar/study/study_results.h"
+#include "palmar/study/study_run.h"
+#include "palmar/study/study_statistics.h"
 #include "palmar/study/validation_cases.h"
 
 namespace palmar {
 namespace {
 
-constexpr int kHands = 30;
-constexpr double kMeanLength = 184.0, kLengthDeviation = 10.4;  // mm; Xie 2014, section 5.5.1
+constexpr std::uint64_t kSeed = 2014;  // of the hands; chosen before the first run
 
-/// x with a share p of a standard normal variable below it.
-double normal_quantile(double p) {
-  double low = -8.0, high = 8.0;
-  for (int i = 0; i < 60; ++i) {
-    const double x = 0.5 * (low + high);
-    (0.5 * std::erfc(-x / std::sqrt(2.0)) < p ? low : high) = x;
+/// 30 hands of the thesis' population, every one with proportions of its own.
+StudyPlan thesis_plan() {
+  StudyPlan plan;
+  plan.name = "validation";
+  plan.seed = kSeed;
+  StudyPopulation people{.population = population_named("xie2014"), .sampling = {}};
+  people.sampling.design = SamplingDesign::kLatinHypercube;
+  people.sampling.hands = 30;
+  people.sampling.seed = kSeed;
+  for (HandSample& sample : sample_hands(people.population, people.sampling)) {
+    plan.hands.push_back({.population = 0, .sample = std::move(sample)});
   }
-  return 0.5 * (low + high);
+  plan.populations = {std::move(people)};
+  plan.profiles = {HandProfile{}};
+  plan.grips = {std::nullopt};
+  return plan;
 }
 
-/// Value below which a share of the sorted values lies, interpolated.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  const double rest = at - static_cast<double>(i);
-  return rest > 0.0 ? (1.0 - rest) * sorted[i] + rest * sorted[i + 1] : sorted[i];
+void add_product(StudyPlan& plan, StudyInputs& inputs, Product product, const std::string& name,
+                 const std::string& posture_of = "") {
+  StudyProduct one;
+  one.name = one.family = name;
+  one.file = "made: " + name;
+  one.posture_of = posture_of;
+  plan.products.push_back(std::move(one));
+  inputs.products.push_back(std::move(product));
 }
 
-/// Spearman's rank correlation of values with their own order, for values without ties.
-double correlation_with_order(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  double sum = 0.0;
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    const double d = static_cast<double>(rank) - static_cast<double>(order[rank]);
-    sum += d * d;
+StudySetting setting(const std::string& name) {
+  StudySetting result;
+  result.name = name;
+  result.indices = false;
+  return result;
+}
+
+StudyResults run(const StudyPlan& plan, const StudyInputs& inputs, ValidationBench& bench,
+                 const std::string& what) {
+  StudyResults results{.plan = plan, .records = {}};
+  StudyRunOptions options;
+  for (std::int64_t i = 0; i < task_count(plan); ++i) options.tasks.push_back(i);
+  Progress progress = bench.progress();
+  progress.report = [&](double share, const std::string& activity) {
+    bench.update(share, what + ", " + activity);
+  };
+  run_study(
+      plan, inputs, options, [&](const StudyRecord& r) { results.records.push_back(r); }, progress);
+  std::sort(results.records.begin(), results.records.end(),
+            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  return results;
+}
+
+std::vector<double> plain(const std::vector<HandValue>& values) {
+  std::vector<double> result;
+  for (const HandValue& one : values) result.push_back(one.value);
+  return result;
+}
+
+void add_areas(ValidationRows& rows, const StudyResults& results, int setting) {
+  const std::string preset = results.plan.settings[static_cast<std::size_t>(setting)].name;
+  StudyCondition condition;
+  condition.setting = setting;
+  const std::vector<HandValue> values = values_of(results, condition, 0, "contact_area_mm2");
+  std::vector<double> lengths;
+  for (const HandValue& one : values) {
+    lengths.push_back(size_of(results.plan.hands[static_cast<std::size_t>(one.hand)],
+                              {DimensionKind::kHandLength})
+                          .value());
   }
-  const auto n = static_cast<double>(values.size());
-  return 1.0 - 6.0 * sum / (n * (n * n - 1.0));
-}
-
-void add_areas(ValidationRows& rows, const std::string& preset, const std::vector<double>& areas) {
+  const std::vector<double> areas = plain(values);
   std::vector<double> sorted = areas;
   std::sort(sorted.begin(), sorted.end());
   const std::string source = "Xie 2014, 5.5.2: 3700 to 4000 mm2, 30 sampled hands";
-  rows.push_back(judge(preset + ", median of 30 scaled templates", "mm2", quantile(sorted, 0.5),
-                       between(3300.0, 4400.0, source)));
+  rows.push_back(judge(preset + ", hands that hold it", "", static_cast<double>(areas.size()),
+                       at_least(30.0, "30 hands in the thesis")));
+  rows.push_back(
+      judge(preset + ", median", "mm2", quantile(sorted, 0.5), between(3300.0, 4400.0, source)));
   rows.push_back(judge(preset + ", quartile range", "mm2",
                        quantile(sorted, 0.75) - quantile(sorted, 0.25), at_most(500.0, source)));
   rows.push_back(judge(preset + ", rank correlation with hand length", "",
-                       correlation_with_order(areas), at_least(0.5, source)));
+                       spearman(areas, lengths).r, at_least(0.5, source)));
 }
 
 }  // namespace
 
 ValidationRows validate_contact_area(ValidationBench& bench) {
+  StudyPlan plan = thesis_plan();
+  plan.settings = {setting("palmar"), setting("xie2014")};
+  // The thesis' hands are as they were closed; ours come to rest.
+  plan.settings[1].model = xie2014_model();
+  plan.settings[1].is_balanced = false;
+  StudyInputs inputs{.base = bench.shared_hand(), .products = {}};
   const HeldCylinder& template_grasp = bench.cylinder(35.0);
-  const Product& product = template_grasp.product;
-  const double template_length = measure_hand(bench.hand()).hand_length;
-  std::vector<double> coupled, thesis;
-  for (int i = 0; i < kHands; ++i) {
-    const double length = kMeanLength + kLengthDeviation * normal_quantile((i + 0.5) / kHands);
-    bench.update(static_cast<double>(i) / kHands,
-                 "case G3, hand " + std::to_string(i + 1) + " of " + std::to_string(kHands));
-    const auto hand = std::make_shared<const Hand>(scaled(bench.hand(), length / template_length));
-    // The thesis' hands are as they were closed; ours come to rest.
-    const Grasp closed = close_power_grasp(*hand, product);
-    const auto area = [&](const PreparedHand& prepared, const Grasp& grasp) {
-      return solve_hand_contact(prepared, pose_skin(*hand, grasp.posture), grasp.product_from_hand,
-                                *product.distance)
-          .total.area;
-    };
-    const PreparedHand prepared(hand);
-    Grasp rest = closed;
-    balance_grasp(prepared, product, rest);
-    coupled.push_back(area(prepared, rest));
-    thesis.push_back(area(PreparedHand(hand, xie2014_model()), closed));
-  }
+  add_product(plan, inputs, template_grasp.product, "cylinder 35 mm");
+  const StudyResults results = run(plan, inputs, bench, "case G3");
+
   ValidationRows rows;
-  add_areas(rows, "palmar", coupled);
-  add_areas(rows, "xie2014", thesis);
-  const std::string source = "mode of 30 sampled hands, Xie 2014, 5.5.2";
-  rows.push_back(judge("palmar, template as it is, length " +
-                           std::to_string(static_cast<int>(std::lround(template_length))) + " mm",
-                       "mm2", bench.contact(template_grasp, {}).total.area,
-                       information(3875.0, source)));
-  rows.push_back(not_built("30 hands sampled with their own proportions", "populations: issue 5"));
+  add_areas(rows, results, 0);
+  add_areas(rows, results, 1);
+  rows.push_back(judge("palmar, the template as it is", "mm2",
+                       bench.contact(template_grasp, {}).total.area,
+                       information(3875.0, "mode of 30 sampled hands, Xie 2014, 5.5.2")));
+  return rows;
+}
+
+ValidationRows validate_fillets_over_hands(ValidationBench& bench, const Product& sharp,
+                                           const Product& round) {
+  StudyPlan plan = thesis_plan();
+  plan.settings = {setting("palmar")};
+  StudyInputs inputs{.base = bench.shared_hand(), .products = {}};
+  add_product(plan, inputs, sharp, "r3");
+  add_product(plan, inputs, round, "r10", "r3");
+  const StudyResults results = run(plan, inputs, bench, "case G6");
+
+  ValidationRows rows;
+  const std::string source = "Xie 2014, 5.5.3: 30 hands, t-test p < 0.01";
+  for (const auto& [key, name] : {std::pair{"peak_pressure_cells_mpa", "peak on cells"},
+                                  {"peak_pressure_mpa", "peak of vertices"},
+                                  {"mean_pressure_mpa", "mean pressure"}}) {
+    const std::vector<double> r3 = plain(values_of(results, {}, 0, key));
+    const std::vector<double> r10 = plain(values_of(results, {}, 1, key));
+    const std::string start = std::string("30 hands, ") + name;
+    if (r3.size() != r10.size() || r3.size() < 2) {
+      throw NumericalError("case G6: " + std::to_string(r3.size()) + " hands hold the prism with " +
+                           "3 mm fillets, " + std::to_string(r10.size()) + " the other");
+    }
+    const PairedTest test = paired_t_test(r3, r10);
+    rows.push_back(judge(start + ", r3 less r10", "MPa", test.difference, at_least(0.0, source)));
+    rows.push_back(judge(start + ", paired t-test, p", "", test.p_value, at_most(0.01, source)));
+    if (std::string(key) == "peak_pressure_cells_mpa") {
+      std::vector<double> sorted = r3;
+      std::sort(sorted.begin(), sorted.end());
+      rows.push_back(judge(start + ", r3, 95 % of hands below", "MPa", quantile(sorted, 0.95),
+                           at_most(0.7, "Xie 2014, figures of chapter 5")));
+    }
+  }
   return rows;
 }
 
