@@ -175,6 +175,7 @@ Json setting_json(const StudySetting& setting) {
           {"grip_force_n", optional_json(setting.grip_force)},
           {"strength_share", optional_json(setting.strength_share)},
           {"friction", setting.friction},
+          {"is_balanced", setting.is_balanced},
           {"kernel", kKernels[static_cast<std::size_t>(model.kernel)]},
           {"tissue_model", kTissues[static_cast<std::size_t>(model.tissue)]},
           {"coupling", kCouplings[static_cast<std::size_t>(model.coupling)]},
@@ -192,6 +193,7 @@ StudySetting setting_from(const Json& json) {
   setting.grip_force = optional_from(json.at("grip_force_n"));
   setting.strength_share = optional_from(json.at("strength_share"));
   setting.friction = json.at("friction");
+  setting.is_balanced = json.at("is_balanced");
   setting.model.kernel = word_from<Kernel>(json.at("kernel"), kKernels);
   setting.model.tissue = word_from<TissueModel>(json.at("tissue_model"), kTissues);
   setting.model.coupling = word_from<RegionCoupling>(json.at("coupling"), kCouplings);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <new>
 #include <optional>
@@ -13,9 +14,11 @@
 
 #include "palmar/contact/footprint.h"
 #include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/grasp/grasp_place.h"
 #include "palmar/grasp/grip_force.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/hand/scaled_hand.h"
+#include "palmar/hand/hand_instance.h"
 #include "palmar/study/assessment.h"
 
 namespace palmar {
@@ -78,22 +81,26 @@ void take_contact(const ContactResult& contact, StudyRecord& record) {
   record.skin_pressure = sparse(contact.pressure);
 }
 
-/// The hand scaled to a person's size.
-Hand hand_of_size(const Hand& base, const std::vector<SizedDimension>& dimensions) {
-  for (const SizedDimension& one : dimensions) {
-    if (one.dimension.kind != DimensionKind::kHandLength) continue;
-    return scaled(base, one.value / base.dimensions.hand_length);
+bool is_finite(const StudyRecord& record) {
+  for (const double value :
+       {record.force, record.grip_force, record.area, record.peak_pressure,
+        record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,
+        record.demand.grip_strength, record.demand.nail_room}) {
+    if (!std::isfinite(value)) return false;
   }
-  return base;
+  return true;
 }
 
 }  // namespace
 
 struct StudyBench::Impl {
-  Impl(const StudyPlan& the_plan, const StudyInputs& the_inputs)
-      : plan(the_plan), inputs(the_inputs) {
-    plan.check();
+  static const Hand& base_of(const StudyInputs& inputs) {
     if (inputs.base == nullptr) throw UsageError("study: has no hand to scale");
+    return *inputs.base;
+  }
+  Impl(const StudyPlan& the_plan, const StudyInputs& the_inputs)
+      : plan(the_plan), inputs(the_inputs), maker(base_of(the_inputs)) {
+    plan.check();
     if (inputs.products.size() != plan.products.size()) {
       throw UsageError(fmt::format("study: {} products were given; the plan has {}",
                                    inputs.products.size(), plan.products.size()));
@@ -108,10 +115,51 @@ struct StudyBench::Impl {
     }
   }
 
+  /// A person's hand under a profile.
+  std::shared_ptr<const Hand> make_hand(const HandSample& person,
+                                        const HandProfile& profile) const {
+    const HandSample sample = with_profile(person, profile);
+    Hand hand = maker.make(sample.dimensions).hand;
+    if (profile.range_share < 1.0) hand = with_range_share(hand, profile.range_share);
+    return std::make_shared<const Hand>(std::move(hand));
+  }
+
+  GraspOptions grasp_options(const StudyTask& task) const {
+    const StudyProduct& product = plan.products[static_cast<std::size_t>(task.product)];
+    const StudySetting& setting = plan.settings[static_cast<std::size_t>(task.setting)];
+    GraspOptions options;
+    options.grip = plan.grips[static_cast<std::size_t>(task.grip)];
+    options.power.palm_limit_depth = setting.palm_limit_depth;
+    options.power.finger_limit_depth = setting.finger_limit_depth;
+    if (product.at) options.power.placement.at = product.size * *product.at;
+    options.power.placement.axis = product.axis;
+    options.precision.placement = options.power.placement;
+    return options;
+  }
+
   const StudyPlan& plan;
   const StudyInputs& inputs;
   std::vector<TriangleMesh> maps;
   std::vector<std::optional<std::size_t>> posture_source;  ///< product whose posture one keeps
+  HandInstanceMaker maker;
+
+  /// Where the mean hand holds a product, or why that can't be said.
+  struct Place {
+    std::unique_ptr<const GraspPlace> place;
+    std::string failure;
+  };
+  std::vector<std::shared_ptr<const Hand>> mean_hands;  ///< by profile; null: not needed
+  std::vector<std::string> mean_failures;               ///< by profile
+  std::map<StudyTask, Place> places;                    ///< by task, of hand 0
+
+  /// The task that stands for all hands.
+  StudyTask place_key(StudyTask task) const {
+    task.hand = 0;
+    if (const auto source = posture_source[static_cast<std::size_t>(task.product)]) {
+      task.product = static_cast<int>(*source);
+    }
+    return task;
+  }
 };
 
 namespace {
@@ -124,8 +172,8 @@ class StudySubject {
         sample_(bench.plan.hands[static_cast<std::size_t>(hand)].sample),
         profile_(bench.plan.profiles[static_cast<std::size_t>(profile)]) {
     try {
-      if (profile_.name != "none") throw Failure{"profiles are not built yet"};
-      hand_ = std::make_shared<const Hand>(hand_of_size(*bench.inputs.base, sample_.dimensions));
+      hand_ = bench.make_hand(sample_, profile_);
+      grasping_ = std::make_unique<const GraspingHand>(hand_);
     } catch (const Error& error) {
       failure_ = std::string("the hand can't be made: ") + error.what();
     }
@@ -174,8 +222,11 @@ class StudySubject {
               .pressure);
     }
     for (const GraspIndex& index : assessment.indices) {
-      if (index.value) record.indices.push_back({index.key, *index.value});
+      if (index.value && std::isfinite(*index.value)) {
+        record.indices.push_back({index.key, *index.value});
+      }
     }
+    if (!is_finite(record)) throw Failure{"a result is no number"};
     return record;
   }
 
@@ -191,18 +242,10 @@ class StudySubject {
   AssessOptions options_of(const StudyTask& task, const StudySetting& setting) const {
     const StudyProduct& product = bench_.plan.products[static_cast<std::size_t>(task.product)];
     AssessOptions options;
+    options.grasp = bench_.grasp_options(task);
     options.seed = bench_.plan.seed;
     options.footprint = false;  // the study's own map serves
     options.indices.is_on = setting.indices;
-
-    options.grasp.grip = bench_.plan.grips[static_cast<std::size_t>(task.grip)];
-    options.grasp.power.palm_limit_depth = setting.palm_limit_depth;
-    options.grasp.power.finger_limit_depth = setting.finger_limit_depth;
-    PlacementRequest placement;
-    if (product.at) placement.at = product.size * *product.at;
-    placement.axis = product.axis;
-    options.grasp.power.placement = placement;
-    options.grasp.precision.placement = placement;
 
     options.balance.is_on = setting.is_balanced;
     options.balance.friction = setting.friction;
@@ -214,7 +257,7 @@ class StudySubject {
       }
       const double of_grip = options.grasp.grip ? strength_share(*options.grasp.grip) : 1.0;
       options.balance.grip_force =
-          *setting.strength_share * of_grip * profile_.strength_share * sample_.grip_strength;
+          *setting.strength_share * of_grip * with_profile(sample_, profile_).grip_strength;
     }
     return options;
   }
@@ -228,7 +271,13 @@ class StudySubject {
     const auto index = static_cast<std::size_t>(task.product);
     const Product& product = bench_.inputs.products[index];
     HeldGrasp held;
-    held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
+    if (bench_.plan.settings[static_cast<std::size_t>(task.setting)].is_place_per_hand) {
+      held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
+    } else {
+      const StudyBench::Impl::Place& place = bench_.places.at(bench_.place_key(task));
+      if (place.place == nullptr) throw Failure{place.failure};
+      held.grasp = place.place->hold(*grasping_, progress);
+    }
     if (is_held(held.grasp)) {
       held.balance =
           balance_grasp(prepared, product, held.grasp, options.balance, options.contact, progress);
@@ -246,6 +295,7 @@ class StudySubject {
   const HandSample& sample_;
   const HandProfile& profile_;
   std::shared_ptr<const Hand> hand_;
+  std::unique_ptr<const GraspingHand> grasping_;
   std::string failure_;
   std::vector<std::pair<ContactModel, std::unique_ptr<const PreparedHand>>> prepared_;
   std::map<StudyTask, HeldGrasp> at_rest_;
@@ -256,6 +306,55 @@ class StudySubject {
 StudyBench::StudyBench(const StudyPlan& plan, const StudyInputs& inputs)
     : impl_(std::make_unique<Impl>(plan, inputs)) {}
 StudyBench::~StudyBench() = default;
+
+void StudyBench::find_places(std::span<const std::int64_t> tasks, const Progress& progress) {
+  Impl& bench = *impl_;
+  const std::size_t profiles = bench.plan.profiles.size();
+  std::vector<bool> is_needed(profiles, false);
+  for (const std::int64_t number : tasks) {
+    const StudyTask task = task_at(bench.plan, number);
+    if (bench.plan.settings[static_cast<std::size_t>(task.setting)].is_place_per_hand) continue;
+    bench.places[bench.place_key(task)];
+    is_needed[static_cast<std::size_t>(task.profile)] = true;
+  }
+  bench.mean_hands.resize(profiles);
+  bench.mean_failures.resize(profiles);
+  HandSample mean;
+  mean.dimensions = mean_dimensions(bench.plan);
+  parallel_for(static_cast<int>(profiles), [&](int p) {
+    const auto profile = static_cast<std::size_t>(p);
+    if (!is_needed[profile] || bench.mean_hands[profile] != nullptr) return;
+    try {
+      bench.mean_hands[profile] = bench.make_hand(mean, bench.plan.profiles[profile]);
+    } catch (const Error& error) {
+      bench.mean_failures[profile] = std::string("the mean hand can't be made: ") + error.what();
+    }
+  });
+  std::vector<std::pair<const StudyTask, Impl::Place>*> open;
+  for (auto& entry : bench.places) {
+    if (entry.second.place == nullptr && entry.second.failure.empty()) open.push_back(&entry);
+  }
+  parallel_for(static_cast<int>(open.size()), [&](int i) {
+    auto& [task, place] = *open[static_cast<std::size_t>(i)];
+    const auto profile = static_cast<std::size_t>(task.profile);
+    if (bench.mean_hands[profile] == nullptr) {
+      place.failure = bench.mean_failures[profile];
+      return;
+    }
+    run_isolated([&, &key = task, &found = place] {
+      try {
+        found.place = std::make_unique<const GraspPlace>(
+            *bench.mean_hands[profile],
+            bench.inputs.products[static_cast<std::size_t>(key.product)], bench.grasp_options(key),
+            progress);
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error& error) {
+        found.failure = std::string("no place on the product for the mean hand: ") + error.what();
+      }
+    });
+  });
+}
 
 void StudyBench::run_hand(int hand, std::span<const std::int64_t> tasks,
                           const std::function<void(const StudyRecord&)>& keep,

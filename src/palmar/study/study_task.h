@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "palmar/core/progress.h"
 #include "palmar/study/study_plan.h"
@@ -22,6 +23,10 @@ class StudyBench {
   /// products than the plan's.
   StudyBench(const StudyPlan& plan, const StudyInputs& inputs);
   ~StudyBench();
+
+  /// Finds where the mean hand holds the products of these tasks, on all threads; run_hand() needs
+  /// it for every task whose setting shares the place. Throws Cancelled.
+  void find_places(std::span<const std::int64_t> tasks, const Progress& progress);
 
   /// Runs tasks of one hand, ascending; the hand is scaled and prepared once per profile and
   /// equations. Every task gives a record to `keep`: what goes wrong is a record that failed and

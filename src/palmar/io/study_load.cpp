@@ -1,0 +1,163 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh_distance.h"
+#include "palmar/io/dimension_table_file.h"
+#include "palmar/io/population_file.h"
+#include "palmar/io/product_file.h"
+#include "palmar/io/study_file.h"
+#include "palmar/io/study_store.h"
+#include "palmar/io/text_scan.h"
+#include "palmar/population/built_in_populations.h"
+
+namespace palmar {
+namespace {
+
+/// `body`, with the place in the study file before what it complains of.
+template <typename Body>
+void at_place(const std::string& where, const Body& body) {
+  try {
+    body();
+  } catch (const UsageError& error) {
+    if (where.empty()) throw;
+    throw InputError(where + error.what());
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  }
+}
+
+/// Hands of a table, each as it was measured.
+std::vector<HandSample> given_hands(const std::string& path, std::vector<std::string>& notes) {
+  const DimensionTable table = read_dimension_table(path);
+  for (const std::string& text : table.notes) notes.push_back(path + ": " + text);
+  std::vector<HandSample> hands;
+  for (int s = 0; s < table.subjects(); ++s) {
+    const auto row = static_cast<std::size_t>(s);
+    HandSample hand;
+    hand.label = std::to_string(s + 1);
+    for (const TableColumn& column : table.columns) {
+      const bool has_text = !column.is_number && !column.texts[row].empty();
+      const bool has_value = column.is_number && column.values[row].has_value();
+      if (has_text && column.name == "sex") hand.sex = sex_of_text(column.texts[row]);
+      if (has_text && column.quantity == Quantity::kLabel) hand.label = column.texts[row];
+      if (has_value && column.quantity == Quantity::kLabel) {
+        hand.label = shortest(*column.values[row]);
+      }
+      if (has_value && column.quantity == Quantity::kAge) hand.age = column.values[row];
+      if (has_value && column.name == "grip_strength_n") hand.grip_strength = *column.values[row];
+      if (has_value && column.dimension) {
+        hand.dimensions.push_back({*column.dimension, *column.values[row]});
+      }
+    }
+    if (hand.dimensions.empty()) {
+      throw InputError(path + ":" + std::to_string(table.lines[row]) +
+                       ": no dimension of the hand; hand_length_mm is one");
+    }
+    if (!(hand.grip_strength > 0.0) && hand.sex && hand.age) {
+      hand.grip_strength = grip_strength(*hand.sex, *hand.age).value_or(0.0);
+    }
+    hands.push_back(std::move(hand));
+  }
+  return hands;
+}
+
+void add_population(const PopulationRequest& request, std::uint64_t seed, LoadedStudy& study) {
+  StudyPopulation one;
+  one.sampling = request.sampling;
+  const auto index = static_cast<int>(study.plan.populations.size());
+  // Each population its own numbers, so that hand k of one says nothing of hand k of another.
+  if (!request.has_seed) one.sampling.seed = seed + static_cast<std::uint64_t>(index);
+  std::vector<HandSample> hands;
+  if (!request.table.empty()) {
+    one.population.name = std::filesystem::path(request.table).stem().string();
+    one.population.title = "hands of " + request.table;
+    one.population.source = request.table;
+    hands = given_hands(request.table, study.notes);
+    one.sampling = {};
+    one.sampling.hands = static_cast<int>(hands.size());
+  } else {
+    one.population =
+        request.file.empty() ? population_named(request.preset) : read_population(request.file);
+    hands = sample_hands(one.population, one.sampling);
+  }
+  for (const std::string& caution : one.population.cautions) {
+    study.notes.push_back(one.population.name + ": " + caution);
+  }
+  for (HandSample& sample : hands) study.plan.hands.push_back({index, std::move(sample)});
+  study.plan.populations.push_back(std::move(one));
+}
+
+std::string name_of(const ProductRequest& request) {
+  if (!request.name.empty()) return request.name;
+  if (!request.file.empty()) return std::filesystem::path(request.file).stem().string();
+  std::string name = request.made.kind;
+  if (!request.made.length.empty()) name += " " + shortest(request.made.length.front().second);
+  return name;
+}
+
+std::string sized_name(const std::string& name, double size) {
+  return size == 1.0 ? name : name + " x " + shortest(size);
+}
+
+Product sized(const Product& product, double size) {
+  if (size == 1.0) return product;
+  Product result = product;
+  for (Vec3& v : result.mesh.vertices) v *= size;
+  result.distance = std::make_shared<const MeshDistance>(result.mesh);
+  return result;
+}
+
+void add_product(const ProductRequest& request, LoadedStudy& study) {
+  const std::string name = name_of(request);
+  std::optional<Product> read;
+  if (!request.file.empty()) {
+    read = load_product(request.file, {.unit = request.unit});
+    for (const std::string& text : read->notes) study.notes.push_back(name + ": " + text);
+  }
+  for (const double size : request.sizes) {
+    StudyProduct one = request.held;
+    one.name = sized_name(name, size);
+    if (one.family.empty()) one.family = name;
+    one.size = size;
+    one.file = read ? request.file : words_of(request.made);
+    if (!one.posture_of.empty()) one.posture_of = sized_name(one.posture_of, size);
+    Product product = read ? sized(*read, size) : make_solid(request.made, size);
+    product.name = one.name;
+    one.content_hash = content_hash(product.mesh);
+    study.plan.products.push_back(std::move(one));
+    study.inputs.products.push_back(std::move(product));
+  }
+}
+
+}  // namespace
+
+LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand) {
+  LoadedStudy study;
+  StudyPlan& plan = study.plan;
+  plan.name = request.name;
+  plan.title = request.title.empty() ? request.name : request.title;
+  plan.seed = request.seed;
+  plan.hand_hash = content_hash(*hand);
+  study.inputs.base = std::move(hand);
+  plan.profiles = request.profiles;
+  if (plan.profiles.empty()) plan.profiles.push_back({});
+  plan.grips = request.grips;
+  if (plan.grips.empty()) plan.grips.push_back(std::nullopt);
+  plan.settings = request.settings;
+  if (plan.settings.empty()) plan.settings.push_back({});
+  plan.limits = request.limits;
+  for (const PopulationRequest& one : request.populations) {
+    at_place(one.where, [&] { add_population(one, request.seed, study); });
+  }
+  for (const ProductRequest& one : request.products) {
+    at_place(one.where, [&] { add_product(one, study); });
+  }
+  at_place(request.where.empty() ? "" : request.where + ": ", [&] { plan.check(); });
+  return study;
+}
+
+}  // namespace palmar
