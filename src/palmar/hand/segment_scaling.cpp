@@ -31,8 +31,9 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
   const HandCreases creases(hand.skin, skeleton);
   const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
   const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
-  middle_x_ = skeleton.joint(JointId::kMiddleMcp).centre.x();
-  half_breadth_ = std::max(1e-3, 0.75 * std::abs(head2.x() - head5.x()));
+  head_ = skeleton.joint(JointId::kMiddleMcp).centre;
+  // The ulnar border lies about a fifth of the knuckles' breadth beyond the fifth head.
+  border_ = std::max(1e-3, std::abs(head_.x() - head5.x()) + 0.2 * std::abs(head2.x() - head5.x()));
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     const bool is_thumb = finger == Finger::kThumb;
@@ -183,21 +184,23 @@ std::array<SegmentScaling::ScaledRay, kFingerCount> SegmentScaling::scaled_rays(
   return result;
 }
 
-Vec3 SegmentScaling::in_palm(const Vec3& point, const SegmentScales& scales) const {
-  const auto& palm = scales.segment[static_cast<std::size_t>(Segment::kPalm)];
-  double thickness = palm.thickness;
-  if (scales.bow != 0.0) {
-    const double s = (point.x() - middle_x_) / half_breadth_;
-    thickness *= 1.0 + scales.bow * (1.0 - std::exp(-s * s));
-  }
-  return {palm.across * point.x(), palm.along * point.y(), thickness * point.z()};
+double SegmentScaling::palm_thickness(const Vec3& point, const SegmentScales& scales) const {
+  const double thickness = scales.segment[static_cast<std::size_t>(Segment::kPalm)].thickness;
+  if (scales.bow == 0.0) return thickness;
+  const double s = (point.x() - head_.x()) / border_;
+  const double t = (point.y() - head_.y()) / (0.45 * head_.y());
+  const double aside = 1.0 - smooth_step((std::abs(s) - 1.0) / 0.6);
+  return thickness * (1.0 + scales.bow * (1.0 - std::exp(-2.0 * s * s)) * aside * std::exp(-t * t));
 }
 
-Eigen::Matrix3d SegmentScaling::palm_stretch(const Vec3& point, const SegmentScales& scales) const {
+Vec3 SegmentScaling::in_palm(const Vec3& point, const SegmentScales& scales) const {
+  return palm_stretch(point, scales) * point;
+}
+
+Eigen::DiagonalMatrix<double, 3> SegmentScaling::palm_stretch(const Vec3& point,
+                                                              const SegmentScales& scales) const {
   const auto& palm = scales.segment[static_cast<std::size_t>(Segment::kPalm)];
-  const double s = (point.x() - middle_x_) / half_breadth_;
-  const double bowed = palm.thickness * (1.0 + scales.bow * (1.0 - std::exp(-s * s)));
-  return Vec3(palm.across, palm.along, bowed).asDiagonal();
+  return Eigen::DiagonalMatrix<double, 3>(palm.across, palm.along, palm_thickness(point, scales));
 }
 
 Eigen::Matrix3d SegmentScaling::ray_stretch(const Placed& placed,
@@ -267,7 +270,7 @@ class SegmentScaling::Map : public HandMap {
 
   Eigen::Matrix3d skin_stretch(int vertex) const override {
     const PointSet& set = scaling_.skin_;
-    const Eigen::Matrix3d of_palm = scaling_.palm_stretch(set.point[at(vertex)], scales_);
+    const Eigen::Matrix3d of_palm = palm_stretch(set.point[at(vertex)]);
     Eigen::Matrix3d result = of_palm;
     for (int p = set.begin[at(vertex)]; p < set.begin[at(vertex + 1)]; ++p) {
       const Placed& placed = set.placed[at(p)];

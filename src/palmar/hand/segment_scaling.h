@@ -18,8 +18,9 @@ struct SegmentScales {
   };
   std::array<Factors, kSegmentCount> segment;  ///< indexed by Segment
   /// How much thicker the borders of the palm become than its middle: z is multiplied by
-  /// 1 + bow (1 - exp(-s^2)), s = distance from the third metacarpal head over half the breadth of
-  /// the knuckles.
+  /// 1 + bow (1 - exp(-2 s^2)) f(s) exp(-t^2), s = distance across from the third metacarpal head
+  /// over that of the ulnar border, t = distance along from it over 0.45 of that to the wrist;
+  /// f fades from 1 at s = 1 to 0 at s = 1.6, for the thumb.
   double bow = 0.0;
 };
 
@@ -97,12 +98,15 @@ class SegmentScaling {
   void add(PointSet& set, const Vec3& point, const std::array<double, kFingerCount>& share) const;
   Vec3 moved(const PointSet& set, std::size_t i, const std::array<ScaledRay, kFingerCount>& rays,
              const SegmentScales& scales) const;
-  Eigen::Matrix3d palm_stretch(const Vec3& point, const SegmentScales& scales) const;
+  Eigen::DiagonalMatrix<double, 3> palm_stretch(const Vec3& point,
+                                                const SegmentScales& scales) const;
+  double palm_thickness(const Vec3& point, const SegmentScales& scales) const;
   Eigen::Matrix3d ray_stretch(const Placed& placed, const SegmentScales& scales) const;
 
   const Hand* hand_;
   std::array<Ray, kFingerCount> ray_;
-  double middle_x_ = 0.0, half_breadth_ = 1.0;
+  Vec3 head_ = Vec3::Zero();  ///< of the third metacarpal
+  double border_ = 1.0;       ///< of the palm, ulnar of it, mm
   PointSet skin_;
   std::vector<PointSet> bones_;
 };
