@@ -5,16 +5,15 @@
 // Each <section data-palmar-scene="ID"> holds a canvas place, toggles, and a <script
 // type="application/json" id="ID"> with the meshes.
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DirectionalLight, DoubleSide,
-  HemisphereLight, Mesh, MeshStandardMaterial, NearestFilter, Object3D, PerspectiveCamera, RGBAFormat,
-  Scene, SRGBColorSpace, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, MeshStandardMaterial,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Stage, Triple, bytes, rgb, scaleTexture } from "./stage";
+import { StudyView } from "./study_view";
 
 // Arrays are base64 of little-endian numbers.
 interface Positions {
-  low: [number, number, number]; // corner of the box, mm
-  size: [number, number, number]; // its sides, mm
+  low: Triple; // corner of the box, mm
+  size: Triple; // its sides, mm
   data: string; // uint16, 3 per vertex: share of the side, 65535 = all of it
 }
 
@@ -26,44 +25,15 @@ interface MeshData {
 
 interface SceneData {
   table: string; // base64, 256 x RGB
-  neutral: [number, number, number];
-  skinColour: [number, number, number];
-  productColour: [number, number, number];
-  palmward: [number, number, number]; // from the palm outwards, product frame
-  distal: [number, number, number]; // towards the fingertips
-  radial: [number, number, number]; // towards the thumb
+  neutral: Triple;
+  skinColour: Triple;
+  productColour: Triple;
+  palmward: Triple; // from the palm outwards, product frame
+  distal: Triple; // towards the fingertips
+  radial: Triple; // towards the thumb
   skin: MeshData;
   undeformed: Positions; // positions of the skin before contact
   product: MeshData;
-}
-
-const kLeastShare = 0.005; // as in the pictures: less of the scale's end is not shown
-
-function bytes(text: string): ArrayBuffer {
-  const raw = atob(text);
-  const out = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; ++i) out[i] = raw.charCodeAt(i);
-  return out.buffer;
-}
-
-// Row of 1024 texels: the neutral colour below kLeastShare, then the colour map.
-function scaleTexture(data: SceneData): DataTexture {
-  const table = new Uint8Array(bytes(data.table));
-  const size = 1024;
-  const texels = new Uint8Array(4 * size);
-  for (let i = 0; i < size; ++i) {
-    const share = i / (size - 1);
-    const k = Math.round(255 * share);
-    for (let c = 0; c < 3; ++c) {
-      texels[4 * i + c] = share <= kLeastShare ? data.neutral[c] : table[3 * k + c];
-    }
-    texels[4 * i + 3] = 255;
-  }
-  const texture = new DataTexture(texels, size, 1, RGBAFormat);
-  texture.colorSpace = SRGBColorSpace;
-  texture.minFilter = texture.magFilter = NearestFilter;
-  texture.needsUpdate = true;
-  return texture;
 }
 
 function geometryOf(mesh: MeshData, position: Positions): BufferGeometry {
@@ -85,32 +55,16 @@ function geometryOf(mesh: MeshData, position: Positions): BufferGeometry {
   return geometry;
 }
 
-const rgb = (c: [number, number, number]) => new Color(`rgb(${c[0]},${c[1]},${c[2]})`);
-
 class View {
-  private readonly renderer: WebGLRenderer;
-  private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(30, 1, 1, 5000);
-  private readonly controls: OrbitControls;
-  private readonly lights = new Object3D();
+  private readonly stage: Stage;
   private readonly skin: Mesh<BufferGeometry, MeshStandardMaterial>;
   private readonly product: Mesh<BufferGeometry, MeshStandardMaterial>;
   private readonly skinShapes: { deformed: BufferGeometry; undeformed: BufferGeometry };
   private readonly texture: DataTexture;
-  private readonly centre = new Vector3();
-  private radius = 100;
 
   constructor(private readonly section: HTMLElement, private readonly data: SceneData) {
-    const place = section.querySelector<HTMLElement>(".view-canvas")!;
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setClearColor(0xffffff);
-    const canvas = this.renderer.domElement;
-    canvas.tabIndex = 0;
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `${place.dataset.label ?? "3-D view"}. Arrow keys turn, plus and minus zoom, 0 resets.`);
-    place.replaceChildren(canvas);
-
-    this.texture = scaleTexture(data);
+    this.stage = new Stage(section, data.palmward, data.distal, data.radial);
+    this.texture = scaleTexture(data.table, data.neutral);
     this.skinShapes = {
       deformed: geometryOf(data.skin, data.skin.position),
       undeformed: geometryOf(data.skin, data.undeformed),
@@ -118,32 +72,15 @@ class View {
     const material = () => new MeshStandardMaterial({ roughness: 0.85, metalness: 0, side: DoubleSide });
     this.skin = new Mesh(this.skinShapes.deformed, material());
     this.product = new Mesh(geometryOf(data.product, data.product.position), material());
-    this.scene.add(this.skin, this.product, new HemisphereLight(0xffffff, 0xb8b4ae, 1.5), this.lights);
-    const key = new DirectionalLight(0xffffff, 1.6);
-    key.position.set(-0.6, 0.8, 1);
-    const fill = new DirectionalLight(0xffffff, 0.5);
-    fill.position.set(1, -0.3, 0.7);
-    this.lights.add(key, fill);
-
+    this.stage.scene.add(this.skin, this.product);
     this.skinShapes.deformed.computeBoundingSphere();
     const sphere = this.skinShapes.deformed.boundingSphere!;
-    this.centre.copy(sphere.center);
-    this.radius = Math.max(1, sphere.radius);
-    this.camera.up.set(...data.distal); // before OrbitControls, which keeps the pole it was made with
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableDamping = false;
-    this.controls.addEventListener("change", () => this.draw());
-    canvas.addEventListener("keydown", (event) => this.key(event));
+    this.stage.frame(sphere.center, sphere.radius);
     for (const input of section.querySelectorAll<HTMLInputElement | HTMLSelectElement>("[data-toggle]")) {
       input.addEventListener("change", () => this.apply());
     }
-    for (const button of section.querySelectorAll<HTMLButtonElement>("[data-look]")) {
-      button.addEventListener("click", () => this.look(button.dataset.look!));
-    }
-    new ResizeObserver(() => this.resize(place)).observe(place);
     this.apply();
-    this.resize(place);
-    this.look("palm");
+    this.stage.look("palm");
   }
 
   private chosen(name: string): boolean {
@@ -151,7 +88,7 @@ class View {
   }
 
   private paint(mesh: Mesh<BufferGeometry, MeshStandardMaterial>, withField: boolean,
-                colour: [number, number, number], opacity: number): void {
+                colour: Triple, opacity: number): void {
     mesh.material.map = withField ? this.texture : null;
     mesh.material.color = withField ? new Color(1, 1, 1) : rgb(colour);
     mesh.material.transparent = opacity < 1;
@@ -167,63 +104,7 @@ class View {
     this.product.visible = this.chosen("product");
     this.paint(this.product, this.chosen("footprint"), this.data.productColour,
                this.chosen("see-through") ? 0.3 : 1);
-    this.draw();
-  }
-
-  private look(name: string): void {
-    const palm = new Vector3(...this.data.palmward);
-    const distal = new Vector3(...this.data.distal);
-    const radial = new Vector3(...this.data.radial);
-    const from: Record<string, Vector3> = {
-      palm, back: palm.clone().negate(),
-      thumb: radial.clone().addScaledVector(palm, 0.3).addScaledVector(distal, 0.25),
-      little: radial.clone().negate().addScaledVector(palm, 0.3).addScaledVector(distal, 0.25),
-    };
-    const direction = (from[name] ?? palm).clone().normalize();
-    // A canvas higher than wide sees less to the sides than upwards.
-    const distance = 1.15 * this.radius / (Math.sin((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
-    this.controls.target.copy(this.centre);
-    this.camera.position.copy(this.centre).addScaledVector(direction, distance);
-    this.camera.near = distance / 50;
-    this.camera.far = distance * 20;
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.draw();
-  }
-
-  private key(event: KeyboardEvent): void {
-    const step = 0.12; // rad
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const right = new Vector3().crossVectors(this.camera.up, offset).normalize();
-    switch (event.key) {
-      case "ArrowLeft": offset.applyAxisAngle(this.camera.up, -step); break;
-      case "ArrowRight": offset.applyAxisAngle(this.camera.up, step); break;
-      case "ArrowUp": offset.applyAxisAngle(right, -step); break;
-      case "ArrowDown": offset.applyAxisAngle(right, step); break;
-      case "+": case "=": offset.multiplyScalar(0.9); break;
-      case "-": offset.multiplyScalar(1 / 0.9); break;
-      case "0": this.look("palm"); event.preventDefault(); return;
-      default: return;
-    }
-    event.preventDefault();
-    this.camera.position.copy(this.controls.target).add(offset);
-    this.controls.update();
-    this.draw();
-  }
-
-  private resize(place: HTMLElement): void {
-    const width = Math.max(1, place.clientWidth);
-    const height = Math.max(1, place.clientHeight);
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.renderer.setSize(width, height);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
-    this.draw();
-  }
-
-  private draw(): void {
-    this.lights.quaternion.copy(this.camera.quaternion);
-    this.renderer.render(this.scene, this.camera);
+    this.stage.draw();
   }
 }
 
@@ -233,7 +114,9 @@ function start(section: HTMLElement): void {
   const source = document.getElementById(section.dataset.palmarScene ?? "");
   if (!place || !source) return;
   try {
-    new View(section, JSON.parse(source.textContent ?? "") as SceneData);
+    const data = JSON.parse(source.textContent ?? "");
+    if (section.dataset.palmarKind === "study") new StudyView(section, data);
+    else new View(section, data as SceneData);
     section.classList.add("is-live");
   } catch {
     const note = place.querySelector(".view-fallback");

@@ -1,0 +1,136 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/study_words.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "palmar/report/plain_words.h"
+#include "palmar/study/study_statistics.h"
+
+namespace palmar {
+namespace {
+
+std::string with_unit(const std::string& number, const StudyQuantity& quantity) {
+  return quantity.unit.empty() ? number : number + " " + quantity.unit;
+}
+
+std::string cause_words(const LeftOutHands& one) {
+  for (int k = 0; k < kStudyOutcomes; ++k) {
+    const auto outcome = static_cast<StudyOutcome>(k);
+    if (name_of(outcome) == one.cause) return plain_words(outcome);
+  }
+  return one.cause == "not_run" ? "not run" : "no value";
+}
+
+}  // namespace
+
+std::string plain_words(StudyOutcome outcome) {
+  switch (outcome) {
+    case StudyOutcome::kHeld:
+      return "held";
+    case StudyOutcome::kPartlyHeld:
+      return "partly held";
+    case StudyOutcome::kSlipsOut:
+      return "slips out";
+    case StudyOutcome::kTooLarge:
+      return "too large for the hand";
+    case StudyOutcome::kTooSmall:
+      return "too small for the hand";
+    case StudyOutcome::kNotGraspable:
+      return "not graspable";
+    case StudyOutcome::kFailed:
+      break;
+  }
+  return "no answer";
+}
+
+std::string grasp_words(const StudyRecord& record) {
+  std::string words = capitalised(plain_words(record.outcome));
+  if (is_in_hand(record)) {
+    words += "; peak " + short_number(record.peak_pressure_cells) + " MPa on sensor cells, " +
+             short_number(record.area) + " mm², " + short_number(record.force) + " N";
+  }
+  if (!record.reason.empty()) words += ". " + capitalised(record.reason);
+  return words;
+}
+
+std::string hand_words(const StudyPlan& plan, int hand) {
+  const StudyHand& one = plan.hands[static_cast<std::size_t>(hand)];
+  std::string words = "Hand " + std::to_string(hand + 1);
+  const std::string& label = one.sample.label;
+  if (!label.empty() && label != std::to_string(hand) && label != std::to_string(hand + 1)) {
+    words += ", " + label;
+  }
+  if (plan.populations.size() > 1) {
+    words += ", " + plan.populations[static_cast<std::size_t>(one.population)].population.name;
+  }
+  const auto length = size_of(one, kHandLength);
+  const auto round = size_of(one, kHandCircumference);
+  if (length) words += ": " + short_number(*length) + " mm long";
+  if (round) words += std::string(length ? ", " : ": ") + short_number(*round) + " mm round";
+  return words;
+}
+
+std::string p_words(double p) {
+  if (p < 0.001) return "p < 0.001";
+  char text[32];
+  std::snprintf(text, sizeof text, p < 0.1 ? "p = %.3f" : "p = %.2f", p);
+  return text;
+}
+
+std::string left_out_words(const StudyPlan& plan, const ProductPair& pair) {
+  std::string words;
+  for (const int product : {pair.first, pair.second}) {
+    std::string causes;
+    for (const LeftOutHands& one : pair.left_out) {
+      if (one.product != product) continue;
+      causes += (causes.empty() ? "" : ", ") + std::to_string(one.hands) + " " + cause_words(one);
+    }
+    if (causes.empty()) continue;
+    words += (words.empty() ? "" : "; ") + plan.products[static_cast<std::size_t>(product)].name +
+             ": " + causes;
+  }
+  return words;
+}
+
+std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
+                       const ProductPair& pair) {
+  const bool is_second_lower = pair.mean_second < pair.mean_first;
+  const int low_product = is_second_lower ? pair.second : pair.first;
+  const int high_product = is_second_lower ? pair.first : pair.second;
+  const std::string& low = plan.products[static_cast<std::size_t>(low_product)].name;
+  const std::string& high = plan.products[static_cast<std::size_t>(high_product)].name;
+  const double low_mean = is_second_lower ? pair.mean_second : pair.mean_first;
+  const double high_mean = is_second_lower ? pair.mean_first : pair.mean_second;
+  const std::string hands =
+      std::to_string(pair.pairs) + " of " + std::to_string(pair.hands) + " hands hold both";
+  if (pair.verdict == DifferenceVerdict::kTooFewPairs) {
+    return low + " and " + high + " can't be compared: " + hands + ".";
+  }
+  if (pair.verdict == DifferenceVerdict::kNone) {
+    return low + " and " + high + " don't differ in " + quantity.name + " in any hand (" + hands +
+           ").";
+  }
+  const double sign = is_second_lower ? -1.0 : 1.0;
+  const double ends[2] = {sign * pair.t_test.interval.low, sign * pair.t_test.interval.high};
+  const std::string test = "difference " + short_number(std::abs(pair.t_test.difference)) +
+                           ", 95 % interval " + short_number(std::min(ends[0], ends[1])) + " to " +
+                           with_unit(short_number(std::max(ends[0], ends[1])), quantity) + "; " +
+                           hands + "; t-test " + p_words(pair.t_p_holm) + ", Wilcoxon " +
+                           p_words(pair.wilcoxon_p_holm);
+  const std::string values =
+      short_number(low_mean) + " against " + with_unit(short_number(high_mean), quantity);
+  if (pair.verdict == DifferenceVerdict::kNotShown) {
+    return "No difference in " + quantity.name + " is shown between " + low + " and " + high +
+           ": " + values + " (" + test + ").";
+  }
+  std::string share;
+  if (low_mean >= 0.0 && high_mean > 0.0) {
+    share = ", " + short_number(100.0 * (1.0 - low_mean / high_mean), 2) + " % less";
+  }
+  return low + " has a lower " + quantity.name + " than " + high + ": " + values + share + " (" +
+         test + ").";
+}
+
+}  // namespace palmar
