@@ -1,0 +1,21 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/io/table_results.h"
+
+namespace palmar::cli {
+
+// Results of tables of subjects as people read them in a terminal.
+
+std::string descriptions_text(const Descriptions& descriptions);
+/// p values below 0.05 carry a star, below 0.05 after Holm's adjustment two.
+std::string correlations_text(const Correlations& correlations);
+std::string regressions_text(const Regressions& regressions);
+
+/// "0.012", "1.5e-07", "< 1e-300".
+std::string p_text(double p_value);
+
+}  // namespace palmar::cli
