@@ -65,14 +65,33 @@ std::vector<double> voronoi_areas(const TriangleMesh& mesh) {
   return area;
 }
 
-SkinGeometry skin_geometry(const TriangleMesh& skin) {
-  SkinGeometry result;
+namespace {
+
+/// Everything but the neighbours, which `result` has.
+void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
   result.position = skin.vertices;
   result.normal = vertex_normals(skin.vertices, skin.triangles);
   result.area = voronoi_areas(skin);
+  result.radius.clear();
   result.radius.reserve(result.area.size());
   for (const double a : result.area) result.radius.push_back(std::sqrt(a / std::numbers::pi));
+  result.edge_length.resize(result.ring.size());
+  std::vector<int> all(skin.vertices.size());
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    all[v] = static_cast<int>(v);
+    for (int k = result.ring_begin[v]; k < result.ring_begin[v + 1]; ++k) {
+      const auto e = static_cast<std::size_t>(k);
+      const auto w = static_cast<std::size_t>(result.ring[e]);
+      result.edge_length[e] = (skin.vertices[v] - skin.vertices[w]).norm();
+    }
+  }
+  result.cells = sensor_cells(result, all, kUsualCellArea);
+}
 
+}  // namespace
+
+SkinGeometry skin_geometry(const TriangleMesh& skin) {
+  SkinGeometry result;
   std::vector<std::pair<int, int>> edges;
   edges.reserve(6 * skin.triangles.size());
   for (const Triangle& t : skin.triangles) {
@@ -85,18 +104,22 @@ SkinGeometry skin_geometry(const TriangleMesh& skin) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   result.ring_begin.assign(skin.vertices.size() + 1, 0);
   result.ring.reserve(edges.size());
-  result.edge_length.reserve(edges.size());
   for (const auto& [a, b] : edges) {
     ++result.ring_begin[a + 1];
     result.ring.push_back(b);
-    result.edge_length.push_back((skin.vertices[a] - skin.vertices[b]).norm());
   }
   for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
     result.ring_begin[v + 1] += result.ring_begin[v];
   }
-  std::vector<int> all(skin.vertices.size());
-  std::iota(all.begin(), all.end(), 0);
-  result.cells = sensor_cells(result, all, kUsualCellArea);
+  measure_skin(skin, result);
+  return result;
+}
+
+SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other) {
+  SkinGeometry result;
+  result.ring_begin = other.ring_begin;
+  result.ring = other.ring;
+  measure_skin(skin, result);
   return result;
 }
 
@@ -113,6 +136,9 @@ SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres,
     mark[centre] = centre;
     for (std::size_t k = 0; k < near.size(); ++k) {
       const int v = near[k];
+      // No arc is shorter than its chord.
+      const double farthest = cell_radius + skin.radius[v];
+      if ((skin.position[v] - skin.position[centre]).squaredNorm() >= farthest * farthest) continue;
       const double shared =
           disc_overlap(arc_distance(skin, centre, v), cell_radius, skin.radius[v]);
       if (shared <= 0.0) continue;

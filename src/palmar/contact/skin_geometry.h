@@ -39,6 +39,8 @@ struct SkinGeometry {
 constexpr double kUsualCellArea = 24.0;  // mm^2
 
 SkinGeometry skin_geometry(const TriangleMesh& skin);
+/// The same for a skin with the triangles of `other`, from its neighbours.
+SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other);
 
 /// The cells centred on `centres`, in their order; distances by arc_distance().
 SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area);

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "palmar/contact/layered_response.h"
-#include "palmar/contact/response.h"
+#include "palmar/contact/pair_response.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/geodesic.h"
 #include "palmar/geometry/isomap.h"
@@ -62,16 +61,17 @@ void add_flat_pairs(const Hand& hand, const std::vector<int>& own, Columns& colu
 }
 
 /// Pairs of the same region along paths inside it, and rows of other regions near a column.
-Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance kind) {
+Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance kind,
+                  double margin = 1.0) {
   const int count = solver.vertex_count();
   double widest = 0.0;
   for (const RegionTissue& tissue : hand.tissue.region) {
     widest = std::max(widest, tissue.neighbourhood);
   }
-  Columns columns = all_within(solver, widest);
+  Columns columns = all_within(solver, margin * widest);
   for (int j = 0; j < count; ++j) {
     const auto region = static_cast<std::size_t>(hand.region[static_cast<std::size_t>(j)]);
-    const auto reach = static_cast<float>(hand.tissue.region[region].neighbourhood);
+    const auto reach = static_cast<float>(margin * hand.tissue.region[region].neighbourhood);
     std::erase_if(columns[static_cast<std::size_t>(j)], [&](const Pair& pair) {
       return static_cast<std::size_t>(hand.region[static_cast<std::size_t>(pair.vertex)]) ==
                  region ||
@@ -92,7 +92,7 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance k
       add_flat_pairs(hand, own, columns);
     } else {
       const GeodesicTable table =
-          geodesic_table(solver, own, is_dorsum ? kResponseReach : kFarthestPair, allowed);
+          geodesic_table(solver, own, is_dorsum ? margin * kResponseReach : kFarthestPair, allowed);
       const Columns inside = columns_of(table, own, count);
       for (const int v : own) {
         const std::vector<Pair>& more = inside[static_cast<std::size_t>(v)];
@@ -114,52 +114,6 @@ double share_near(double distance) {
   const double t = std::clamp((kAllFar - distance) / (kAllFar - kAllNear), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
-
-/// 1 up to two thirds of the reach, 0 beyond it.
-double fade(double distance) {
-  const double t = std::clamp(3.0 * (1.0 - distance / kResponseReach), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-}  // namespace
-
-namespace {
-
-/// Response of one point of the skin to a force at another.
-class PairResponse {
- public:
-  PairResponse(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-               const std::vector<double>& thickness)
-      : skin_(&skin), model_(model), thickness_(&thickness) {
-    if (model.tissue != TissueModel::kLayered) return;
-    for (const Region region : hand.region) {
-      kernel_.push_back(
-          &layer_kernel(hand.tissue.region[static_cast<std::size_t>(region)].poisson_layered));
-    }
-  }
-
-  float operator()(int i, int j, double r) const {
-    const auto v = static_cast<std::size_t>(i);
-    const auto w = static_cast<std::size_t>(j);
-    const double a_i = skin_->radius[v];
-    const double a_j = skin_->radius[w];
-    const double weight = model_.coupling == RegionCoupling::kCoupled ? fade(r) : 1.0;
-    if (model_.tissue != TissueModel::kLayered) {
-      return static_cast<float>(weight * boussinesq_response(model_.kernel, r, a_i, a_j));
-    }
-    const double h = 0.5 * ((*thickness_)[v] + (*thickness_)[w]);
-    return static_cast<float>(
-        0.25 * weight *
-        (layered_response(*kernel_[v], r, a_i, h) + layered_response(*kernel_[v], r, a_j, h) +
-         layered_response(*kernel_[w], r, a_i, h) + layered_response(*kernel_[w], r, a_j, h)));
-  }
-
- private:
-  const SkinGeometry* skin_;
-  ContactModel model_;
-  const std::vector<double>* thickness_;
-  std::vector<const LayerKernel*> kernel_;  // per vertex
-};
 
 /// Columns with their responses. vertex_of(k): the skin vertex that entry k stands for.
 template <typename VertexOf>
@@ -332,6 +286,31 @@ SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const Con
   SkinResponse result;
   static_cast<ResponseColumns&>(result) = filled(columns, response, [](int v) { return v; });
   return result;
+}
+
+SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model) {
+  const GeodesicSolver solver(hand.skin);
+  const Columns columns = model.coupling == RegionCoupling::kCoupled
+                              ? all_within(solver, kPairMargin * kResponseReach)
+                              : by_region(hand, solver, model.distance, kPairMargin);
+  SkinPairs pairs;
+  pairs.begin.reserve(columns.size() + 1);
+  pairs.begin.push_back(0);
+  for (const std::vector<Pair>& column : columns) {
+    pairs.begin.push_back(pairs.begin.back() + column.size());
+  }
+  pairs.vertex.resize(pairs.begin.back());
+  pairs.detour.resize(pairs.begin.back());
+  parallel_for(static_cast<int>(columns.size()), [&](int j) {
+    std::size_t k = pairs.begin[static_cast<std::size_t>(j)];
+    for (const Pair& pair : columns[static_cast<std::size_t>(j)]) {
+      const double arc = arc_distance(skin, pair.vertex, j);
+      pairs.vertex[k] = pair.vertex;
+      pairs.detour[k] = arc > 0.0 ? static_cast<float>(pair.distance / arc) : 1.0F;
+      ++k;
+    }
+  });
+  return pairs;
 }
 
 double SkinResponse::near_share(double r) const { return has_far() ? share_near(r) : 1.0; }

@@ -84,6 +84,24 @@ constexpr double kResponseReach = 20.0;  // mm
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
                            const std::vector<double>& thickness);
 
+/// The pairs of a skin that act on each other on it or on any skin of the same mesh up to
+/// kPairMargin times smaller, and by how much the way on the skin is longer than the arc between
+/// the two (arc_distance()): what hands of one mesh have in common. Columns as in ResponseColumns.
+struct SkinPairs {
+  std::vector<std::size_t> begin;    ///< vertex count + 1
+  std::vector<std::int32_t> vertex;  ///< i
+  std::vector<float> detour;         ///< way over arc
+};
+constexpr double kPairMargin = 1.35;  // hands of people are at most that much smaller than a mean
+
+SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model);
+
+/// Responses of another hand of the same mesh: its distances on the skin are its arcs times the
+/// detours of `pairs`. Of a hand's own pairs this gives skin_response() but for rounding.
+SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
+                                const ContactModel& model, const std::vector<double>& thickness,
+                                const SkinPairs& pairs);
+
 /// The responses in the columns between some vertices (ascending) as a dense matrix, 1/mm; zero
 /// where a pair has none. Without `across`, pairs of different regions have none.
 Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,

@@ -8,30 +8,45 @@
 namespace palmar {
 namespace {
 
-constexpr int kSpotSize = 6;         // vertices
 constexpr float kPlateau = 8.0F;     // mm
 constexpr float kEnd = 16.0F;        // mm
 constexpr float kBlendWidth = 6.0F;  // mm; laws of neighbouring regions are mixed over it
 
+using Laws = std::array<StiffeningLaw, 3>;  // low, nominal, high
+
+Laws laws_of(const RegionTissue& tissue, TissueModel model) {
+  const TissueStiffness& stiffness =
+      model == TissueModel::kLayered ? tissue.layered : tissue.half_space;
+  Laws laws;
+  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
+    laws[static_cast<std::size_t>(level)] = law_at(stiffness, level);
+  }
+  return laws;
+}
+
 /// Mean of the laws around a vertex, weighted by area and nearness.
-StiffeningLaw blended(const Hand& hand, const SkinGeometry& skin, const SkinResponse& response,
-                      TissueModel model, TissueLevel level, int vertex) {
-  StiffeningLaw sum;
+Laws blended(const Hand& hand, const SkinGeometry& skin, const SkinResponse& response,
+             const std::array<Laws, kRegionCount>& by_region, int vertex) {
+  std::array<double, kRegionCount> weight{};  // of each region's law
   double weights = 0.0;
   const auto j = static_cast<std::size_t>(vertex);
   for (std::size_t k = response.begin[j]; k < response.begin[j + 1]; ++k) {
     if (response.distance[k] >= kBlendWidth) continue;
     const auto i = static_cast<std::size_t>(response.vertex[k]);
-    const RegionTissue& tissue = hand.tissue.region[static_cast<std::size_t>(hand.region[i])];
-    const StiffeningLaw& law =
-        law_at(model == TissueModel::kLayered ? tissue.layered : tissue.half_space, level);
     const double w = skin.area[i] * (1.0 - static_cast<double>(response.distance[k] / kBlendWidth));
+    weight[static_cast<std::size_t>(hand.region[i])] += w;
     weights += w;
-    sum.g0 += w * law.g0;
-    sum.g_limit += w * law.g_limit;
-    sum.limit_depth += w * law.limit_depth;
   }
-  return {sum.g0 / weights, sum.g_limit / weights, sum.limit_depth / weights};
+  Laws result{};
+  for (std::size_t r = 0; r < weight.size(); ++r) {
+    if (weight[r] == 0.0) continue;
+    for (std::size_t level = 0; level < result.size(); ++level) {
+      result[level].g0 += weight[r] / weights * by_region[r][level].g0;
+      result[level].g_limit += weight[r] / weights * by_region[r][level].g_limit;
+      result[level].limit_depth += weight[r] / weights * by_region[r][level].limit_depth;
+    }
+  }
+  return result;
 }
 
 std::vector<Eigen::Vector3f> centres(const SkinGeometry& skin, const SkinPatches& patches) {
@@ -43,30 +58,27 @@ std::vector<Eigen::Vector3f> centres(const SkinGeometry& skin, const SkinPatches
 }  // namespace
 
 SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
-                             const SkinResponse& response, const SkinPatches& blocks,
-                             const ContactModel& model) {
+                             const SkinResponse& response, const SkinPatches& spots,
+                             const SkinPatches& blocks, const ContactModel& model) {
   SkinStiffness result;
-  const int n = skin.vertex_count();
-  const auto count = static_cast<std::size_t>(n);
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
-    std::vector<StiffeningLaw>& law = result.law[static_cast<std::size_t>(level)];
-    law.reserve(count);
-    for (int v = 0; v < n; ++v) {
-      const RegionTissue& tissue =
-          hand.tissue.region[static_cast<std::size_t>(hand.region[static_cast<std::size_t>(v)])];
-      law.push_back(
-          model.coupling == RegionCoupling::kCoupled
-              ? blended(hand, skin, response, model.tissue, level, v)
-              : law_at(model.tissue == TissueModel::kLayered ? tissue.layered : tissue.half_space,
-                       level));
-    }
+  const auto count = static_cast<std::size_t>(skin.vertex_count());
+  std::array<Laws, kRegionCount> by_region;
+  for (std::size_t r = 0; r < by_region.size(); ++r) {
+    by_region[r] = laws_of(hand.tissue.region[r], model.tissue);
+  }
+  for (std::vector<StiffeningLaw>& law : result.law) law.resize(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    const Laws laws = model.coupling == RegionCoupling::kCoupled
+                          ? blended(hand, skin, response, by_region, static_cast<int>(v))
+                          : by_region[static_cast<std::size_t>(hand.region[v])];
+    for (std::size_t level = 0; level < laws.size(); ++level) result.law[level][v] = laws[level];
   }
   result.finger.assign(count, -1);
   for (std::size_t v = 0; v < count && !hand.segment.empty(); ++v) {
     if (const auto finger = finger_of(hand.segment[v]))
       result.finger[v] = static_cast<int>(*finger);
   }
-  result.spots = skin_patches(skin, kSpotSize);
+  result.spots = spots;
   result.spot_centre = centres(skin, result.spots);
   result.spot_finger.assign(result.spot_centre.size(), -1);
   for (std::size_t v = count; v-- > 0;) {

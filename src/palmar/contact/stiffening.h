@@ -28,8 +28,8 @@ struct SkinStiffness {
 };
 
 SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
-                             const SkinResponse& response, const SkinPatches& blocks,
-                             const ContactModel& model);
+                             const SkinResponse& response, const SkinPatches& spots,
+                             const SkinPatches& blocks, const ContactModel& model);
 
 /// Depth of the contact around each of `vertices`: the deepest penetration within 8 mm, fading to
 /// nothing at 16 mm (8 mm is the width of a contact at the fingers' limit depth),
