@@ -39,7 +39,9 @@ void add_doctor_command(CLI::App& app, Context& context);
 void add_effort_commands(CLI::App& app, Context& context);
 void add_grasp_commands(CLI::App& app, Context& context);
 void add_hand_commands(CLI::App& app, Context& context);
+void add_population_commands(CLI::App& app, Context& context);
 void add_product_commands(CLI::App& app, Context& context);
+void add_study_commands(CLI::App& app, Context& context);
 void add_validate_command(CLI::App& app, Context& context);
 
 /// Adds a verb with its worked example under the help text.

@@ -13,6 +13,7 @@
 #include "palmar/io/file.h"
 #include "palmar/io/text_scan.h"
 #include "palmar/io/toml_section.h"
+#include "palmar/population/built_in_populations.h"
 
 namespace palmar {
 namespace {
@@ -241,6 +242,11 @@ Population parse_population(const std::string& text, const std::string& path) {
   const std::string fault = fault_of(population);
   if (!fault.empty()) file.fail(fault);
   return population;
+}
+
+Population load_population(const std::string& name_or_path) {
+  return name_or_path.ends_with(".toml") ? read_population(name_or_path)
+                                         : population_named(name_or_path);
 }
 
 std::string population_toml(const Population& population) {

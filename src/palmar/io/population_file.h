@@ -50,6 +50,10 @@ Population read_population(const std::string& path);
 /// The same from the text of such a file.
 Population parse_population(const std::string& text, const std::string& path);
 
+/// The built-in population of that name, or the file if the name ends in ".toml". Throws
+/// InputError, UsageError naming the nearest built-in one.
+Population load_population(const std::string& name_or_path);
+
 /// Reads back to the same value. Throws OutputError.
 void write_population(const std::string& path, const Population& population);
 std::string population_toml(const Population& population);

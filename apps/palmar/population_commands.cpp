@@ -1,0 +1,18 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+#include "population_sample_command.h"
+#include "population_table_commands.h"
+
+namespace palmar::cli {
+
+void add_population_commands(CLI::App& app, Context& context) {
+  CLI::App* population =
+      app.add_subcommand("population", "Whose hands: built-in populations, tables of subjects");
+  population->require_subcommand(1);
+  population->fallthrough();
+  add_population_table_verbs(*population, context);
+  add_population_sample_verbs(*population, context);
+}
+
+}  // namespace palmar::cli
