@@ -22,6 +22,7 @@ constexpr double kRow = 46.0;         // height of a sample's row
 constexpr double kDot = 2.1;          // radius
 constexpr double kBracket = 18.0;     // width of a bracket's column
 constexpr int kMostBins = 14;
+constexpr std::size_t kMostDots = 2400;  // of one chart; more are neither seen nor small
 
 std::string number(double value, int decimals) {
   std::array<char, 64> text{};
@@ -129,11 +130,24 @@ void histogram(Figure& figure, const DistributionChart& chart, const Scale& x, d
   figure.line(x.from, y(0.0), x.to, y(0.0), {.colour = kFaintColour});
 }
 
+/// Every how manieth hand is drawn as a dot.
+std::size_t thinning(const std::vector<ChartSample>& samples) {
+  std::size_t dots = 0;
+  for (const ChartSample& sample : samples) dots += sample.values.size();
+  return dots / kMostDots + 1;
+}
+
+std::string dot_words(std::size_t every) {
+  return every == 1 ? "Dot: one hand." : "Dot: every " + std::to_string(every) + "th hand.";
+}
+
 /// Dots beside one another where they would cover each other.
-void dots(Figure& figure, const ChartSample& sample, const Scale& x, double y, double room) {
+void dots(Figure& figure, const ChartSample& sample, const Scale& x, double y, double room,
+          std::size_t every) {
   std::map<long, std::vector<double>> column;
-  for (const double value : sample.values) {
-    column[std::lround(x(value) / (2.0 * kDot))].push_back(x(value));
+  for (std::size_t i = 0; i < sample.values.size(); i += every) {
+    const double at = x(sample.values[i]);
+    column[std::lround(at / (2.0 * kDot))].push_back(at);
   }
   std::size_t most = 1;
   for (const auto& [key, xs] : column) most = std::max(most, xs.size());
@@ -145,7 +159,8 @@ void dots(Figure& figure, const ChartSample& sample, const Scale& x, double y, d
   }
 }
 
-void sample_row(Figure& figure, const ChartSample& sample, const Scale& x, double top) {
+void sample_row(Figure& figure, const ChartSample& sample, const Scale& x, double top,
+                std::size_t every) {
   std::vector<double> sorted = sample.values;
   std::sort(sorted.begin(), sorted.end());
   const Lettering look{.size = kSmallSize};
@@ -156,7 +171,7 @@ void sample_row(Figure& figure, const ChartSample& sample, const Scale& x, doubl
               look);
   if (sorted.empty()) return;
   const double base = top + kRow - 9.0;
-  dots(figure, sample, x, base - 8.0, kRow - 29.0);
+  dots(figure, sample, x, base - 8.0, kRow - 29.0, every);
   const double mean = summarise(sorted).mean;
   const double low = x(quantile(sorted, 0.05)), high = x(quantile(sorted, 0.95));
   const double q1 = x(quantile(sorted, 0.25)), q3 = x(quantile(sorted, 0.75));
@@ -237,16 +252,17 @@ Figure distribution_figure(const DistributionChart& chart) {
   for (const double tick : x.axis.ticks) {
     figure.line(x(tick), rows_top, x(tick), bottom, {.colour = kGridColour, .width = 0.8});
   }
+  const std::size_t every = thinning(chart.samples);
   for (std::size_t s = 0; s < chart.samples.size(); ++s) {
-    sample_row(figure, chart.samples[s], x, rows_top + kRow * static_cast<double>(s));
+    sample_row(figure, chart.samples[s], x, rows_top + kRow * static_cast<double>(s), every);
   }
   for (std::size_t b = 0; b < chart.brackets.size(); ++b) {
     bracket(figure, chart.brackets[b], x.to + 14.0 + kBracket * static_cast<double>(b), rows_top);
   }
   x_axis(figure, x, bottom, chart.x_label);
   figure.text(kLeft, bottom + 49.0,
-              "Dot: one hand. Box: quartiles, bar: median, diamond: mean, whiskers: 5th and 95th "
-              "percentile.",
+              dot_words(every) +
+                  " Box: quartiles, bar: median, diamond: mean, whiskers: 5th and 95th percentile.",
               {.size = 8.5, .colour = kFaintColour});
   return figure;
 }
@@ -295,6 +311,7 @@ Figure trend_figure(const TrendChart& chart) {
       ys.back().values.push_back(p.high);
     }
   }
+  const std::size_t every = thinning(xs);
   const auto x_range = range_of(xs), y_range = range_of(ys);
   if (!x_range || !y_range) {
     figure.text(kLeft, 60.0, "No hand has a value.", {.size = kTextSize});
@@ -312,7 +329,7 @@ Figure trend_figure(const TrendChart& chart) {
     figure.polygon(std::move(band), Fill{one.sample.colour, 0.15});
   }
   for (const TrendSample& one : chart.samples) {
-    for (std::size_t i = 0; i < one.x.size(); ++i) {
+    for (std::size_t i = 0; i < one.x.size(); i += every) {
       figure.circle(x(one.x[i]), y(one.sample.values[i]), kDot, Fill{one.sample.colour, 0.75});
     }
     std::vector<Eigen::Vector2d> line;
