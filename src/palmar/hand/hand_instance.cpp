@@ -14,6 +14,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/section.h"
+#include "palmar/geometry/self_intersection.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/segment_scaling.h"
 
@@ -23,6 +24,10 @@ namespace {
 constexpr double kAllowedMiss = 0.1;  // mm
 constexpr double kSolvedMiss = 0.01;  // mm; a tenth of it, for what the search doesn't see
 constexpr int kMostIterations = 25;
+// What driven parts of the hand length leave for the others, over what it is in the base; wider
+// than half to twice, because everybody's scatter comes together in it.
+constexpr double kLeastRest = 0.4, kMostRest = 2.5;
+constexpr double kRoomyWidth = 1.15;  // of a finger against the palm; less never crossed itself
 // Beyond it the borders of the palm, about a third of that thinner or thicker than in the base, no
 // longer look like a hand's.
 constexpr double kLeastBow = -0.5, kMostBow = 1.0;
@@ -57,6 +62,7 @@ struct Problem {
   FactorRules rule;
   std::vector<SizedDimension> equation;  ///< one per unknown
   Eigen::VectorXd start;
+  bool solves_length = true;  ///< hand length is driven, and something is free to meet it
 };
 
 // Points of the section that measure_hand() lays the tape round.
@@ -115,7 +121,19 @@ class Targets {
     const auto value = get(dimension);
     return value ? *value / base(dimension) : 1.0;
   }
-  const std::vector<SizedDimension>& all() const { return sized_; }
+  /// For the provenance; the same in whatever order they were asked.
+  std::string told() const {
+    constexpr int kMostTold = 6;
+    std::string text;
+    int told = 0;
+    for (const HandDimension dimension : all_hand_dimensions()) {
+      if (!has(dimension) || ++told > kMostTold) continue;
+      text += fmt::format("{} {} {:.2f} mm", text.empty() ? "" : ",", name_of(dimension),
+                          *get(dimension));
+    }
+    if (told > kMostTold) text += fmt::format(" and {} other dimensions", told - kMostTold);
+    return "scaled segment by segment to" + text;
+  }
 
  private:
   HandDimensions base_;
@@ -141,6 +159,10 @@ struct HandInstanceMaker::Impl {
   /// Tape round the knuckles of the palm stretched by these factors.
   double girth(const SegmentScales& scales) const;
   void check_girth(const Problem& problem, const Targets& targets) const;
+  struct Found;
+  Found search(const Problem& problem) const;
+  /// What is too wide beside the palm, or nothing.
+  static std::string crowding(const SegmentScales& scales);
 
   const Hand* hand;
   SegmentScaling scaling;
@@ -205,13 +227,15 @@ Problem HandInstanceMaker::Impl::pose(const Targets& t) const {
     rest_own -= t.base(d);
   }
   const bool solves_length = has_length && is_shared;
+  problem.solves_length = solves_length || !has_length;
   const double rest = solves_length ? rest_asked / rest_own : 1.0;
-  if (!(rest >= 0.5 && rest <= 2.0)) {
+  if (!(rest >= kLeastRest && rest <= kMostRest)) {
     throw UsageError(fmt::format(
         "hand_length is {:.1f} mm, which leaves {:.1f} mm for the parts of it that are not given "
-        "(palm, segments of the middle finger); {:.1f} to {:.1f} mm is allowed (half to twice the "
-        "{:.1f} mm of the hand that is scaled)",
-        *t.get(kLength), rest_asked, 0.5 * rest_own, 2.0 * rest_own, rest_own));
+        "(palm, segments of the middle finger); {:.1f} to {:.1f} mm is allowed ({:.1f} mm in the "
+        "hand "
+        "that is scaled)",
+        *t.get(kLength), rest_asked, kLeastRest * rest_own, kMostRest * rest_own, rest_own));
   }
   int of_rest = -1;
   for (int i = 0; i < kSegmentCount; ++i) {
@@ -388,35 +412,37 @@ HandInstanceMaker::~HandInstanceMaker() = default;
 HandInstanceMaker::HandInstanceMaker(HandInstanceMaker&&) noexcept = default;
 HandInstanceMaker& HandInstanceMaker::operator=(HandInstanceMaker&&) noexcept = default;
 
-HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets) const {
-  const Targets asked(targets, impl_->dimensions);
-  const Problem problem = impl_->pose(asked);
-  impl_->check_girth(problem, asked);
+struct HandInstanceMaker::Impl::Found {
+  SegmentScales scales;
+  HandDimensions measured;
+  int iterations = 0;
+};
+
+HandInstanceMaker::Impl::Found HandInstanceMaker::Impl::search(const Problem& problem) const {
   const auto n = static_cast<Eigen::Index>(problem.equation.size());
   Eigen::VectorXd u = problem.start;
-  HandInstance instance;
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual(n), last_residual, last_step;
-  HandDimensions measured = impl_->dimensions;
+  Found found;
   while (true) {
-    const SegmentScales scales = Impl::scales(problem, u);
-    measured = impl_->measured(scales);
+    found.scales = scales(problem, u);
+    found.measured = measured(found.scales);
     double miss = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const SizedDimension& d = problem.equation[static_cast<std::size_t>(i)];
-      const double value = value_of(measured, d.dimension);
+      const double value = value_of(found.measured, d.dimension);
+      if (!(value > 0.0)) {
+        throw NumericalError(fmt::format("{} comes out as {:.1f} mm", name_of(d.dimension), value));
+      }
       residual[i] = std::log(value / d.value);
       miss = std::max(miss, std::abs(value - d.value));
     }
     // Where a crease jumps from one web to the other, the last hundredth may stay out of reach.
-    const bool is_patient = instance.iterations < 6;
-    if (!(miss > (is_patient ? kSolvedMiss : 0.5 * kAllowedMiss)) ||
-        instance.iterations == kMostIterations) {
-      instance.hand = impl_->scaling.hand(scales);
-      break;
-    }
-    if (instance.iterations == 0) {
-      jacobian = impl_->sensitivity(problem);
+    const bool is_patient = found.iterations < 6;
+    if (miss <= (is_patient ? kSolvedMiss : 0.5 * kAllowedMiss)) return found;
+    if (found.iterations == kMostIterations) return found;
+    if (found.iterations == 0) {
+      jacobian = sensitivity(problem);
     } else {
       // Broyden (1965): the least change that explains the last step.
       jacobian += (residual - last_residual - jacobian * last_step) * last_step.transpose() /
@@ -427,32 +453,70 @@ HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets)
     last_step = -jacobian.partialPivLu().solve(residual);
     last_step = last_step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
     u += last_step;
-    ++instance.iterations;
+    ++found.iterations;
   }
-  instance.hand.dimensions = measured;
+}
+
+// Fingers that grow beside a palm that doesn't run out of room.
+std::string HandInstanceMaker::Impl::crowding(const SegmentScales& scales) {
+  double most = kRoomyWidth;
+  std::string text;
+  for (const Finger f : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
+    for (const auto& segment : segments_of(f)) {
+      const double ratio = scales.segment[static_cast<std::size_t>(*segment)].across /
+                           scales.segment[static_cast<std::size_t>(Segment::kPalm)].across;
+      if (!(ratio > most)) continue;
+      most = ratio;
+      text = fmt::format(
+          "{} gets {:.2f} times as wide, against the palm, as in the hand that is scaled; where "
+          "fingers need more room than there is, about {:.2f} is allowed",
+          name_of(*segment), ratio, kRoomyWidth);
+    }
+  }
+  return text;
+}
+
+HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets) const {
+  const Targets asked(targets, impl_->dimensions);
+  const Problem problem = impl_->pose(asked);
+  impl_->check_girth(problem, asked);
+  const std::string crowded = Impl::crowding(Impl::scales(problem, problem.start));
+  const std::string object = "hand \"" + impl_->hand->name + "\": ";
+  Impl::Found found;
+  try {
+    found = impl_->search(problem);
+  } catch (const Error& error) {  // a finger too thick to have a crease, say
+    if (!crowded.empty()) throw UsageError(object + crowded);
+    throw NumericalError(object + "no hand of these dimensions was found: " + error.what());
+  }
+  HandInstance instance;
+  instance.iterations = found.iterations;
   std::string worst;
-  std::string list;
   for (const SizedDimension& t : targets) {
-    const double value = value_of(measured, t.dimension);
+    const double value = value_of(found.measured, t.dimension);
     instance.driven.push_back({t.dimension, t.value, value});
     const double miss = std::abs(value - t.value);
-    if (!(miss <= instance.largest_miss)) {
-      instance.largest_miss = miss;
-      worst = fmt::format("{} of {:.1f} mm comes out as {:.2f} mm", name_of(t.dimension), t.value,
-                          value);
-    }
-    list += fmt::format("{}{} {:.2f}", list.empty() ? "" : ", ", name_of(t.dimension), t.value);
+    if (miss <= instance.largest_miss) continue;
+    instance.largest_miss = miss;
+    worst =
+        fmt::format("{} of {:.1f} mm comes out as {:.2f} mm", name_of(t.dimension), t.value, value);
   }
-  if (!(instance.largest_miss <= kAllowedMiss)) {
-    if (asked.has(kLength) && worst.starts_with("hand_length")) {
+  if (instance.largest_miss > kAllowedMiss) {
+    if (!problem.solves_length && worst.starts_with("hand_length")) {
       throw UsageError(
-          "dimensions contradict each other: palm and middle finger are all given, and with them " +
+          "dimensions contradict each other: palm_length and the three lengths of the middle "
+          "finger are all given, and with them " +
           worst + "; 0.1 mm is allowed");
     }
-    throw NumericalError("hand \"" + impl_->hand->name + "\": " + worst +
-                         " beside the other dimensions given; 0.1 mm is allowed");
+    if (!crowded.empty()) throw UsageError(object + crowded);
+    throw NumericalError(object + worst + " beside the other dimensions; 0.1 mm is allowed");
   }
-  if (!list.empty()) instance.hand.provenance += "; scaled segment by segment to " + list + " mm";
+  instance.hand = impl_->scaling.hand(found.scales);
+  instance.hand.dimensions = found.measured;
+  if (!crowded.empty() && !find_self_crossings(instance.hand.skin).empty()) {
+    throw UsageError(object + "the skin crosses itself: " + crowded);
+  }
+  if (!targets.empty()) instance.hand.provenance += "; " + asked.told();
   return instance;
 }
 
