@@ -7,15 +7,22 @@ namespace palmar {
 std::vector<Vec3> contact_normals(const ContactResult& contact, const DistanceField& product,
                                   const std::vector<int>& loaded) {
   constexpr double kClear = 0.05;  // mm; a direction over less than this is unsure
-  std::vector<Vec3> points, normals;
-  for (const int v : loaded) points.push_back(contact.deformed[static_cast<std::size_t>(v)]);
-  std::vector<DistanceSample> samples(points.size());
-  product.sample(points, 1.0, samples);
+  std::vector<Vec3> normals(loaded.size());
+  std::vector<Vec3> points;  // of those that hardly moved
+  std::vector<std::size_t> place;
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const auto v = static_cast<std::size_t>(loaded[k]);
     const Vec3 way = contact.deformed[v] - contact.undeformed[v];
-    normals.push_back(way.norm() > kClear ? Vec3(way.normalized()) : samples[k].normal);
+    if (way.norm() > kClear) {
+      normals[k] = way.normalized();
+      continue;
+    }
+    points.push_back(contact.deformed[v]);
+    place.push_back(k);
   }
+  std::vector<DistanceSample> samples(points.size());
+  product.sample(points, 1.0, samples);
+  for (std::size_t i = 0; i < place.size(); ++i) normals[place[i]] = samples[i].normal;
   return normals;
 }
 

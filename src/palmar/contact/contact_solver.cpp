@@ -296,9 +296,31 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
   }
 }
 
-void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
-                                const Rigid3& product_from_hand, const DistanceField& product,
-                                std::optional<Region> only, ContactResult& result) {
+namespace {
+
+struct DeepestOfRegion {
+  std::array<double, kRegionCount> depth{}, shear_modulus{};
+};
+
+DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
+                           const std::vector<Region>& region) {
+  DeepestOfRegion deepest;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    const auto r = static_cast<std::size_t>(region[v]);
+    if (-skin.sample[v].distance < deepest.depth[r]) continue;
+    deepest.depth[r] = -skin.sample[v].distance;
+    deepest.shear_modulus[r] = load.shear_modulus[k];
+  }
+  return deepest;
+}
+
+}  // namespace
+
+SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
+                                          const Rigid3& product_from_hand,
+                                          const DistanceField& product, std::optional<Region> only,
+                                          ContactResult& result) {
   const std::size_t n = prepared->hand->skin.vertices.size();
   if (posed_skin.size() != n) {
     throw UsageError("contact: posed skin has " + std::to_string(posed_skin.size()) +
@@ -330,14 +352,49 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   }
   was_in_contact.assign(n, 0);
   was_force = result.force;
-  std::vector<double> modulus(n, 0.0);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const auto v = static_cast<std::size_t>(load.vertex[k]);
     result.force[v] = load.force[k];
     result.pressure[v] = load.force[k] / prepared->skin.area[v];
-    modulus[v] = load.shear_modulus[k];
     was_in_contact[v] = load.in_contact[k];
     was_force[v] = load.force[k];
+  }
+  return load;
+}
+
+void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
+                                       const Rigid3& product_from_hand,
+                                       const DistanceField& product, ContactResult& result) {
+  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {}, result);
+  const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);
+  result.deformed = result.undeformed;
+  std::array<double, kRegionCount> force{};
+  for (std::size_t v = 0; v < result.force.size(); ++v) {
+    if (!(result.force[v] > 0.0)) continue;
+    result.deformed[v] = skin_.sample[v].closest;
+    force[static_cast<std::size_t>(prepared->hand->region[v])] += result.force[v];
+  }
+  for (std::size_t r = 0; r < force.size(); ++r) {
+    result.total.max_penetration = std::max(result.total.max_penetration, deepest.depth[r]);
+    if (!(force[r] > 0.0)) continue;
+    RegionContact& region = result.regions.emplace_back();
+    region.region = static_cast<Region>(r);
+    region.force = force[r];
+    region.max_penetration = deepest.depth[r];
+    region.shear_modulus = deepest.shear_modulus[r];
+    result.total.force += force[r];
+  }
+}
+
+void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
+                                const Rigid3& product_from_hand, const DistanceField& product,
+                                std::optional<Region> only, ContactResult& result) {
+  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, only, result);
+  const SkinOnProduct& skin = skin_;
+  const std::size_t n = posed_skin.size();
+  std::vector<double> modulus(n, 0.0);
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    modulus[static_cast<std::size_t>(load.vertex[k])] = load.shear_modulus[k];
   }
   const std::vector<LoadedPart> parts = loaded_parts(*prepared, load);
   SkinDisplacement u = skin_displacement(*prepared, skin, load, parts, options.swelling);
@@ -350,16 +407,9 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
     result.distance[v] = skin.sample[v].distance;
     gap[v] = result.distance[v] + u.elastic[v];
   }
-  std::array<double, kRegionCount> d_max{};
-  std::array<double, kRegionCount> region_modulus{};
-  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const auto v = static_cast<std::size_t>(load.vertex[k]);
-    const auto r = static_cast<std::size_t>(prepared->hand->region[v]);
-    if (-skin.sample[v].distance < d_max[r]) continue;
-    d_max[r] = -skin.sample[v].distance;
-    region_modulus[r] = load.shear_modulus[k];
-  }
-  add_totals(*prepared, skin, gap, modulus, d_max, region_modulus, options.cell_area, result);
+  const DeepestOfRegion deepest = deepest_of(skin, load, prepared->hand->region);
+  add_totals(*prepared, skin, gap, modulus, deepest.depth, deepest.shear_modulus, options.cell_area,
+             result);
   if (options.error_band && !load.vertex.empty()) {
     result.band = band(skin, load, gap, result);
   }

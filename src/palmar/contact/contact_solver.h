@@ -23,6 +23,11 @@ struct ContactSolver::Impl {
   /// `only`: the skin of other regions is let through (indentation test of one region).
   void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
              const DistanceField& product, std::optional<Region> only, ContactResult& result);
+  /// The same for who wants forces only: loaded skin is put on the product, all else stays where it
+  /// was; of regions and totals just force, largest penetration and shear modulus are set. A third
+  /// of the time.
+  void solve_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+                    const DistanceField& product, ContactResult& result);
 
   const PreparedHand* hand;
   const PreparedHand::Impl* prepared;
@@ -33,6 +38,9 @@ struct ContactSolver::Impl {
   std::vector<double> was_force;  ///< N
 
  private:
+  SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+                       const DistanceField& product, std::optional<Region> only,
+                       ContactResult& result);
   /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
   /// rows' shear moduli, 1/mm; symmetric.
   struct CoatingCompliance {

@@ -70,7 +70,7 @@ GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) c
 bool GripMechanics::look(const GripState& state) {
   const Hand& hand = hand_->hand();
   posed_ = pose_skin(hand, state.posture);
-  solver_.solve(posed_, state.product_from_hand, *product_->distance, contact_);
+  solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, contact_);
   force_.setZero();
   squeeze_.setZero();
   stiffness_.setZero();

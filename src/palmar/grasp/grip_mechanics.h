@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "palmar/contact/contact.h"
+#include "palmar/contact/contact_solver.h"
 #include "palmar/grasp/grip_force.h"
 #include "palmar/hand/posture.h"
 #include "palmar/product/product.h"
@@ -72,7 +72,7 @@ class GripMechanics {
   const PreparedHand* hand_;
   const Product* product_;
   double friction_ = 0.0;
-  ContactSolver solver_;
+  ContactSolver::Impl solver_;
   ContactResult contact_;
   std::vector<Vec3> posed_;
   std::array<std::vector<char>, kSqueezeJoints> is_moved_;  ///< per joint and skin vertex
