@@ -62,6 +62,8 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
   const Vec3 palm(mirror * 0.12, -0.10, -1.0);
   const TriangleMesh surface = product_map(product.mesh);
   const Quat& turn = product_from_hand.rotation;
+  ColourScale share = scales.above;
+  share.upper = 1.0;  // the field counts from 0 to 1, the bar in per cent
   std::vector<Picture> pictures;
   try {
     pictures.push_back(
@@ -71,7 +73,7 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                     palm, Vec3::UnitY()},
                    name, "Mean pressure over " + hands, scales.mean, options, progress));
     pictures.push_back(picture_of(
-        {painted(base.skin, maps.skin.above, {scales.above.map, 1.0}, kSkinColour)},
+        {painted(base.skin, maps.skin.above, share, kSkinColour)},
         {"above_hand", "Share of " + hands + " above " + limit + ", on the open hand",
          name + ": share of hands whose pressure is above " + limit + ", on the open hand.", palm,
          Vec3::UnitY()},

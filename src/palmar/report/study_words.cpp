@@ -15,14 +15,6 @@ std::string with_unit(const std::string& number, const StudyQuantity& quantity) 
   return quantity.unit.empty() ? number : number + " " + quantity.unit;
 }
 
-std::string cause_words(const LeftOutHands& one) {
-  for (int k = 0; k < kStudyOutcomes; ++k) {
-    const auto outcome = static_cast<StudyOutcome>(k);
-    if (name_of(outcome) == one.cause) return plain_words(outcome);
-  }
-  return one.cause == "not_run" ? "not run" : "no value";
-}
-
 }  // namespace
 
 std::string plain_words(StudyOutcome outcome) {
@@ -43,6 +35,15 @@ std::string plain_words(StudyOutcome outcome) {
       break;
   }
   return "no answer";
+}
+
+std::string cause_words(const std::string& cause) {
+  for (int k = 0; k < kStudyOutcomes; ++k) {
+    const auto outcome = static_cast<StudyOutcome>(k);
+    if (name_of(outcome) == cause) return plain_words(outcome);
+  }
+  if (cause == "not_run") return "not run";
+  return cause == "no_value" ? "no value" : cause;
 }
 
 std::string grasp_words(const StudyRecord& record) {
@@ -85,7 +86,8 @@ std::string left_out_words(const StudyPlan& plan, const ProductPair& pair) {
     std::string causes;
     for (const LeftOutHands& one : pair.left_out) {
       if (one.product != product) continue;
-      causes += (causes.empty() ? "" : ", ") + std::to_string(one.hands) + " " + cause_words(one);
+      causes +=
+          (causes.empty() ? "" : ", ") + std::to_string(one.hands) + " " + cause_words(one.cause);
     }
     if (causes.empty()) continue;
     words += (words.empty() ? "" : "; ") + plan.products[static_cast<std::size_t>(product)].name +

@@ -14,6 +14,9 @@ namespace palmar {
 /// "slips out", "too large for the hand", "no answer": how a grasp ended, as a clause.
 std::string plain_words(StudyOutcome outcome);
 
+/// The same from the name of an outcome or "not_run", "no_value"; any other text as it is.
+std::string cause_words(const std::string& cause);
+
 /// "Held; peak 0.31 MPa on sensor cells, 3850 mm², 92 N" or why there is nothing to show.
 std::string grasp_words(const StudyRecord& record);
 
