@@ -4,6 +4,7 @@
 
 #include "cli.h"
 #include "hand_pose_command.h"
+#include "hand_scale_command.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/hand_asset.h"
@@ -155,6 +156,7 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_measure(*hand, context);
   add_mirror(*hand, context);
   add_hand_pose(*hand, context);
+  add_hand_scale(*hand, context);
   add_export(*hand, context);
 }
 
