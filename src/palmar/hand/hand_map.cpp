@@ -26,10 +26,16 @@ Vec3 mapped_displacement(const CmcLimit& limit, const Eigen::Matrix3d& stretch) 
 Skeleton mapped_skeleton(const Skeleton& skeleton, const HandMap& map) {
   Skeleton result = skeleton;
   for (Joint& joint : result.joints) {
+    const Eigen::Matrix3d stretch = map.palm_stretch(joint.centre);
     const Vec3 before = joint.centre;
     joint.centre = map.joint(joint.id);
     for (JointDof& dof : joint.dofs) {
-      dof.centre = joint.centre + map.palm_stretch(before) * (dof.centre - before);
+      // The foot of the axis stretches, as in the limit postures: its line stays the one they turn
+      // about.
+      const Vec3 arm = dof.centre - before;
+      const Vec3 along = dof.axis.dot(arm) * dof.axis;
+      dof.centre =
+          joint.centre + stretch * (arm - along) + dof.axis.dot(stretch * along) * dof.axis;
     }
   }
   ThumbCmc& cmc = result.thumb_cmc;
