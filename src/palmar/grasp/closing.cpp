@@ -361,6 +361,18 @@ void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits
   }
 }
 
+std::array<double, kSegmentCount> HandCloser::depths(const HeldProduct& product,
+                                                     const Posture& posture) const {
+  const std::vector<DistanceSample> samples = look_at_skin(palm_, product, posture).sample;
+  std::array<double, kSegmentCount> depth;
+  depth.fill(-kSkinRange);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    double& deepest = depth[index_of(palm_.segment[k])];
+    deepest = std::max(deepest, -samples[k].distance);
+  }
+  return depth;
+}
+
 HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& limits,
                                 const Posture& posture, const Vec3& axis_in_hand) const {
   const SkinLook look = look_at_skin(all_, product, posture);

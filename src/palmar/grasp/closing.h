@@ -75,6 +75,9 @@ class HandCloser {
 
   const ThumbCloser& thumb() const { return *thumb_; }
 
+  /// HoldMeasure::penetration alone.
+  std::array<double, kSegmentCount> depths(const HeldProduct& product,
+                                           const Posture& posture) const;
   /// Contact and penetrations in a posture. `axis_in_hand`: grip axis, unit.
   HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
                       const Vec3& axis_in_hand) const;

@@ -30,6 +30,7 @@ constexpr double kShownDepth = 0.05;  // mm into the palm of what is only laid o
 constexpr int kTrimRounds = 16;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
+constexpr double kGridError = 1.0;       // mm; the quick distance is never that wrong
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
 
 std::string format(const char* text, double value) {
@@ -54,15 +55,15 @@ double lay_turn(const Hand& hand, const GripSite& site, double asked) {
 }
 
 // The quick distance is right to a few hundredths of a millimetre: what went too deep by the exact
-// one is opened again at its own joint.
-HoldMeasure trimmed(const HandCloser& closer, const HeldProduct& product, const DepthLimits& limits,
-                    const Vec3& axis_in_hand, Posture& posture) {
-  HoldMeasure measure = closer.measure(product, limits, posture, axis_in_hand);
+// one is opened again at its own joint. How deep the palm stays, mm.
+double trim(const HandCloser& closer, const HeldProduct& product, const DepthLimits& limits,
+            Posture& posture) {
+  auto depth = closer.depths(product, posture);
   for (int round = 0; round < kTrimRounds; ++round) {
     bool is_changed = false;
     for (int s = 1; s < kSegmentCount; ++s) {
       const auto segment = static_cast<Segment>(s);
-      const double excess = measure.penetration[static_cast<std::size_t>(s)] - limits.finger;
+      const double excess = depth[static_cast<std::size_t>(s)] - limits.finger;
       if (excess <= kTrimTolerance) continue;
       const Joint& joint = closer.hand().skeleton.joint(joint_of(segment));
       for (const JointDof& dof : joint.dofs) {
@@ -72,9 +73,9 @@ HoldMeasure trimmed(const HandCloser& closer, const HeldProduct& product, const 
       }
     }
     if (!is_changed) break;
-    measure = closer.measure(product, limits, posture, axis_in_hand);
+    depth = closer.depths(product, posture);
   }
-  return measure;
+  return depth[0];
 }
 
 // Where to look, and the grip meant there.
@@ -167,9 +168,12 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
                          bool may_give_way, const Progress& progress, Grasp& grasp) {
   HeldProduct held{distances.quick, placement.product_from_hand, site.point, site.axis,
                    site.girth / std::numbers::pi};
+  // To trim, only skin that may be too deep is asked about exactly.
+  const double deep = std::min(kTouched, kGridError - std::min(limits.palm, limits.finger));
+  const auto exact_deep = exact_where_touched(*distances.quick, *distances.exact, deep);
   const auto exact = exact_where_touched(*distances.quick, *distances.exact, kTouched);
-  const auto exact_held = [&exact](HeldProduct seen) {
-    seen.distance = exact.get();
+  const auto seen_by = [](HeldProduct seen, const DistanceField& field) {
+    seen.distance = &field;
     return seen;
   };
   Posture start = fine.start_posture(hold.style);
@@ -178,7 +182,6 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
     start[dof] = hold.posture[dof];
   }
   ThumbWay way;
-  HoldMeasure measure;
   for (int round = 0; round < kSettleRounds; ++round) {
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
@@ -194,16 +197,16 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
       }
       grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
     }
-    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
-    const double excess = measure.penetration[0] - limits.palm;
+    const double palm = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture);
+    const double excess = palm - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;
     held.product_from_hand.translation +=
         held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
     if (round + 1 < kSettleRounds) continue;
-    measure = trimmed(fine, exact_held(held), limits, placement.axis_in_hand, grasp.posture);
+    trim(fine, seen_by(held, *exact_deep), limits, grasp.posture);
   }
   placement.product_from_hand = held.product_from_hand;
-  return measure;
+  return fine.measure(seen_by(held, *exact), limits, grasp.posture, placement.axis_in_hand);
 }
 
 /// Nobody holds it: the hand is shown beside the product, touching nothing.
