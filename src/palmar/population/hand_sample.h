@@ -25,7 +25,7 @@ struct HandSample {
 
 enum class SamplingDesign {
   kRandom,          ///< independent draws
-  kLatinHypercube,  ///< every driving dimension in equal-probability layers
+  kLatinHypercube,  ///< what the driving dimensions are made of in equal-probability layers
   kBoundary,        ///< mean and points of an ellipse of two driving dimensions
   kPercentiles      ///< hands whose driving dimensions all stand at a percentile of their stratum
 };
@@ -48,9 +48,10 @@ struct SamplingOptions {
 /// - kRandom: hand k comes from stream k of the seed alone, so it is the same whatever the number
 /// of
 ///   other hands.
-/// - kLatinHypercube: strata get hands by their shares; within one, correlated draws are moved into
-///   layers by their ranks (Stein 1987, Technometrics 29:143-151), so that every driving dimension
-///   has one hand in each layer and the correlations stay.
+/// - kLatinHypercube: strata get hands by their shares; within one, independent factors (Cholesky
+///   factor of the correlation, in the order of the driving dimensions) have one hand in each of n
+///   layers, paired at random (McKay, Beckman, Conover 1979). The first driving dimension thus has
+///   a hand in each of its own layers, the means of the others scatter as little.
 /// - kBoundary: of every stratum its mean and points on the ellipse of its first two driving
 ///   dimensions that holds the stated share of people (chi-square, 2 degrees of freedom). In
 ///   standard scores its axes are "both larger" (0 deg) and "the second larger, the first smaller"

@@ -63,11 +63,15 @@ class Drawer {
   const Stratum& stratum() const { return stratum_; }
   Eigen::Index drivers() const { return factor_.rows(); }
 
-  /// Standard normal numbers with the stratum's correlation.
+  /// Independent standard normal numbers with the stratum's correlation given to them; the first
+  /// one stays.
+  Eigen::VectorXd with_correlation(const Eigen::VectorXd& factors) const {
+    return factor_ * factors;
+  }
   Eigen::VectorXd correlated(RandomStream& random) const {
     Eigen::VectorXd z(drivers());
     for (double& one : z) one = random.normal();
-    return factor_ * z;
+    return with_correlation(z);
   }
 
   /// The person whose driving dimensions stand at these scores (deviations from the mean). Without
@@ -156,22 +160,26 @@ std::vector<HandSample> random_hands(const Population& population, const Samplin
   return hands;
 }
 
-// Scores of n people: correlated draws whose ranks choose the layers, so that every driving
-// dimension has one person in each of n layers of equal probability (Stein 1987).
+// Scores of n people: independent factors, each with one person in each of n layers of equal
+// probability, paired at random (McKay, Beckman, Conover 1979), then given their correlation.
+// Layers of the correlated dimensions themselves would loosen how they hang together in one person:
+// hands too broad for their girth.
 std::vector<Eigen::VectorXd> layered_scores(const Drawer& drawer, int n, RandomStream& random) {
-  std::vector<Eigen::VectorXd> scores;
-  for (int k = 0; k < n; ++k) scores.push_back(drawer.correlated(random));
-  std::vector<std::size_t> order(scores.size());
+  std::vector<Eigen::VectorXd> factors(static_cast<std::size_t>(n),
+                                       Eigen::VectorXd(drawer.drivers()));
+  std::vector<std::size_t> layer(factors.size());
   for (Eigen::Index i = 0; i < drawer.drivers(); ++i) {
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return scores[a][i] < scores[b][i]; });
-    for (std::size_t layer = 0; layer < order.size(); ++layer) {
-      const double p = (static_cast<double>(layer) + random.uniform()) / n;
-      scores[order[layer]][i] = standard_normal_quantile(p);
+    std::iota(layer.begin(), layer.end(), std::size_t{0});
+    for (std::size_t left = layer.size(); left > 1; --left) {
+      std::swap(layer[left - 1], layer[random.below(left)]);
+    }
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+      const double p = (static_cast<double>(layer[k]) + random.uniform()) / n;
+      factors[k][i] = standard_normal_quantile(p);
     }
   }
-  return scores;
+  for (Eigen::VectorXd& one : factors) one = drawer.with_correlation(one);
+  return factors;
 }
 
 std::vector<HandSample> layered_hands(const Population& population,

@@ -169,18 +169,23 @@ TEST(SampleHands, HandKIsTheSameWhateverTheOthers) {
   EXPECT_NE(value_of(few[0], kLength), value_of(others[0], kLength));
 }
 
-TEST(LatinHypercube, EveryDriverHasOneHandInEveryLayer) {
+// Layers of the first dimension, and of what the second has beyond it.
+TEST(LatinHypercube, EveryFactorHasOneHandInEveryLayer) {
   constexpr int kHands = 50;
-  const auto hands = draw(one_normal(0.6), SamplingDesign::kLatinHypercube, kHands, 4);
-  const Population population = one_normal(0.6);
-  for (const DrivingDimension& one : population.strata[0].driving) {
-    std::set<int> layers;
-    for (const double v : values_of(hands, one.dimension)) {
-      const double p = 0.5 * std::erfc(-(v - one.mean) / one.sd / std::numbers::sqrt2);
-      layers.insert(static_cast<int>(p * kHands));
-    }
-    EXPECT_EQ(layers.size(), static_cast<std::size_t>(kHands)) << name_of(one.dimension);
+  constexpr double kRho = 0.6;
+  std::set<int> first, second;
+  for (const HandSample& hand :
+       draw(one_normal(kRho), SamplingDesign::kLatinHypercube, kHands, 4)) {
+    const double a = (value_of(hand, kLength) - 184.0) / 10.4;
+    const double b = (value_of(hand, kCircumference) - 193.0) / 14.0;
+    const auto layer = [](double z) {
+      return static_cast<int>(kHands * 0.5 * std::erfc(-z / std::numbers::sqrt2));
+    };
+    first.insert(layer(a));
+    second.insert(layer((b - kRho * a) / std::sqrt(1.0 - kRho * kRho)));
   }
+  EXPECT_EQ(first.size(), static_cast<std::size_t>(kHands));
+  EXPECT_EQ(second.size(), static_cast<std::size_t>(kHands));
 }
 
 TEST(LatinHypercube, KeepsTheCorrelation) {
@@ -191,16 +196,19 @@ TEST(LatinHypercube, KeepsTheCorrelation) {
 }
 
 TEST(LatinHypercube, MeansScatterFarLessThanThoseOfRandomDraws) {
-  std::vector<double> random, layered;
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    random.push_back(
-        mean_of(values_of(draw(one_normal(0.36), SamplingDesign::kRandom, 30, seed), kLength)));
-    layered.push_back(mean_of(
-        values_of(draw(one_normal(0.36), SamplingDesign::kLatinHypercube, 30, seed), kLength)));
+  for (const HandDimension dimension : {kLength, kCircumference}) {
+    const auto means = [&](SamplingDesign design) {
+      std::vector<double> list;
+      for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        list.push_back(mean_of(values_of(draw(one_normal(0.36), design, 30, seed), dimension)));
+      }
+      return list;
+    };
+    // The mean of a stratified sample of n falls off as n^-1.5 (McKay, Beckman, Conover 1979).
+    const std::vector<double> layered = means(SamplingDesign::kLatinHypercube);
+    EXPECT_LT(sd_of(layered), 0.2 * sd_of(means(SamplingDesign::kRandom)));
+    EXPECT_NEAR(mean_of(layered), dimension == kLength ? 184.0 : 193.0, 0.2);
   }
-  // The mean of a stratified sample of n falls off as n^-1.5 (McKay, Beckman, Conover 1979).
-  EXPECT_LT(sd_of(layered), 0.2 * sd_of(random));
-  EXPECT_NEAR(mean_of(layered), 184.0, 0.2);
 }
 
 TEST(LatinHypercube, StrataGetHandsByTheirShares) {
@@ -261,6 +269,19 @@ TEST(SampleHands, MiddleFingerKeepsAProximalSegment) {
                           value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleMiddle}) -
                           value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleDistal});
       ASSERT_GT(rest, 8.0) << population.name << " hand " << hand.label;  // mm; 22.6 on the mean
+    }
+  }
+}
+
+// A convex section is at least twice as long round as it is broad: no hand is drawn flatter.
+TEST(SampleHands, HandsAreNotBroaderThanTheirGirthAllows) {
+  for (const char* name : {"ansur2", "japanese", "delhi_men"}) {
+    for (const int hands : {4, 30, 10000}) {
+      for (const HandSample& hand :
+           draw(population_named(name), SamplingDesign::kLatinHypercube, hands, 2)) {
+        ASSERT_GT(value_of(hand, kCircumference), 2.0 * value_of(hand, {DimensionKind::kHandWidth}))
+            << name << " " << hand.label;
+      }
     }
   }
 }

@@ -102,7 +102,7 @@ double range_share_of(const Hand& hand, const Posture& posture) {
   return share;
 }
 
-double strength_needed(const Hand& hand, const Product& product, const ContactResult& contact,
+double strength_needed(const Hand& hand, const ContactResult& contact,
                        const StrengthQuestion& question) {
   const Vec3 mass_centre = question.load.mass_centre.value_or(question.mass_centre);
   const Wrench load = wrench_of(question.load, mass_centre);
@@ -112,10 +112,6 @@ double strength_needed(const Hand& hand, const Product& product, const ContactRe
   const GripForce least = least_grip_force(contacts, load, mass_centre);
   if (least.status == GripForceStatus::kNoLoad) return 0.0;
   if (least.status != GripForceStatus::kHeld) return std::numeric_limits<double>::infinity();
-  if (least.factor) {
-    const double squeeze = grip_force(contact, *product.distance).force;
-    return *least.factor * squeeze / strength_share(question.grip);
-  }
   std::vector<Vec3> normal_forces;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vec3& normal = contacts[i].normal;
@@ -153,7 +149,7 @@ GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProduc
                       const StrengthQuestion& question) {
   GraspDemand demand;
   demand.range_share = range_share_of(hand, held.grasp.posture);
-  demand.grip_strength = strength_needed(hand, product, held.contact, question);
+  demand.grip_strength = strength_needed(hand, held.contact, question);
   demand.nail_room = nail_room_of(hand, held.grasp.posture, held.posed_skin,
                                   held.grasp.product_from_hand, product);
   return demand;

@@ -13,21 +13,22 @@ namespace palmar {
 /// range. Above 1 for a posture that even that hand can't take.
 double range_share_of(const Hand& hand, const Posture& posture);
 
-/// Smallest grip strength of a dynamometer [N] with which a hand holds the load by friction. With
-/// p the contact's normal forces and lambda the least factor on them, their shares kept, whose
-/// friction cones balance the load (least_grip_force(), stability.h)
+/// Smallest grip strength of a dynamometer [N] with which a hand can hold the load by friction
+/// where it touches the product. Of all normal forces whose friction cones balance the load those
+/// of least sum are taken (least_grip_force(), stability.h), however the fingers would share them
+/// out;
 ///
-///     strength = grip_force(lambda p) / strength_share(grip).
+///     strength = grip_force(these) / strength_share(grip).
 ///
-/// Where no such factor is, the forces of least sum take its place, shared out as suits the load;
-/// where none hold it, the result is infinite. 0 without load.
+/// So weaker people can't hold it, and stronger ones may still fail. Infinite where no forces hold
+/// the load; 0 without load.
 struct StrengthQuestion {
   double friction = 0.5;  ///< of skin on the product
   ProductLoad load;
   Vec3 mass_centre = Vec3::Zero();  ///< product frame, mm; unless the load has its own
   Grip grip = Grip::kMediumWrap;
 };
-double strength_needed(const Hand& hand, const Product& product, const ContactResult& contact,
+double strength_needed(const Hand& hand, const ContactResult& contact,
                        const StrengthQuestion& question);
 
 /// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
