@@ -247,12 +247,14 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
   return result;
 }
 
+bool ContactSolver::Impl::may_bulge() const {
+  return prepared->model.tissue == TissueModel::kLayered || !options.coatings.empty();
+}
+
 void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
                                      ContactResult& result) {
   // A half-space is moved inwards everywhere; a layer bulges beside the contact, and skin that
   // comes to touch that way joins the problem.
-  const bool may_bulge =
-      prepared->model.tissue == TissueModel::kLayered || !options.coatings.empty();
   load.vertex = skin.collision;
   std::vector<char> start(skin.sample.size(), 0);
   for (int round = 0;; ++round) {
@@ -274,7 +276,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
       solve_by_region(skin, load, result);
       return;
     }
-    if (!may_bulge) return;
+    if (!may_bulge()) return;
     const std::vector<int> more = pressed_in(skin, load);
     if (more.empty()) return;
     if (round == kMostExtensions) {
@@ -320,7 +322,7 @@ DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
 SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
                                           const Rigid3& product_from_hand,
                                           const DistanceField& product, std::optional<Region> only,
-                                          ContactResult& result) {
+                                          double wanted, ContactResult& result) {
   const std::size_t n = prepared->hand->skin.vertices.size();
   if (posed_skin.size() != n) {
     throw UsageError("contact: posed skin has " + std::to_string(posed_skin.size()) +
@@ -329,7 +331,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   result.model = prepared->model;
   result.undeformed.resize(n);
   for (std::size_t v = 0; v < n; ++v) result.undeformed[v] = product_from_hand * posed_skin[v];
-  find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_);
+  find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_, wanted);
   const SkinOnProduct& skin = skin_;
   result.message = skin.message;
   result.force.assign(n, 0.0);
@@ -365,7 +367,8 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
 void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
                                        const Rigid3& product_from_hand,
                                        const DistanceField& product, ContactResult& result) {
-  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {}, result);
+  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {},
+                                    may_bulge() ? kNearRange : 0.0, result);
   const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);
   result.deformed = result.undeformed;
   std::array<double, kRegionCount> force{};
@@ -389,7 +392,8 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
 void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
                                 const Rigid3& product_from_hand, const DistanceField& product,
                                 std::optional<Region> only, ContactResult& result) {
-  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, only, result);
+  const SkinLoad load =
+      find_forces(posed_skin, product_from_hand, product, only, kNearRange, result);
   const SkinOnProduct& skin = skin_;
   const std::size_t n = posed_skin.size();
   std::vector<double> modulus(n, 0.0);

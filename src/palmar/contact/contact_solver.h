@@ -39,8 +39,10 @@ struct ContactSolver::Impl {
 
  private:
   SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                       const DistanceField& product, std::optional<Region> only,
+                       const DistanceField& product, std::optional<Region> only, double wanted,
                        ContactResult& result);
+  /// Skin outside the problem may come to touch as other skin is pressed.
+  bool may_bulge() const;
   /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
   /// rows' shear moduli, 1/mm; symmetric.
   struct CoatingCompliance {

@@ -77,7 +77,8 @@ void resample_vertices(const DistanceField& product, const std::vector<Vec3>& po
 }
 
 void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& posed,
-                         const std::vector<int>& near, std::vector<DistanceSample>& samples) {
+                         const std::vector<int>& near, double wanted,
+                         std::vector<DistanceSample>& samples) {
   const bool is_new = product.id() != product_ || sample_.size() != posed.size();
   if (is_new) {
     product_ = product.id();
@@ -92,7 +93,7 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
   for (const int v : near) {
     if (may_skip && is_known_[v]) {
       const double least = sample_[v].distance - (posed[v] - position_[v]).norm();
-      if (least > kNearRange + kRounding) continue;
+      if (least > wanted + kRounding) continue;
     }
     asked_.push_back(v);
     points_.push_back(posed[v]);
@@ -114,7 +115,7 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
 
 void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                           const DistanceField& product, std::optional<Region> only,
-                          SkinSampler* sampler, SkinOnProduct& skin) {
+                          SkinSampler* sampler, SkinOnProduct& skin, double wanted) {
   vertex_normals(posed, hand.skin.triangles, skin.normal);
   skin.sample.resize(posed.size());
   skin.near.clear();
@@ -135,7 +136,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
   double range = kNearRange;
   if (sampler) {
-    sampler->sample(product, posed, skin.near, skin.sample);
+    sampler->sample(product, posed, skin.near, wanted, skin.sample);
     range = kWatchRange;
   } else {
     sample_vertices(product, posed, skin.near, kNearRange, skin.sample);

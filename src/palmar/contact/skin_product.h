@@ -39,9 +39,9 @@ class SkinSampler {
 
  private:
   friend void find_skin_on_product(const Hand&, const std::vector<Vec3>&, const DistanceField&,
-                                   std::optional<Region>, SkinSampler*, SkinOnProduct&);
+                                   std::optional<Region>, SkinSampler*, SkinOnProduct&, double);
   void sample(const DistanceField& product, const std::vector<Vec3>& posed,
-              const std::vector<int>& near, std::vector<DistanceSample>& samples);
+              const std::vector<int>& near, double wanted, std::vector<DistanceSample>& samples);
 
   std::uint64_t product_ = 0;           // id of the field the rest is about; 0: none
   std::vector<Vec3> position_;          // where a vertex was last sampled
@@ -58,9 +58,10 @@ SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& po
                                    const DistanceField& product, std::optional<Region> only);
 
 /// The same into `skin`, whose memory is reused, with a sampler (or none) kept from call to call.
+/// With one, skin farther outside than `wanted` [mm] may be told as if it were kNearRange away.
 void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                           const DistanceField& product, std::optional<Region> only,
-                          SkinSampler* sampler, SkinOnProduct& skin);
+                          SkinSampler* sampler, SkinOnProduct& skin, double wanted = kNearRange);
 
 /// Samples the product at some vertices into their places in `samples`.
 void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
