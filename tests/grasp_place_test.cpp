@@ -1,0 +1,144 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/grasp_place.h"
+
+#include <gmock/gmock.h>
+
+#include "palmar/contact/hand_family.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/geometry/mesh_distance.h"
+#include "palmar/hand/dimensions.h"
+#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/skinning.h"
+#include "palmar/product/primitives.h"
+#include "template_fixture.h"
+
+namespace palmar {
+namespace {
+
+class GraspPlaces : public TemplateTest {
+ protected:
+  /// Length and circumference of the template times these.
+  static std::shared_ptr<const Hand> instance(double length, double circumference) {
+    const HandDimensions own = measure_hand(hand());
+    return std::make_shared<const Hand>(
+        make_hand_instance(
+            hand(), {{{DimensionKind::kHandLength}, length * own.hand_length},
+                     {{DimensionKind::kHandCircumference}, circumference * own.hand_circumference}})
+            .hand);
+  }
+  static Product cylinder() {
+    CylinderProductOptions options;
+    options.diameter = 38.0;
+    return make_cylinder_product(options);
+  }
+  static double contact_area(const std::shared_ptr<const Hand>& held_by, const Product& product,
+                             const Grasp& grasp) {
+    const PreparedHand prepared(held_by);
+    return solve_hand_contact(prepared, pose_skin(*held_by, grasp.posture), grasp.product_from_hand,
+                              *product.distance)
+        .total.area;
+  }
+};
+
+TEST_F(GraspPlaces, ReferenceHandHoldsAsFound) {
+  const Product product = cylinder();
+  const GraspPlace place(hand(), product);
+  const Grasp searched = find_grasp(hand(), product);
+  const Grasp again = place.hold(GraspingHand(std::make_shared<const Hand>(hand())));
+  EXPECT_EQ(again.posture.angle, searched.posture.angle);
+  EXPECT_EQ(again.product_from_hand.translation, searched.product_from_hand.translation);
+  EXPECT_EQ(again.message, searched.message);
+}
+
+TEST_F(GraspPlaces, OtherHandsHoldTheSameSideAsFirmlyAsAfterASearch) {
+  const Product product = cylinder();
+  const GraspPlace place(hand(), product);
+  for (const auto& [length, circumference] : {std::pair{0.88, 0.9}, std::pair{1.12, 1.05}}) {
+    const auto other = instance(length, circumference);
+    const Grasp kept = place.hold(GraspingHand(other));
+    ASSERT_EQ(kept.status, GraspStatus::kHeld) << kept.message;
+    EXPECT_LT(kept.product_from_hand.rotation.angularDistance(
+                  place.reference_grasp().product_from_hand.rotation),
+              0.2);  // rad; lays differ by the tilt of thin handles only
+    // A search of its own may find a little more skin to lay on.
+    const double searched = contact_area(other, product, find_grasp(*other, product));
+    EXPECT_GT(contact_area(other, product, kept), 0.8 * searched);
+  }
+}
+
+TEST_F(GraspPlaces, LeftHandsHoldAMirroredProductInTheMirroredWay) {
+  Product product = cylinder();
+  for (Vec3& v : product.mesh.vertices) v.head<2>() *= 1.0 + 0.001 * (v.z() + 0.4 * v.x());
+  product.distance = std::make_shared<MeshDistance>(product.mesh);
+  Product mirror = product;
+  for (Vec3& v : mirror.mesh.vertices) v.x() = -v.x();
+  for (Triangle& t : mirror.mesh.triangles) std::swap(t[1], t[2]);
+  mirror.distance = std::make_shared<MeshDistance>(mirror.mesh);
+  const auto other = instance(1.06, 1.0);
+  const Hand left_reference = mirrored(hand());
+  const Grasp right = GraspPlace(hand(), product).hold(GraspingHand(other));
+  const Grasp left = GraspPlace(left_reference, mirror)
+                         .hold(GraspingHand(std::make_shared<const Hand>(mirrored(*other))));
+  EXPECT_EQ(left.status, right.status);
+  for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
+    EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d],
+                1e-4)  // the quick distance is in single precision
+        << name_of(static_cast<Dof>(d));
+  }
+}
+
+TEST_F(GraspPlaces, ThreadsShareAPlace) {
+  const Product product = cylinder();
+  const GraspPlace place(hand(), product);
+  const auto other = instance(0.95, 1.05);
+  const Grasp alone = place.hold(GraspingHand(other));
+  std::array<Grasp, 4> together;
+  parallel_for(
+      4, [&](int i) { together[static_cast<std::size_t>(i)] = place.hold(GraspingHand(other)); });
+  for (const Grasp& grasp : together) {
+    EXPECT_EQ(grasp.posture.angle, alone.posture.angle);
+    EXPECT_EQ(grasp.product_from_hand.translation, alone.product_from_hand.translation);
+  }
+}
+
+TEST_F(GraspPlaces, FingertipsGoToTheSamePointsOfTheProduct) {
+  GraspOptions options;
+  options.grip = Grip::kTripod;
+  CylinderProductOptions pen;
+  pen.diameter = 14.0;
+  const Product product = make_cylinder_product(pen);
+  const GraspPlace place(hand(), product, options);
+  const Grasp kept = place.hold(GraspingHand(instance(1.05, 1.02)));
+  ASSERT_EQ(kept.fingertips.size(), place.reference_grasp().fingertips.size());
+  for (std::size_t k = 0; k < kept.fingertips.size(); ++k) {
+    EXPECT_LT((kept.fingertips[k].target - place.reference_grasp().fingertips[k].target).norm(),
+              1.0);  // mm
+  }
+}
+
+// Three standard deviations of hand length (17 %) and circumference (22 %) about the mean.
+TEST_F(GraspPlaces, HandsOfOneFamilyPressAsIfPreparedInFull) {
+  const auto base = std::make_shared<const Hand>(hand());
+  const HandFamily family(base);
+  const Product product = cylinder();
+  const GraspPlace place(hand(), product);
+  for (const auto& [length, circumference] :
+       {std::pair{0.85, 0.85}, std::pair{1.17, 0.9}, std::pair{0.95, 1.2}}) {
+    const auto other = instance(length, circumference);
+    const Grasp grasp = place.hold(GraspingHand(other));
+    const std::vector<Vec3> skin = pose_skin(*other, grasp.posture);
+    const auto press = [&](const PreparedHand& prepared) {
+      return solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance).total;
+    };
+    const RegionContact full = press(PreparedHand(other)), quick = press({other, family});
+    EXPECT_NEAR(quick.force, full.force, 0.002 * full.force);
+    EXPECT_NEAR(quick.area, full.area, 0.002 * full.area);
+    EXPECT_NEAR(quick.peak_pressure_cells, full.peak_pressure_cells,
+                0.005 * full.peak_pressure_cells);
+  }
+}
+
+}  // namespace
+}  // namespace palmar
