@@ -374,7 +374,7 @@ StudyRequest read_study_file(const std::string& path) {
     request.populations.push_back(read_population_request(one));
   }
   if (request.populations.empty()) {
-    file.fail("no [[population]]: whose hands is not said; preset = \"thesis\" is one");
+    file.fail("no [[population]]: whose hands is not said; preset = \"xie2014\" is one");
   }
   for (const TomlSection& one : file.tables("profile")) {
     request.profiles.push_back(read_profile(one));

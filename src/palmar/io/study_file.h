@@ -63,6 +63,10 @@ struct LoadedStudy {
 /// Draws the hands, reads and makes the products. `hand`: the one that `request.hand` names.
 LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand);
 
+/// Throws UsageError if the file of a product of the plan is there but no longer what the study
+/// began with.
+void check_products(const StudyPlan& plan);
+
 /// "lhs", "latin_hypercube", "random", "boundary", "percentiles". Nothing for another word.
 std::optional<SamplingDesign> design_named(const std::string& name);
 /// "auto" (nothing inside) or a grip's name. Throws UsageError naming the nearest.

@@ -91,7 +91,7 @@ void add_population(const PopulationRequest& request, std::uint64_t seed, Loaded
   study.plan.populations.push_back(std::move(one));
 }
 
-std::string name_of(const ProductRequest& request) {
+std::string product_name(const ProductRequest& request) {
   if (!request.name.empty()) return request.name;
   if (!request.file.empty()) return std::filesystem::path(request.file).stem().string();
   std::string name = request.made.kind;
@@ -112,7 +112,7 @@ Product sized(const Product& product, double size) {
 }
 
 void add_product(const ProductRequest& request, LoadedStudy& study) {
-  const std::string name = name_of(request);
+  const std::string name = product_name(request);
   std::optional<Product> read;
   if (!request.file.empty()) {
     read = load_product(request.file, {.unit = request.unit});
@@ -128,12 +128,24 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
     Product product = read ? sized(*read, size) : make_solid(request.made, size);
     product.name = one.name;
     one.content_hash = content_hash(product.mesh);
+    one.unit = name_of(product.unit);
     study.plan.products.push_back(std::move(one));
     study.inputs.products.push_back(std::move(product));
   }
 }
 
 }  // namespace
+
+void check_products(const StudyPlan& plan) {
+  for (const StudyProduct& one : plan.products) {
+    std::error_code error;
+    if (is_made(one.file) || !std::filesystem::is_regular_file(one.file, error)) continue;
+    const Product now = sized(load_product(one.file, {.unit = length_unit(one.unit)}), one.size);
+    if (content_hash(now.mesh) == one.content_hash) continue;
+    throw UsageError("product \"" + one.name + "\": " + one.file +
+                     " has changed since the study began");
+  }
+}
 
 LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand) {
   LoadedStudy study;

@@ -147,6 +147,7 @@ Json product_json(const StudyProduct& product) {
           {"size", product.size},
           {"file", product.file},
           {"content_sha256", product.content_hash},
+          {"unit", product.unit},
           {"at_mm", vector_json(product.at)},
           {"axis", vector_json(product.axis)},
           {"mass_kg", product.mass},
@@ -160,6 +161,7 @@ StudyProduct product_from(const Json& json) {
   product.size = json.at("size");
   product.file = json.at("file");
   product.content_hash = json.at("content_sha256");
+  product.unit = json.at("unit");
   product.at = vector_from(json.at("at_mm"));
   product.axis = vector_from(json.at("axis"));
   product.mass = json.at("mass_kg");

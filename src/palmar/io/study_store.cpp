@@ -35,13 +35,10 @@ namespace fs = std::filesystem;
   const std::string name = path.string();
   switch (failure.code) {
     case SQLITE_BUSY:
-    case SQLITE_LOCKED: {
-      const std::string text = name + ": in use by another process" +
-                               (is_writing ? "; one process at a time may write a study"
-                                           : ", which writes it; wait until it is done or stop it");
-      if (is_writing) throw OutputError(text);
-      throw InputError(text);
-    }
+    case SQLITE_LOCKED:
+      throw StudyBusy(name + ": in use by another process" +
+                      (is_writing ? "; one process at a time may write a study"
+                                  : ", which writes it; wait until it is done or stop it"));
     case SQLITE_FULL:
       throw OutputError(name + ": the disk is full; what was finished before is kept");
     case SQLITE_READONLY:

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/error.h"
 #include "palmar/core/progress.h"
 #include "palmar/study/study_plan.h"
 #include "palmar/study/study_record.h"
@@ -20,6 +21,12 @@ namespace palmar {
 /// (docs/using/study-store.md has every table).
 inline constexpr int kStudyStoreVersion = 1;
 
+/// Another process writes the study, or reads what this one wants to write.
+class StudyBusy : public Error {
+ public:
+  using Error::Error;
+};
+
 enum class StudyAccess {
   kRead,  ///< beside other readers; refused while another process writes
   kWrite  ///< alone
@@ -30,9 +37,8 @@ enum class StudyAccess {
 /// A finished store depends on nothing but plan, inputs and program: it has the same bytes whether
 /// the study ran in one go, in pieces, on any number of threads, or in shards that were merged.
 ///
-/// Messages begin with the file's name. Functions that read throw InputError: no store, of a newer
-/// version, damaged, written by another process. Functions that write throw OutputError: no
-/// permission, disk full, in use by another process.
+/// Messages begin with the file's name. Throws StudyBusy: in use by another process; InputError: no
+/// store, of a newer version, damaged; OutputError: no permission, disk full.
 class StudyStore {
  public:
   /// A store without any grasp. Throws OutputError if there is a file of that name.

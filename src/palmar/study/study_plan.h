@@ -34,6 +34,7 @@ struct StudyProduct {
   double size = 1.0;             ///< factor on the file's lengths
   std::string file;              ///< path as told, or the generating words
   std::string content_hash;      ///< SHA-256 of mesh in mm, hex
+  std::string unit = "mm";       ///< of the file, as it was settled
   std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
   double mass = 0.0;             ///< kg; 0: no load
   /// Name of the product of the same study and size whose grasp at rest is kept, posture and

@@ -80,7 +80,7 @@ void run_study(const StudyPlan& plan, const StudyInputs& inputs, const StudyRunO
   std::atomic<std::size_t> next{0};
   Progress quiet = progress;
   quiet.report = nullptr;
-  bench.find_places(options.tasks, quiet);
+  bench.prepare(options.tasks, quiet);
   const int workers = std::min(thread_count(), static_cast<int>(hands.size()));
   // Each worker takes the next hand that nobody has: at most as many hands are prepared at a time
   // as there are threads. Isolated: a thread that waits inside one hand must not begin another.

@@ -13,13 +13,17 @@
 #include <utility>
 
 #include "palmar/contact/footprint.h"
+#include "palmar/contact/hand_family.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/grasp/grasp_place.h"
 #include "palmar/grasp/grip_force.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/hand/hand_instance.h"
+#include "palmar/product/gloved.h"
 #include "palmar/study/assessment.h"
+#include "palmar/study/grasp_demand.h"
 
 namespace palmar {
 namespace {
@@ -82,13 +86,22 @@ void take_contact(const ContactResult& contact, StudyRecord& record) {
 }
 
 bool is_finite(const StudyRecord& record) {
-  for (const double value :
-       {record.force, record.grip_force, record.area, record.peak_pressure,
-        record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,
-        record.demand.grip_strength, record.demand.nail_room}) {
+  for (const double value : {record.force, record.grip_force, record.area, record.peak_pressure,
+                             record.peak_pressure_cells, record.mean_pressure,
+                             record.demand.range_share, record.demand.nail_room}) {
     if (!std::isfinite(value)) return false;
   }
-  return true;
+  return !std::isnan(record.demand.grip_strength);  // infinite: no strength holds the load
+}
+
+}  // namespace
+
+namespace {
+
+std::shared_ptr<const Hand> with_range_of(const std::shared_ptr<const Hand>& hand,
+                                          const HandProfile& profile) {
+  if (profile.range_share == 1.0) return hand;
+  return std::make_shared<const Hand>(with_range_share(*hand, profile.range_share));
 }
 
 }  // namespace
@@ -106,6 +119,20 @@ struct StudyBench::Impl {
                                    inputs.products.size(), plan.products.size()));
     }
     for (const Product& product : inputs.products) maps.push_back(product_map(product.mesh));
+    for (const HandProfile& profile : plan.profiles) {
+      std::vector<Product> as_touched;
+      std::vector<TriangleMesh> touched_maps;
+      if (profile.glove_thickness > 0.0) {
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+          as_touched.push_back(gloved(inputs.products[i], profile.glove_thickness));
+          Product map = inputs.products[i];
+          map.mesh = maps[i];
+          touched_maps.push_back(gloved(map, profile.glove_thickness).mesh);
+        }
+      }
+      gloved_products.push_back(std::move(as_touched));
+      gloved_maps.push_back(std::move(touched_maps));
+    }
     for (const StudyProduct& product : plan.products) {
       std::optional<std::size_t> source;
       for (std::size_t i = 0; i < plan.products.size(); ++i) {
@@ -115,13 +142,19 @@ struct StudyBench::Impl {
     }
   }
 
-  /// A person's hand under a profile.
+  /// A person's hand under a profile, with its whole range of motion.
   std::shared_ptr<const Hand> make_hand(const HandSample& person,
                                         const HandProfile& profile) const {
-    const HandSample sample = with_profile(person, profile);
-    Hand hand = maker.make(sample.dimensions).hand;
-    if (profile.range_share < 1.0) hand = with_range_share(hand, profile.range_share);
-    return std::make_shared<const Hand>(std::move(hand));
+    return std::make_shared<const Hand>(maker.make(with_profile(person, profile).dimensions).hand);
+  }
+  /// The product for the skin: inside a glove it is thicker.
+  const Product& product_for(int profile, int product) const {
+    const auto& in_glove = gloved_products[static_cast<std::size_t>(profile)];
+    return (in_glove.empty() ? inputs.products : in_glove)[static_cast<std::size_t>(product)];
+  }
+  const TriangleMesh& map_for(int profile, int product) const {
+    const auto& in_glove = gloved_maps[static_cast<std::size_t>(profile)];
+    return (in_glove.empty() ? maps : in_glove)[static_cast<std::size_t>(product)];
   }
 
   GraspOptions grasp_options(const StudyTask& task) const {
@@ -140,8 +173,20 @@ struct StudyBench::Impl {
   const StudyPlan& plan;
   const StudyInputs& inputs;
   std::vector<TriangleMesh> maps;
+  // By profile and product; empty for a bare hand.
+  std::vector<std::vector<Product>> gloved_products;
+  std::vector<std::vector<TriangleMesh>> gloved_maps;
   std::vector<std::optional<std::size_t>> posture_source;  ///< product whose posture one keeps
   HandInstanceMaker maker;
+  /// What hands of one mesh share when they are prepared, by equations.
+  std::vector<std::pair<ContactModel, std::unique_ptr<const HandFamily>>> families;
+
+  const HandFamily* family_of(const ContactModel& model) const {
+    for (const auto& [known, family] : families) {
+      if (known == model) return family.get();
+    }
+    return nullptr;
+  }
 
   /// Where the mean hand holds a product, or why that can't be said.
   struct Place {
@@ -172,7 +217,8 @@ class StudySubject {
         sample_(bench.plan.hands[static_cast<std::size_t>(hand)].sample),
         profile_(bench.plan.profiles[static_cast<std::size_t>(profile)]) {
     try {
-      hand_ = bench.make_hand(sample_, profile_);
+      whole_range_ = bench.make_hand(sample_, profile_);
+      hand_ = with_range_of(whole_range_, profile_);
       grasping_ = std::make_unique<const GraspingHand>(hand_);
     } catch (const Error& error) {
       failure_ = std::string("the hand can't be made: ") + error.what();
@@ -183,7 +229,7 @@ class StudySubject {
     if (!failure_.empty()) throw Failure{failure_};
     const StudySetting& setting = bench_.plan.settings[static_cast<std::size_t>(task.setting)];
     const auto product_index = static_cast<std::size_t>(task.product);
-    const Product& product = bench_.inputs.products[product_index];
+    const Product& product = bench_.product_for(task.profile, task.product);
     const PreparedHand& prepared = prepared_for(setting.model);
 
     AssessOptions options = options_of(task, setting);
@@ -217,9 +263,18 @@ class StudySubject {
     take_contact(contact, record);
     if (contact.total.force > 0.0) {
       record.grip_force = grip_force(contact, *product.distance).force;
-      record.product_pressure = sparse(
-          map_to_product(prepared.hand(), contact, bench_.maps[product_index], kWholeTriangles)
-              .pressure);
+      record.product_pressure =
+          sparse(map_to_product(prepared.hand(), contact,
+                                bench_.map_for(task.profile, task.product), kWholeTriangles)
+                     .pressure);
+    }
+    if (contact.total.force > 0.0) {
+      record.demand = demand_of(*whole_range_, product,
+                                {held.grasp, held.balance, contact, assessment.posed_skin},
+                                {.friction = setting.friction,
+                                 .load = options.balance.load,
+                                 .mass_centre = centre_of_volume(product.mesh),
+                                 .grip = record.grip});
     }
     for (const GraspIndex& index : assessment.indices) {
       if (index.value && std::isfinite(*index.value)) {
@@ -235,7 +290,10 @@ class StudySubject {
     for (const auto& [known, prepared] : prepared_) {
       if (known == model) return *prepared;
     }
-    prepared_.emplace_back(model, std::make_unique<const PreparedHand>(hand_, model));
+    const HandFamily* family = bench_.family_of(model);
+    prepared_.emplace_back(model, family != nullptr
+                                      ? std::make_unique<const PreparedHand>(hand_, *family)
+                                      : std::make_unique<const PreparedHand>(hand_, model));
     return *prepared_.back().second;
   }
 
@@ -247,6 +305,12 @@ class StudySubject {
     options.footprint = false;  // the study's own map serves
     options.indices.is_on = setting.indices;
 
+    if (profile_.glove_thickness > 0.0) {
+      Coating glove;
+      glove.thickness = profile_.glove_thickness;
+      glove.shear_modulus = profile_.glove_shear_modulus;
+      options.contact.coatings.push_back(glove);
+    }
     options.balance.is_on = setting.is_balanced;
     options.balance.friction = setting.friction;
     options.balance.load.weight = product.mass * kGravity;
@@ -269,7 +333,7 @@ class StudySubject {
     const auto known = at_rest_.find(task);
     if (known != at_rest_.end()) return known->second;
     const auto index = static_cast<std::size_t>(task.product);
-    const Product& product = bench_.inputs.products[index];
+    const Product& product = bench_.product_for(task.profile, task.product);
     HeldGrasp held;
     if (bench_.plan.settings[static_cast<std::size_t>(task.setting)].is_place_per_hand) {
       held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
@@ -294,7 +358,7 @@ class StudySubject {
   const StudyBench::Impl& bench_;
   const HandSample& sample_;
   const HandProfile& profile_;
-  std::shared_ptr<const Hand> hand_;
+  std::shared_ptr<const Hand> whole_range_, hand_;
   std::unique_ptr<const GraspingHand> grasping_;
   std::string failure_;
   std::vector<std::pair<ContactModel, std::unique_ptr<const PreparedHand>>> prepared_;
@@ -307,8 +371,14 @@ StudyBench::StudyBench(const StudyPlan& plan, const StudyInputs& inputs)
     : impl_(std::make_unique<Impl>(plan, inputs)) {}
 StudyBench::~StudyBench() = default;
 
-void StudyBench::find_places(std::span<const std::int64_t> tasks, const Progress& progress) {
+void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& progress) {
   Impl& bench = *impl_;
+  for (const StudySetting& setting : bench.plan.settings) {
+    progress.throw_if_cancelled();
+    if (bench.family_of(setting.model) != nullptr) continue;
+    bench.families.emplace_back(
+        setting.model, std::make_unique<const HandFamily>(bench.inputs.base, setting.model));
+  }
   const std::size_t profiles = bench.plan.profiles.size();
   std::vector<bool> is_needed(profiles, false);
   for (const std::int64_t number : tasks) {
@@ -325,7 +395,8 @@ void StudyBench::find_places(std::span<const std::int64_t> tasks, const Progress
     const auto profile = static_cast<std::size_t>(p);
     if (!is_needed[profile] || bench.mean_hands[profile] != nullptr) return;
     try {
-      bench.mean_hands[profile] = bench.make_hand(mean, bench.plan.profiles[profile]);
+      const HandProfile& asked = bench.plan.profiles[profile];
+      bench.mean_hands[profile] = with_range_of(bench.make_hand(mean, asked), asked);
     } catch (const Error& error) {
       bench.mean_failures[profile] = std::string("the mean hand can't be made: ") + error.what();
     }

@@ -24,9 +24,10 @@ class StudyBench {
   StudyBench(const StudyPlan& plan, const StudyInputs& inputs);
   ~StudyBench();
 
-  /// Finds where the mean hand holds the products of these tasks, on all threads; run_hand() needs
-  /// it for every task whose setting shares the place. Throws Cancelled.
-  void find_places(std::span<const std::int64_t> tasks, const Progress& progress);
+  /// What hands share, to be called once before run_hand() with all of its tasks: where the mean
+  /// hand holds the products, and what preparing one hand has in common with the next. On all
+  /// threads. Throws Cancelled.
+  void prepare(std::span<const std::int64_t> tasks, const Progress& progress);
 
   /// Runs tasks of one hand, ascending; the hand is scaled and prepared once per profile and
   /// equations. Every task gives a record to `keep`: what goes wrong is a record that failed and
