@@ -106,11 +106,11 @@ double strength_needed(const Hand& hand, const ContactResult& contact,
                        const StrengthQuestion& question) {
   const Vec3 mass_centre = question.load.mass_centre.value_or(question.mass_centre);
   const Wrench load = wrench_of(question.load, mass_centre);
+  if (load.force.isZero(0.0) && load.moment.isZero(0.0)) return 0.0;
   ReductionOptions reduction;
   reduction.friction = question.friction;
   const std::vector<GraspContact> contacts = reduce_contact(hand, contact, reduction);
   const GripForce least = least_grip_force(contacts, load, mass_centre);
-  if (least.status == GripForceStatus::kNoLoad) return 0.0;
   if (least.status != GripForceStatus::kHeld) return std::numeric_limits<double>::infinity();
   std::vector<Vec3> normal_forces;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
