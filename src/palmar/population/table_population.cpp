@@ -71,6 +71,10 @@ Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driv
       regression.terms.push_back(
           {*hand_dimension_named(r.predictors[k]), r.fit.slopes[k].estimate});
     }
+    // In the order that a file keeps them.
+    std::sort(regression.terms.begin(), regression.terms.end(), [](const auto& a, const auto& b) {
+      return name_of(a.predictor) < name_of(b.predictor);
+    });
     regression.residual_sd = r.fit.residual_sd;
     regression.evidence = Evidence::kMeasured;
     regression.source = sentence(r, source);
