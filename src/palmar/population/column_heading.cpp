@@ -240,7 +240,7 @@ std::optional<SizeRange> size_range(std::string_view name) {
       return SizeRange{4.0, 40.0};
   }
   if (name == "palm_length") return SizeRange{48.0, 150.0};
-  if (name.find("proximal") != name.npos) return SizeRange{12.0, 75.0};
+  if (name.find("proximal") != name.npos) return SizeRange{6.0, 75.0};
   return SizeRange{6.0, 50.0};
 }
 
