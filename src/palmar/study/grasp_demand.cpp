@@ -20,7 +20,7 @@ namespace {
 constexpr double kAngleRounding = 1e-12;  // rad
 
 constexpr std::array<double, 3> kAcrossNail = {-1.0 / 3.0, 0.0, 1.0 / 3.0};  // of the width
-constexpr double kNailHeight = 0.25;  // of the thickness, dorsal of the tip
+constexpr double kNailHeight = 0.4;  // of the thickness, dorsal of the tip
 
 Segment distal_of(Finger finger) {
   const auto chain = segments_of(finger);
@@ -48,21 +48,19 @@ std::optional<double> meet(const NailLine& line, const Vec3& a, const Vec3& b, c
   return t > 0.0 ? std::optional(t) : std::nullopt;
 }
 
-// Room up to other skin than the finger's own.
-double room_to_skin(const Hand& hand, Finger finger, const std::vector<Vec3>& skin,
-                    const NailLine& line, double longest) {
+// Room up to the skin of the palm.
+double room_to_palm(const Hand& hand, const std::vector<Vec3>& skin, const NailLine& line,
+                    double longest) {
+  const auto is_palm_and_near = [&](int vertex) {
+    const auto v = static_cast<std::size_t>(vertex);
+    return hand.segment[v] == Segment::kPalm &&
+           (skin[v] - line.start).squaredNorm() < 4.0 * kLongestNail * kLongestNail;
+  };
   double room = longest;
-  for (const Triangle& triangle : hand.skin.triangles) {
-    std::array<Vec3, 3> corner;
-    bool is_own = false, is_near = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(triangle[k]);
-      corner[k] = skin[v];
-      is_own = is_own || finger_of(hand.segment[v]) == finger;
-      is_near = is_near || (skin[v] - line.start).squaredNorm() < 4.0 * longest * longest;
-    }
-    if (is_own || !is_near) continue;
-    if (const auto t = meet(line, corner[0], corner[1], corner[2])) room = std::min(room, *t);
+  for (const Triangle& t : hand.skin.triangles) {
+    if (!std::all_of(t.begin(), t.end(), is_palm_and_near)) continue;
+    const auto at = [&](std::size_t k) { return skin[static_cast<std::size_t>(t[k])]; };
+    if (const auto hit = meet(line, at(0), at(1), at(2))) room = std::min(room, *hit);
   }
   return room;
 }
@@ -139,7 +137,7 @@ double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<
       const Vec3 start = tip - kNailHeight * size.thickness * palmar + side * size.width * across;
       const NailLine line{moved * start, moved.rotation * along};
       room = room_to_product(*product.distance, product_from_hand, line, room);
-      room = room_to_skin(hand, finger, posed_skin, line, room);
+      room = room_to_palm(hand, posed_skin, line, room);
     }
   }
   return room;

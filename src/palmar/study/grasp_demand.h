@@ -32,10 +32,11 @@ double strength_needed(const Hand& hand, const ContactResult& contact,
                        const StrengthQuestion& question);
 
 /// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
-/// one with the least room. A nail is a flat strip that leaves the fingertip's dorsal half (a
-/// quarter of the distal segment's thickness dorsal of the tip) straight along the distal phalanx,
-/// two thirds of the segment wide; its room ends where it meets the product or skin of the palm or
-/// of another finger. Curved nails, and nails that bend, have more.
+/// one with the least room. A nail is a flat strip, two thirds of the distal segment wide, that
+/// leaves the fingertip straight along the distal phalanx, four tenths of the segment's thickness
+/// dorsal of the most distal skin; its room ends where it meets the product or the palm's skin. 0
+/// where pressing the pulp in has brought the product there already. Curved nails, nails that bend,
+/// and fingers that give way to them have more.
 inline constexpr double kLongestNail = 30.0;  // mm
 double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
                     const Rigid3& product_from_hand, const Product& product);
