@@ -16,6 +16,7 @@
 #include "palmar/io/table_results.h"
 #include "palmar/population/table_population.h"
 #include "palmar/report/correlation_chart.h"
+#include "palmar/report/plain_words.h"
 #include "palmar/report/scatter_chart.h"
 #include "table_text.h"
 
@@ -221,6 +222,7 @@ void write_scatter_charts(const TableArguments& o, const std::vector<TableGroup>
     chart.y_label = label_of(table, first.name);
     chart.title = chart.y_label.substr(0, chart.y_label.find(',')) + " on " +
                   chart.x_label.substr(0, chart.x_label.find(','));
+    chart.title = capitalised(chart.title);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       for (const TableRegression& r : results.groups[g].result) {
         if (r.name != first.name || r.predictors != first.predictors) continue;

@@ -62,7 +62,7 @@ std::vector<const TableColumn*> dependent_columns(const Eigen::MatrixXd& r,
                                                   const std::vector<const TableColumn*>& columns) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(r);
   std::vector<const TableColumn*> dependent;
-  if (eigen.eigenvalues()[0] > kSingular) return dependent;
+  if (std::abs(eigen.eigenvalues()[0]) > kSingular) return dependent;
   const Eigen::VectorXd direction = eigen.eigenvectors().col(0).cwiseAbs();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
     if (direction[i] > 1e-3) dependent.push_back(columns[static_cast<std::size_t>(i)]);
@@ -185,8 +185,11 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
   if (!dependent.empty()) {
     result.notes.push_back(table.source + ":" + std::to_string(table.header_line) +
                            ": the covariance is singular: columns " + headers_of(dependent) +
-                           " are linear functions of one another, or each pair of them is known "
-                           "of other subjects");
+                           " are linear functions of one another");
+  } else if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(result.r).eigenvalues()[0] < 0.0) {
+    result.notes.push_back(table.source +
+                           ": with values missing, pairs are of different subjects, and their "
+                           "correlations contradict one another (not positive definite)");
   }
   return result;
 }
@@ -206,24 +209,29 @@ std::vector<TableRegression> regress(const DimensionTable& table,
   for (const TableColumn* y : chosen_columns(table, names)) {
     if (std::find(predictors.begin(), predictors.end(), y) != predictors.end()) continue;
     check_varies(table, *y, present(*y));
+    // The same people for every set of predictors, so that R2 can be compared.
+    std::vector<const TableColumn*> all = predictors;
+    all.push_back(y);
+    const Eigen::MatrixXd values = complete_rows(all);
+    const auto count = static_cast<Eigen::Index>(predictors.size());
+    if (values.rows() < count + 2) {
+      table.fail(first_line(table), *y,
+                 std::to_string(values.rows()) + " subjects have it together with columns " +
+                     headers_of(predictors) + "; at least " + std::to_string(count + 2) +
+                     " are needed");
+    }
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const auto x = column_of(values, j);
+      check_varies(table, *predictors[static_cast<std::size_t>(j)], {x.begin(), x.end()});
+    }
+    check_independent(table, values.leftCols(count), predictors);
     for (const auto& set : sets) {
-      std::vector<const TableColumn*> all = set;
-      all.push_back(y);
-      const Eigen::MatrixXd values = complete_rows(all);
       const auto k = static_cast<Eigen::Index>(set.size());
-      if (values.rows() < k + 2) {
-        table.fail(first_line(table), *y,
-                   std::to_string(values.rows()) + " subjects have it together with columns " +
-                       headers_of(set) + "; at least " + std::to_string(k + 2) + " are needed");
-      }
-      for (Eigen::Index j = 0; j < k; ++j) {
-        const auto x = column_of(values, j);
-        check_varies(table, *set[static_cast<std::size_t>(j)], {x.begin(), x.end()});
-      }
-      if (k > 1) check_independent(table, values.leftCols(k), set);
+      const auto first = std::find(predictors.begin(), predictors.end(), set[0]);
+      const Eigen::MatrixXd x = values.middleCols(first - predictors.begin(), k);
       TableRegression regression{y->name, y->unit, {}, {}};
       for (const TableColumn* p : set) regression.predictors.push_back(p->name);
-      regression.fit = fit_linear(values.leftCols(k), column_of(values, k), regression.predictors);
+      regression.fit = fit_linear(x, column_of(values, count), regression.predictors);
       result.push_back(std::move(regression));
     }
   }

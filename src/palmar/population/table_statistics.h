@@ -44,14 +44,15 @@ struct TableCorrelation {
 TableCorrelation correlate(const DimensionTable& table, const std::vector<std::string>& names = {},
                            double level = 0.95);
 
-/// One dimension on one or several predictors, over the subjects that have all of them.
+/// One dimension on one or several predictors.
 struct TableRegression {
   std::string name, unit;
   std::vector<std::string> predictors;
   LinearFit fit;
 };
 /// Every column of `names` (empty: every measure) that is no predictor, on each of `predictors` by
-/// itself and, if there are several, on all of them together; in that order per column. Throws
+/// itself and, if there are several, on all of them together; in that order per column, over the
+/// subjects that have the column and all predictors. Throws
 /// InputError naming file, line and column: a predictor that doesn't vary or is a function of the
 /// others (singular covariance), too few subjects.
 std::vector<TableRegression> regress(const DimensionTable& table,

@@ -36,9 +36,19 @@ struct Plot {
   }
 };
 
-/// Cuts a line to the plot's height, so that wide bands don't run over the title.
+/// The places of a line as far as they lie within the plot's height.
 std::vector<Vector2d> inside(const Plot& plot, const std::vector<double>& x,
                              const std::vector<double>& y) {
+  std::vector<Vector2d> points;
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    if (y[i] >= plot.y.low && y[i] <= plot.y.high) points.push_back(plot.at(x[i], y[i]));
+  }
+  return points;
+}
+
+/// The same, held at the plot's edges: for surfaces.
+std::vector<Vector2d> clamped(const Plot& plot, const std::vector<double>& x,
+                              const std::vector<double>& y) {
   std::vector<Vector2d> points;
   for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
     points.push_back(plot.at(x[i], std::clamp(y[i], plot.y.low, plot.y.high)));
@@ -70,8 +80,8 @@ void draw_axes(Figure& figure, const Plot& plot, const ScatterChart& chart) {
 
 void draw_bands(Figure& figure, const Plot& plot, const ScatterSeries& series) {
   const BandedLine& line = series.line;
-  std::vector<Vector2d> outline = inside(plot, line.x, line.low);
-  std::vector<Vector2d> upper = inside(plot, line.x, line.high);
+  std::vector<Vector2d> outline = clamped(plot, line.x, line.low);
+  std::vector<Vector2d> upper = clamped(plot, line.x, line.high);
   outline.insert(outline.end(), upper.rbegin(), upper.rend());
   figure.polygon(std::move(outline), Fill{series.colour, 0.3});
   for (const auto* edge : {&line.outer_low, &line.outer_high}) {
@@ -94,8 +104,10 @@ void draw_points(Figure& figure, const Plot& plot, const ScatterSeries& series) 
   }
   const double radius = count > 1000 ? 1.4 : count > 200 ? 1.8 : 2.4;
   for (const auto& [key, place] : places) {
+    // A twentieth is enough of a difference, and keeps PDF's list of states short.
+    const double alone = count > 200 ? 0.45 : 0.75;
     const double opacity =
-        std::round(std::min(0.9, 0.45 + 0.15 * std::log2(place.second)) * 20.0) / 20.0;
+        std::round(std::min(0.9, alone + 0.15 * std::log2(place.second)) * 20.0) / 20.0;
     figure.circle(place.first.x(), place.first.y(), radius, Fill{series.colour, opacity});
   }
 }
@@ -130,7 +142,15 @@ Figure scatter_chart(const ScatterChart& chart) {
   }
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
   const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
-  const Plot plot{axis_over(*x_low, *x_high), axis_over(*y_low, *y_high)};
+  // Bands belong into the picture, unless few points make them wide.
+  const double reach = 0.5 * (*y_high - *y_low);
+  double lowest = *y_low, highest = *y_high;
+  for (const ScatterSeries& series : chart.series) {
+    for (const double v : series.line.outer_low) lowest = std::min(lowest, v);
+    for (const double v : series.line.outer_high) highest = std::max(highest, v);
+  }
+  const Plot plot{axis_over(*x_low, *x_high),
+                  axis_over(std::max(lowest, *y_low - reach), std::min(highest, *y_high + reach))};
   draw_axes(figure, plot, chart);
   for (const ScatterSeries& series : chart.series) draw_points(figure, plot, series);
   for (const ScatterSeries& series : chart.series) draw_bands(figure, plot, series);
