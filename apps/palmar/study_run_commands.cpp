@@ -41,7 +41,8 @@ class Keeper {
     ++note_.outcomes[name_of(record.outcome)];
     if (record.outcome == StudyOutcome::kFailed) ++note_.reasons[record.reason];
     note_.seconds = seconds();
-    if (note_.seconds - last_ < kNoteInterval) return;
+    const bool is_first = note_.done == note_.done_before + 1;
+    if (!is_first && note_.seconds - last_ < kNoteInterval) return;
     last_ = note_.seconds;
     write_study_progress(store_.path(), note_);
   }
