@@ -14,13 +14,13 @@ namespace palmar {
 namespace {
 
 constexpr double kWidth = 560.0;  // points, as all below
-constexpr double kLeft = 58.0;
-constexpr double kTextSize = 10.5;
-constexpr double kSmallSize = 9.5;
+constexpr double kLeft = 62.0;
+constexpr double kTextSize = 12.0;
+constexpr double kSmallSize = 11.0;
 constexpr double kHistogram = 150.0;  // height of the bars' panel
 constexpr double kRow = 46.0;         // height of a sample's row
 constexpr double kDot = 2.1;          // radius
-constexpr double kBracket = 18.0;     // width of a bracket's column
+constexpr double kBracket = 19.0;     // width of a bracket's column
 constexpr int kMostBins = 14;
 constexpr std::size_t kMostDots = 2400;  // of one chart; more are neither seen nor small
 
@@ -46,7 +46,7 @@ std::string shortened(const std::string& text, const Lettering& look, double wid
 }
 
 void title(Figure& figure, const std::string& text) {
-  Lettering look{.size = 12.0, .is_bold = true};
+  Lettering look{.size = 14.0, .is_bold = true};
   figure.text(4.0, 17.0, shortened(text, look, figure.width() - 8.0), look);
 }
 
@@ -67,7 +67,7 @@ void x_axis(Figure& figure, const Scale& x, double y, const std::string& label) 
     figure.text(at, y + 15.0, x.axis.text[i],
                 {.size = kSmallSize, .align = Align::kCentre, .colour = kFaintColour});
   }
-  figure.text(0.5 * (x.from + x.to), y + 31.0, label, {.size = kTextSize, .align = Align::kCentre});
+  figure.text(0.5 * (x.from + x.to), y + 33.0, label, {.size = kTextSize, .align = Align::kCentre});
 }
 
 void y_axis(Figure& figure, const Scale& y, double x_from, double x_to, const std::string& label) {
@@ -195,8 +195,8 @@ void bracket(Figure& figure, const ChartBracket& one, double x, double rows_top)
   figure.line(x, from, x, to, pen);
   figure.line(x - 3.5, from, x, from, pen);
   figure.line(x - 3.5, to, x, to, pen);
-  figure.text(x + 9.5, 0.5 * (from + to), one.text,
-              {.size = 8.0, .align = Align::kCentre, .turn = 90.0, .colour = colour});
+  figure.text(x + 11.0, 0.5 * (from + to), one.text,
+              {.size = 9.5, .align = Align::kCentre, .turn = 90.0, .colour = colour});
 }
 
 }  // namespace
@@ -240,7 +240,7 @@ Figure distribution_figure(const DistributionChart& chart) {
   const double side = 8.0 + kBracket * static_cast<double>(chart.brackets.size());
   const double rows_top = 30.0 + kHistogram + 8.0;
   const double bottom = rows_top + kRow * rows;
-  Figure figure(kWidth + std::max(0.0, side - 100.0), bottom + 58.0, chart.title);
+  Figure figure(kWidth + std::max(0.0, side - 100.0), bottom + 60.0, chart.title);
   title(figure, chart.title);
   const std::optional<Interval> range = range_of(chart.samples);
   if (!range) {
@@ -260,10 +260,10 @@ Figure distribution_figure(const DistributionChart& chart) {
     bracket(figure, chart.brackets[b], x.to + 14.0 + kBracket * static_cast<double>(b), rows_top);
   }
   x_axis(figure, x, bottom, chart.x_label);
-  figure.text(kLeft, bottom + 49.0,
+  figure.text(kLeft, bottom + 52.0,
               dot_words(every) +
                   " Box: quartiles, bar: median, diamond: mean, whiskers: 5th and 95th percentile.",
-              {.size = 8.5, .colour = kFaintColour});
+              {.size = 9.5, .colour = kFaintColour});
   return figure;
 }
 

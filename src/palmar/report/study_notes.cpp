@@ -126,8 +126,8 @@ std::string scene_section(const StudyPage& page) {
       "the bulge beside the contact isn’t shown.</p>\n"
       "<section class=\"view\" data-palmar-scene=\"study-scene\" data-palmar-kind=\"study\" "
       "aria-label=\"3-D view\"><div class=\"controls\"><label>Product <select "
-      "data-toggle=\"product\">" +
-      products + "</select></label><label>Show <select data-toggle=\"hand\">" + who +
+      "data-toggle=\"which-product\">" +
+      products + "</select></label><label>Show <select data-toggle=\"which-hand\">" + who +
       "</select></label></div><div class=\"view-body\"><div class=\"view-canvas\" data-label=\"3-D "
       "view of hands and products\"><p class=\"view-fallback\">The turnable 3-D view needs scripts "
       "and WebGL. The pictures below show the maps over all hands.</p></div><div "
@@ -189,7 +189,7 @@ std::string provenance_section(const StudyPage& page) {
     html += " Results: SHA-256 <code>" + html_escaped(page.digest) + "</code>.";
   if (page.digest.empty()) html += " The study isn’t finished, so its results have no digest.";
   if (!page.program.empty()) html += " Run by Palmar " + html_escaped(page.program) + ".";
-  html += " This page by Palmar " + html_escaped(build_description()) +
+  html += " This page by " + html_escaped(build_description()) +
           ".</p>\n<h3>Populations</h3><ul class=\"plain\">";
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
     html += item(words_of(plan.populations[p], plan, static_cast<int>(p)));

@@ -62,6 +62,10 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
   const Vec3 palm(mirror * 0.12, -0.10, -1.0);
   const TriangleMesh surface = product_map(product.mesh);
   const Quat& turn = product_from_hand.rotation;
+  // The bar has room for short words only; titles say which pressure.
+  ColourScale mean = scales.mean, percent = scales.above;
+  mean.quantity = "Pressure";
+  percent.quantity = "Hands";
   ColourScale share = scales.above;
   share.upper = 1.0;  // the field counts from 0 to 1, the bar in per cent
   std::vector<Picture> pictures;
@@ -71,21 +75,20 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                    {"mean_hand", "Mean pressure over " + hands + ", on the open hand",
                     name + ": mean pressure over hands on the skin of the open hand, palm side.",
                     palm, Vec3::UnitY()},
-                   name, "Mean pressure over " + hands, scales.mean, options, progress));
+                   name, "Mean pressure over " + hands, mean, options, progress));
     pictures.push_back(picture_of(
         {painted(base.skin, maps.skin.above, share, kSkinColour)},
         {"above_hand", "Share of " + hands + " above " + limit + ", on the open hand",
          name + ": share of hands whose pressure is above " + limit + ", on the open hand.", palm,
          Vec3::UnitY()},
-        name, "Share of " + hands + " above " + limit, scales.above, options, progress));
+        name, "Share of " + hands + " above " + limit, percent, options, progress));
     const Scene held = {painted(surface, maps.on_product.mean, scales.mean, kProductColour)};
-    pictures.push_back(
-        picture_of(held,
-                   {"mean_product_palm", "Mean pressure on the product, side in the palm",
-                    name + ": mean pressure on the product, side in the palm.",
-                    turn * Vec3(mirror * 0.25, -0.2, 1.0), turn * Vec3::UnitY()},
-                   name, "Mean pressure over " + hands + ", side in the palm", scales.mean, options,
-                   progress));
+    pictures.push_back(picture_of(
+        held,
+        {"mean_product_palm", "Mean pressure on the product, side in the palm",
+         name + ": mean pressure on the product, side in the palm.",
+         turn * Vec3(mirror * 0.25, -0.2, 1.0), turn * Vec3::UnitY()},
+        name, "Mean pressure over " + hands + ", side in the palm", mean, options, progress));
     pictures.push_back(
         picture_of(held,
                    {"mean_product_fingers", "Mean pressure on the product, side under the fingers",

@@ -78,12 +78,16 @@ async function trianglesOf(text: string): Promise<Uint32Array> {
 class Surface {
   readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
 
-  constructor(private readonly count: number, index: Uint32Array) {
+  // Of two surfaces in one place the one with `isBehind` is covered.
+  constructor(private readonly count: number, index: Uint32Array, isBehind: boolean) {
     const geometry = new BufferGeometry();
     geometry.setIndex(new BufferAttribute(index, 1));
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("uv", new BufferAttribute(new Float32Array(2 * count).fill(0.5), 2));
-    this.mesh = new Mesh(geometry, new MeshStandardMaterial({ roughness: 0.85, metalness: 0, side: DoubleSide }));
+    this.mesh = new Mesh(geometry, new MeshStandardMaterial({
+      roughness: 0.85, metalness: 0, side: DoubleSide,
+      polygonOffset: isBehind, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
+    }));
     this.mesh.frustumCulled = false;
   }
 
@@ -132,7 +136,7 @@ export class StudyView {
       pressure: scaleTexture(data.table, data.neutral),
       share: scaleTexture(data.shareTable, data.neutral),
     };
-    this.skin = trianglesOf(data.triangles).then((index) => new Surface(data.vertices, index));
+    this.skin = trianglesOf(data.triangles).then((index) => new Surface(data.vertices, index, false));
     for (const input of section.querySelectorAll<HTMLInputElement | HTMLSelectElement>("[data-toggle]")) {
       input.addEventListener("change", () => void this.show(false));
     }
@@ -151,7 +155,7 @@ export class StudyView {
     if (!surface) {
       const one = this.data.products[k];
       surface = (async () => {
-        const made = new Surface(one.vertices, await trianglesOf(one.triangles));
+        const made = new Surface(one.vertices, await trianglesOf(one.triangles), true);
         made.place(await placesOf(one.places, one.vertices));
         return made;
       })();
@@ -168,8 +172,8 @@ export class StudyView {
   // Shows what the controls say; `isFirst` also moves the camera.
   private async show(isFirst: boolean): Promise<void> {
     const request = ++this.request;
-    const k = Number(this.control<HTMLSelectElement>("product")?.value ?? 0);
-    const who = this.control<HTMLSelectElement>("hand")?.value ?? "mean";
+    const k = Number(this.control<HTMLSelectElement>("which-product")?.value ?? 0);
+    const who = this.control<HTMLSelectElement>("which-hand")?.value ?? "mean";
     const product = this.data.products[k];
     const kind = /^(mean|sd|above)$/.test(who) ? (who as MapKind) : null;
     const isOpen = kind !== null && this.chosen("open");
@@ -209,8 +213,8 @@ export class StudyView {
     this.group.position.copy(centre).negate();
     this.stage.frame(new Vector3(), sphere.radius);
 
-    for (const bar of this.section.querySelectorAll<HTMLElement>("[data-bar]")) {
-      bar.hidden = bar.dataset.bar !== (kind ?? "grasp");
+    for (const bar of this.section.querySelectorAll<SVGElement>("[data-bar]")) {
+      bar.toggleAttribute("hidden", bar.dataset.bar !== (kind ?? "grasp"));
     }
     if (kind) {
       const words = { mean: "Mean pressure", sd: "Standard deviation of the pressure", above: "Share of hands above the threshold" };
