@@ -46,12 +46,12 @@ struct SamplingOptions {
 
 /// Hands of a population. Throws UsageError for a bad population or bad options.
 /// - kRandom: hand k comes from stream k of the seed alone, so it is the same whatever the number
-/// of
-///   other hands.
+///   of other hands.
 /// - kLatinHypercube: strata get hands by their shares; within one, independent factors (Cholesky
 ///   factor of the correlation, in the order of the driving dimensions) have one hand in each of n
-///   layers, paired at random (McKay, Beckman, Conover 1979). The first driving dimension thus has
-///   a hand in each of its own layers, the means of the others scatter as little.
+///   layers (McKay, Beckman, Conover 1979), in an order that leaves them hardly correlated (Iman &
+///   Conover 1982). The first driving dimension thus has a hand in each of its own layers, the
+///   means of the others scatter as little, and few hands have the population's correlations.
 /// - kBoundary: of every stratum its mean and points on the ellipse of its first two driving
 ///   dimensions that holds the stated share of people (chi-square, 2 degrees of freedom). In
 ///   standard scores its axes are "both larger" (0 deg) and "the second larger, the first smaller"

@@ -54,6 +54,15 @@ Predictors find_predictors(const Stratum& stratum) {
   return predictors;
 }
 
+// Standard normal without what lies beyond three deviations, spread so that its deviation is 1: no
+// segment is drawn that no hand has.
+double residual(RandomStream& random) {
+  constexpr double kBeyond = 0.0013498980316301;  // P(Z < -3)
+  constexpr double kDeviation = 0.9865784;        // of what lies between: 1 - 6 phi(3) / P, root
+  const double p = kBeyond + (1.0 - 2.0 * kBeyond) * random.uniform();
+  return standard_normal_quantile(p) / kDeviation;
+}
+
 /// A stratum made ready for drawing people.
 class Drawer {
  public:
@@ -93,7 +102,7 @@ class Drawer {
       for (const auto& [at, slope] : predictors_.of[k])
         value += slope * sample.dimensions[at].value;
       if (random != nullptr && regression.residual_sd > 0.0) {
-        value += regression.residual_sd * random->normal();
+        value += regression.residual_sd * residual(*random);
       }
       sample.dimensions.push_back({regression.dimension, value});
     }
@@ -160,26 +169,54 @@ std::vector<HandSample> random_hands(const Population& population, const Samplin
   return hands;
 }
 
+// Puts the values of every column in an order that leaves the columns hardly correlated; each keeps
+// its values, so its layers (Iman & Conover 1982, Commun Stat B 11:311-334). Chance alone leaves
+// correlations of 1 / sqrt(n) between columns: 30 hands of a population with 0.36 could have none.
+void uncorrelate(Eigen::MatrixXd& factors) {
+  const Eigen::Index n = factors.rows(), d = factors.cols();
+  if (n < d + 2) return;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
+  for (int round = 0; round < 3; ++round) {
+    Eigen::MatrixXd centred = factors.rowwise() - factors.colwise().mean();
+    centred.array().rowwise() /= centred.colwise().norm().array().eval();
+    const Eigen::LLT<Eigen::MatrixXd> found(centred.transpose() * centred);
+    if (found.info() != Eigen::Success) return;
+    const Eigen::MatrixXd wanted = found.matrixL().solve(centred.transpose()).transpose();
+    for (Eigen::Index i = 0; i < d; ++i) {
+      std::iota(order.begin(), order.end(), Eigen::Index{0});
+      std::stable_sort(order.begin(), order.end(),
+                       [&](Eigen::Index a, Eigen::Index b) { return wanted(a, i) < wanted(b, i); });
+      Eigen::VectorXd sorted = factors.col(i);
+      std::sort(sorted.begin(), sorted.end());
+      for (Eigen::Index k = 0; k < n; ++k)
+        factors(order[static_cast<std::size_t>(k)], i) = sorted[k];
+    }
+  }
+}
+
 // Scores of n people: independent factors, each with one person in each of n layers of equal
-// probability, paired at random (McKay, Beckman, Conover 1979), then given their correlation.
-// Layers of the correlated dimensions themselves would loosen how they hang together in one person:
-// hands too broad for their girth.
+// probability (McKay, Beckman, Conover 1979), then given their correlation. Layers of the
+// correlated dimensions themselves would loosen how they hang together in one person: hands too
+// broad for their girth.
 std::vector<Eigen::VectorXd> layered_scores(const Drawer& drawer, int n, RandomStream& random) {
-  std::vector<Eigen::VectorXd> factors(static_cast<std::size_t>(n),
-                                       Eigen::VectorXd(drawer.drivers()));
-  std::vector<std::size_t> layer(factors.size());
+  Eigen::MatrixXd factors(n, drawer.drivers());
+  std::vector<std::size_t> layer(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < drawer.drivers(); ++i) {
     std::iota(layer.begin(), layer.end(), std::size_t{0});
     for (std::size_t left = layer.size(); left > 1; --left) {
       std::swap(layer[left - 1], layer[random.below(left)]);
     }
-    for (std::size_t k = 0; k < factors.size(); ++k) {
-      const double p = (static_cast<double>(layer[k]) + random.uniform()) / n;
-      factors[k][i] = standard_normal_quantile(p);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto in = static_cast<double>(layer[static_cast<std::size_t>(k)]);
+      factors(k, i) = standard_normal_quantile((in + random.uniform()) / n);
     }
   }
-  for (Eigen::VectorXd& one : factors) one = drawer.with_correlation(one);
-  return factors;
+  uncorrelate(factors);
+  std::vector<Eigen::VectorXd> scores;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    scores.push_back(drawer.with_correlation(factors.row(k).transpose()));
+  }
+  return scores;
 }
 
 std::vector<HandSample> layered_hands(const Population& population,

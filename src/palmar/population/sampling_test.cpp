@@ -195,6 +195,15 @@ TEST(LatinHypercube, KeepsTheCorrelation) {
       std::atanh(0.6), 4.0 / std::sqrt(5000.0));
 }
 
+// Pairing at random would scatter by (1 - 0.36^2) / sqrt(29) = 0.16; three of these are 0.48.
+TEST(LatinHypercube, EvenThirtyHandsHaveThePopulationsCorrelation) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto hands = draw(one_normal(0.36), SamplingDesign::kLatinHypercube, 30, seed);
+    EXPECT_NEAR(correlation_of(values_of(hands, kLength), values_of(hands, kCircumference)), 0.36,
+                0.08);
+  }
+}
+
 TEST(LatinHypercube, MeansScatterFarLessThanThoseOfRandomDraws) {
   for (const HandDimension dimension : {kLength, kCircumference}) {
     const auto means = [&](SamplingDesign design) {
