@@ -42,6 +42,9 @@ constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
 constexpr double kAlike = 0.01;         // share of the score within which holds are the same
 constexpr int kTurns = 8;
+// Steps by which a kept lay may be bettered for another hand.
+constexpr double kNearProximal = 3.0;  // mm
+constexpr double kNearSlant = 3.0 * kDeg;
 constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
 constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
 constexpr std::size_t kBettered = 3;  // holds that are looked at more finely
@@ -378,9 +381,27 @@ Hold hold_like(const HandCloser& closer, const DistanceField& product, const Gri
     start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
   }
   Hold hold = trial.run(of_other.site, of_other.style, lay, start, 2);
+  tried = 1;
+  // A few placements near it: what fits one size is a little off for another.
+  start = start_like(closer, hold);
+  const auto better = [&](double Lay::*what, double step) {
+    const Lay from = hold.placement.lay;
+    for (const double by : {step, -step}) {
+      progress.throw_if_cancelled();
+      Lay next = from;
+      next.*what += by;
+      Hold other_hold = trial.run(of_other.site, of_other.style, next, start, 0);
+      ++tried;
+      if (other_hold.score <= hold.score) continue;
+      hold = std::move(other_hold);
+      break;
+    }
+  };
+  better(&Lay::proximal, kNearProximal);
+  better(&Lay::tilt, kNearSlant);
+  better(&Lay::oblique, kNearSlant);
   hold.rank = hold.score;
   hold.thumb = of_other.thumb;
-  tried = 1;
   return hold;
 }
 
