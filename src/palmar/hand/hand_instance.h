@@ -33,8 +33,8 @@ struct HandInstance {
 /// way l = c if no hand length is driven): lengths follow l, widths and thicknesses c. Of the parts
 /// of the hand length (palm and the three segments of the middle finger) those not driven share
 /// what the driven ones leave; if the palm's length is the only one, so do the other fingers'
-/// undriven segments. Beside a driven width, thickness takes up the circumference, and the other way round;
-/// beside both, how thick the borders of the palm are.
+/// undriven segments. Beside a driven width, thickness takes up the circumference, and the other
+/// way round; beside both, how thick the borders of the palm are.
 ///
 /// Scale factors change smoothly across creases (segment_scaling.h); joints, bones, limit postures
 /// of the thumb, bulges and skinning move along; triangles, segments and regions stay, so fields of
