@@ -12,8 +12,10 @@ namespace {
 template <typename Result>
 std::string heading(const TableResults<Result>& results,
                     const typename TableResults<Result>::Group& group) {
-  if (results.by.empty()) return fmt::format("{} subjects\n", group.subjects);
-  return fmt::format("{} {}: {} subjects\n", results.by, group.name, group.subjects);
+  const std::string people =
+      fmt::format("{} {}", group.subjects, group.subjects == 1 ? "subject" : "subjects");
+  if (results.by.empty()) return people + "\n";
+  return fmt::format("{} {}: {}\n", results.by, group.name, people);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -56,7 +58,8 @@ std::string descriptions_text(const Descriptions& descriptions) {
       text +=
           fmt::format("{:<{}} {:>6} {:>7}", name, width, d.summary ? d.summary->n : 0, d.missing);
       if (d.summary) {
-        text += fmt::format(" {:>8.2f} {:>7.2f} {:>7.1f}", d.summary->mean, d.summary->sd,
+        text += fmt::format(" {:>8.2f} {:>7} {:>7.1f}", d.summary->mean,
+                            d.summary->n > 1 ? fmt::format("{:.2f}", d.summary->sd) : "-",
                             d.summary->min);
         for (const double p : d.percentiles) text += fmt::format(" {:>7.1f}", p);
         text += fmt::format(" {:>7.1f}", d.summary->max);

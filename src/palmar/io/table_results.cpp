@@ -54,8 +54,10 @@ ordered_json description(const ColumnDescription& d) {
   const Summary& s = *d.summary;
   one[key("mean", d.unit)] = s.mean;
   one[key("mean_interval", d.unit)] = interval(s.mean_interval);
-  one[key("sd", d.unit)] = s.sd;
-  one[key("standard_error", d.unit)] = s.standard_error;
+  // One person has no deviation.
+  one[key("sd", d.unit)] = s.n > 1 ? ordered_json(s.sd) : ordered_json(nullptr);
+  one[key("standard_error", d.unit)] =
+      s.n > 1 ? ordered_json(s.standard_error) : ordered_json(nullptr);
   one[key("min", d.unit)] = s.min;
   ordered_json& percentiles = one[key("percentiles", d.unit)];
   for (std::size_t i = 0; i < kTablePercentiles.size(); ++i) {
@@ -176,9 +178,9 @@ CsvTable descriptions_csv(const Descriptions& descriptions) {
                                       std::to_string(d.missing)};
       if (d.summary) {
         const Summary& s = *d.summary;
-        row.insert(row.end(),
-                   {shortest(s.mean), end_of(s.mean_interval, true), end_of(s.mean_interval, false),
-                    shortest(s.sd), shortest(s.standard_error), shortest(s.min)});
+        row.insert(row.end(), {shortest(s.mean), end_of(s.mean_interval, true),
+                               end_of(s.mean_interval, false), s.n > 1 ? shortest(s.sd) : "",
+                               s.n > 1 ? shortest(s.standard_error) : "", shortest(s.min)});
         for (const double p : d.percentiles) row.push_back(shortest(p));
         row.push_back(shortest(s.max));
         row.push_back(s.skewness ? shortest(*s.skewness) : "");

@@ -58,11 +58,13 @@ class Painter {
     const double radius = circle.radius * scale_;
     const int corners =
         std::clamp(static_cast<int>(std::ceil(8.0 * std::sqrt(radius + 1.0))), 12, 400);
+    // Corners a little outside, so that the polygon has the circle's area.
+    const double step = 2.0 * std::numbers::pi / corners;
+    const double reach = circle.radius * std::sqrt(step / std::sin(step));
     Points outline;
     for (int i = 0; i < corners; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / corners;
       outline.emplace_back(circle.centre +
-                           circle.radius * Vector2d(std::cos(angle), std::sin(angle)));
+                           reach * Vector2d(std::cos(step * i), std::sin(step * i)));
     }
     draw_outline(outline, true, circle.fill, circle.pen);
   }
