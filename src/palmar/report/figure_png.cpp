@@ -151,7 +151,7 @@ Image to_image(const Figure& figure, double scale) {
 }
 
 std::string to_png(const Figure& figure, double scale) {
-  return encode_png(to_image(figure, scale), PngEffort::kSmall);
+  return encode_png(to_image(figure, scale));
 }
 
 }  // namespace palmar

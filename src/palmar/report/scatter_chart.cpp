@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "palmar/report/axis.h"
@@ -90,25 +91,37 @@ void draw_bands(Figure& figure, const Plot& plot, const ScatterSeries& series) {
   figure.polyline(inside(plot, line.x, line.value), {darker(series.colour), 1.6});
 }
 
-void draw_points(Figure& figure, const Plot& plot, const ScatterSeries& series) {
-  // Whole millimetres put many people on one place.
-  std::map<std::pair<long, long>, std::pair<Vector2d, int>> places;
+/// All points, each place of a series once: whole millimetres put many people on one.
+void draw_points(Figure& figure, const Plot& plot, const std::vector<ScatterSeries>& all) {
+  struct Place {
+    Vector2d at;
+    Rgb colour;
+    int count = 0;
+  };
+  // In an order without pattern, so that no series covers the others.
+  std::map<std::tuple<long, long, long, std::size_t>, Place> places;
   std::size_t count = 0;
-  for (const Vector2d& p : series.points) {
-    if (!p.allFinite()) continue;
-    const Vector2d at = plot.at(p.x(), p.y());
-    auto& place = places[{std::lround(at.x() * 20.0), std::lround(at.y() * 20.0)}];
-    place.first = at;
-    ++place.second;
-    ++count;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    for (const Vector2d& p : all[s].points) {
+      if (!p.allFinite()) continue;
+      const Vector2d at = plot.at(p.x(), p.y());
+      const long x = std::lround(at.x() * 20.0);
+      const long y = std::lround(at.y() * 20.0);
+      const long mixed = (x * 7919 + y * 104729 + static_cast<long>(s) * 1299709) % 10007;
+      Place& place = places[{mixed, x, y, s}];
+      place.at = at;
+      place.colour = all[s].colour;
+      ++place.count;
+      ++count;
+    }
   }
   const double radius = count > 1000 ? 1.4 : count > 200 ? 1.8 : 2.4;
+  const double alone = count > 200 ? 0.45 : 0.75;
   for (const auto& [key, place] : places) {
     // A twentieth is enough of a difference, and keeps PDF's list of states short.
-    const double alone = count > 200 ? 0.45 : 0.75;
     const double opacity =
-        std::round(std::min(0.9, alone + 0.15 * std::log2(place.second)) * 20.0) / 20.0;
-    figure.circle(place.first.x(), place.first.y(), radius, Fill{series.colour, opacity});
+        std::round(std::min(0.9, alone + 0.15 * std::log2(place.count)) * 20.0) / 20.0;
+    figure.circle(place.at.x(), place.at.y(), radius, Fill{place.colour, opacity});
   }
 }
 
@@ -152,7 +165,7 @@ Figure scatter_chart(const ScatterChart& chart) {
   const Plot plot{axis_over(*x_low, *x_high),
                   axis_over(std::max(lowest, *y_low - reach), std::min(highest, *y_high + reach))};
   draw_axes(figure, plot, chart);
-  for (const ScatterSeries& series : chart.series) draw_points(figure, plot, series);
+  draw_points(figure, plot, chart.series);
   for (const ScatterSeries& series : chart.series) draw_bands(figure, plot, series);
   double y = kTop + kPlotHeight + kBelow + 6.0;
   if (has_legend) {
