@@ -27,6 +27,7 @@ constexpr std::size_t kTriedSites = 2;
 constexpr double kMostSpread = 0.6;  // of the range of abduction, round a large ball
 constexpr double kSmallBall = 0.3, kLargeBall = 0.65;  // hand lengths; none to most
 constexpr double kShownDepth = 0.05;  // mm into the palm of what is only laid on it
+constexpr int kGiveWaySteps = 4;
 constexpr int kTrimRounds = 16;
 constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
@@ -161,11 +162,12 @@ struct Distances {
 };
 
 // Closes the hand on all of its skin and by the exact distance. The product gives way where closing
-// folds the palm further into it, if it may.
+// folds the palm further into it, if it may; at once, that takes fewer rounds.
 HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
                          const Distances& distances, const GripSite& site,
                          const DepthLimits& limits, const Hold& hold, Placement& placement,
-                         bool may_give_way, const Progress& progress, Grasp& grasp) {
+                         bool may_give_way, bool gives_way_at_once, const Progress& progress,
+                         Grasp& grasp) {
   HeldProduct held{distances.quick, placement.product_from_hand, site.point, site.axis,
                    site.girth / std::numbers::pi};
   // To trim, only skin that may be too deep is asked about exactly.
@@ -197,11 +199,15 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
       }
       grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
     }
-    const double palm = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture);
-    const double excess = palm - limits.palm;
+    double excess = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture) - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;
-    held.product_from_hand.translation +=
-        held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
+    // All the way with the fingers as they are, or a step before they close anew.
+    for (int step = 0; step < (gives_way_at_once ? kGiveWaySteps : 1) && excess > 0.0; ++step) {
+      held.product_from_hand.translation +=
+          held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
+      if (!gives_way_at_once) break;
+      excess = fine.depths(seen_by(held, *exact_deep), grasp.posture)[0] - limits.palm;
+    }
     if (round + 1 < kSettleRounds) continue;
     trim(fine, seen_by(held, *exact_deep), limits, grasp.posture);
   }
@@ -328,7 +334,7 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
   }
   const HoldMeasure measure =
       close_finely(fine, coarse, {&quick, product.distance.get()}, site, limits, hold, placement,
-                   !place_found.is_fixed, progress, grasp);
+                   !place_found.is_fixed, place_found.is_carried, progress, grasp);
   grasp.product_from_hand = placement.product_from_hand;
   grasp.grip_axis = site.axis;
   grasp.grip_point = site.point + hold.placement.lay.along * site.axis;
@@ -343,6 +349,7 @@ PowerPlace carried_over(const PowerPlace& place_found, const Hand& reference,
                         const Progress& progress) {
   PowerPlace result = place_found;
   result.grasp.runners_up.clear();
+  result.is_carried = true;
   result.hold =
       hold_like(coarse, *place_found.quick, place_found.site,
                 {options.palm_limit_depth, options.finger_limit_depth}, reference, place_found.hold,

@@ -22,8 +22,9 @@ struct PowerPlace {
   GripSite site;
   std::shared_ptr<const DistanceField> quick;  ///< distance_near() the site
   Hold hold;                                   ///< closed on a sparse skin
-  bool is_fixed = false;  ///< the placement was given in full: only the fingers close
-  bool may_shift = true;  ///< the hand may go along the product's axis
+  bool is_fixed = false;    ///< the placement was given in full: only the fingers close
+  bool is_carried = false;  ///< over from another hand: fewer rounds of closing, same limits
+  bool may_shift = true;    ///< the hand may go along the product's axis
 };
 
 PowerPlace find_power_place(const Hand& hand, const Product& product,
