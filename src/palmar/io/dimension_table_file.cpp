@@ -140,6 +140,10 @@ class ColumnReader {
   int point_line_ = 0;
 };
 
+bool is_segment_length(const TableColumn& column) {
+  return column.dimension && column.dimension->kind == DimensionKind::kSegmentLength;
+}
+
 /// Sizes that no hand has: in the wrong unit if half of them are, else single ones.
 void check_sizes(const DimensionTable& table, const TableColumn& column, double factor) {
   const auto range = size_range(column.name);
@@ -161,8 +165,9 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
     table.fail(
         0, column,
         "the median is " + short_text(median) + " mm; a hand's " + column.name + " is " + allowed +
-            (fitting.empty() ? std::string()
-                             : ", which these numbers are in " + fitting + ": is the unit right?"));
+            (fitting.empty()
+                 ? std::string(is_segment_length(column) ? " between creases of the palm side" : "")
+                 : ", which these numbers are in " + fitting + ": is the unit right?"));
   }
   int line = 0;
   double first = 0.0;

@@ -113,6 +113,8 @@ TEST(DimensionTable, WrongUnitsAreFoundByTheSizeOfHands) {
   EXPECT_THAT(fault("hand_width_in\n81\n89\n76\n"), HasSubstr("in mm"));
   EXPECT_THAT(fault("hand_width_mm\n3.2\n3.5\n3.0\n"), HasSubstr("in in"));
   EXPECT_THAT(fault("hand_length_mm\n0.181\n0.193\n0.176\n"), HasSubstr("in m:"));
+  // Lengths of the bone, not of the segment.
+  EXPECT_THAT(fault("index_proximal_length_mm\n44\n46\n47\n"), HasSubstr("between creases"));
   EXPECT_THAT(fault("hand_length_mm\n181\n1930\n176\n18.1\n"),
               HasSubstr("t.csv:3: column 1 (hand_length_mm): 1930 mm; a hand's hand_length is 90 "
                         "to 260 mm (and 1 more cells)"));

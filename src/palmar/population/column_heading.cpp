@@ -114,11 +114,15 @@ std::optional<std::string> quantity_named_by(const std::string& word) {
   return std::nullopt;
 }
 
-/// "index finger proximal phalanx length" in any order; nothing if a word is left over.
+/// "index finger, proximal, length" in any order; nothing if a word is left over. A phalanx' length
+/// is that of the bone, which is no dimension of ours: our segments end at creases, and the
+/// proximal one is half as long as its bone.
 std::optional<HandDimension> phalanx_dimension(const Words& words) {
   std::optional<std::string> finger, segment, quantity;
   int middles = 0;
+  bool is_bone = false;
   for (const std::string& word : words) {
+    is_bone = is_bone || word.starts_with("phala") || word == "bone";
     constexpr std::array<std::string_view, 9> kFillers{
         "finger", "phalanx", "phalange", "of", "phalanges", "the", "hand", "segment", "digit"};
     if (word == "middle") {
@@ -144,6 +148,7 @@ std::optional<HandDimension> phalanx_dimension(const Words& words) {
     --middles;
   }
   if (middles > 0 || !finger || !segment || !quantity) return std::nullopt;
+  if (is_bone && *quantity == "length") return std::nullopt;
   return hand_dimension_named(*finger + "_" + *segment + "_" + *quantity);
 }
 
@@ -240,7 +245,8 @@ std::optional<SizeRange> size_range(std::string_view name) {
       return SizeRange{4.0, 40.0};
   }
   if (name == "palm_length") return SizeRange{48.0, 150.0};
-  if (name.find("proximal") != name.npos) return SizeRange{6.0, 75.0};
+  if (name == "thumb_proximal_length") return SizeRange{6.0, 70.0};
+  if (name.find("proximal") != name.npos) return SizeRange{6.0, 40.0};  // bones: 30 to 50
   return SizeRange{6.0, 50.0};
 }
 

@@ -31,8 +31,9 @@ ColumnHeading heading_of(std::string_view header);
 /// mm per "mm", "cm", "m", "in", "inch" ...; nothing if it is no unit of length.
 std::optional<double> length_unit(std::string_view unit);
 
-/// "Hand length (mm)", "handlength", "hand breadth", "indexFingerProximalPhalanxLength" ...: the
-/// dimension that the words mean, without a unit.
+/// "Hand length", "handlength", "hand breadth", "index finger proximal length" ...: the dimension
+/// that the words mean, without a unit. A phalanx' length is none: the bone is longer than the
+/// segment.
 std::optional<HandDimension> dimension_of_words(std::string_view words);
 
 /// Sizes [mm] that hands from two years of age on can have, with room; for finding wrong units.

@@ -29,7 +29,7 @@ TEST(ColumnHeading, NamesDimensionAndUnitInAnyUsualWay) {
       {"Index finger, distal phalanx, breadth [mm]", "index_distal_width", "mm", Quantity::kLength,
        1.0},
       {"middle_middle_length_mm", "middle_middle_length", "mm", Quantity::kLength, 1.0},
-      {"Ring finger middle phalanx length (mm)", "ring_middle_length", "mm", Quantity::kLength,
+      {"Ring finger middle segment length (mm)", "ring_middle_length", "mm", Quantity::kLength,
        1.0},
       {"D5 proximal thickness mm", "little_proximal_thickness", "mm", Quantity::kLength, 1.0},
       {"Thumb span [mm]", "thumb_span", "mm", Quantity::kLength, 1.0},
@@ -70,6 +70,8 @@ TEST(ColumnHeading, OddHeadingsStayUsable) {
   EXPECT_EQ(heading_of("L\xC3\xA4nge [mm]").name, "l\xC3\xA4nge");
   EXPECT_FALSE(dimension_of_words("proximal length"));
   EXPECT_FALSE(dimension_of_words("thumb middle length"));  // a thumb has no middle phalanx
+  // The bone reaches from the knuckle; our segment begins at the crease of the palm side.
+  EXPECT_FALSE(dimension_of_words("index finger proximal phalanx length"));
   EXPECT_FALSE(dimension_of_words("index finger DIP joint breadth"));  // not the phalanx's width
 }
 
