@@ -266,35 +266,35 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
   const struct {
     std::string text, said;
   } cases[] = {
-      {"hands = [\n", "bad.toml:2: no TOML"},
+      {"hands = [\n", "bad.toml:1: no TOML"},
       {"[[populations]]\n",
        "bad.toml:1: the file: key \"populations\" is not known; did you mean "
        "\"population\"?"},
       {people, "bad.toml:1: no [[product]]"},
       {thing, "bad.toml:1: no [[population]]"},
       {people + "[[product]]\nname = \"x\"\n",
-       "bad.toml:4: [[product]]: has neither file nor kind"},
+       "bad.toml:4: product 1: has neither file nor kind"},
       {people + "[[product]]\nfile = \"none.stl\"\n", "none.stl: no such file"},
       {people + thing + "diametre_mm = 35\n",
-       "bad.toml:6: [[product]]: key \"diametre_mm\" is not known; did you mean \"diameter_mm\"?"},
-      {people + thing + "diameter_mm = -3\n", "bad.toml:6: [[product]] diameter_mm is -3 mm"},
+       "bad.toml:6: product 1: key \"diametre_mm\" is not known; did you mean \"diameter_mm\"?"},
+      {people + thing + "diameter_mm = -3\n", "bad.toml:6: product 1 diameter_mm is -3 mm"},
       {people + thing + "diameter_mm = { from = 30, to = 40 }\n", "step"},
       {people + "[[product]]\nkind = \"cylindre\"\n", "did you mean \"cylinder\"?"},
       {people + thing + thing, "two products are called \"cylinder\""},
-      {people + thing + "sizes = [1, 1]\n", "bad.toml:6: [[product]] sizes has a size twice"},
+      {people + thing + "sizes = [1, 1]\n", "bad.toml:6: product 1 sizes has a size twice"},
       {people + thing + "posture_of = \"other\"\n", "\"other\", which is no product of the study"},
-      {people + thing + "at_mm = [1, 2]\n", "bad.toml:6: [[product]] at_mm has 2 numbers; three"},
+      {people + thing + "at_mm = [1, 2]\n", "bad.toml:6: product 1 at_mm has 2 numbers; three"},
       {"[[population]]\npreset = \"ansur_women\"\n" + thing, "ansur2_women"},
       {"[[population]]\npreset = \"xie2014\"\nfile = \"a.toml\"\n" + thing,
-       "bad.toml:1: [[population]]: preset, file and table exclude each other"},
+       "bad.toml:1: population 1: preset, file and table exclude each other"},
       {"[[population]]\npreset = \"xie2014\"\nhands = 0\n" + thing,
-       "bad.toml:3: [[population]] hands is 0; 1 to 1000000 is allowed"},
+       "bad.toml:3: population 1 hands is 0; 1 to 1000000 is allowed"},
       {"[[population]]\npreset = \"xie2014\"\ndesign = \"latin\"\n" + thing,
-       "bad.toml:3: [[population]] design is \"latin\"; latin_hypercube, random"},
+       "bad.toml:3: population 1 design is \"latin\"; latin_hypercube, random"},
       {"[study]\ngrips = [\"tripot\"]\n" + people + thing,
        "grip \"tripot\" is not known; did you mean \"tripod\"?"},
       {people + thing + "[settings]\nfriction = \"high\"\n",
-       "bad.toml:7: [settings] friction is no "
+       "bad.toml:7: settings friction is no "
        "number; 0 to 3 is allowed"},
       {people + thing + "[settings]\ngrip_force_n = 20\nstrength_share = 0.5\n",
        "strength_share and grip_force_n exclude each other"},
@@ -304,7 +304,7 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
       {people + thing + "[[limit]]\nquantity = \"force_n\"\n", "neither lowest nor highest"},
       {people + thing + "[[profile]]\nname = \"glove\"\n", "gloves"},
       {people + thing + "[[profile]]\nname = \"own\"\nrange_share = 1.5\n",
-       "bad.toml:8: [[profile]] range_share is 1.5; 0.01 to 1 is allowed"},
+       "bad.toml:8: profile 1 range_share is 1.5; 0.01 to 1 is allowed"},
   };
   for (const auto& one : cases) {
     write_text(folder_ + "/bad.toml", one.text);

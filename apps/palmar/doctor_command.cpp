@@ -13,7 +13,9 @@
 #include "palmar/core/version.h"
 #include "palmar/geometry/mesh_distance.h"
 #include "palmar/geometry/primitive_meshes.h"
+#include "palmar/io/external_program.h"
 #include "palmar/io/file.h"
+#include "palmar/io/study_store.h"
 
 namespace palmar::cli {
 namespace {
@@ -63,6 +65,12 @@ std::string temporary_state() {
   return folder.string() + " is writable";
 }
 
+std::string slurm_state() {
+  const auto sbatch = find_program("sbatch");
+  return sbatch ? sbatch->string() + " (optional)"
+                : "not installed; only `palmar study submit` needs it (optional)";
+}
+
 std::string memory_state() {
   const double available = static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) *
                            static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
@@ -73,15 +81,17 @@ std::string memory_state() {
 }
 
 int run_doctor(const CommonOptions& common) {
-  const std::vector<Finding> findings = {examine("template hand", template_state),
-                                         examine("generic hand asset", asset_state),
-                                         examine("nearest points", distance_state),
-                                         examine("temporary folder", temporary_state),
-                                         examine("memory", memory_state),
-                                         examine("threads", [] {
-                                           return fmt::format("{} of {} cores", thread_count(),
-                                                              std::thread::hardware_concurrency());
-                                         })};
+  const std::vector<Finding> findings = {
+      examine("template hand", template_state),
+      examine("generic hand asset", asset_state),
+      examine("nearest points", distance_state),
+      examine("temporary folder", temporary_state),
+      examine("memory", memory_state),
+      examine("study stores", [] { return "SQLite " + sqlite_version(); }),
+      examine("Slurm", slurm_state),
+      examine("threads", [] {
+        return fmt::format("{} of {} cores", thread_count(), std::thread::hardware_concurrency());
+      })};
   int missing = 0;
   std::string text = common.json ? "{\"build\": \"" + build_description() + "\", \"findings\": ["
                                  : build_description() + "\n";

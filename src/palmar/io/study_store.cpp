@@ -431,6 +431,8 @@ std::string StudyStore::digest() const {
   return impl_->read([&] { return study_value(*impl_->file, "digest"); });
 }
 
+std::string sqlite_version() { return sqlite3_libversion(); }
+
 std::string content_hash(const TriangleMesh& mesh) { return sha256_hex(mesh_bytes(mesh)); }
 
 std::string content_hash(const Hand& hand) { return sha256_hex(format_hand(hand)); }

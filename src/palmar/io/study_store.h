@@ -87,6 +87,8 @@ class StudyStore {
 void merge_studies(const std::vector<std::filesystem::path>& shards,
                    const std::filesystem::path& out, const Progress& progress = {});
 
+std::string sqlite_version();  ///< "3.40.1"; of the library that runs
+
 /// SHA-256 of what a study is made of, in StudyPlan's fields.
 std::string content_hash(const TriangleMesh& mesh);  ///< mm; of a product as it is held
 std::string content_hash(const Hand& hand);
