@@ -415,9 +415,8 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
     run_isolated([&, &key = task, &found = place] {
       try {
         found.place = std::make_unique<const GraspPlace>(
-            *bench.mean_hands[profile],
-            bench.inputs.products[static_cast<std::size_t>(key.product)], bench.grasp_options(key),
-            progress);
+            *bench.mean_hands[profile], bench.product_for(key.profile, key.product),
+            bench.grasp_options(key), progress);
       } catch (const Cancelled&) {
         throw;
       } catch (const Error& error) {
