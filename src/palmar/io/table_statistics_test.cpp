@@ -209,7 +209,9 @@ TEST(TableStatistics, ColumnsThatTellNothingAreNamed) {
   EXPECT_THAT(fault(dependent, {"hand_length", "span"}),
               AllOf(HasSubstr("t.csv:1: column 2 (span_mm): the covariance is singular"),
                     HasSubstr("columns 1 (hand_length_mm), 2 (span_mm)")));
-  EXPECT_THAT(correlate(parsed(dependent)).notes, ElementsAre(HasSubstr("singular")));
+  EXPECT_THAT(correlate(parsed(dependent)).notes, ElementsAre(HasSubstr("(span_mm) are linear")));
+  EXPECT_THAT(correlate(parsed("hand_length_mm,a,b\n180,3,85\n190,1,84\n185,4,88\n")).notes,
+              ElementsAre(HasSubstr("3 subjects for 3 columns")));
   EXPECT_THAT(
       fault("hand_length_mm,hand_width_mm\n180,85\n190,\n185,NA\n200,90\n", {"hand_length"}),
       HasSubstr("column 2 (hand_width_mm): 2 subjects have it; at least 3"));

@@ -49,10 +49,16 @@ void check_varies(const DimensionTable& table, const TableColumn& column,
   }
 }
 
+constexpr std::size_t kMostNamed = 8;
+
 std::string headers_of(const std::vector<const TableColumn*>& columns) {
   std::string text;
-  for (const TableColumn* c : columns) {
-    text += (text.empty() ? "" : ", ") + std::to_string(c->number) + " (" + c->header + ")";
+  for (std::size_t i = 0; i < std::min(columns.size(), kMostNamed); ++i) {
+    text += (text.empty() ? "" : ", ") + std::to_string(columns[i]->number) + " (" +
+            columns[i]->header + ")";
+  }
+  if (columns.size() > kMostNamed) {
+    text += " and " + std::to_string(columns.size() - kMostNamed) + " more";
   }
   return text;
 }
@@ -182,7 +188,12 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
     }
   }
   const auto dependent = dependent_columns(result.r, columns);
-  if (!dependent.empty()) {
+  if (table.subjects() <= static_cast<int>(columns.size())) {
+    result.notes.push_back(table.source + ": " + std::to_string(table.subjects()) +
+                           " subjects for " + std::to_string(columns.size()) +
+                           " columns: the covariance is singular; more subjects than columns are "
+                           "needed to draw from it");
+  } else if (!dependent.empty()) {
     result.notes.push_back(table.source + ":" + std::to_string(table.header_line) +
                            ": the covariance is singular: columns " + headers_of(dependent) +
                            " are linear functions of one another");
