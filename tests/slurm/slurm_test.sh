@@ -57,7 +57,8 @@ for _ in $(seq 1200); do
 done
 [ "$killed" = 1 ] || fail "no task was caught running"
 echo "killed process $pid of ${victim%-progress}"
-"$palmar" study status shards
+"$palmar" study status shards | tee status.txt
+[ "$(grep -c '^stopped' status.txt)" = 1 ] || fail "more than one shard was stopped"
 
 # Slurm holds back a job that was put into the queue again for two minutes, so that what is left of
 # it on the node is gone; five seconds are enough here.
@@ -74,7 +75,7 @@ done
 [ -z "$(squeue -h -j "$job" 2>/dev/null)" ] || fail "the array does not end: $(squeue)"
 "$palmar" study status shards | tee status.txt
 [ "$(grep -c '^finished' status.txt)" = 3 ] || fail "not every shard is finished"
-grep -q 'Killed' shards/*.log || fail "no task was killed"
+[ "$(grep -l 'Killed' shards/*.log | wc -l)" = 1 ] || fail "not one task was killed"
 "$palmar" study merge shards --out merged.palmar --quiet || fail "study merge"
 cmp whole.palmar merged.palmar || fail "merged shards differ from one run"
 echo "passed: 3 shards, one of them killed and queued again, joined to the bytes of one run"

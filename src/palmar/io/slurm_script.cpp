@@ -16,6 +16,7 @@
 namespace palmar {
 namespace {
 
+// Named by array and shard: the job number of an array's last task is that of the whole array.
 constexpr int kMostRestarts = 5;  // of a task that was killed
 
 /// One word for bash, whatever is in it.
@@ -95,7 +96,7 @@ std::string slurm_script(const SlurmArray& array) {
       "  --out \"$folder/shard-$shard-of-{4}.palmar\" || code=$?\n"
       "# Killed (out of memory, say): into the queue once more, to go on where the store stopped.\n"
       "if [ \"$code\" = 137 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {5} ]; then\n"
-      "  scontrol requeue \"$SLURM_JOB_ID\" && sleep 60\n"
+      "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$shard\" && sleep 60\n"
       "fi\n"
       "exit \"$code\"\n",
       quoted(folder), quoted(array.program.string()), quoted(array.file.string()),
