@@ -61,9 +61,16 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
     }
   }
   words += ".";
-  if (exclusion.excluded.count > 0) {
-    words += " Own range, strength or nails exclude " + std::to_string(exclusion.excluded.count) +
-             " of " + std::to_string(exclusion.excluded.n) + ".";
+  // Who doesn't get hold of it stands above; here whom it asks too much of.
+  std::string asked;
+  for (const auto& [cause, people] : exclusion.causes) {
+    const bool is_asked = cause == ExclusionCause::kRange || cause == ExclusionCause::kStrength ||
+                          cause == ExclusionCause::kNails;
+    if (!is_asked || people.count == 0) continue;
+    asked += (asked.empty() ? "" : ", ") + words_of(cause) + " " + std::to_string(people.count);
+  }
+  if (!asked.empty()) {
+    words += " It asks too much of " + asked + " of " + std::to_string(exclusion.excluded.n) + ".";
   }
   return words;
 }
