@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "palmar/core/error.h"
@@ -186,6 +187,12 @@ std::int64_t StudyTableWriter::quantity_id(const std::string& key) {
 }
 
 void StudyTableWriter::write(const StudyRecord& record) {
+  // Keys that are not in the catalogue get their number by name within the first record that has
+  // them, not by the order in which a record lists them.
+  std::set<std::string> keys;
+  for (const IndexRecord& index : record.indices) keys.insert(index.key);
+  for (const std::string& key : keys) quantity_id(key);
+
   StudyRecord sorted = record;  // as a reader gives it back
   std::sort(sorted.indices.begin(), sorted.indices.end(),
             [this](const IndexRecord& a, const IndexRecord& b) {
