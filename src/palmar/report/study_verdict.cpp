@@ -96,17 +96,23 @@ std::vector<std::string> study_verdict(const StudyResults& results,
   }
   for (const ProductSizes& family : analysis.sizes) {
     std::string words = "Sizes of " + family.family + ": ";
+    int served = -1;
     for (std::size_t k = 0; k < family.choices.size(); ++k) {
       const SizeChoice& choice = family.choices[k];
+      if (choice.served.count == served) {
+        words += "; one more serves nobody else";
+        break;
+      }
+      served = choice.served.count;
       std::string names;
       for (const ServedBySize& size : choice.sizes) {
         names += (names.empty() ? "" : " + ") + results.plan.products[at(size.product)].name;
       }
       words += (k > 0 ? "; " : "") + std::to_string(choice.sizes.size()) + " (" + names +
                ") serve" + (choice.sizes.size() == 1 ? "s " : " ") +
-               short_number(100.0 * choice.served.share) + " %";
+               short_number(100.0 * choice.served.share) + " % of hands";
     }
-    sentences.push_back(words + " of hands.");
+    sentences.push_back(words + ".");
   }
   return sentences;
 }

@@ -74,6 +74,11 @@ void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
                       hands));
     }
   }
+  if (plan.populations.size() > 1) {
+    add(warnings, false, "All populations",
+        "together they count as they were drawn: shares and means are of these hands, not of a "
+        "country's people.");
+  }
   for (const HandProfile& profile : plan.profiles) {
     if (profile.size_factor < 1.0 - kLargestScaling) {
       add(warnings, true, "Profile " + profile.name,
