@@ -272,8 +272,7 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
        "\"population\"?"},
       {people, "bad.toml:1: no [[product]]"},
       {thing, "bad.toml:1: no [[population]]"},
-      {people + "[[product]]\nname = \"x\"\n",
-       "bad.toml:4: product 1: has neither file nor kind"},
+      {people + "[[product]]\nname = \"x\"\n", "bad.toml:4: product 1: has neither file nor kind"},
       {people + "[[product]]\nfile = \"none.stl\"\n", "none.stl: no such file"},
       {people + thing + "diametre_mm = 35\n",
        "bad.toml:6: product 1: key \"diametre_mm\" is not known; did you mean \"diameter_mm\"?"},
@@ -302,7 +301,7 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
       {people + thing + "[[limit]]\nquantity = \"peak_pressure_cell_mpa\"\nhighest = 1\n",
        "did you mean \"peak_pressure_cells_mpa\"?"},
       {people + thing + "[[limit]]\nquantity = \"force_n\"\n", "neither lowest nor highest"},
-      {people + thing + "[[profile]]\nname = \"glove\"\n", "gloves"},
+      {people + thing + "[[profile]]\nname = \"thin_glove\"\n", "thin_gloves"},
       {people + thing + "[[profile]]\nname = \"own\"\nrange_share = 1.5\n",
        "bad.toml:8: profile 1 range_share is 1.5; 0.01 to 1 is allowed"},
   };

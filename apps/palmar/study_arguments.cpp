@@ -80,7 +80,7 @@ void StudyArguments::add_to(CLI::App& verb) {
       ->allow_extra_args(false);
   add("--hands", hands, "Hands to draw from each population; 30 if not given")
       ->check(CLI::Range(1, 1'000'000));
-  add("--profile", profiles, "none, reduced_range, gloves ...; may be given several times")
+  add("--profile", profiles, "none, reduced_range, thick_gloves ...; may be given several times")
       ->allow_extra_args(false);
   add("--grip", grips, "auto, medium_wrap, tripod ...; may be given several times")
       ->allow_extra_args(false);

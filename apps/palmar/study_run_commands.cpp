@@ -254,10 +254,10 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   });
 
   const auto run_options = std::make_shared<RunArguments>();
-  CLI::App* run =
-      add_verb(noun, "run", "Run a study, or go on with it where its store is there",
-               "palmar study run --product a.stl --product b.stl --unit mm --population ansur2_women "
-               "--hands 30 --out study.palmar");
+  CLI::App* run = add_verb(
+      noun, "run", "Run a study, or go on with it where its store is there",
+      "palmar study run --product a.stl --product b.stl --unit mm --population ansur2_women "
+      "--hands 30 --out study.palmar");
   run_options->study.add_to(*run);
   run->add_option("--out", run_options->out,
                   "Store to write; if it is there and of this study, what is missing is run");

@@ -24,6 +24,7 @@ stop() {
     for _ in $(seq 50); do kill -0 "$pid" 2>/dev/null || break; sleep 0.1; done
     kill -9 "$pid" 2>/dev/null || true
   done
+  [ ! -f "$folder/munge_folder" ] || rm -rf "$(cat "$folder/munge_folder")"
 }
 
 if [ "$verb" = stop ]; then stop; exit 0; fi
@@ -39,6 +40,7 @@ chmod 755 "$folder"
 # munge refuses sockets and keys below folders that others may write to.
 munge_folder=$(mktemp -d /run/palmar-munge.XXXXXX)
 chmod 711 "$munge_folder"
+echo "$munge_folder" >"$folder/munge_folder"
 dd if=/dev/urandom of="$munge_folder/key" bs=1024 count=1 status=none
 chmod 400 "$munge_folder/key"
 chown root:root "$munge_folder/key"

@@ -120,7 +120,11 @@ const GraspIndices& index_catalogue() {
   static const GraspIndices catalogue = [] {
     GraspIndices rows;
     append(rows, grip_indices({}));
-    append(rows, to_indices(StabilityResult{}));
+    StabilityResult stability;  // with everything that is optional
+    stability.linf.norm = WrenchNorm::kLinf;
+    stability.volume.emplace();
+    stability.grip.emplace();
+    append(rows, to_indices(stability));
     append(rows, to_indices(EaseResult{}));
     append(rows, to_indices(FitnessResult{}));
     append(rows, to_indices(ComfortResult{}));
