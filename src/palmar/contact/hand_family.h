@@ -17,8 +17,8 @@ namespace palmar {
 ///
 /// Exact for a hand that is scaled as a whole. Forces of hands up to three standard deviations from
 /// the mean differ from those of the full preparation by less than 0.5 % (docs/method/contact.md).
-/// Skins too fine for pairs of vertices (kMostFullVertices) are prepared in full. Immutable,
-/// shareable between threads.
+/// Skins too fine for pairs of vertices (kMostFullVertices), and those with Isomap distances, are
+/// prepared in full. Immutable, shareable between threads.
 class HandFamily {
  public:
   /// Throws UsageError as PreparedHand. Cost: that of a PreparedHand and a half.

@@ -55,7 +55,7 @@ struct HandFamily::Impl {
   std::shared_ptr<const Hand> base;
   ContactModel model;
   SkinGeometry skin;
-  std::optional<SkinPairs> pairs;  ///< nothing for a skin that has a far part
+  std::optional<SkinPairs> pairs;  ///< nothing for a skin that has a far part, or Isomap
   SkinPatches blocks, spots;
 };
 
@@ -68,7 +68,10 @@ HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& mod
   impl->skin = skin_geometry(base->skin);
   const bool has_far = impl->model.coupling == RegionCoupling::kCoupled &&
                        impl->skin.vertex_count() > kMostFullVertices;
-  if (!has_far) impl->pairs = skin_pairs(*base, impl->skin, impl->model);
+  // Stretched distances of a flat picture fit in no plane any more, and the point kernel, near its
+  // limit on fine skin, would lose its definiteness.
+  const bool is_flat = impl->model.distance == SkinDistance::kIsomap;
+  if (!has_far && !is_flat) impl->pairs = skin_pairs(*base, impl->skin, impl->model);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
   impl->spots = skin_patches(impl->skin, kSpotSize);
   impl->base = std::move(base);
