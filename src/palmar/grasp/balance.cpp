@@ -22,7 +22,6 @@ namespace palmar {
 namespace {
 
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
-constexpr double kAim = 0.002;       // what is aimed at
 constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
 constexpr double kJointSaid = 0.05;  // the same; more is told
 constexpr double kLevelAim = 0.005;  // of the grip force asked for
@@ -390,7 +389,7 @@ Balance Settling::run(const Progress& progress) {
     balance.residual_share = now.of_product;
     const bool is_last = i > kMostSteps;
     const bool is_there =
-        now.of_product < kAim && now.of_joints < kJointAim && now.of_level < kLevelAim;
+        now.of_product < options_->aim && now.of_joints < kJointAim && now.of_level < kLevelAim;
     if (is_there || is_last) {
       balance.status =
           now.of_product < kBalanced ? BalanceStatus::kBalanced : BalanceStatus::kNotConverged;
@@ -443,6 +442,9 @@ void BalanceOptions::check() const {
   if (grip_force && !(*grip_force > 0.0 && *grip_force <= 2000.0)) {
     throw UsageError(format(
         "balance: grip force is %g N; more than 0 and at most 2000 N is allowed", *grip_force));
+  }
+  if (!(aim >= 1e-4 && aim <= kBalanced)) {
+    throw UsageError(format("balance: aim is %g; 0.0001 to 0.01 is allowed", aim));
   }
   FrictionOptions with_load;
   with_load.coefficient = 1.0;

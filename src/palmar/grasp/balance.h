@@ -22,7 +22,10 @@ struct BalanceOptions {
   double friction = 0.5;
   ProductLoad load;                  ///< weight and further forces; none by default
   std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was closed
-  void check() const;                ///< throws UsageError: field, value, allowed range
+  /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
+  /// as balanced.
+  double aim = 0.002;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 enum class BalanceStatus {

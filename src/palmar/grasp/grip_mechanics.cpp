@@ -78,6 +78,7 @@ bool GripMechanics::look(const GripState& state) {
   tangential_.clear();
   normal_.clear();
   friction_use_ = 0.0;
+  grip_ = {};
   if (contact_.status == ContactStatus::kNotConverged) return false;
   loaded_ = loaded_vertices(contact_);
   if (loaded_.empty()) return true;
@@ -152,10 +153,11 @@ bool GripMechanics::look(const GripState& state) {
   }
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = limit > 0.0 ? rubbing / limit : 0.0;
+  grip_ = squeeze_of_normals();
   return true;
 }
 
-Squeeze GripMechanics::grip() const {
+Squeeze GripMechanics::squeeze_of_normals() const {
   std::vector<Vec3> forces(loaded_.size());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     forces[k] = -contact_.force[static_cast<std::size_t>(loaded_[k])] * normal_[k];

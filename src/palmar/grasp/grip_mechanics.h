@@ -54,7 +54,7 @@ class GripMechanics {
   const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
   double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
   double friction_use() const { return friction_use_; }
-  Squeeze grip() const;
+  const Squeeze& grip() const { return grip_; }
   /// Wrench on the product of the normal forces of one digit's phalanges; about the centre, hand
   /// frame, N and N mm. Nothing: of the palm (and all else).
   Eigen::Matrix<double, 6, 1> wrench_of(std::optional<Finger> finger) const;
@@ -68,6 +68,7 @@ class GripMechanics {
     std::vector<Vec3> speed;  ///< mm/rad
   };
   Column column(const Posture& posture, int joint) const;
+  Squeeze squeeze_of_normals() const;
 
   const PreparedHand* hand_;
   const Product* product_;
@@ -85,6 +86,7 @@ class GripMechanics {
   std::array<bool, kSqueezeJoints> is_loaded_{};
   Vec3 centre_ = Vec3::Zero();
   double arm_ = 1.0, friction_use_ = 0.0;
+  Squeeze grip_;
 };
 
 }  // namespace palmar
