@@ -31,7 +31,7 @@ function(palmar_module name)
   if(PALMAR_TESTS AND ARG_TESTS)
     add_executable(${name}_tests ${ARG_TESTS})
     target_link_libraries(${name}_tests PRIVATE palmar_${name} ${ARG_TEST_LINKS} GTest::gmock GTest::gtest_main)
-    target_compile_definitions(${name}_tests PRIVATE PALMAR_DATA_DIR="${CMAKE_SOURCE_DIR}/data"
+    target_compile_definitions(${name}_tests PRIVATE PALMAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                      PALMAR_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
     palmar_add_tests(${name}_tests)
   endif()

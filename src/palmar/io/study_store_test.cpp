@@ -54,6 +54,7 @@ Hand stored_hand() {
     dof.upper = 3;
     hand.skeleton.joints[static_cast<std::size_t>(d % kJointCount)].dofs.push_back(dof);
   }
+  hand.skeleton.fingertips.fill(Vec3(8, 180, 1.0 / 3));
   hand.skeleton.thumb_cmc = make_cmc_limits(make_cmc_joint({28, 36, 19}, {45, 59, 34}));
   hand.weights = {{JointId::kWrist, {0, 2}, {0.1, 1}, {1.0 / 3, 1}, {}}};
   hand.tissue = default_tissue();

@@ -29,8 +29,8 @@ using ::testing::HasSubstr;
 constexpr double kDeg = std::numbers::pi / 180.0;
 
 std::string asset_path() {
-  return std::string(PALMAR_DATA_DIR) +
-         "/../node_modules/@webxr-input-profiles/assets/dist/profiles/generic-hand/right.glb";
+  return std::string(PALMAR_SOURCE_DIR) +
+         "/node_modules/@webxr-input-profiles/assets/dist/profiles/generic-hand/right.glb";
 }
 
 class TemplateHand : public ::testing::Test {

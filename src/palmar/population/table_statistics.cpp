@@ -159,12 +159,22 @@ std::vector<ColumnDescription> describe(const DimensionTable& table,
 
 TableCorrelation correlate(const DimensionTable& table, const std::vector<std::string>& names,
                            double level) {
-  const std::vector<const TableColumn*> columns = chosen_columns(table, names);
+  TableCorrelation result;
+  std::vector<const TableColumn*> columns = chosen_columns(table, names);
+  if (names.empty()) {
+    // A column that nobody filled in says nothing; who asks for it by name is told so below.
+    const auto is_empty = [&](const TableColumn* column) {
+      if (!present(*column).empty()) return false;
+      result.notes.push_back(table.source + ": column " + std::to_string(column->number) + " (" +
+                             column->header + ") has no values and is left out");
+      return true;
+    };
+    columns.erase(std::remove_if(columns.begin(), columns.end(), is_empty), columns.end());
+  }
   if (columns.size() < 2) {
     throw UsageError(table.source + ": " + std::to_string(columns.size()) +
                      " columns of numbers to correlate; at least 2 are needed");
   }
-  TableCorrelation result;
   for (const TableColumn* column : columns) {
     check_varies(table, *column, present(*column));
     result.names.push_back(column->name);
@@ -219,6 +229,7 @@ std::vector<TableRegression> regress(const DimensionTable& table,
   std::vector<TableRegression> result;
   for (const TableColumn* y : chosen_columns(table, names)) {
     if (std::find(predictors.begin(), predictors.end(), y) != predictors.end()) continue;
+    if (names.empty() && present(*y).empty()) continue;  // nobody filled it in
     check_varies(table, *y, present(*y));
     // The same people for every set of predictors, so that R2 can be compared.
     std::vector<const TableColumn*> all = predictors;

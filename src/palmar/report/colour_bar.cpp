@@ -71,9 +71,13 @@ void draw_colour_bar(Image& image, const ColourScale& scale) {
   const int width = px(22);
   const int top = px(110);
   const int bottom = image.height - px(96);
-  const TextStyle title{.cap_height = 11.0 * s, .weight = 0.15};
+  TextStyle title{.cap_height = 11.0 * s, .weight = 0.15};
   const TextStyle label{.cap_height = 10.0 * s};
   const Rgb frame{120, 126, 132};
+  // Long names are written smaller rather than cut off at the picture's edge.
+  const double room = image.width - left - px(4);
+  const double needed = text_width(scale.quantity, title);
+  if (needed > room) title.cap_height *= room / needed;
   draw_text(image, left, top - px(34), scale.quantity, title);
   draw_text(image, left, top - px(14), scale.unit, label);
   fill_rectangle(image, left - 1, top - 1, width + 2, bottom - top + 2, frame);
