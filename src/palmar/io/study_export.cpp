@@ -135,14 +135,15 @@ fs::path write_profiles(const StudyPlan& plan, const fs::path& folder) {
 fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
   CsvWriter file(folder / "settings.csv",
                  {"setting", "name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
-                  "strength_share", "friction", "is_balanced", "equations", "indices", "place"});
+                  "strength_share", "friction", "is_balanced", "equations", "indices",
+                  "wrench_volume", "place"});
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const StudySetting& one = plan.settings[i];
     file.add({std::to_string(i), one.name, shortest(one.palm_limit_depth),
               shortest(one.finger_limit_depth), optional_cell(one.grip_force),
               optional_cell(one.strength_share), shortest(one.friction),
               one.is_balanced ? "1" : "0", name_of(one.model), one.indices ? "1" : "0",
-              one.is_place_per_hand ? "per_hand" : "shared"});
+              one.wrench_volume ? "1" : "0", one.is_place_per_hand ? "per_hand" : "shared"});
   }
   return file.finish();
 }

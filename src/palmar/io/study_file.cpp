@@ -261,7 +261,7 @@ void read_word(const TomlSection& section, const char* key,
 StudySetting read_setting(const TomlSection& section, const std::string& default_name) {
   section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
                  "strength_share", "friction", "balance", "preset", "kernel", "tissue_model",
-                 "regions", "indices", "place"});
+                 "regions", "indices", "wrench_volume", "place"});
   StudySetting setting;
   setting.name = section.text("name").value_or(default_name);
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
@@ -290,6 +290,7 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
   read_word(section, "regions", std::array{"coupled", "independent"}, setting.model.coupling);
   setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
   setting.indices = section.boolean("indices").value_or(setting.indices);
+  setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);
   read_word(section, "place", std::array{"shared", "per_hand"}, setting.is_place_per_hand);
   return setting;
 }

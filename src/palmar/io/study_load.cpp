@@ -162,6 +162,11 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   plan.settings = request.settings;
   if (plan.settings.empty()) plan.settings.push_back({});
   plan.limits = request.limits;
+  // Who sets a limit to the volume wants it.
+  for (const StudyLimit& limit : plan.limits) {
+    if (limit.quantity != "wrench_volume_l1") continue;
+    for (StudySetting& setting : plan.settings) setting.wrench_volume = true;
+  }
   for (const PopulationRequest& one : request.populations) {
     at_place(one.where, [&] { add_population(one, request.seed, study); });
   }

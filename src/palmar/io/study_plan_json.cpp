@@ -184,6 +184,7 @@ Json setting_json(const StudySetting& setting) {
           {"skin_distance", kDistances[static_cast<std::size_t>(model.distance)]},
           {"bulge", kBulges[static_cast<std::size_t>(model.bulge)]},
           {"indices", setting.indices},
+          {"wrench_volume", setting.wrench_volume},
           {"place_per_hand", setting.is_place_per_hand}};
 }
 
@@ -202,6 +203,7 @@ StudySetting setting_from(const Json& json) {
   setting.model.distance = word_from<SkinDistance>(json.at("skin_distance"), kDistances);
   setting.model.bulge = word_from<BulgeLaw>(json.at("bulge"), kBulges);
   setting.indices = json.at("indices");
+  setting.wrench_volume = json.at("wrench_volume");
   setting.is_place_per_hand = json.at("place_per_hand");
   return setting;
 }

@@ -55,6 +55,8 @@ struct StudySetting {
   bool is_balanced = true;
   ContactModel model;
   bool indices = true;
+  /// Whether the indices have the volume of the wrench space, too: a tenth of a study's time.
+  bool wrench_volume = false;
   /// Where a product is held: found once on the mean hand and kept for all (only pressing in and
   /// closing are done anew), or searched for every hand.
   bool is_place_per_hand = false;

@@ -305,6 +305,7 @@ class StudySubject {
     options.seed = bench_.plan.seed;
     options.footprint = false;  // the study's own map serves
     options.indices.is_on = setting.indices;
+    options.indices.stability.with_volume = setting.wrench_volume;
 
     if (profile_.glove_thickness > 0.0) {
       Coating glove;
