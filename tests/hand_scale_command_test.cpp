@@ -58,6 +58,25 @@ TEST(HandScaleCommand, TakesARowOfATable) {
   EXPECT_THAT(dan.err, HasSubstr("subject"));
 }
 
+TEST(HandScaleCommand, TakesARowByNumberWhereNoColumnNamesSubjects) {
+  const std::string folder = temporary_folder();
+  write_text(folder + "/people.csv",
+             "sex,hand_length_mm,palm_length_mm\nM,195,117\nF,170,102\nM,190,114\n");
+  const ProgramRun second = run_palmar("hand scale --table people.csv --row 2 --json", folder);
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_NEAR(Json::parse(second.out).at("measured").at("hand_length_mm").get<double>(), 170.0,
+              0.1);
+  EXPECT_THAT(second.err, HasSubstr("fingers too short"));  // 60 % of hand length
+  const ProgramRun men = run_palmar("hand scale --table people.csv --row M", folder);
+  EXPECT_EQ(men.exit_code, 2);
+  EXPECT_THAT(men.err, HasSubstr("2 subjects of people.csv have it in their column \"sex\""));
+  const ProgramRun fourth = run_palmar("hand scale --table people.csv --row 4", folder);
+  EXPECT_EQ(fourth.exit_code, 2);
+  EXPECT_THAT(fourth.err, HasSubstr("1 to 3, is allowed"));
+  write_text(folder + "/one.csv", "name,hand_length_mm\nann,170\n");
+  EXPECT_EQ(run_palmar("hand scale --table one.csv --row ann", folder).exit_code, 0);
+}
+
 TEST(HandScaleCommand, ScalesByOneFactor) {
   const std::string folder = temporary_folder();
   const ProgramRun run = run_palmar("hand scale --factor 0.5 --out child.hand.glb", folder);

@@ -73,7 +73,9 @@ TEST_F(PopulationTable, CorrelatesAndDraws) {
 TEST_F(PopulationTable, RegressesAndWritesAPopulationThatCanBeSampled) {
   const ProgramRun first = run("regress hands.csv --out a --population-out a.toml");
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_THAT(first.err, AllOf(HasSubstr("only 6 subjects"), HasSubstr("men and women in one")));
+  EXPECT_THAT(first.err, AllOf(HasSubstr("only 6 subjects"), HasSubstr("men and women in one"),
+                               HasSubstr("grip strength isn't known"),
+                               HasSubstr("a.toml is without grip_strength_n")));
   EXPECT_THAT(first.out, HasSubstr("the better predictor"));
   EXPECT_THAT(read_text(folder + "/a/hand_width_on_hand_length.svg"), HasSubstr("<polygon"));
   // The same bytes again.
@@ -103,6 +105,9 @@ TEST_F(PopulationTable, BadTablesAndOptionsEndWithTheirExitCodes) {
   EXPECT_EQ(run("describe hands.csv --by colour").exit_code, 2);
   EXPECT_EQ(run("describe hands.csv --where sex").exit_code, 2);
   EXPECT_EQ(run("correlate hands.csv --level 95").exit_code, 2);
+  EXPECT_EQ(run("regress hands.csv --level 1.5").exit_code, 2);
+  EXPECT_EQ(run("regress hands.csv --on hand_length,hand_length").exit_code, 2);
+  EXPECT_THAT(run("--help").out, HasSubstr("Example: palmar population sample"));
   EXPECT_EQ(run("regress hands.csv --on sex").exit_code, 2);
   EXPECT_THAT(run("regress hands.csv --on hand_lenght").err,
               HasSubstr("did you mean hand_length?"));

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -38,33 +38,54 @@ HandDimension dimension_for(const std::string& name) {
                                     : "did you mean " + nearest + "?"));
 }
 
-/// The subject called `label`: in the table's first column that isn't a dimension, else by number.
-std::size_t subject_called(const DimensionTable& table, const std::string& label) {
-  double number = 0.0;
-  bool is_number = true;
-  try {
-    number = parse_list("--row", label).front();
-  } catch (const UsageError&) {
-    is_number = false;
+/// Rows whose cell in a column of text is `label`.
+std::vector<std::size_t> rows_with(const TableColumn& column, const std::string& label) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < column.texts.size(); ++i) {
+    if (column.texts[i] == label) rows.push_back(i);
   }
+  return rows;
+}
+
+/// The one row of `rows`; throws UsageError if there are several.
+std::size_t only_row(const std::vector<std::size_t>& rows, const DimensionTable& table,
+                     const TableColumn& column, const std::string& label) {
+  if (rows.size() == 1) return rows.front();
+  throw UsageError(fmt::format(
+      "--row {}: {} subjects of {} have it in their column \"{}\"; one is needed, by {}", label,
+      rows.size(), table.source, column.header,
+      column.quantity == Quantity::kLabel
+          ? std::string("labels that differ")
+          : fmt::format("its number, 1 to {}, or a column subject", table.subjects())));
+}
+
+/// The subject called `label` in the table's column of subjects (subject, id, name, label ...); if
+/// there is none, by the row's number from 1, or by text that one row alone has.
+std::size_t subject_called(const DimensionTable& table, const std::string& label) {
   for (const TableColumn& column : table.columns) {
-    if (column.dimension) continue;
-    for (std::size_t i = 0; i < table.lines.size(); ++i) {
-      const bool is_it =
-          column.is_number ? is_number && column.values[i] == number : column.texts[i] == label;
-      if (is_it) return i;
-    }
+    if (column.quantity != Quantity::kLabel) continue;
+    const std::vector<std::size_t> rows = rows_with(column, label);
+    if (!rows.empty()) return only_row(rows, table, column, label);
     throw UsageError("--row " + label + ": " + table.source +
                      " has no such entry in its column \"" + column.header + "\"");
   }
-  if (is_number && number >= 1.0 && number <= table.subjects() && number == std::floor(number)) {
+  int number = 0;
+  const char* end = label.data() + label.size();
+  const auto [rest, error] = std::from_chars(label.data(), end, number);
+  if (error == std::errc() && rest == end && number >= 1 && number <= table.subjects()) {
     return static_cast<std::size_t>(number) - 1;
   }
-  throw UsageError(fmt::format("--row {}: {} has no column of labels; 1 to {} is allowed", label,
-                               table.source, table.subjects()));
+  for (const TableColumn& column : table.columns) {
+    const std::vector<std::size_t> rows = rows_with(column, label);
+    if (!rows.empty()) return only_row(rows, table, column, label);
+  }
+  throw UsageError(fmt::format(
+      "--row {}: {} has no column of subjects (subject, id, name); a row's number, 1 to {}, is "
+      "allowed",
+      label, table.source, table.subjects()));
 }
 
-std::vector<SizedDimension> targets_of(const ScaleArguments& arguments) {
+std::vector<SizedDimension> targets_of(const ScaleArguments& arguments, const Context& context) {
   std::vector<SizedDimension> targets;
   const auto add = [&](DimensionKind kind, const std::optional<double>& value,
                        Segment segment = Segment::kPalm) {
@@ -87,6 +108,7 @@ std::vector<SizedDimension> targets_of(const ScaleArguments& arguments) {
   if (arguments.table.empty()) return targets;
   if (arguments.row.empty()) throw UsageError("--table needs --row, the hand's label");
   const DimensionTable table = read_dimension_table(arguments.table);
+  for (const std::string& text : table.notes) note(context.common, text);
   const std::size_t subject = subject_called(table, arguments.row);
   for (const TableColumn& column : table.columns) {
     if (!column.dimension || !column.values[subject]) continue;
@@ -122,7 +144,7 @@ Json driven_json(const HandInstance& instance) {
 
 int run_scale(const ScaleArguments& arguments, const Context& context) {
   const auto base = load_hand(arguments.hand);
-  const std::vector<SizedDimension> targets = targets_of(arguments);
+  const std::vector<SizedDimension> targets = targets_of(arguments, context);
   if (arguments.factor && !targets.empty()) {
     throw UsageError("--factor scales everything alike; no dimension is allowed beside it");
   }
@@ -169,7 +191,10 @@ void add_hand_scale(CLI::App& hand, Context& context) {
       ->allow_extra_args(false);
   verb->add_option("--table", o->table,
                    "CSV of subjects; every dimension in the row's columns is asked for");
-  verb->add_option("--row", o->row, "Which row: its label, or its number if there are no labels");
+  verb->add_option(
+      "--row", o->row,
+      "Which row: its entry in the column subject, id, name or label; its number from 1 if "
+      "there is no such column");
   verb->add_option("--factor", o->factor, "Everything times one factor instead");
   verb->add_option("--out", o->out, "File to write, *.hand.glb; default: only tell what is met");
   verb->callback([&context, o] { context.run = [&context, o] { return run_scale(*o, context); }; });

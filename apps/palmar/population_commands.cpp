@@ -13,6 +13,8 @@ void add_population_commands(CLI::App& app, Context& context) {
   population->fallthrough();
   add_population_table_verbs(*population, context);
   add_population_sample_verbs(*population, context);
+  // Last, or its verbs would start with it.
+  population->footer("Example: palmar population sample ansur2 --hands 30 --out hands.csv");
 }
 
 }  // namespace palmar::cli

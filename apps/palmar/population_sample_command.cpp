@@ -159,6 +159,9 @@ void add_sample(CLI::App& noun, Context& context) {
   verb->add_option("--out", o->out, "File to write: .csv, or .json");
   verb->callback([&context, o] {
     context.run = [&context, o] {
+      if (!o->out.empty() && !o->out.ends_with(".csv") && !o->out.ends_with(".json")) {
+        throw UsageError("--out " + o->out + ": a name ending in .csv or .json is required");
+      }
       const Population population = load_population(o->population);
       SamplingOptions options = o->sampling;
       options.design = design_named(o->design);

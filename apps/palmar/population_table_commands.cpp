@@ -18,6 +18,7 @@
 #include "palmar/report/correlation_chart.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/scatter_chart.h"
+#include "palmar/statistics/distributions.h"
 #include "table_text.h"
 
 namespace palmar::cli {
@@ -107,6 +108,18 @@ TableResults<Result> analysed(const TableArguments& arguments, std::vector<Table
 
 void tell(const Context& context, const std::vector<std::string>& notes) {
   for (const std::string& text : notes) note(context.common, text);
+}
+
+/// Columns of numbers that are no dimension of a hand: the population file can't hold them.
+void tell_what_is_left_out(const Context& context, const DimensionTable& table,
+                           const std::string& path) {
+  std::string headers;
+  for (const TableColumn* column : table.measures()) {
+    if (!column->dimension) headers += (headers.empty() ? "" : ", ") + column->header;
+  }
+  if (headers.empty()) return;
+  note(context.common,
+       path + " is without " + headers + ": no dimension of a hand that Palmar has");
 }
 
 /// A name of a file from that of a group: letters and digits stay.
@@ -264,6 +277,7 @@ void add_regress(CLI::App& noun, Context& context) {
   verb->callback([&context, o] {
     context.run = [&context, o] {
       std::vector<TableGroup> groups;
+      check_level(o->table.level);
       std::vector<std::string> predictors = names_in("--on", o->on);
       const auto results = analysed<std::vector<TableRegression>>(
           o->table, groups, [&](const DimensionTable& table) {
@@ -285,6 +299,7 @@ void add_regress(CLI::App& noun, Context& context) {
             groups, predictors, name, o->title.empty() ? "People of " + stem : o->title);
         write_population(o->population_out, population);
         tell(context, population.cautions);
+        tell_what_is_left_out(context, groups.front().table, o->population_out);
         note(context.common, "wrote " + o->population_out);
       }
       print(context.common.json ? regressions_json(results) + "\n" : regressions_text(results));

@@ -12,13 +12,14 @@
 #include "palmar/io/csv_reader.h"
 #include "palmar/io/file.h"
 #include "palmar/io/text_scan.h"
+#include "palmar/population/palm_ruler.h"
 #include "palmar/statistics/summary.h"
 
 namespace palmar {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
-constexpr int kFewestSubjects = 3;
+constexpr double kLargestLength = 1e5;  // mm; stature and reach may stand beside hands
 
 std::string short_text(double value) {
   std::array<char, 32> text{};
@@ -225,7 +226,14 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
   if (heading.quantity == Quantity::kLength) {
     column.unit = "mm";
     column.is_number = true;
-    column.values = cells.numbers(heading.factor, 0.0, 1e7, "a length above 0 is needed");
+    const auto range = size_range(heading.name);
+    column.values =
+        cells.numbers(heading.factor, 0.0, kLargestLength,
+                      "a length above 0 and below " + short_text(kLargestLength / heading.factor) +
+                          " " + heading.unit + " is needed" +
+                          (range ? "; a hand's " + heading.name + " is " + short_text(range->low) +
+                                       " to " + short_text(range->high) + " mm"
+                                 : ""));
     if (heading.unit != "mm") {
       table.notes.push_back(number + " (" + header + ") is turned from " + heading.unit +
                             " into mm");
@@ -285,10 +293,8 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
     rows.push_back(&row);
     table.lines.push_back(row.line);
   }
-  if (table.subjects() < kFewestSubjects) {
-    file.fail(rows.empty() ? file.header_line : rows.back()->line,
-              std::to_string(rows.size()) + (rows.size() == 1 ? " subject" : " subjects") +
-                  "; at least " + std::to_string(kFewestSubjects) + " are needed");
+  if (rows.empty()) {
+    file.fail(file.header_line, std::to_string(rows.size()) + " subjects; at least one is needed");
   }
   std::vector<double> factors;
   for (std::size_t place = 0; place < file.header.size(); ++place) {
@@ -309,6 +315,8 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     if (table.columns[i].is_number) check_sizes(table, table.columns[i], factors[i]);
   }
+  const std::string warning = palm_warning(table);
+  if (!warning.empty()) table.notes.push_back(warning);
   return table;
 }
 

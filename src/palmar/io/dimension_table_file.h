@@ -23,8 +23,9 @@ struct TableReading {
 ///
 /// Throws InputError naming file, line and column: what io/csv_reader.h refuses; text or infinity
 /// where a number is needed; a length of 0 or less; a dimension without unit, twice, or of a size
-/// that no hand has (naming the unit that would fit); a column with cells but without name; fewer
-/// than 3 subjects; more than 64 MB.
+/// that no hand has (naming the unit that would fit); a column with cells but without name; no
+/// subject; more than 64 MB. A palm length that isn't Palmar's (population/palm_ruler.h) is told in
+/// the notes.
 DimensionTable read_dimension_table(const std::string& path, const TableReading& reading = {});
 DimensionTable parse_dimension_table(std::string_view text, const std::string& path,
                                      const TableReading& reading = {});

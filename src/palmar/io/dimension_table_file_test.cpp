@@ -88,7 +88,9 @@ TEST(DimensionTable, BadTablesAreNamedByLineAndColumn) {
   EXPECT_THAT(fault(head + "F,-181,80\nM,190,90\nF,170,75\n"), HasSubstr("a length above 0"));
   EXPECT_THAT(fault(head + "F,181\nM,190,90\nF,170,75\n"),
               HasSubstr("t.csv:2: it has 2 cells; the header has 3"));
-  EXPECT_THAT(fault(head + "F,181,80\nM,190,90\n"), HasSubstr("2 subjects; at least 3"));
+  EXPECT_THAT(fault(head + "F,1e300,80\nM,190,90\n"),
+              AllOf(HasSubstr("t.csv:2: column 2 (hand_length_mm): 1e300"),
+                    HasSubstr("above 0 and below"), HasSubstr("is 90 to 260 mm")));
   EXPECT_THAT(fault(head), HasSubstr("t.csv:1: 0 subjects"));
   EXPECT_THAT(fault("sex,hand_length_mm,handlength (cm)\nF,181,18\nM,190,19\nF,170,17\n"),
               HasSubstr("t.csv:1: columns 2 (hand_length_mm) and 3 (handlength (cm)) are both "
@@ -160,6 +162,24 @@ TEST(DimensionTable, PartsOfItAreChosenByConditionsAndGroups) {
   }
 }
 
+// The hands of one or two people are a table too; statistics ask for more.
+TEST(DimensionTable, OnePersonIsEnough) {
+  const DimensionTable one = parsed("subject,hand_length_mm\nann,181\n");
+  ASSERT_EQ(one.subjects(), 1);
+  EXPECT_THAT(one.column("hand_length").values, ElementsAre(Optional(181.0)));
+  EXPECT_EQ(one.column("subject").quantity, Quantity::kLabel);
+  EXPECT_EQ(parsed("label,hand_length_mm\n1,181\n2,181\n").column("label").texts[1], "2");
+}
+
+// ANSUR II's palm is 60 % of the hand, the template's 97.2 of 176.1 mm.
+TEST(DimensionTable, APalmMeasuredBetweenOtherPointsIsTold) {
+  EXPECT_THAT(parsed("hand_length_mm,palmlength_mm\n193,115\n181,109\n").notes,
+              ElementsAre(AllOf(HasSubstr("column 2 (palmlength_mm)"), HasSubstr("59.9 %"),
+                                HasSubstr("55.2 %"), HasSubstr("fingers too short"))));
+  EXPECT_THAT(parsed("hand_length_mm,palmlength_mm\n193,106\n181,100\n").notes, IsEmpty());
+  EXPECT_THAT(parsed("hand_length_mm,palmlength_mm\n193,\n181,NA\n").notes, IsEmpty());
+}
+
 TEST(DimensionTable, AnyBytesAreATableOrAnInputError) {
   const std::string base =
       "\xEF\xBB\xBFid;sex;Age [years];Hand length [mm];handbreadth (cm);\"odd; name\";grip_n\r\n"
@@ -191,7 +211,7 @@ TEST(DimensionTable, AnyBytesAreATableOrAnInputError) {
     try {
       const DimensionTable table = parsed(text);
       ++tables;
-      EXPECT_GE(table.subjects(), 3);
+      EXPECT_GE(table.subjects(), 1);
       for (const TableColumn& column : table.columns) {
         EXPECT_EQ(column.is_number ? column.values.size() : column.texts.size(),
                   table.lines.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "palmar/io/text_scan.h"
 #include "palmar/io/toml_section.h"
 #include "palmar/population/built_in_populations.h"
+#include "palmar/population/segment_regressions.h"
 
 namespace palmar {
 namespace {
@@ -22,6 +24,12 @@ constexpr std::uint64_t kMaxBytes = 1 << 22;
 constexpr double kLargestLength = 400.0;  // mm; as fault_of() allows
 constexpr double kLargestNumber = 1e6;    // of intercepts and slopes
 constexpr double kSmallest = 1e-6;        // stands for "more than 0"
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
 
 HandDimension dimension_named(const TomlSection& section, std::string_view key,
                               const std::string& name) {
@@ -57,11 +65,30 @@ std::optional<Sex> sex_of(const TomlSection& section) {
   section.fail("sex", "is " + in_quotes(*word) + "; \"female\" or \"male\" is allowed");
 }
 
+/// Mean sizes [mm] that people can have, children to giants: wide about the template's.
+std::array<double, 2> mean_range(HandDimension dimension) {
+  if (dimension.kind == DimensionKind::kHandLength) return {60.0, 300.0};
+  if (dimension.kind == DimensionKind::kHandCircumference) return {70.0, 350.0};
+  const double usual = value_of(template_proportions(), dimension);
+  return {0.4 * usual, 2.5 * usual};
+}
+
+void check_size(const TomlSection& section, std::string_view key, HandDimension dimension,
+                double mean) {
+  const auto [low, high] = mean_range(dimension);
+  if (mean >= low && mean <= high) return;
+  const bool is_cm = 10.0 * mean >= low && 10.0 * mean <= high;
+  section.fail(key, "of " + name_of(dimension) + " is " + number_text(mean) + " mm; " +
+                        number_text(low) + " to " + number_text(high) + " mm is allowed" +
+                        (is_cm ? ": these figures look like cm" : ""));
+}
+
 DrivingDimension read_driving(const TomlSection& section) {
   section.allow({"dimension", "mean_mm", "sd_mm", "evidence", "source"});
   DrivingDimension driving;
   driving.dimension = dimension_of(section);
   driving.mean = section.need_number("mean_mm", "mm", 1.0, kLargestLength);
+  check_size(section, "mean_mm", driving.dimension, driving.mean);
   driving.sd = section.number("sd_mm", "mm", kSmallest, 0.2 * driving.mean).value_or(0.0);
   driving.evidence = evidence_of(section, Evidence::kMeasured);
   driving.source = section.text("source").value_or("");
@@ -157,6 +184,11 @@ Stratum read_stratum(const TomlSection& section) {
     // What is wrong with this regression is told where it stands.
     const std::string fault = fault_of(stratum);
     if (!fault.empty() && fault.starts_with("regression")) one.fail(fault);
+    if (!fault.empty()) continue;
+    const HandDimension dimension = stratum.regressions.back().dimension;
+    if (const auto moments = moments_of(stratum, dimension)) {
+      check_size(one, "mean", dimension, moments->mean);
+    }
   }
   const std::string fault = fault_of(stratum);
   if (!fault.empty()) section.fail("stratum \"" + stratum.name + "\": " + fault);

@@ -104,6 +104,14 @@ TEST(PopulationFile, WrittenPopulationsGiveTheSameHands) {
 TEST(PopulationFile, MessagesNameLineValueAndWhatIsAllowed) {
   EXPECT_THAT(message_with("mean_mm = 175.0", "mean_cm = 17.5"),
               AllOf(HasSubstr("women.toml:13"), HasSubstr("did you mean \"mean_mm\"?")));
+  EXPECT_THAT(message_with("mean_mm = 175.0", "mean_mm = 17.5"),
+              AllOf(HasSubstr("women.toml:13"), HasSubstr("mean_mm of hand_length is 17.5 mm"),
+                    HasSubstr("60 to 300 mm"), HasSubstr("look like cm")));
+  EXPECT_THAT(message_with("mean_mm = 182.0", "mean_mm = 18.2"),
+              AllOf(HasSubstr("mean_mm of hand_circumference is 18.2 mm"), HasSubstr("like cm")));
+  EXPECT_THAT(message_with("{ hand_length = 0.12 }", "{ hand_length = 1.2 }"),
+              AllOf(HasSubstr("women.toml:27"), HasSubstr("index_middle_length is 211.5 mm"),
+                    HasSubstr("8.48 to 53 mm")));
   EXPECT_THAT(message_with("mean_mm = 175.0", "mean_mm = \"long\""),
               AllOf(HasSubstr("women.toml:13"), HasSubstr("mean_mm is no number; 1 to 400 mm")));
   EXPECT_THAT(message_with("sd_mm = 9.0", "sd_mm = 0.0"),

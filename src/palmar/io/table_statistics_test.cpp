@@ -179,6 +179,14 @@ TEST(TablePopulation, OfTheSurveyKeepsItsMoments) {
   ASSERT_TRUE(width);
   EXPECT_NEAR(width->mean, 78.15, 0.0051);
   EXPECT_NEAR(width->sd, 3.843, 0.005);
+  // The survey's palm reaches further than ours: its mean is the template's 97.2 of 176.1 mm, its
+  // coefficient of variation the survey's (Gordon et al. 2014: 108.9, SD 5.8 mm of 181.1 mm).
+  const auto palm = moments_of(women, {DimensionKind::kSegmentLength, Segment::kPalm});
+  ASSERT_TRUE(palm);
+  EXPECT_NEAR(palm->mean, 181.08 * 97.2 / 176.1, 0.01);
+  const ColumnDescription measured = describe(where(*ansur2(), "sex=F"), {"palm_length"})[0];
+  EXPECT_NEAR(palm->sd / palm->mean, measured.summary->sd / measured.summary->mean, 2e-5);
+  EXPECT_THAT(population.cautions, Contains(HasSubstr("palm_length is measured as 60.")));
   const TestFolder folder;
   const std::string path = (folder / "survey.toml").string();
   write_population(path, population);
@@ -194,6 +202,19 @@ TEST(TableStatistics, LeavesOutPairsThatAreNotComplete) {
   const auto r = regress(table, {"hand_length"});
   EXPECT_EQ(r[0].fit.n, 4);
   EXPECT_EQ(describe(table)[0].missing, 1);
+}
+
+TEST(TableStatistics, FewSubjectsAreDescribedButNotCorrelated) {
+  const DimensionTable two = parsed("hand_length_mm,hand_width_mm\n180,80\n190,80\n");
+  EXPECT_DOUBLE_EQ(describe(two)[0].summary->mean, 185.0);
+  EXPECT_EQ(describe(parsed("hand_length_mm\n180\n"))[0].summary->n, 1);
+  EXPECT_THAT(message_of<InputError>([&] { correlate(two); }), HasSubstr("at least 3 are needed"));
+  EXPECT_THAT(message_of<InputError>([&] { regress(two, {"hand_length"}); }),
+              HasSubstr("at least 3 are needed"));
+  EXPECT_THAT(message_of<UsageError>([&] {
+                regress(two, {"hand_length", "handlength"});
+              }),
+              HasSubstr("named twice"));
 }
 
 TEST(TableStatistics, ColumnsThatTellNothingAreNamed) {
@@ -235,7 +256,8 @@ TEST(TablePopulation, SmallAndMixedGroupsCarryCautions) {
   EXPECT_FALSE(population.strata[0].sex);
   EXPECT_NEAR(*population.strata[0].age, 34.0, 1e-12);
   EXPECT_THAT(population.cautions,
-              ElementsAre(HasSubstr("only 5 subjects"), HasSubstr("men and women in one")));
+              ElementsAre(HasSubstr("only 5 subjects"), HasSubstr("men and women in one"),
+                          HasSubstr("grip strength isn't known")));
   EXPECT_THAT(message_of<UsageError>(
                   [&] { population_of_table(grouped(table, "", notes), {"age"}, "x", "x"); }),
               HasSubstr("none that Palmar knows"));

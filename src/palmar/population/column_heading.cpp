@@ -214,9 +214,9 @@ ColumnHeading heading_of(std::string_view header) {
     heading.quantity = Quantity::kAge;
     heading.factor = factor_of(kTimeUnits, heading.unit).value_or(1.0);
   } else {
-    constexpr std::array<std::string_view, 9> kLabels{"id",          "subject", "subject_id",
-                                                      "subjectid",   "no",      "number",
-                                                      "participant", "name",    "person"};
+    constexpr std::array<std::string_view, 10> kLabels{
+        "id",     "subject",     "subject_id", "subjectid", "no",
+        "number", "participant", "name",       "person",    "label"};
     if (std::find(kLabels.begin(), kLabels.end(), heading.name) != kLabels.end()) {
       heading.quantity = Quantity::kLabel;
     }

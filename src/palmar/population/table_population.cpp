@@ -3,8 +3,11 @@
 #include "palmar/population/table_population.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "palmar/core/error.h"
+#include "palmar/population/palm_ruler.h"
 #include "palmar/population/table_statistics.h"
 
 namespace palmar {
@@ -12,6 +15,7 @@ namespace {
 
 constexpr int kSmallGroup = 30;
 constexpr double kSignificant = 0.05;
+constexpr const char* kProportion = "; mean in the template's proportion";
 
 /// The regression that the population keeps of one dimension.
 const TableRegression& kept(const std::vector<TableRegression>& regressions,
@@ -26,13 +30,45 @@ const TableRegression& kept(const std::vector<TableRegression>& regressions,
   return regressions[static_cast<std::size_t>(best_predictor(regressions, name))];
 }
 
+std::string rounded(double value, int places) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", places, value);
+  return text.data();
+}
+
 std::string sentence(const TableRegression& r, const std::string& source) {
   return source + ": linear regression, n = " + std::to_string(r.fit.n) +
-         ", R2 = " + std::to_string(r.fit.r2).substr(0, 5);
+         ", R2 = " + rounded(r.fit.r2, 3);
+}
+
+/// Palm lengths that reach further than Palmar's, brought into the template's proportion at the
+/// mean hand of each group; they change and scatter as measured. Says so in `cautions`.
+std::vector<TableGroup> with_our_palm(std::vector<TableGroup> groups,
+                                      std::vector<std::string>& cautions) {
+  for (TableGroup& group : groups) {
+    const auto share = palm_share(group.table);
+    if (!share || *share <= kLargestPalmShare) continue;
+    const double factor = template_palm_share() / *share;
+    for (TableColumn& column : group.table.columns) {
+      if (column.name != kPalmLength) continue;
+      for (auto& value : column.values) {
+        if (value) *value *= factor;
+      }
+    }
+    cautions.push_back(group.name + ": palm_length is measured as " + rounded(100.0 * *share, 1) +
+                       " % of hand length; from the wrist crease to the base crease of the middle "
+                       "finger, as Palmar measures, it is " +
+                       rounded(100.0 * template_palm_share(), 1) + " %. It is taken times " +
+                       rounded(factor, 3) +
+                       ": the mean is in the template's proportion, only how it varies is "
+                       "measured. Left out of the table, it follows in proportion altogether");
+  }
+  return groups;
 }
 
 Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driving,
-                   const std::string& source, std::vector<std::string>& cautions) {
+                   const std::string& source, bool is_converted,
+                   std::vector<std::string>& cautions) {
   Stratum stratum;
   stratum.name = group.name;
   const DimensionTable table = having(group.table, driving);
@@ -47,6 +83,10 @@ Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driv
     dimension.mean = d.summary->mean;
     dimension.sd = d.summary->sd;
     dimension.source = source + ", n = " + std::to_string(d.summary->n);
+    if (is_converted && d.name == kPalmLength) {
+      dimension.evidence = Evidence::kScaled;
+      dimension.source += kProportion;
+    }
     stratum.driving.push_back(dimension);
   }
   stratum.correlation = Eigen::MatrixXd::Identity(1, 1);
@@ -78,6 +118,10 @@ Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driv
     regression.residual_sd = r.fit.residual_sd;
     regression.evidence = Evidence::kMeasured;
     regression.source = sentence(r, source);
+    if (is_converted && name == kPalmLength) {
+      regression.evidence = Evidence::kRegressed;
+      regression.source += kProportion;
+    }
     stratum.regressions.push_back(std::move(regression));
   }
   if (table.subjects() < kSmallGroup) {
@@ -116,10 +160,11 @@ void add_sex_and_age(const DimensionTable& table, Stratum& stratum, bool& is_mix
 
 }  // namespace
 
-Population population_of_table(const std::vector<TableGroup>& groups,
+Population population_of_table(const std::vector<TableGroup>& as_measured,
                                const std::vector<std::string>& driving, const std::string& name,
                                const std::string& title) {
   Population population;
+  const std::vector<TableGroup> groups = with_our_palm(as_measured, population.cautions);
   population.name = name;
   population.title = title;
   std::vector<std::string> names;
@@ -138,8 +183,11 @@ Population population_of_table(const std::vector<TableGroup>& groups,
   population.source =
       path.substr(path.find_last_of('/') + 1) + ", " + std::to_string(subjects) + " subjects";
   bool is_mixed = false;
-  for (const TableGroup& group : groups) {
-    Stratum stratum = stratum_of(group, names, population.source, population.cautions);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const TableGroup& group = groups[g];
+    const bool is_converted = palm_share(as_measured[g].table).value_or(0.0) > kLargestPalmShare;
+    Stratum stratum =
+        stratum_of(group, names, population.source, is_converted, population.cautions);
     stratum.share = static_cast<double>(group.table.subjects()) / subjects;
     add_sex_and_age(group.table, stratum, is_mixed);
     population.strata.push_back(std::move(stratum));
@@ -147,6 +195,13 @@ Population population_of_table(const std::vector<TableGroup>& groups,
   if (is_mixed) {
     population.cautions.push_back(
         "men and women in one normal distribution; part the table by sex for two");
+  }
+  const bool has_strength =
+      std::all_of(population.strata.begin(), population.strata.end(),
+                  [](const Stratum& stratum) { return stratum.sex && stratum.age; });
+  if (!has_strength) {
+    population.cautions.push_back(
+        "grip strength isn't known: it needs one sex (--by sex) and a column age");
   }
   population.check();
   return population;

@@ -51,6 +51,12 @@ void check_varies(const DimensionTable& table, const TableColumn& column,
 
 constexpr std::size_t kMostNamed = 8;
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::string headers_of(const std::vector<const TableColumn*>& columns) {
   std::string text;
   for (std::size_t i = 0; i < std::min(columns.size(), kMostNamed); ++i) {
@@ -220,6 +226,10 @@ std::vector<TableRegression> regress(const DimensionTable& table,
                                      const std::vector<std::string>& names) {
   if (predictor_names.empty()) throw UsageError("regression without a predictor");
   const std::vector<const TableColumn*> predictors = chosen_columns(table, predictor_names);
+  if (predictors.size() < predictor_names.size()) {
+    throw UsageError("a predictor is named twice; each of " + joined(predictor_names) +
+                     " has to be another column");
+  }
   for (const TableColumn* p : predictors) check_varies(table, *p, present(*p));
   check_independent(table, complete_rows(predictors), predictors);
   std::vector<std::vector<const TableColumn*>> sets;
