@@ -81,6 +81,49 @@ TEST_F(StudyCommand, ThreadsDontMatter) {
   }
 }
 
+TEST_F(StudyCommand, FoldersDontMatter) {
+  const std::string parent = fs::path(folder_).parent_path().string();
+  const std::string name = fs::path(folder_).filename().string();
+  ASSERT_EQ(run_palmar("study run " + name + "/study.toml --quiet --out " + name + "/above.palmar",
+                       parent)
+                .exit_code,
+            0);
+  EXPECT_EQ(bytes("above.palmar"), bytes("whole.palmar"));
+  fs::create_directory(folder_ + "/copy");
+  for (const char* file : {"/study.toml", "/handle.stl"}) {
+    fs::copy_file(folder_ + file, folder_ + "/copy" + file);
+  }
+  ASSERT_EQ(run("study run copy/study.toml --quiet --out new/shards/copied.palmar").exit_code, 0);
+  EXPECT_EQ(bytes("new/shards/copied.palmar"), bytes("whole.palmar"));
+  // The same study once it is there, from the other folder.
+  EXPECT_EQ(run("study run " + folder_ + "/copy/study.toml --quiet --out whole.palmar").exit_code,
+            0);
+}
+
+TEST_F(StudyCommand, PathsAsTypedDontMatter) {
+  const std::string rest =
+      " --unit mm --population ansur2_men --hands 2 --grip medium_wrap --quiet --json ";
+  fs::create_directory(folder_ + "/typed");
+  fs::copy_file(folder_ + "/handle.stl", folder_ + "/typed/handle.stl");
+  const auto digest = [](const ProgramRun& done) {
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return json::parse(done.out)["results_sha256"].get<std::string>();
+  };
+  const std::string plain =
+      digest(run("study run --product handle.stl" + rest + "--out typed1.palmar"));
+  EXPECT_EQ(digest(run("study run --product typed/handle.stl" + rest + "--out typed2.palmar")),
+            plain);
+  EXPECT_EQ(
+      digest(run("study run --product " + folder_ + "/handle.stl" + rest + "--out typed1.palmar")),
+      plain);
+  ASSERT_EQ(run("study run --product ./handle.stl --shard 1/2" + rest + "--out a.palmar").exit_code,
+            0);
+  ASSERT_EQ(
+      run("study run --product typed/handle.stl --shard 2/2" + rest + "--out b.palmar").exit_code,
+      0);
+  EXPECT_EQ(digest(run("study merge b.palmar a.palmar --out ab.palmar --json")), plain);
+}
+
 TEST_F(StudyCommand, KilledAgainAndAgainEndsWithTheSameBytes) {
   double seconds = 0.3;
   std::size_t last = 0;
@@ -196,32 +239,40 @@ TEST_F(StudyCommand, ChangedInputsAreNamed) {
   EXPECT_EQ(bytes("changed.palmar"), bytes("whole.palmar"));
 }
 
-TEST_F(StudyCommand, FailedGraspsAreCountedWithTheirReason) {
-  // Nobody's strength is known in this preset, and a sheet of 3 m can't be held.
-  write_text(folder_ + "/failing.toml", R"(
-[[population]]
-preset = "xie2014"
-hands = 2
-[[product]]
-kind = "cylinder"
-diameter_mm = 35
-length_mm = 120
-[[product]]
-name = "ball"
-kind = "sphere"
-diameter_mm = 900
-[[setting]]
-name = "firm"
-strength_share = 0.5
-indices = false
-)");
-  const ProgramRun run_now = run("study run failing.toml --quiet --json --out failing.palmar");
-  ASSERT_EQ(run_now.exit_code, 0) << run_now.err;
-  const json result = json::parse(run_now.out);
-  EXPECT_EQ(result["outcomes"]["failed"], 4);
-  EXPECT_EQ(result["failed"].size(), 1U);
-  EXPECT_THAT(result["failed"].begin().key(), HasSubstr("grip strength"));
-  EXPECT_THAT(run("study status failing.palmar").out, HasSubstr("failed: a share of the grip"));
+TEST_F(StudyCommand, RefusesWhatEveryGraspWouldFailFor) {
+  const std::string thing = "[[product]]\nkind = \"cylinder\"\ndiameter_mm = 35\n";
+  const std::string share = "[[setting]]\nname = \"firm\"\nstrength_share = 0.5\n";
+  write_text(folder_ + "/share.toml",
+             "[[population]]\npreset = \"xie2014\"\nhands = 2\n" + thing + share);
+  write_text(folder_ + "/ageless.csv",
+             "label,sex,hand_length_mm\nfirst,female,175\nsecond,male,190\n");
+  write_text(folder_ + "/ageless.toml",
+             "[[population]]\ntable = \"ageless.csv\"\n" + thing + share);
+  write_text(folder_ + "/giant.csv",
+             "label,hand_length_mm,palm_length_mm\nfirst,125,124\nsecond,126,125\n");
+  write_text(folder_ + "/giant.toml", "[[population]]\ntable = \"giant.csv\"\n" + thing);
+  for (const char* verb : {"study plan ", "study run --out refused.palmar "}) {
+    const ProgramRun preset = run(std::string(verb) + "share.toml");
+    EXPECT_EQ(preset.exit_code, 3);
+    EXPECT_THAT(preset.err,
+                HasSubstr("share.toml: setting \"firm\": strength_share is 0.5, but the "
+                          "grip strength of 2 of 2 hands of population \"xie2014\""));
+    const ProgramRun table = run(std::string(verb) + "ageless.toml");
+    EXPECT_EQ(table.exit_code, 3);
+    EXPECT_THAT(table.err, HasSubstr("(hand \"first\": the age is missing)"));
+    const ProgramRun giant = run(std::string(verb) + "giant.toml");
+    EXPECT_EQ(giant.exit_code, 3);
+    EXPECT_THAT(giant.err, HasSubstr("population \"giant\": its hands can't be made: "));
+  }
+  EXPECT_FALSE(fs::exists(folder_ + "/refused.palmar"));
+}
+
+TEST_F(StudyCommand, StatusOfADamagedStoreIsAnError) {
+  write_text(folder_ + "/broken.palmar", "no study");
+  const ProgramRun status = run("study status whole.palmar broken.palmar");
+  EXPECT_EQ(status.exit_code, 3);
+  EXPECT_THAT(status.out, HasSubstr("broken.palmar (broken.palmar: is no study of Palmar)"));
+  EXPECT_EQ(run("study status whole.palmar").exit_code, 0);
 }
 
 TEST_F(StudyCommand, NeedsNoFile) {
@@ -279,7 +330,11 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
       {people + thing + "diameter_mm = -3\n", "bad.toml:6: product 1 diameter_mm is -3 mm"},
       {people + thing + "diameter_mm = { from = 30, to = 40 }\n", "step"},
       {people + "[[product]]\nkind = \"cylindre\"\n", "did you mean \"cylinder\"?"},
-      {people + thing + thing, "two products are called \"cylinder\""},
+      {people + thing + "axis = [0, 0, 0]\n",
+       "bad.toml:6: product 1 axis is 0, 0, 0; a direction is required"},
+      {people + thing + "name = \"x\"\nposture_of = \"x\"\n",
+       "bad.toml:4: product \"x\": keeps the posture of itself"},
+      {people + thing + thing, "bad.toml:6: two products are called \"cylinder\""},
       {people + thing + "sizes = [1, 1]\n", "bad.toml:6: product 1 sizes has a size twice"},
       {people + thing + "posture_of = \"other\"\n", "\"other\", which is no product of the study"},
       {people + thing + "at_mm = [1, 2]\n", "bad.toml:6: product 1 at_mm has 2 numbers; three"},

@@ -155,6 +155,17 @@ std::string study_size_text(const StudyPlan& plan) {
   return fmt::format("{} = {} grasps", text, task_count(plan));
 }
 
+std::string missing_text(const std::vector<std::int64_t>& numbers) {
+  constexpr std::size_t kMost = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(kMost, numbers.size()); ++i) {
+    list += fmt::format("{}{}", i == 0 ? "" : ", ", numbers[i]);
+  }
+  return fmt::format("finished, but {} grasp{} not in it: {}{}", numbers.size(),
+                     numbers.size() == 1 ? " is" : "s are", list,
+                     numbers.size() > kMost ? " ..." : "");
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 100.0) return fmt::format("{:.3g} s", seconds);
   if (seconds < 6000.0) return fmt::format("{:.0f} min", std::ceil(seconds / 60.0));

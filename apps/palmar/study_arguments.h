@@ -39,6 +39,9 @@ StudyShard parse_shard(const std::string& text);
 /// "30 hands x 4 products x 2 grips = 240 grasps"; only what there are several of, hands always.
 std::string study_size_text(const StudyPlan& plan);
 
+/// "finished, but 2 grasps are not in it: 3, 5": of a damaged store.
+std::string missing_text(const std::vector<std::int64_t>& numbers);
+
 /// Time for people: "12 s", "5 min", "2.5 h".
 std::string duration_text(double seconds);
 

@@ -12,6 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
+#include "palmar/io/file.h"
 #include "palmar/io/study_plan_json.h"
 #include "palmar/io/study_progress.h"
 #include "palmar/io/study_store.h"
@@ -77,6 +78,10 @@ std::string summary_text(const StudyStore& store,
 int run_rest(StudyStore& store, const StudyInputs& inputs, const Context& context) {
   const Progress progress = make_progress(context.common);
   const std::vector<std::int64_t> rest = store.missing();
+  if (store.is_finished() && !rest.empty()) {
+    throw InputError(store.path().string() + ": is damaged: " + missing_text(rest) +
+                     "; delete it and run the study anew");
+  }
   Keeper keeper(store, rest.size());
   try {
     run_study(
@@ -162,6 +167,7 @@ int run_run(const RunArguments& arguments, const Context& context) {
   const LoadedStudy study = arguments.study.load(context);
   tasks_of(study.plan, shard);  // more shards than hands are refused before anything is written
   const fs::path path = arguments.out.empty() ? default_store(study.plan, shard) : arguments.out;
+  if (path.has_parent_path()) create_folder(path.parent_path());
   if (!fs::exists(path)) StudyStore::create(path, study.plan, study.inputs, shard);
   StudyStore store(path, StudyAccess::kWrite);
   check_same(store, study.plan, shard);
@@ -180,7 +186,7 @@ int run_resume(const std::string& path, const Context& context) {
     return run_rest(store, {}, context);
   }
   check_program(store);
-  check_products(store.plan());
+  check_products(store.plan(), fs::path(path).parent_path());
   return run_rest(store, store.inputs(), context);
 }
 

@@ -70,7 +70,7 @@ int run_merge(const MergeArguments& arguments, const Context& context) {
 /// How far one store is.
 struct StoreState {
   fs::path path;
-  std::string state;  ///< "finished", "running", "stopped", "unreadable"
+  std::string state;  ///< "finished", "running", "stopped", "damaged", "unreadable"
   std::string detail;
   StudyShard shard;
   std::int64_t done = 0, total = 0;
@@ -107,6 +107,11 @@ StoreState state_of(const fs::path& path) {
       ++state.outcomes[name_of(record.outcome)];
       if (record.outcome == StudyOutcome::kFailed) ++state.reasons[record.reason];
     });
+    const std::vector<std::int64_t> rest = store.missing();
+    if (store.is_finished() && !rest.empty()) {
+      state.state = "damaged";
+      state.detail = missing_text(rest);
+    }
   } catch (const StudyBusy&) {
     state.state = "running";
     if (const auto note = read_study_progress(path)) take_note(*note, state);
@@ -172,6 +177,8 @@ int run_status(const std::vector<std::string>& names, const Context& context) {
     ++count[one.state];
     for (const auto& [reason, times] : one.reasons) failed += times;
   }
+  const int exit_code =
+      count.count("unreadable") + count.count("damaged") > 0 ? InputError("").exit_code() : 0;
   const std::vector<std::string> absent = absent_shards(states);
   if (context.common.json) {
     Json list = Json::array();
@@ -182,7 +189,7 @@ int run_status(const std::vector<std::string>& names, const Context& context) {
                        {"grasps", total},
                        {"failed", failed}};
     print(json.dump(2) + "\n");
-    return 0;
+    return exit_code;
   }
   std::string text;
   for (const StoreState& one : states) text += state_text(one);
@@ -196,7 +203,7 @@ int run_status(const std::vector<std::string>& names, const Context& context) {
     text += fmt::format("{} of {} grasps{}\n", done, total, counts);
   }
   print(text);
-  return 0;
+  return exit_code;
 }
 
 }  // namespace

@@ -198,7 +198,10 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   ProductRequest request;
   request.where = place_of(section);
   request.name = section.text("name").value_or("");
-  if (const auto file = section.text("file")) request.file = from_folder(section, *file);
+  if (const auto file = section.text("file")) {
+    request.file = from_folder(section, *file);
+    request.written = *file;
+  }
   if (const auto unit = section.text("unit")) {
     if (request.file.empty()) section.fail("unit", "has no meaning for a solid: it is in mm");
     request.unit = at_key(section, "unit", [&] { return length_unit(*unit); });
@@ -211,6 +214,9 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   }
   request.held.at = read_vector(section, "at_mm", "mm");
   request.held.axis = read_vector(section, "axis", "");
+  if (request.held.axis && !(request.held.axis->norm() > 0.0)) {
+    section.fail("axis", "is 0, 0, 0; a direction is required");
+  }
   request.held.mass = section.number("mass_kg", "kg", 0.0, 100.0).value_or(0.0);
   request.held.posture_of = section.text("posture_of").value_or("");
   if (kind.empty()) return {request};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct PopulationRequest {
 struct ProductRequest {
   std::string name;                ///< "": the file's stem, or kind and first length
   std::string file;                ///< mesh file, or "" for a solid
+  std::string written;             ///< the same as the study file has it; "": as in `file`
   std::optional<LengthUnit> unit;  ///< of the file
   MadeProduct made;
   std::vector<double> sizes = {1.0};
@@ -63,9 +65,9 @@ struct LoadedStudy {
 /// Draws the hands, reads and makes the products. `hand`: the one that `request.hand` names.
 LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand);
 
-/// Throws UsageError if the file of a product of the plan is there but no longer what the study
-/// began with.
-void check_products(const StudyPlan& plan);
+/// Throws UsageError if the file of a product of the plan is found, from the working folder or from
+/// `folder`, but nowhere as the study began with it.
+void check_products(const StudyPlan& plan, const std::filesystem::path& folder = {});
 
 /// "lhs", "latin_hypercube", "random", "boundary", "percentiles". Nothing for another word.
 std::optional<SamplingDesign> design_named(const std::string& name);

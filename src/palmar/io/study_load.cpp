@@ -6,6 +6,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh_distance.h"
+#include "palmar/hand/hand_instance.h"
 #include "palmar/io/dimension_table_file.h"
 #include "palmar/io/population_file.h"
 #include "palmar/io/product_file.h"
@@ -13,6 +14,7 @@
 #include "palmar/io/study_store.h"
 #include "palmar/io/text_scan.h"
 #include "palmar/population/built_in_populations.h"
+#include "palmar/study/study_task.h"
 
 namespace palmar {
 namespace {
@@ -74,8 +76,9 @@ void add_population(const PopulationRequest& request, std::uint64_t seed, Loaded
   std::vector<HandSample> hands;
   if (!request.table.empty()) {
     one.population.name = std::filesystem::path(request.table).stem().string();
-    one.population.title = "hands of " + request.table;
-    one.population.source = request.table;
+    // Without its folder: a study is the same wherever it lies.
+    one.population.source = std::filesystem::path(request.table).filename().string();
+    one.population.title = "hands of " + one.population.source;
     hands = given_hands(request.table, study.notes);
     one.sampling = {};
     one.sampling.hands = static_cast<int>(hands.size());
@@ -89,6 +92,19 @@ void add_population(const PopulationRequest& request, std::uint64_t seed, Loaded
   }
   for (HandSample& sample : hands) study.plan.hands.push_back({index, std::move(sample)});
   study.plan.populations.push_back(std::move(one));
+}
+
+/// Advice to give an option becomes that to give the key, where a study file is read.
+std::string advice(std::string text, const std::string& where) {
+  if (where.empty()) return text;
+  const std::pair<std::string, std::string> words[] = {
+      {"--unit mm, cm, m or inch", "unit = \"mm\", \"cm\", \"m\" or \"inch\""},
+      {"--unit says otherwise", "the key unit says otherwise"}};
+  for (const auto& [option, key] : words) {
+    const std::size_t at = text.find(option);
+    if (at != text.npos) text.replace(at, option.size(), key);
+  }
+  return text;
 }
 
 std::string product_name(const ProductRequest& request) {
@@ -115,15 +131,23 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
   const std::string name = product_name(request);
   std::optional<Product> read;
   if (!request.file.empty()) {
-    read = load_product(request.file, {.unit = request.unit});
-    for (const std::string& text : read->notes) study.notes.push_back(name + ": " + text);
+    try {
+      read = load_product(request.file, {.unit = request.unit});
+    } catch (const InputError& error) {
+      throw InputError(advice(error.what(), request.where));
+    }
+    for (const std::string& text : read->notes) {
+      study.notes.push_back(name + ": " + advice(text, request.where));
+    }
   }
   for (const double size : request.sizes) {
     StudyProduct one = request.held;
     one.name = sized_name(name, size);
     if (one.family.empty()) one.family = name;
     one.size = size;
-    one.file = read ? request.file : words_of(request.made);
+    one.file = !read                     ? words_of(request.made)
+               : request.written.empty() ? request.file
+                                         : request.written;
     if (!one.posture_of.empty()) one.posture_of = sized_name(one.posture_of, size);
     Product product = read ? sized(*read, size) : make_solid(request.made, size);
     product.name = one.name;
@@ -134,16 +158,95 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
   }
 }
 
+/// What a person's grip strength would be known by.
+std::string lacking_for_strength(const HandSample& sample) {
+  if (!sample.sex && !sample.age) return "sex and age are";
+  if (!sample.sex) return "the sex is";
+  if (!sample.age) return "the age is";
+  return "the strength at that age is";
+}
+
+/// Refuses shares of a grip strength that isn't known, before every grasp fails for it.
+void check_strengths(const StudyPlan& plan) {
+  for (const StudySetting& setting : plan.settings) {
+    if (!setting.strength_share) continue;
+    for (std::size_t p = 0; p < plan.populations.size(); ++p) {
+      std::size_t hands = 0, unknown = 0;
+      const HandSample* first = nullptr;
+      for (const StudyHand& hand : plan.hands) {
+        if (hand.population != static_cast<int>(p)) continue;
+        ++hands;
+        if (hand.sample.grip_strength > 0.0) continue;
+        ++unknown;
+        if (first == nullptr) first = &hand.sample;
+      }
+      if (first == nullptr) continue;
+      throw UsageError("setting \"" + setting.name + "\": strength_share is " +
+                       shortest(*setting.strength_share) + ", but the grip strength of " +
+                       std::to_string(unknown) + " of " + std::to_string(hands) +
+                       " hands of population \"" + plan.populations[p].population.name +
+                       "\" isn't known (hand \"" + first->label +
+                       "\": " + lacking_for_strength(*first) +
+                       " missing); grip_force_n, or people whose sex and age or grip_strength_n "
+                       "are given, is allowed");
+    }
+  }
+}
+
+/// Refuses a population none of whose hands can be made, before every grasp fails for it.
+void check_hands(const LoadedStudy& study) {
+  constexpr std::size_t kTries = 8;
+  const HandInstanceMaker maker(*study.inputs.base);
+  for (std::size_t p = 0; p < study.plan.populations.size(); ++p) {
+    StudyPlan part;
+    for (const StudyHand& hand : study.plan.hands) {
+      if (hand.population == static_cast<int>(p)) part.hands.push_back(hand);
+    }
+    if (part.hands.empty()) continue;
+    std::string why;
+    try {
+      maker.make(mean_dimensions(part));
+      continue;
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    // A mean of unlike people may be odd where the people are not.
+    bool is_one_made = false;
+    for (std::size_t i = 0; i < std::min(kTries, part.hands.size()) && !is_one_made; ++i) {
+      try {
+        maker.make(part.hands[i].sample.dimensions);
+        is_one_made = true;
+      } catch (const Error&) {
+        continue;
+      }
+    }
+    if (is_one_made) continue;
+    throw UsageError("population \"" + study.plan.populations[p].population.name +
+                     "\": its hands can't be made: " + why);
+  }
+}
+
 }  // namespace
 
-void check_products(const StudyPlan& plan) {
+void check_products(const StudyPlan& plan, const std::filesystem::path& folder) {
   for (const StudyProduct& one : plan.products) {
     std::error_code error;
-    if (is_made(one.file) || !std::filesystem::is_regular_file(one.file, error)) continue;
-    const Product now = sized(load_product(one.file, {.unit = length_unit(one.unit)}), one.size);
-    if (content_hash(now.mesh) == one.content_hash) continue;
+    if (is_made(one.file)) continue;
+    bool is_found = false, is_same = false;
+    for (const std::filesystem::path& path : {std::filesystem::path(one.file), folder / one.file}) {
+      if (is_same || !std::filesystem::is_regular_file(path, error)) continue;
+      is_found = true;
+      try {
+        const Product now = sized(load_product(path, {.unit = length_unit(one.unit)}), one.size);
+        is_same = content_hash(now.mesh) == one.content_hash;
+      } catch (const InputError&) {
+        continue;  // no longer a product at all
+      }
+    }
+    if (!is_found || is_same) continue;
     throw UsageError("product \"" + one.name + "\": " + one.file +
-                     " has changed since the study began");
+                     " has changed since the study began; without the file resume goes on with the "
+                     "shape it has kept");
   }
 }
 
@@ -170,10 +273,19 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   for (const PopulationRequest& one : request.populations) {
     at_place(one.where, [&] { add_population(one, request.seed, study); });
   }
+  std::vector<std::string> places;  // of the plan's products
   for (const ProductRequest& one : request.products) {
     at_place(one.where, [&] { add_product(one, study); });
+    places.resize(plan.products.size(), one.where);
   }
-  at_place(request.where.empty() ? "" : request.where + ": ", [&] { plan.check(); });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    at_place(places[i], [&] { check_product(plan, i); });
+  }
+  at_place(request.where.empty() ? "" : request.where + ": ", [&] {
+    plan.check();
+    check_strengths(plan);
+    check_hands(study);
+  });
   return study;
 }
 

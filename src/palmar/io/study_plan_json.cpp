@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "palmar/core/error.h"
+#include "palmar/io/made_product.h"
 #include "palmar/io/population_file.h"
 #include "palmar/io/text_scan.h"
 
@@ -261,6 +262,7 @@ void compare(const std::string& where, const Json& before, const Json& now,
   for (const auto& [key, value] : now.items()) {
     if (!before.contains(key) || before.at(key) == value) continue;
     const Json& old = before.at(key);
+    if (key == "file" && !is_made(old) && !is_made(value)) continue;  // its content counts
     if (key == "content_sha256") {
       found.push_back(where + "its shape has changed (" + now.at("file").get<std::string>() + ")");
     } else if (key == "hand_sha256") {
@@ -297,6 +299,14 @@ void compare_lists(const std::string& list, const Json& before, const Json& now,
 
 std::string format_plan(const StudyPlan& plan) {
   return plan_json(plan).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string format_identity(const StudyPlan& plan) {
+  Json json = plan_json(plan);
+  for (Json& product : json.at("products")) {
+    if (!is_made(product.at("file"))) product.erase("file");
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
 StudyPlan parse_plan(const std::string& text, const std::string& name) {

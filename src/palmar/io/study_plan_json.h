@@ -13,11 +13,15 @@ namespace palmar {
 /// double: equal plans give equal text. Keys carry units.
 std::string format_plan(const StudyPlan& plan);
 
+/// What of the plan makes the study what it is: the same without the paths of products' files,
+/// whose content is in it.
+std::string format_identity(const StudyPlan& plan);
+
 /// Reads it back. Throws InputError; `name` stands in front.
 StudyPlan parse_plan(const std::string& text, const std::string& name);
 
 /// What a plan has otherwise than another, for people, at most `most` lines: "product \"handle\":
-/// size was 1, now 1.1". Empty for equal plans.
+/// size was 1, now 1.1". Empty for equal plans, wherever their products' files lie.
 std::vector<std::string> plan_differences(const StudyPlan& before, const StudyPlan& now,
                                           std::size_t most = 5);
 

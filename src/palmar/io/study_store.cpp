@@ -487,7 +487,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
                      "\"");
   }
 
-  const StudyStore::Impl& first = stores.front().impl();
+  const StudyStore::Impl& first = by_number.front()->impl();
   StudyHead head = first.read([&] { return first.head(); });
   head.shard = {};
   Draft draft{beside(out, "." + std::to_string(::getpid()) + ".new")};

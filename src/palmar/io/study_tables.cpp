@@ -388,7 +388,8 @@ void build_store(const std::filesystem::path& path, const StudyHead& head, bool 
   insert_plan(file, head.plan);
   {
     StudyTableWriter writer(file, head.plan);
-    for (const std::string& part : {head.program, plan, name_of(head.shard)}) {
+    for (const std::string& part :
+         {head.program, format_identity(head.plan), name_of(head.shard)}) {
       writer.add_to_digest(part);
       writer.add_to_digest("\n");
     }

@@ -62,7 +62,15 @@ void check_setting(const StudySetting& setting) {
   }
 }
 
-void check_product(const StudyPlan& plan, const StudyProduct& product) {
+}  // namespace
+
+void check_product(const StudyPlan& plan, std::size_t number) {
+  const StudyProduct& product = plan.products.at(number);
+  for (std::size_t i = 0; i < number; ++i) {
+    if (plan.products[i].name != product.name) continue;
+    throw UsageError("two products are called \"" + product.name +
+                     "\"; every name is allowed once");
+  }
   const std::string what = "product \"" + product.name + "\"";
   check_between(what, "size", product.size, kSmallestSize, kLargestSize);
   check_between(what, "mass", product.mass, 0.0, kHeaviest, "kg");
@@ -84,8 +92,6 @@ void check_product(const StudyPlan& plan, const StudyProduct& product) {
                    "\", which is no product of the study");
 }
 
-}  // namespace
-
 void StudyPlan::check() const {
   check_some(populations, "population");
   check_some(profiles, "profile");
@@ -97,7 +103,7 @@ void StudyPlan::check() const {
   check_names(products, "product");
   check_names(settings, "setting");
   for (const HandProfile& profile : profiles) profile.check();
-  for (const StudyProduct& product : products) check_product(*this, product);
+  for (std::size_t i = 0; i < products.size(); ++i) check_product(*this, i);
   for (const StudySetting& setting : settings) check_setting(setting);
   for (const StudyHand& hand : hands) {
     if (hand.population < 0 || hand.population >= size_of(populations)) {

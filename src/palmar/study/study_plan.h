@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,7 +33,8 @@ struct StudyProduct {
   std::string name;              ///< unique in the study: "handle r3", "handle r3 x 0.9"
   std::string family;            ///< what its sizes share: "handle r3"
   double size = 1.0;             ///< factor on the file's lengths
-  std::string file;              ///< path as told, or the generating words
+  std::string file;              ///< path as written by the user, or the generating words; a path
+                                 ///< is no part of what the study is
   std::string content_hash;      ///< SHA-256 of mesh in mm, hex
   std::string unit = "mm";       ///< of the file, as it was settled
   std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
@@ -82,6 +84,10 @@ struct StudyPlan {
   std::string hand_hash;  ///< of the hand that is scaled
   void check() const;     ///< throws UsageError: object, value, what is allowed
 };
+
+/// What check() asks of one product, by its index: throws UsageError if its name is that of an
+/// earlier one, or if what it is or keeps can't be.
+void check_product(const StudyPlan& plan, std::size_t product);
 
 /// One grasp of the plan. Tasks are numbered hand by hand, so that a hand is prepared once.
 struct StudyTask {
