@@ -220,7 +220,7 @@ TEST_F(StudyReportCommand, RefusesWithWords) {
   EXPECT_EQ(read_text(folder_ + "/mine/report.html"), "<html>my own</html>");
   const ProgramRun threshold = run("study report study.palmar --out t --threshold-kpa -1 --quiet");
   EXPECT_EQ(threshold.exit_code, 2);
-  EXPECT_THAT(threshold.err, HasSubstr("threshold is -0.001 MPa"));
+  EXPECT_THAT(threshold.err, HasSubstr("--threshold-kpa is -1 kPa"));
 }
 
 }  // namespace

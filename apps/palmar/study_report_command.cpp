@@ -103,6 +103,9 @@ Json comparison_object(const StudyResults& results, const std::vector<StudyQuant
       for (const ProductPair& pair :
            compare_products(results, condition, quantity, options).pairs) {
         pairs.push_back(pair_object(results.plan, pair));
+        if (const auto forces = grip_forces(results, condition, pair.first, pair.second)) {
+          pairs.back()["mean_grip_forces_n"] = {forces->first, forces->second};
+        }
       }
       compared.push_back({{"quantity", quantity.key},
                           {"name", quantity.name},
@@ -149,6 +152,8 @@ std::string comparison_text(const StudyResults& results,
       for (const ProductPair& pair :
            compare_products(results, condition, quantity, options).pairs) {
         text += "    " + pair_words(results.plan, quantity, pair) + "\n";
+        const std::string force = grip_force_words(results, condition, pair.first, pair.second);
+        if (!force.empty()) text += "      " + force + "\n";
         const std::string left_out = left_out_words(results.plan, pair);
         if (!left_out.empty()) text += "      left out: " + left_out + "\n";
       }
@@ -183,6 +188,10 @@ void add_report(CLI::App& noun, Context& context) {
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
   verb->callback([&context, o] {
     context.run = [&context, o] {
+      if (!(o->threshold >= 0.0 && o->threshold <= 1e5)) {
+        throw UsageError(
+            fmt::format("--threshold-kpa is {:g} kPa; 0 to 100000 kPa are allowed", o->threshold));
+      }
       StudyReportOptions options = o->report;
       options.threshold = o->threshold / 1000.0;
       options.pictures = !o->no_pictures;

@@ -47,6 +47,7 @@ std::string shortened(const std::string& text, const Lettering& look, double wid
 
 void title(Figure& figure, const std::string& text) {
   Lettering look{.size = 14.0, .is_bold = true};
+  while (look.size > 9.5 && text_width(text, look) > figure.width() - 8.0) look.size -= 0.5;
   figure.text(4.0, 17.0, shortened(text, look, figure.width() - 8.0), look);
 }
 

@@ -47,10 +47,10 @@ std::vector<ChartBracket> brackets_of(const QuantityComparison& comparison, std:
 }
 
 Figure distribution(const StudyResults& results, const ConditionAnalysis& one,
-                    const QuantityComparison& comparison, const std::string& suffix) {
+                    const QuantityComparison& comparison, const std::string& which) {
   const StudyQuantity& quantity = comparison.quantity;
   DistributionChart chart;
-  chart.title = capitalised(quantity.name) + suffix;
+  chart.title = capitalised(which + quantity.name);
   chart.x_label = with_unit(quantity.name, quantity.unit);
   for (std::size_t p = 0; p < results.plan.products.size(); ++p) {
     ChartSample sample{results.plan.products[p].name, product_colour(static_cast<int>(p)), {}};
@@ -60,16 +60,17 @@ Figure distribution(const StudyResults& results, const ConditionAnalysis& one,
     }
     chart.samples.push_back(std::move(sample));
   }
-  chart.brackets = brackets_of(comparison, results.plan.products.size());
+  if (is_drawn_by_chance(results.plan))
+    chart.brackets = brackets_of(comparison, results.plan.products.size());
   return distribution_figure(chart);
 }
 
 Figure trend(const StudyResults& results, const ConditionAnalysis& one,
-             const StudyQuantity& quantity, HandDimension dimension, const std::string& suffix) {
+             const StudyQuantity& quantity, HandDimension dimension, const std::string& which) {
   const bool is_length = dimension == kHandLength;
   const std::string size = is_length ? "hand length" : "hand circumference";
   TrendChart chart;
-  chart.title = capitalised(quantity.name) + " and " + size + suffix;
+  chart.title = capitalised(which + quantity.name + " and " + size);
   chart.x_label = capitalised(size) + ", mm";
   chart.y_label = with_unit(quantity.name, quantity.unit);
   for (std::size_t p = 0; p < results.plan.products.size(); ++p) {
@@ -91,17 +92,16 @@ Figure trend(const StudyResults& results, const ConditionAnalysis& one,
   return trend_figure(chart);
 }
 
-Figure shares(const StudyResults& results, const ConditionAnalysis& one,
-              const std::string& suffix) {
+Figure shares(const StudyResults& results, const ConditionAnalysis& one, const std::string& which) {
   std::vector<ShareBar> bars;
   for (const Accommodation& a : one.accommodation) {
     bars.push_back({results.plan.products[at(a.product)].name, product_colour(a.product),
                     a.inside.share, a.inside.interval.low, a.inside.interval.high,
                     std::to_string(a.inside.count) + " of " + std::to_string(a.inside.n)});
   }
-  const std::string title = results.plan.limits.empty() ? "Hands that hold the product"
-                                                        : "Hands inside the stated limits";
-  return share_figure(title + suffix, "Share of hands (line: 95 % interval), %", bars);
+  const std::string title = results.plan.limits.empty() ? "hands that hold the product"
+                                                        : "hands inside the stated limits";
+  return share_figure(capitalised(which + title), "Share of hands (line: 95 % interval), %", bars);
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ std::vector<StudyFigure> study_figures(const StudyResults& results, const StudyA
     const ConditionAnalysis& one = analysis.conditions[c];
     const bool is_only = analysis.conditions.size() == 1;
     const std::string prefix = is_only ? "" : "condition" + std::to_string(c + 1) + "_";
-    const std::string suffix = is_only ? "" : ": " + title_of(results.plan, one.condition);
+    const std::string which = is_only ? "" : condition_words(results.plan, one.condition) + ": ";
     const auto keep = [&](const std::string& name, const std::string& description, Figure figure) {
       figures.push_back({prefix + name, description, static_cast<int>(c), std::move(figure)});
     };
@@ -126,7 +126,7 @@ std::vector<StudyFigure> study_figures(const StudyResults& results, const StudyA
       const QuantityComparison* comparison = comparison_of(one, key);
       if (comparison == nullptr) continue;
       keep(key, "Distribution of the " + comparison->quantity.name + " over hands, by product.",
-           distribution(results, one, *comparison, suffix));
+           distribution(results, one, *comparison, which));
     }
     for (const std::string& key : {main_quantities()[0], main_quantities()[3]}) {
       const QuantityComparison* comparison = comparison_of(one, key);
@@ -140,10 +140,10 @@ std::vector<StudyFigure> study_figures(const StudyResults& results, const StudyA
         keep(key + "_by_hand_" + size,
              "The " + comparison->quantity.name + " against the hand's " + size +
                  ", with regression lines and their 95 % bands.",
-             trend(results, one, comparison->quantity, dimension, suffix));
+             trend(results, one, comparison->quantity, dimension, which));
       }
     }
-    keep("accommodation", "Share of hands that each product suits.", shares(results, one, suffix));
+    keep("accommodation", "Share of hands that each product suits.", shares(results, one, which));
   }
   return figures;
 }

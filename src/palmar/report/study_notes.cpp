@@ -113,10 +113,15 @@ std::string scene_section(const StudyPage& page) {
   const std::vector<int>& shown = page.shown_hands;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     who += "<option value=\"" + std::to_string(i) + "\">" +
-           html_escaped(hand_words(plan, shown[i])) + "</option>";
+           html_escaped(hand_words(plan, first.condition, shown[i])) + "</option>";
   }
   who += "</optgroup>";
   std::string html = "<h2 id=\"turn\">Turn it</h2>\n<p>";
+  const std::string which = condition_words(plan, first.condition);
+  if (!which.empty()) {
+    html += "<strong>" + html_escaped(capitalised(which)) + "</strong>, the first of " +
+            std::to_string(page.analysis.conditions.size()) + " conditions. ";
+  }
   html += shown.size() == hands.size()
               ? "Every hand with every product"
               : std::to_string(shown.size()) + " of " + std::to_string(hands.size()) +

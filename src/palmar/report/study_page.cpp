@@ -52,7 +52,11 @@ std::string pictures_of(const StudyPage& page) {
     html += "</div>\n";
   }
   if (html.empty()) return {};
-  return "<h2 id=\"maps\">Where all hands press</h2>\n<p>Means over the hands that hold the "
+  const StudyCondition& condition = page.analysis.conditions.front().condition;
+  const std::string which = condition_words(page.results.plan, condition);
+  return "<h2 id=\"maps\">Where all hands press" +
+         (which.empty() ? "" : html_escaped(": " + which)) +
+         "</h2>\n<p>Means over the hands that hold the "
          "product, vertex by vertex of the template’s skin and of the product; hands that don’t "
          "touch there count with 0. The threshold of " +
          short_number(1000.0 * page.threshold) +
@@ -79,10 +83,10 @@ std::string study_page(const StudyPage& page) {
       html_escaped(version()) + "\">\n<title>" + html_escaped("Palmar study: " + title) +
       "</title>\n<style>" + std::string(kReportStyle) + std::string(kStudyStyle) +
       "</style>\n</head>\n<body>\n<header><h1>" + html_escaped("Palmar study: " + title) +
-      "</h1><p>" + std::to_string(plan.hands.size()) + " hands × " +
-      std::to_string(plan.products.size()) + " product" + (plan.products.size() == 1 ? "" : "s") +
-      ", " + std::to_string(page.results.records.size()) + " of " +
-      std::to_string(task_count(plan)) + " grasps.</p></header>\n<main>\n" + summary_section(page);
+      "</h1><p>" + counted(static_cast<int>(plan.hands.size()), "hand") + " × " +
+      counted(static_cast<int>(plan.products.size()), "product") + ", " +
+      std::to_string(page.results.records.size()) + " of " + std::to_string(task_count(plan)) +
+      " grasps.</p></header>\n<main>\n" + summary_section(page);
   for (std::size_t c = 0; c < page.analysis.conditions.size(); ++c) {
     const ConditionAnalysis& one = page.analysis.conditions[c];
     html += "<h2 id=\"condition-" + std::to_string(c) + "\">" +

@@ -35,8 +35,9 @@ struct StudyPage {
 std::string study_page(const StudyPage& page);
 
 /// The verdict in plain words: which product has the lower peak pressure, by how much, whether that
-/// is shown; which suits how many hands and whom it leaves out; how many sizes are needed.
-std::vector<std::string> study_verdict(const StudyResults& results,
-                                       const ConditionAnalysis& analysis);
+/// is shown, and whether the grip forces are equal; which suits how many hands and whom it leaves
+/// out; how many sizes are needed. It speaks of the first condition and says so; a sentence for
+/// each other one says whom products exclude and whether the differences still stand.
+std::vector<std::string> study_verdict(const StudyResults& results, const StudyAnalysis& analysis);
 
 }  // namespace palmar

@@ -57,7 +57,7 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                                     double threshold, const PictureOptions& options,
                                     const Progress& progress) {
   const double mirror = base.side == Side::kLeft ? -1.0 : 1.0;
-  const std::string hands = std::to_string(maps.hands) + " hands";
+  const std::string hands = std::to_string(maps.hands) + (maps.hands == 1 ? " hand" : " hands");
   const std::string limit = short_number(1000.0 * threshold) + " kPa";
   const Vec3 palm(mirror * 0.12, -0.10, -1.0);
   const TriangleMesh surface = product_map(product.mesh);

@@ -253,7 +253,7 @@ std::string study_scene_json(const StudySceneInput& input) {
                      ",\"triangles\":\"" + packed_triangles(base.skin.triangles) +
                      "\",\"open\":" + packed_positions(base.skin.vertices) + ",\"hands\":[";
   for (std::size_t i = 0; i < hands.size(); ++i) {
-    json += (i > 0 ? "," : "") + quoted(hand_words(plan, hands[i]));
+    json += (i > 0 ? "," : "") + quoted(hand_words(plan, input.condition, hands[i]));
   }
   json += "],\"products\":[";
   const double radial = base.side == Side::kLeft ? -1.0 : 1.0;

@@ -145,7 +145,7 @@ std::string region_table(const StudyPage& page, const ConditionAnalysis& one) {
       rows += "<td class=\"n\" data-value=\"" + exact_number(found->force) + "\">" +
               short_number(found->force) + " N<br><span class=\"range\">" +
               short_number(found->area) + " mm², " + short_number(found->peak_pressure_cells) +
-              " MPa, " + std::to_string(found->touching) + " hands</span></td>";
+              " MPa, " + counted(found->touching, "hand") + "</span></td>";
     }
     rows += "</tr>\n";
   }
@@ -195,6 +195,13 @@ std::string accommodation_table(const StudyPage& page, const ConditionAnalysis& 
   for (const StudyLimit& limit : plan.limits) {
     limits += (limits.empty() ? "" : "; ") + words_of(page.results, limit);
   }
+  std::string nails;
+  if (plan.profiles[at(one.condition.profile)].nail_length > 0.0) {
+    nails =
+        "<p>Exclusion by nails is an upper bound: hands close as if they had no nails, and a "
+        "person "
+        "with long ones holds a product otherwise.</p>\n";
+  }
   return "<h3>Who is left out</h3><p>Limits: " +
          html_escaped(limits.empty() ? "none stated, so inside means held" : limits) + ".</p>" +
          table(
@@ -207,7 +214,8 @@ std::string accommodation_table(const StudyPage& page, const ConditionAnalysis& 
                    {"Their hand length, mm", true},
                    {"Excluded", true},
                    {"Because of", false}}),
-             rows);
+             rows) +
+         nails;
 }
 
 std::string size_sections(const StudyPage& page, const ConditionAnalysis& one) {
@@ -235,8 +243,8 @@ std::string size_sections(const StudyPage& page, const ConditionAnalysis& one) {
               "</td>" + share_cell(choice.served) + share_cell(choice.served_by_length) + "</tr>\n";
     }
     html += "<h3>Sizes of " + html_escaped(family.family) + "</h3>" +
-            table("The best one, two and three sizes for " + std::to_string(family.hands) +
-                      " hands, and who takes which by hand length.",
+            table("The best one, two and three sizes for " + counted(family.hands, "hand") +
+                      ", and who takes which by hand length.",
                   head({{"Sizes", false},
                         {"Which, and for whom", false},
                         {"Served if all are tried on", true},
@@ -297,7 +305,7 @@ std::string summary_section(const StudyPage& page) {
   const StudyPlan& plan = page.results.plan;
   std::string html = "<h2 class=\"first\" id=\"summary\">Verdict</h2>\n<ul class=\"plain\">";
   const ConditionAnalysis& first = page.analysis.conditions.front();
-  for (const std::string& sentence : study_verdict(page.results, first)) {
+  for (const std::string& sentence : study_verdict(page.results, page.analysis)) {
     html += "<li>" + html_escaped(sentence) + "</li>";
   }
   html += "</ul>\n";
@@ -321,6 +329,7 @@ std::string summary_section(const StudyPage& page) {
             std::to_string(one.outcomes.in_hand()) + " of " + std::to_string(one.outcomes.hands()) +
             "</td>";
     for (const std::string& key : main_quantities()) rows += mean_cell(summary_of(one, key));
+    rows += mean_cell(summary_of(one, "grip_force_n"));
     rows += share_cell(first.accommodation[p].inside) + "</tr>\n";
   }
   return html + table("Mean ± standard deviation over the hands that hold the product" +
@@ -335,6 +344,7 @@ std::string summary_section(const StudyPage& page) {
                             {"Mean pressure, MPa", true},
                             {"Contact area, mm²", true},
                             {"Sum of normal forces, N", true},
+                            {"Grip force, N", true},
                             {plan.limits.empty() ? "Held" : "Inside the limits", true}}),
                       rows);
 }
@@ -361,15 +371,19 @@ std::string quantity_table(const StudyPage& page, const ConditionAnalysis& one) 
       }
       rows += "<td class=\"n\" data-value=\"" + exact_number(summary->summary.mean) + "\">" +
               short_number(summary->summary.mean) + " ± " + short_number(summary->summary.sd, 2) +
-              "<br><span class=\"range\">" + short_number(summary->p5) + " · " +
-              short_number(summary->summary.median) + " · " + short_number(summary->p95) + " (" +
+              "<br><span class=\"range\">" +
+              (has_percentiles(*summary) ? short_number(summary->p5) + " · " : "") +
+              short_number(summary->summary.median) +
+              (has_percentiles(*summary) ? " · " + short_number(summary->p95) : "") + " (" +
               std::to_string(summary->summary.n) + ")</span></td>";
     }
     rows += "</tr>\n";
   }
   return "<details><summary>All quantities and indices</summary>" +
-         table("Mean ± standard deviation; below: 5th percentile, median, 95th percentile (hands).",
-               head(heads), rows) +
+         table(
+             "Mean ± standard deviation; below: 5th percentile, median, 95th percentile "
+             "(hands); below five hands the median alone.",
+             head(heads), rows) +
          "</details>\n";
 }
 

@@ -6,6 +6,7 @@
 
 #include "palmar/study/study_comparison.h"
 #include "palmar/study/study_results.h"
+#include "palmar/study/study_statistics.h"
 
 namespace palmar {
 
@@ -21,7 +22,17 @@ std::string cause_words(const std::string& cause);
 std::string grasp_words(const StudyRecord& record);
 
 /// "17, P5 woman: 164 mm long, 178 mm round": a hand in lists.
-std::string hand_words(const StudyPlan& plan, int hand);
+std::string hand_words(const StudyPlan& plan, const StudyCondition& condition, int hand);
+
+/// "1 hand", "6 hands"
+std::string counted(int number, const std::string& one);
+
+/// What sets a condition apart from the others of its plan: "gloves", "ANSUR II women, tripod";
+/// "" if it is the only one.
+std::string condition_words(const StudyPlan& plan, const StudyCondition& condition);
+
+/// Whether there are enough hands for a 5th and a 95th percentile: five.
+bool has_percentiles(const QuantitySummary& one);
 
 /// "p < 0.001", "p = 0.012"
 std::string p_words(double p);
@@ -31,6 +42,12 @@ std::string p_words(double p);
 /// or two about a pair, whatever its verdict.
 std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
                        const ProductPair& pair);
+
+/// "They are held at different grip forces (47 and 80 N): set grip_force_n (or strength_share) to
+/// compare at equal force."; "" if the mean grip forces over hands that hold both differ by 10 %
+/// or less, or aren't known.
+std::string grip_force_words(const StudyResults& results, const StudyCondition& condition,
+                             int first, int second);
 
 /// What left hands out of a pair: "handle r3: 2 slip out, 1 not run"; empty if nothing did.
 std::string left_out_words(const StudyPlan& plan, const ProductPair& pair);

@@ -79,7 +79,7 @@ Accommodation accommodation_of(const StudyResults& results, const StudyCondition
       inside_limit[k] += is_inside_limit(*record, limits[k]) ? 1 : 0;
     }
     for (const std::string& cause : causes_of(*record, limits)) ++causes[cause];
-    if (const auto length = size_of(results.plan.hands[static_cast<std::size_t>(h)], kHandLength)) {
+    if (const auto length = size_of(results.plan, condition, h, kHandLength)) {
       if (is_served) {
         widen(found.shortest_inside, found.longest_inside, *length);
       } else {

@@ -35,7 +35,7 @@ Family family_of(const StudyResults& results, const StudyCondition& condition,
   };
   std::vector<Row> rows;
   for (const int h : hands_of(results.plan, condition)) {
-    Row row{size_of(results.plan.hands[static_cast<std::size_t>(h)], kHandLength), {}};
+    Row row{size_of(results.plan, condition, h, kHandLength), {}};
     for (const int product : family.products) {
       const StudyRecord* record = record_of(results, condition, product, h);
       if (record == nullptr) break;

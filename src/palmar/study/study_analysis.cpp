@@ -49,6 +49,58 @@ void warn_of_settings(const StudyPlan& plan, std::vector<StudyWarning>& warnings
   }
 }
 
+/// The pair of products whose grip forces are furthest apart, over all conditions.
+void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>& warnings) {
+  const StudyPlan& plan = results.plan;
+  int conditions = 0, unequal = 0;
+  double worst = 1.0;
+  std::string words;
+  bool is_told = true;
+  for (const StudyCondition& condition : conditions_of(plan)) {
+    if (condition.population) continue;
+    ++conditions;
+    bool is_unequal = false;
+    for (int first = 0; first < static_cast<int>(plan.products.size()); ++first) {
+      for (int second = first + 1; second < static_cast<int>(plan.products.size()); ++second) {
+        const auto forces = grip_forces(results, condition, first, second);
+        if (!forces || !forces->are_unequal()) continue;
+        is_unequal = true;
+        const double ratio =
+            std::min(forces->first, forces->second) / std::max(forces->first, forces->second);
+        if (ratio >= worst) continue;
+        worst = ratio;
+        words = fmt::format("{} with {:.0f} N, {} with {:.0f} N", plan.products[at(first)].name,
+                            forces->first, plan.products[at(second)].name, forces->second);
+        const StudySetting& setting = plan.settings[at(condition.setting)];
+        is_told = setting.grip_force || setting.strength_share;
+      }
+    }
+    unequal += is_unequal ? 1 : 0;
+  }
+  if (unequal == 0) return;
+  if (conditions > 1) words += fmt::format(" (in {} of {} conditions)", unequal, conditions);
+  add(warnings, false, "Grip force",
+      "products are held at different grip forces: " + words + ". Pressures differ by that, too; " +
+          (is_told ? "not every hand comes to the force that was told."
+                   : "set grip_force_n (or strength_share) to compare at equal force."));
+}
+
+void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) {
+  if (!is_drawn_by_chance(plan)) {
+    add(warnings, false, "Hands",
+        "those of a boundary or of percentiles are chosen, not drawn by chance: p values and "
+        "intervals in the tables mean nothing, and shares are of these hands, not of people.");
+  }
+  const bool is_weak =
+      std::any_of(plan.profiles.begin(), plan.profiles.end(),
+                  [](const HandProfile& profile) { return profile.strength_share < 1.0; });
+  for (const StudyProduct& product : plan.products) {
+    if (!is_weak || product.mass > 0.0) continue;
+    add(warnings, false, product.name,
+        "it has no load (mass_kg): strength excludes nobody, whatever a profile takes of it.");
+  }
+}
+
 void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
                    std::vector<StudyWarning>& warnings) {
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
@@ -70,8 +122,8 @@ void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
     }
     if (hands < kFewHands) {
       add(warnings, false, subject,
-          fmt::format("{} hands are few: small differences can't be shown, and shares are rough.",
-                      hands));
+          fmt::format("{} few: small differences can't be shown, and shares are rough.",
+                      hands == 1 ? "1 hand is" : fmt::format("{} hands are", hands)));
     }
   }
   if (plan.populations.size() > 1) {
@@ -199,6 +251,8 @@ std::vector<StudyWarning> study_warnings(const StudyResults& results,
   warn_of_settings(results.plan, warnings);
   warn_of_products(results.plan, products, warnings);
   warn_of_outcomes(results, warnings);
+  warn_of_grip_forces(results, warnings);
+  warn_of_design(results.plan, warnings);
   warn_of_hands(results.plan, base, warnings);
   std::stable_partition(warnings.begin(), warnings.end(),
                         [](const StudyWarning& one) { return one.is_outside; });

@@ -3,6 +3,7 @@
 #include "palmar/study/study_comparison.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -123,6 +124,28 @@ QuantityComparison compare_products(const StudyResults& results, const StudyCond
     if (p < options.significance) pair.verdict = DifferenceVerdict::kShown;
   }
   return comparison;
+}
+
+bool GripForces::are_unequal() const {
+  return std::abs(first - second) > 0.1 * std::max(first, second);
+}
+
+std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCondition& condition,
+                                      int first, int second) {
+  GripForces sum;
+  int hands = 0;
+  for (const int hand : hands_of(results.plan, condition)) {
+    const StudyRecord* a = record_of(results, condition, first, hand);
+    const StudyRecord* b = record_of(results, condition, second, hand);
+    if (a == nullptr || b == nullptr) continue;
+    const auto of_a = quantity_of(*a, "grip_force_n"), of_b = quantity_of(*b, "grip_force_n");
+    if (!of_a || !of_b) continue;
+    sum.first += *of_a;
+    sum.second += *of_b;
+    ++hands;
+  }
+  if (hands == 0) return std::nullopt;
+  return GripForces{sum.first / hands, sum.second / hands};
 }
 
 }  // namespace palmar

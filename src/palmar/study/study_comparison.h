@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,15 @@ struct QuantityComparison {
 QuantityComparison compare_products(const StudyResults& results, const StudyCondition& condition,
                                     const StudyQuantity& quantity,
                                     const ComparisonOptions& options = {});
+
+/// Mean grip forces with which the same hands hold two products, N.
+struct GripForces {
+  double first = 0.0, second = 0.0;
+  /// Apart by more than a tenth of the larger: pressures then differ by the force, too.
+  bool are_unequal() const;
+};
+/// Over the hands whose grip force is known with both; nothing if there is none.
+std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCondition& condition,
+                                      int first, int second);
 
 }  // namespace palmar

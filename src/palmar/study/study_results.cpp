@@ -127,6 +127,20 @@ std::optional<double> size_of(const StudyHand& hand, HandDimension dimension) {
   return std::nullopt;
 }
 
+std::optional<double> size_of(const StudyPlan& plan, const StudyCondition& condition, int hand,
+                              HandDimension dimension) {
+  const std::optional<double> size = size_of(plan.hands[index(hand)], dimension);
+  if (!size) return size;
+  return *size * plan.profiles[index(condition.profile)].size_factor;
+}
+
+bool is_drawn_by_chance(const StudyPlan& plan) {
+  return std::all_of(plan.populations.begin(), plan.populations.end(), [](const auto& one) {
+    return one.sampling.design == SamplingDesign::kRandom ||
+           one.sampling.design == SamplingDesign::kLatinHypercube;
+  });
+}
+
 int OutcomeCounts::hands() const { return std::accumulate(of.begin(), of.end(), not_run); }
 
 int OutcomeCounts::in_hand() const {

@@ -49,6 +49,12 @@ const StudyRecord* record_of(const StudyResults& results, const StudyCondition& 
 bool is_in_hand(const StudyRecord& record);
 /// What the hand measures, if the population says so; mm.
 std::optional<double> size_of(const StudyHand& hand, HandDimension dimension);
+/// The same as it grasps under a condition: times the profile's size factor; mm.
+std::optional<double> size_of(const StudyPlan& plan, const StudyCondition& condition, int hand,
+                              HandDimension dimension);
+/// Whether hands are drawn by chance: those of a boundary or of percentiles are chosen, so that
+/// shares of them, intervals and p values say nothing about people.
+bool is_drawn_by_chance(const StudyPlan& plan);
 
 inline constexpr int kStudyOutcomes = 7;
 /// How the grasps of a condition ended; they sum to the hands of the condition.

@@ -109,12 +109,9 @@ std::optional<SizeDependence> size_dependence(const StudyResults& results,
   SizeDependence found;
   found.dimension = dimension;
   for (const HandValue& one : values_of(results, condition, product, key)) {
-    const StudyHand& hand = results.plan.hands[static_cast<std::size_t>(one.hand)];
-    const double factor =
-        results.plan.profiles[static_cast<std::size_t>(condition.profile)].size_factor;
-    if (const auto size = size_of(hand, dimension)) {
+    if (const auto size = size_of(results.plan, condition, one.hand, dimension)) {
       found.hand.push_back(one.hand);
-      found.size.push_back(*size * factor);
+      found.size.push_back(*size);
       found.value.push_back(one.value);
     }
   }
