@@ -50,7 +50,9 @@ std::vector<HandSample> given_hands(const std::string& path, std::vector<std::st
         hand.label = shortest(*column.values[row]);
       }
       if (has_value && column.quantity == Quantity::kAge) hand.age = column.values[row];
-      if (has_value && column.name == "grip_strength_n") hand.grip_strength = *column.values[row];
+      if (has_value && column.name == "grip_strength" && column.unit == "n") {
+        hand.grip_strength = *column.values[row];  // N
+      }
       if (has_value && column.dimension) {
         hand.dimensions.push_back({*column.dimension, *column.values[row]});
       }
