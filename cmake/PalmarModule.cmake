@@ -16,18 +16,6 @@ function(palmar_add_tests program)
   set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
 endfunction()
 
-# Half of what a source costs to compile is reading Eigen, half of what a test costs is GoogleTest:
-# both are read once, as precompiled headers that all modules and all their tests share.
-add_library(palmar_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
-target_link_libraries(palmar_headers PRIVATE palmar::compiler Eigen3::Eigen)
-target_precompile_headers(palmar_headers PRIVATE <Eigen/Dense> <algorithm> <functional> <map> <memory>
-                                                 <optional> <string> <vector>)
-if(PALMAR_TESTS)
-  add_library(palmar_test_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
-  target_link_libraries(palmar_test_headers PRIVATE palmar::compiler Eigen3::Eigen GTest::gmock)
-  target_precompile_headers(palmar_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Dense>)
-endif()
-
 function(palmar_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LINKS" ${ARGN})
   foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
@@ -40,16 +28,11 @@ function(palmar_module name)
   add_library(palmar::${name} ALIAS palmar_${name})
   target_include_directories(palmar_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(palmar_${name} PUBLIC palmar::compiler ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(NOT name STREQUAL core)  # knows no Eigen
-    target_precompile_headers(palmar_${name} REUSE_FROM palmar_headers)
-  endif()
   if(PALMAR_TESTS AND ARG_TESTS)
     add_executable(${name}_tests ${ARG_TESTS})
     target_link_libraries(${name}_tests PRIVATE palmar_${name} ${ARG_TEST_LINKS} GTest::gmock GTest::gtest_main)
     target_compile_definitions(${name}_tests PRIVATE PALMAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                      PALMAR_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
-    target_link_libraries(${name}_tests PRIVATE Eigen3::Eigen)
-    target_precompile_headers(${name}_tests REUSE_FROM palmar_test_headers)
     palmar_add_tests(${name}_tests)
   endif()
 endfunction()

@@ -12,9 +12,6 @@ palmar_packages=(
   clang-format
 )
 
-# Precompiled headers are cached only if ccache may take them by content.
-export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"
-
 palmar_as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"
   elif command -v sudo >/dev/null 2>&1; then sudo "$@"
