@@ -8,6 +8,7 @@
 
 #include "palmar/geometry/distance_field.h"
 #include "palmar/geometry/types.h"
+#include "palmar/product/product_faces.h"
 
 namespace palmar {
 
@@ -33,6 +34,7 @@ struct Product {
   std::string name;  ///< for people; file stem by default
   TriangleMesh mesh;
   std::shared_ptr<const DistanceField> distance;
+  std::shared_ptr<const ProductFaces> faces;  ///< of a CAD model; null of a mesh without faces
   LengthUnit unit = LengthUnit::kMillimetre;  ///< unit of the file it came from
   UnitSource unit_source = UnitSource::kMade;
   std::string source;              ///< path or generating command

@@ -131,15 +131,6 @@ void StudyReportOptions::check() const {
   }
 }
 
-StudyHandMaker study_hand_maker(const StudyPlan& plan, std::shared_ptr<const Hand> base) {
-  const auto maker = std::make_shared<const HandInstanceMaker>(*base);
-  return [&plan, base, maker](const StudyTask& task) {
-    const HandSample sample =
-        with_profile(plan.hands[at(task.hand)].sample, plan.profiles[at(task.profile)]);
-    return maker->make(sample.dimensions).hand;
-  };
-}
-
 void write_study_report(const std::string& folder, const StudyReportInput& input,
                         const StudyReportOptions& options, const Progress& progress) {
   options.check();

@@ -37,7 +37,4 @@ struct StudyReportInput {
 void write_study_report(const std::string& folder, const StudyReportInput& input,
                         const StudyReportOptions& options = {}, const Progress& progress = {});
 
-/// Hands of a study, scaled and with their profile, for pictures.
-StudyHandMaker study_hand_maker(const StudyPlan& plan, std::shared_ptr<const Hand> base);
-
 }  // namespace palmar

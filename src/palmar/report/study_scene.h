@@ -9,13 +9,11 @@
 
 #include "palmar/report/colour_bar.h"
 #include "palmar/study/mean_maps.h"
+#include "palmar/study/study_hand_maker.h"
 #include "palmar/study/study_results.h"
 #include "palmar/study/study_run.h"
 
 namespace palmar {
-
-/// The hand that took part in a task: scaled, its profile applied.
-using StudyHandMaker = std::function<Hand(const StudyTask&)>;
 
 /// Colour scales of a study; one for all products of each kind of map.
 struct StudyScales {

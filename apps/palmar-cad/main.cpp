@@ -1,0 +1,69 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// palmar-cad VERB FOLDER: does what FOLDER/request.json asks for with OpenCASCADE and leaves
+// FOLDER/reply.json, or FOLDER/error.json and Palmar's exit code. Started by Palmar
+// (io/cad_worker.h), not by people: OpenCASCADE may crash or never end on hostile files.
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/io/file.h"
+#include "verbs.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using palmar::cad_worker::Json;
+using Verb = std::function<Json(const Json&, const fs::path&, const palmar::Progress&)>;
+
+/// Progress as lines on stdout: share and activity.
+palmar::Progress line_progress() {
+  palmar::Progress progress;
+  progress.report = [](double share, const std::string& activity) {
+    std::printf("%.4f %s\n", std::clamp(share, 0.0, 1.0), activity.c_str());
+    std::fflush(stdout);
+  };
+  return progress;
+}
+
+int fail(const fs::path& folder, const std::string& message, int code) {
+  palmar::write_file(folder / "error.json", Json{{"message", message}, {"exit_code", code}}.dump());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string, Verb> verbs = {};
+  if (argc != 3 || verbs.count(argv[1]) == 0) {
+    std::fprintf(stderr, "palmar-cad is started by palmar; see `palmar product -h`\n");
+    return 2;
+  }
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  const fs::path folder = argv[2];
+  try {
+    const Json request = Json::parse(palmar::read_file(folder / "request.json"));
+    const Json reply = verbs.at(argv[1])(request, folder, line_progress());
+    palmar::write_file(folder / "reply.json", reply.dump());
+    return 0;
+  } catch (const palmar::Error& error) {
+    return fail(folder, error.what(), error.exit_code());
+  } catch (const Standard_Failure& failure) {
+    const char* const text = failure.GetMessageString();
+    return fail(folder,
+                std::string("OpenCASCADE gave up: ") + failure.DynamicType()->Name() +
+                    (text != nullptr && *text != '\0' ? std::string(", ") + text : ""),
+                palmar::NumericalError("").exit_code());
+  } catch (const std::bad_alloc&) {
+    return fail(folder, "out of memory", palmar::InputError("").exit_code());
+  } catch (const std::exception& error) {
+    return fail(folder, error.what(), 1);
+  }
+}
