@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -99,10 +100,12 @@ void check(const TriangleMesh& mesh, double edge_length) {
 
 }  // namespace
 
-TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
-                              const TriangleChoice& where) {
+SplitMesh split_with_parents(const TriangleMesh& mesh, double edge_length,
+                             const TriangleChoice& where) {
   check(mesh, edge_length);
-  TriangleMesh result = mesh;
+  SplitMesh split{mesh, std::vector<int>(mesh.triangles.size())};
+  std::iota(split.parent.begin(), split.parent.end(), 0);
+  TriangleMesh& result = split.mesh;
   for (int round = 0; round < kMaxRounds; ++round) {
     const std::vector<Edge> marked = long_edges(result, edge_length, where);
     if (marked.empty()) break;
@@ -112,7 +115,10 @@ TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
     }
     std::vector<Triangle> triangles;
     triangles.reserve(result.triangles.size() + 2 * marked.size());
-    for (const Triangle& t : result.triangles) {
+    std::vector<int> parent;
+    parent.reserve(triangles.capacity());
+    for (std::size_t i = 0; i < result.triangles.size(); ++i) {
+      const Triangle& t = result.triangles[i];
       std::array<int, 3> middle = {-1, -1, -1};
       for (int k = 0; k < 3; ++k) {
         const Edge edge = edge_between(t[k], t[(k + 1) % 3]);
@@ -122,10 +128,17 @@ TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
         }
       }
       split_triangle(t, middle, triangles);
+      parent.resize(triangles.size(), split.parent[i]);
     }
     result.triangles = std::move(triangles);
+    split.parent = std::move(parent);
   }
-  return result;
+  return split;
+}
+
+TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
+                              const TriangleChoice& where) {
+  return split_with_parents(mesh, edge_length, where).mesh;
 }
 
 }  // namespace palmar

@@ -42,6 +42,28 @@ TEST(SplitLongEdges, DoesNotMakeMoreTrianglesThanTheAreaAsksFor) {
   EXPECT_LT(fine.triangle_count(), surface_area(fine) / (0.1 * 9.0));
 }
 
+TEST(SplitLongEdges, KnowsTheParentOfEveryTriangle) {
+  const TriangleMesh mesh = plate();
+  const SplitMesh split = split_with_parents(mesh, 3.0);
+  ASSERT_EQ(split.parent.size(), split.mesh.triangles.size());
+  std::vector<double> area(mesh.triangles.size(), 0.0);
+  const auto normal = [](const TriangleMesh& m, std::size_t i) -> Vec3 {
+    const Triangle& t = m.triangles[i];
+    return 0.5 * (m.vertices[t[1]] - m.vertices[t[0]]).cross(m.vertices[t[2]] - m.vertices[t[0]]);
+  };
+  for (std::size_t i = 0; i < split.parent.size(); ++i) {
+    const auto parent = static_cast<std::size_t>(split.parent[i]);
+    const Vec3 n = normal(split.mesh, i), above = normal(mesh, parent);
+    area[parent] += n.norm();
+    EXPECT_GT(n.normalized().dot(above.normalized()), 1.0 - 1e-9);
+    const Vec3& on_it = mesh.vertices[mesh.triangles[parent][0]];
+    EXPECT_NEAR((split.mesh.vertices[split.mesh.triangles[i][0]] - on_it).dot(above.normalized()),
+                0.0, 1e-9);
+  }
+  // The parts of a triangle are together as large as it is.
+  for (std::size_t i = 0; i < area.size(); ++i) EXPECT_NEAR(area[i], normal(mesh, i).norm(), 1e-6);
+}
+
 TEST(SplitLongEdges, ShortEdgesStay) {
   const TriangleMesh mesh = plate();
   const TriangleMesh same = split_long_edges(mesh, 80.0);

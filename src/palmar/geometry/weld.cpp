@@ -120,7 +120,8 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
 
   std::vector<Triangle> kept;
   kept.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
     const Triangle r{representative[static_cast<size_t>(t[0])],
                      representative[static_cast<size_t>(t[1])],
                      representative[static_cast<size_t>(t[2])]};
@@ -128,6 +129,7 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
       ++result.dropped_degenerate;
     } else {
       kept.push_back(r);
+      result.old_triangle_of_new.push_back(static_cast<int>(i));
     }
   }
   if (options.drops_duplicates) {
@@ -147,9 +149,12 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
     }
     size_t end = 0;
     for (size_t t = 0; t < kept.size(); ++t) {
-      if (!is_duplicate[t]) kept[end++] = kept[t];
+      if (is_duplicate[t]) continue;
+      result.old_triangle_of_new[end] = result.old_triangle_of_new[t];
+      kept[end++] = kept[t];
     }
     kept.resize(end);
+    result.old_triangle_of_new.resize(end);
   }
 
   std::vector<bool> is_used(mesh.vertices.size(), !options.drops_unused_vertices);

@@ -17,8 +17,9 @@ struct WeldOptions {
 
 struct WeldResult {
   TriangleMesh mesh;
-  std::vector<int> new_of_old;  ///< per vertex of the input; -1 for a dropped one
-  std::vector<int> old_of_new;  ///< smallest input vertex behind each vertex of the result
+  std::vector<int> new_of_old;           ///< per vertex of the input; -1 for a dropped one
+  std::vector<int> old_of_new;           ///< smallest input vertex behind each vertex of the result
+  std::vector<int> old_triangle_of_new;  ///< per triangle of the result: that of the input
   int merged_vertices = 0;
   int dropped_degenerate = 0;  ///< triangles that use a vertex twice after merging
   int dropped_duplicate = 0;   ///< triangles with the three vertices of an earlier one

@@ -94,6 +94,9 @@ TEST(Weld, DropsWhatCollapsesOrRepeatsAndCountsIt) {
   EXPECT_EQ(result.dropped_duplicate, 2);
   EXPECT_EQ(result.dropped_unused, 1);
   EXPECT_THAT(result.new_of_old, ElementsAre(0, 1, 2, 0, -1));
+  EXPECT_THAT(result.old_triangle_of_new, ElementsAre(0));
+  EXPECT_THAT(weld(mesh, {.tolerance = 1e-3, .drops_duplicates = false}).old_triangle_of_new,
+              ElementsAre(0, 2, 3));
   EXPECT_EQ(weld(mesh, {.tolerance = 1e-3, .drops_duplicates = false}).mesh.triangle_count(), 3);
 }
 

@@ -126,6 +126,9 @@ Product sized(const Product& product, double size) {
   Product result = product;
   for (Vec3& v : result.mesh.vertices) v *= size;
   result.distance = std::make_shared<const MeshDistance>(result.mesh);
+  if (result.faces != nullptr) {
+    result.faces = std::make_shared<const ProductFaces>(scaled(*result.faces, size));
+  }
   return result;
 }
 

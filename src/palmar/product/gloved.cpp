@@ -68,7 +68,7 @@ Product gloved(const Product& product, double thickness) {
     throw UsageError(text.str());
   }
   if (thickness == 0.0) return product;
-  Product grown = product;
+  Product grown = product;  // with its faces, as their designer knows them: r 3 stays r 3
   grown.distance = std::make_shared<OffsetDistance>(product.distance, thickness);
   std::vector<DistanceSample> samples(grown.mesh.vertices.size());
   product.distance->sample(grown.mesh.vertices, 1.0, samples);

@@ -82,21 +82,42 @@ void note_repairs(const WeldResult& welded, const OrientResult& oriented,
   }
 }
 
+/// The same faces for the triangles that are left; orienting keeps their order.
+std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const WeldResult& welded,
+                                                     std::vector<std::string>& notes) {
+  std::vector<int> face_of_triangle;
+  face_of_triangle.reserve(welded.old_triangle_of_new.size());
+  std::vector<bool> is_left(faces.face.size(), false), was_there(faces.face.size(), false);
+  for (const int face : faces.face_of_triangle) was_there[static_cast<std::size_t>(face)] = true;
+  for (const int old : welded.old_triangle_of_new) {
+    face_of_triangle.push_back(faces.face_of_triangle[static_cast<std::size_t>(old)]);
+    is_left[static_cast<std::size_t>(face_of_triangle.back())] = true;
+  }
+  for (std::size_t f = 0; f < faces.face.size(); ++f) {
+    if (is_left[f] || !was_there[f]) continue;
+    notes.push_back(title_of(faces.face[f]) +
+                    " is too small to be kept: no triangle of it is left");
+  }
+  faces.face_of_triangle = std::move(face_of_triangle);
+  return std::make_shared<const ProductFaces>(std::move(faces));
+}
+
 }  // namespace
 
 Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
-                     const std::string& source) {
+                     const std::string& source, const ProductFaces* faces) {
   check_raw(raw, source);
-  TriangleMesh scaled = raw;
+  if (faces != nullptr) check_faces(*faces, raw.triangle_count(), source);
+  TriangleMesh in_mm = raw;
   const double scale = millimetres_per(unit.unit);
   if (scale != 1.0) {
-    for (Vec3& x : scaled.vertices) x *= scale;
+    for (Vec3& x : in_mm.vertices) x *= scale;
   }
   Box3 box;
-  for (const Triangle& t : scaled.triangles) {
-    for (const int v : t) box.extend(scaled.vertices[v]);
+  for (const Triangle& t : in_mm.triangles) {
+    for (const int v : t) box.extend(in_mm.vertices[v]);
   }
-  const WeldResult welded = weld(scaled, {.tolerance = kWeldShare * box.sizes().maxCoeff()});
+  const WeldResult welded = weld(in_mm, {.tolerance = kWeldShare * box.sizes().maxCoeff()});
   if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
     throw InputError(source + ": its triangles have no area (size " + number(box.sizes().x()) +
                      " x " + number(box.sizes().y()) + " x " + number(box.sizes().z()) + " mm)");
@@ -118,6 +139,9 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
         "; inside is judged by the winding number");
   }
   product.mesh = std::move(oriented.mesh);
+  if (faces != nullptr) {
+    product.faces = faces_after_weld(scaled(*faces, scale), welded, product.notes);
+  }
   product.distance = std::make_shared<const MeshDistance>(product.mesh);
   return product;
 }

@@ -12,6 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/analytic_distance.h"
 #include "palmar/geometry/primitive_meshes.h"
+#include "palmar/product/primitive_faces.h"
 
 namespace palmar {
 namespace {
@@ -86,8 +87,11 @@ TriangleMesh sweep(std::span<const Eigen::Vector2d> section, double length, int 
   return mesh;
 }
 
-std::vector<Eigen::Vector2d> filleted_rectangle(const PrismProductOptions& o) {
-  std::vector<Eigen::Vector2d> section;
+// Sides of a prism in the order of its faces: those without fillet first.
+constexpr int kRight = 0, kBack = 1, kLeft = 2, kFront = 3, kFirstFillet = 4;
+
+BarSection filleted_rectangle(const PrismProductOptions& o) {
+  BarSection section;
   const double r = o.fillet_radius;
   const Eigen::Vector2d inner(0.5 * o.width - r, 0.5 * o.depth - r);
   const int arc = r > 0.0 ? circle_segments(r, o.fineness) / 4 : 0;
@@ -95,28 +99,49 @@ std::vector<Eigen::Vector2d> filleted_rectangle(const PrismProductOptions& o) {
                                                   {-inner.x(), inner.y()},
                                                   -inner,
                                                   {inner.x(), -inner.y()}};
+  const std::array<int, 4> flat_after = {kBack, kLeft, kFront, kRight};
   for (int c = 0; c < 4; ++c) {
+    const int flat = flat_after[static_cast<std::size_t>(c)];
     for (int i = 0; i <= arc; ++i) {
       const double angle =
           0.5 * std::numbers::pi * (c + (arc > 0 ? static_cast<double>(i) / arc : 0.0));
-      section.push_back(corners[c] + r * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      section.points.push_back(corners[c] + r * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      section.side.push_back(i < arc ? kFirstFillet + c : flat);
     }
     // Points along the flat side that follows; none if the fillets meet.
-    const Eigen::Vector2d start = section.back();
+    const Eigen::Vector2d start = section.points.back();
     const double next_angle = 0.5 * std::numbers::pi * (c + 1);
     const Eigen::Vector2d end =
         corners[(c + 1) % 4] + r * Eigen::Vector2d(std::cos(next_angle), std::sin(next_angle));
     const double side = (end - start).norm();
     if (side < 1e-9 * (o.width + o.depth)) {
-      section.pop_back();
+      section.points.pop_back();
+      section.side.pop_back();
       continue;
     }
     const int steps = divisions(side, o.fineness);
     for (int i = 1; i < steps; ++i) {
-      section.push_back(start + (end - start) * (static_cast<double>(i) / steps));
+      section.points.push_back(start + (end - start) * (static_cast<double>(i) / steps));
+      section.side.push_back(flat);
     }
   }
   return section;
+}
+
+std::vector<BarSide> prism_sides(const PrismProductOptions& o) {
+  const double r = o.fillet_radius;
+  const double across = o.width - 2.0 * r, along = o.depth - 2.0 * r;
+  std::vector<BarSide> sides = {{.name = "right", .width = along},
+                                {.name = "back", .width = across},
+                                {.name = "left", .width = along},
+                                {.name = "front", .width = across}};
+  for (int i = 1; i <= 4; ++i) {
+    sides.push_back({.name = "fillet " + std::to_string(i),
+                     .radius = r,
+                     .is_fillet = true,
+                     .width = 0.5 * std::numbers::pi * r});
+  }
+  return sides;
 }
 
 /// Unit sphere fine enough for an ellipsoid with these semi-axes.
@@ -157,15 +182,23 @@ Product make_cylinder_product(const CylinderProductOptions& options) {
   options.check();
   const double radius = 0.5 * options.diameter;
   const int segments = circle_segments(radius, options.fineness);
-  std::vector<Eigen::Vector2d> circle;
+  BarSection circle;
   for (int i = 0; i < segments; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / segments;
-    circle.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    circle.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
-  return finish("cylinder " + number(options.diameter) + " x " + number(options.length) + " mm",
-                sweep(circle, options.length, divisions(options.length, options.fineness),
-                      divisions(radius, options.fineness)),
-                make_cylinder_distance({.radius = radius, .length = options.length}));
+  circle.side.assign(circle.points.size(), 0);
+  const BarRings rings = {.length = options.length,
+                          .end_area = std::numbers::pi * radius * radius,
+                          .along = divisions(options.length, options.fineness),
+                          .on_ends = divisions(radius, options.fineness)};
+  Product product =
+      finish("cylinder " + number(options.diameter) + " x " + number(options.length) + " mm",
+             sweep(circle.points, options.length, rings.along, rings.on_ends),
+             make_cylinder_distance({.radius = radius, .length = options.length}));
+  const BarSide side = {.name = "side", .radius = radius, .width = 2.0 * std::numbers::pi * radius};
+  product.faces = bar_faces(circle, {side}, rings);
+  return product;
 }
 
 void PrismProductOptions::check() const {
@@ -178,15 +211,23 @@ void PrismProductOptions::check() const {
 
 Product make_prism_product(const PrismProductOptions& options) {
   options.check();
-  return finish("prism " + number(options.width) + " x " + number(options.depth) + " x " +
-                    number(options.length) + " mm, fillet " + number(options.fillet_radius) + " mm",
-                sweep(filleted_rectangle(options), options.length,
-                      divisions(options.length, options.fineness),
-                      divisions(0.5 * std::max(options.width, options.depth), options.fineness)),
-                make_prism_distance({.width = options.width,
-                                     .depth = options.depth,
-                                     .length = options.length,
-                                     .fillet_radius = options.fillet_radius}));
+  const BarSection section = filleted_rectangle(options);
+  const double r = options.fillet_radius;
+  const BarRings rings = {
+      .length = options.length,
+      .end_area = options.width * options.depth - (4.0 - std::numbers::pi) * r * r,
+      .along = divisions(options.length, options.fineness),
+      .on_ends = divisions(0.5 * std::max(options.width, options.depth), options.fineness)};
+  Product product =
+      finish("prism " + number(options.width) + " x " + number(options.depth) + " x " +
+                 number(options.length) + " mm, fillet " + number(options.fillet_radius) + " mm",
+             sweep(section.points, options.length, rings.along, rings.on_ends),
+             make_prism_distance({.width = options.width,
+                                  .depth = options.depth,
+                                  .length = options.length,
+                                  .fillet_radius = options.fillet_radius}));
+  product.faces = bar_faces(section, prism_sides(options), rings);
+  return product;
 }
 
 void SphereProductOptions::check() const {

@@ -20,6 +20,7 @@ struct MeshFineness {
   void check() const;
 };
 
+/// Faces (Product::faces): 1 "side", 2 "bottom", 3 "top".
 struct CylinderProductOptions {
   double diameter = 48.0;
   double length = 150.0;  ///< along z
@@ -28,7 +29,9 @@ struct CylinderProductOptions {
 };
 Product make_cylinder_product(const CylinderProductOptions& options);
 
-/// Bar with a filleted rectangle as section and flat, sharp-edged ends.
+/// Bar with a filleted rectangle as section and flat, sharp-edged ends. Faces (Product::faces), as
+/// far as they exist: "right" (+x), "back" (+y), "left" (-x), "front" (-y), "fillet 1" to
+/// "fillet 4" (between right and back, and on counter-clockwise), "bottom" (-z), "top" (+z).
 struct PrismProductOptions {
   double width = 40.0;         ///< along x
   double depth = 30.0;         ///< along y

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/product/product_faces.h"
 
+#include <cmath>
 #include <cstdio>
+
+#include "palmar/core/error.h"
 
 namespace palmar {
 
@@ -34,6 +37,41 @@ std::string title_of(const ProductFace& face) {
     text += radius;
   }
   return text + ")";
+}
+
+ProductFaces scaled(const ProductFaces& faces, double factor) {
+  ProductFaces result = faces;
+  if (factor == 1.0) return result;
+  for (ProductFace& face : result.face) {
+    face.radius *= factor;
+    face.area *= factor * factor;
+  }
+  for (ProductEdge& edge : result.edge) {
+    edge.length *= factor;
+    for (Vec3& point : edge.points) point *= factor;
+  }
+  return result;
+}
+
+void check_faces(const ProductFaces& faces, int triangles, const std::string& source) {
+  const auto count = static_cast<int>(faces.face.size());
+  if (static_cast<int>(faces.face_of_triangle.size()) != triangles) {
+    throw InputError(source + ": " + std::to_string(faces.face_of_triangle.size()) +
+                     " triangles have a face; the mesh has " + std::to_string(triangles));
+  }
+  for (std::size_t t = 0; t < faces.face_of_triangle.size(); ++t) {
+    const int face = faces.face_of_triangle[t];
+    if (face >= 0 && face < count) continue;
+    throw InputError(source + ": triangle " + std::to_string(t) + " names face " +
+                     std::to_string(face) + "; " + std::to_string(count) + " faces exist");
+  }
+  for (std::size_t e = 0; e < faces.edge.size(); ++e) {
+    for (const int face : faces.edge[e].faces) {
+      if (face >= -1 && face < count) continue;
+      throw InputError(source + ": edge " + std::to_string(e) + " names face " +
+                       std::to_string(face) + "; " + std::to_string(count) + " faces exist");
+    }
+  }
 }
 
 }  // namespace palmar

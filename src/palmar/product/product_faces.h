@@ -51,4 +51,11 @@ struct ProductFaces {
   std::vector<int> face_of_triangle;  ///< index into `face`, per triangle of the mesh
 };
 
+/// All lengths times `factor`: for units and sizes of a product.
+ProductFaces scaled(const ProductFaces& faces, double factor);
+
+/// Throws InputError unless every triangle of a mesh of `triangles` has a face, and edges name
+/// faces that exist; `source` stands in front of the message.
+void check_faces(const ProductFaces& faces, int triangles, const std::string& source);
+
 }  // namespace palmar

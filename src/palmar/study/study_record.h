@@ -79,4 +79,12 @@ struct StudyRecord {
 /// than `edge` mm. The same for all hands.
 TriangleMesh product_map(const TriangleMesh& product, double edge = 3.0);
 
+/// That mesh, and what its triangles are of the product.
+struct ProductMap {
+  TriangleMesh mesh;
+  std::vector<int> parent;            ///< per triangle: the product's triangle it is a part of
+  std::vector<int> face_of_triangle;  ///< index into Product::faces; empty if it has none
+};
+ProductMap product_map(const Product& product, double edge = 3.0);
+
 }  // namespace palmar
