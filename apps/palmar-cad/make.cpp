@@ -1,0 +1,49 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// make: {kind, parameters: {diameter_mm: 35, ...}, step?: true, mesh?: true, chordal_error_mm?}
+// -> product.step, mesh.bin, and what the solid is.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "palmar/cad/cad_check.h"
+#include "palmar/cad/cad_file.h"
+#include "palmar/cad/solids.h"
+#include "palmar/cad/tessellation.h"
+#include "palmar/io/face_mesh_file.h"
+#include "verbs.h"
+
+namespace palmar::cad_worker {
+
+Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
+  const ParametricKind& kind = parametric_kind(request.at("kind").get<std::string>());
+  std::vector<std::pair<std::string, double>> given;
+  if (request.contains("parameters")) {
+    for (const auto& [name, value] : request.at("parameters").items()) {
+      given.emplace_back(name, value.get<double>());
+    }
+  }
+  const CadModel model = make_kind_solid(kind, complete_values(kind, given));
+  progress.update(0.4, "made " + kind.name);
+  Json reply = {{"volume_mm3", volume_of(model)},
+                {"faces", model.face_count()},
+                {"edges", model.edge_count()},
+                {"notes", Json::array()}};
+  if (request.value("step", false)) write_step(folder / "product.step", model);
+  if (request.value("mesh", false)) {
+    TessellationOptions options;
+    if (request.contains("chordal_error_mm")) {
+      options.chordal_error = request.at("chordal_error_mm").get<double>();
+    }
+    Tessellation mesh = tessellate(model, options, progress);
+    for (const std::string& note : mesh.notes) reply["notes"].push_back(note);
+    reply["chordal_error_mm"] = mesh.chordal_error;
+    reply["triangles"] = mesh.mesh.triangle_count();
+    write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  }
+  progress.update(1.0, "made " + kind.name);
+  return reply;
+}
+
+}  // namespace palmar::cad_worker
