@@ -83,6 +83,7 @@ int run(int argc, char** argv) {
   add_contact_commands(app, context);
   add_effort_commands(app, context);
   add_population_commands(app, context);
+  add_redesign_commands(app, context);
   add_study_commands(app, context);
   add_validate_command(app, context);
   add_doctor_command(app, context);

@@ -59,8 +59,10 @@ std::string compare_redesigns(const RedesignArguments& arguments, const HeldOrig
                               const Context& context, const Progress& progress);
 
 /// Results of all hands with one more product beside the original: what a search evaluates. Product
-/// 0 is the original, 1 the candidate; records without fields.
+/// 0 is the original, 1 the candidate, whose records come without fields, and without indices
+/// unless asked for.
 StudyResults assess_candidate(const RedesignArguments& arguments, const HeldOriginal& original,
-                              const Product& candidate, const Progress& progress);
+                              const Product& candidate, bool with_indices,
+                              const Progress& progress);
 
 }  // namespace palmar::cli

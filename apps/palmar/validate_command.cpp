@@ -4,7 +4,7 @@
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
 #include "palmar/io/validation_json.h"
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 namespace palmar::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 namespace palmar {
 

@@ -12,7 +12,7 @@
 #include "palmar/grasp/balance.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 namespace palmar {
 

@@ -17,7 +17,7 @@
 #include "palmar/study/study_results.h"
 #include "palmar/study/study_run.h"
 #include "palmar/study/study_statistics.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {

@@ -13,7 +13,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/hand/scaled_hand.h"
 #include "palmar/hand/skinning.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {

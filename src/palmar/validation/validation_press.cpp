@@ -10,7 +10,7 @@
 #include <string>
 
 #include "palmar/contact/press.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {

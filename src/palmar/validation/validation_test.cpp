@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

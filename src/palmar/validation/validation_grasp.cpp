@@ -12,7 +12,7 @@
 #include "palmar/grasp/grip_force.h"
 #include "palmar/hand/skinning.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {

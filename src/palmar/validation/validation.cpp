@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/hand/skinning.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "palmar/study/validation.h"
+#include "palmar/validation/validation.h"
 
 namespace palmar {
 namespace {

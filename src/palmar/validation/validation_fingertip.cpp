@@ -9,7 +9,7 @@
 
 #include "palmar/contact/press.h"
 #include "palmar/hand/dimensions.h"
-#include "palmar/study/validation_cases.h"
+#include "palmar/validation/validation_cases.h"
 
 namespace palmar {
 namespace {
