@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "palmar/contact/skin_geometry.h"
 #include "palmar/core/error.h"
@@ -85,13 +87,17 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
     message << "footprint: edge length is " << edge_length << " mm; 0.1 to 1000 mm is required";
     throw UsageError(message.str());
   }
-  ProductFootprint footprint{product, std::vector<double>(product.vertices.size(), 0.0)};
+  ProductFootprint footprint{product, std::vector<double>(product.vertices.size(), 0.0),
+                             std::vector<int>(product.triangles.size())};
+  std::iota(footprint.parent.begin(), footprint.parent.end(), 0);
   const LoadedPoints loaded(contact);
   if (loaded.empty()) return footprint;
-  footprint.surface =
-      split_long_edges(product, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  SplitMesh split =
+      split_with_parents(product, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
         return loaded.any_near(a, b, c, 2.0 * edge_length);
       });
+  footprint.surface = std::move(split.mesh);
+  footprint.parent = std::move(split.parent);
   const TriangleMesh& surface = footprint.surface;
 
   TriangleMesh skin{contact.deformed, {}};

@@ -13,6 +13,7 @@ namespace palmar {
 struct ProductFootprint {
   TriangleMesh surface;          ///< product frame, mm
   std::vector<double> pressure;  ///< per vertex of `surface`, MPa; 0 where not touched
+  std::vector<int> parent = {};  ///< per triangle of `surface`: the product's it is a part of
 };
 
 /// Maps the skin's pressure to the product's surface. It counts per area of the product here, so

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/product/product_faces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -72,6 +73,27 @@ void check_faces(const ProductFaces& faces, int triangles, const std::string& so
                        std::to_string(face) + "; " + std::to_string(count) + " faces exist");
     }
   }
+}
+
+std::vector<std::array<int, 2>> border_edges(const TriangleMesh& mesh,
+                                             const std::vector<int>& face_of_triangle) {
+  std::vector<std::array<int, 3>> sides;  // two vertices, then the face
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& corner = mesh.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
+      sides.push_back({low, high, face_of_triangle.at(t)});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::array<int, 2>> borders;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const auto& [low, high, face] = sides[i];
+    if (low != sides[i - 1][0] || high != sides[i - 1][1] || face == sides[i - 1][2]) continue;
+    if (borders.empty() || borders.back() != std::array{low, high}) borders.push_back({low, high});
+  }
+  return borders;
 }
 
 }  // namespace palmar

@@ -58,4 +58,9 @@ ProductFaces scaled(const ProductFaces& faces, double factor);
 /// faces that exist; `source` stands in front of the message.
 void check_faces(const ProductFaces& faces, int triangles, const std::string& source);
 
+/// Edges of a mesh where triangles of different faces meet: pairs of vertices, ascending. For
+/// drawing; ProductFaces::edge are those that the designer knows.
+std::vector<std::array<int, 2>> border_edges(const TriangleMesh& mesh,
+                                             const std::vector<int>& face_of_triangle);
+
 }  // namespace palmar

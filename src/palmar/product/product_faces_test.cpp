@@ -182,6 +182,22 @@ TEST(ProductFaces, FollowAMeshThroughUnitWeldAndOrientation) {
   EXPECT_EQ(make_product("prism", soup, kInches, "prism.stl").faces, nullptr);
 }
 
+TEST(ProductFaces, BordersAreWhereFacesMeet) {
+  const Product sharp = make_prism_product(
+      {.width = 40, .depth = 30, .length = 150, .fillet_radius = 0, .fineness = {}});
+  double length = 0.0;
+  for (const auto& [a, b] : border_edges(sharp.mesh, sharp.faces->face_of_triangle)) {
+    length += (sharp.mesh.vertices[a] - sharp.mesh.vertices[b]).norm();
+  }
+  EXPECT_NEAR(length, 4.0 * (40 + 30 + 150), 1e-6);  // mm
+  const Product can = make_cylinder_product({});
+  length = 0.0;
+  for (const auto& [a, b] : border_edges(can.mesh, can.faces->face_of_triangle)) {
+    length += (can.mesh.vertices[a] - can.mesh.vertices[b]).norm();
+  }
+  EXPECT_NEAR(length, 2.0 * std::numbers::pi * 48.0, 0.5);  // chords of two circles
+}
+
 TEST(ProductFaces, TellWhichFaceIsTooSmallToBeKept) {
   const Product prism = make_prism_product({});
   ProductFaces faces = *prism.faces;

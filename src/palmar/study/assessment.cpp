@@ -66,6 +66,7 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   if (options.footprint) {
     progress.update(0.9, "mapping the pressure to the product");
     result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+    result.faces = face_contacts(result.footprint, product);
   }
   // Finished is finished: who cancels now still gets it.
   if (progress.report) progress.report(1.0, "assessed");

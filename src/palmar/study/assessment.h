@@ -15,6 +15,7 @@
 #include "palmar/grasp/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
+#include "palmar/study/face_contacts.h"
 #include "palmar/study/grasp_indices.h"
 
 namespace palmar {
@@ -48,7 +49,8 @@ struct Assessment {
   ContactResult contact;
   FrictionResult friction;
   ProductFootprint footprint;
-  GraspIndices indices;  ///< empty if switched off
+  std::vector<FaceContact> faces;  ///< touched; empty without footprint or faces of the product
+  GraspIndices indices;            ///< empty if switched off
   AssessOptions options;
   AssessTimes times;
 };

@@ -55,6 +55,11 @@ void StudyResults::check() const {
   }
 }
 
+bool is_same(const StudyCondition& a, const StudyCondition& b) {
+  return a.population == b.population && a.profile == b.profile && a.setting == b.setting &&
+         a.grip == b.grip;
+}
+
 std::vector<StudyCondition> conditions_of(const StudyPlan& plan) {
   std::vector<StudyCondition> conditions;
   const auto populations = static_cast<int>(plan.populations.size());

@@ -32,6 +32,7 @@ struct StudyCondition {
   std::optional<int> population;  ///< nothing: all populations together
   int profile = 0, setting = 0, grip = 0;
 };
+bool is_same(const StudyCondition& a, const StudyCondition& b);
 /// All conditions of a plan: for every profile, setting and grip first all populations together,
 /// then, if there are several, each by itself.
 std::vector<StudyCondition> conditions_of(const StudyPlan& plan);
