@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/geometry/iso_lines.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <numeric>
 #include <string>
 
@@ -169,50 +168,6 @@ IsoParts iso_parts(const TriangleMesh& mesh, std::span<const double> field, doub
     if (out >= 0) parts.area[parts.of_vertex[out]] += below;
   }
   return parts;
-}
-
-std::vector<double> smooth_field(const TriangleMesh& mesh, std::span<const double> field,
-                                 double width) {
-  check_size(mesh, field);
-  if (!(width >= 0.0)) {
-    throw UsageError("level lines: width of smoothing is " + std::to_string(width) +
-                     " mm; at least 0 is required");
-  }
-  std::vector<double> result(field.begin(), field.end());
-  if (width == 0.0 || mesh.triangles.empty()) return result;
-  const std::vector<double> areas = vertex_areas(mesh);
-  // A vertex without triangles keeps its value: a mass of its own, no neighbours.
-  const double smallest = 1e-9 * width * width;
-  const double time = 0.5 * width * width;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto n = static_cast<Eigen::Index>(field.size());
-  Eigen::VectorXd right(n);
-  for (Eigen::Index v = 0; v < n; ++v) {
-    const double mass = std::max(areas[static_cast<std::size_t>(v)], smallest);
-    entries.emplace_back(v, v, mass);
-    right[v] = mass * field[static_cast<std::size_t>(v)];
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const double angle = corner_angle(mesh, static_cast<int>(t), k);
-      if (!(angle > 1e-6)) continue;
-      const double weight = std::max(0.0, 0.5 * time / std::tan(angle));
-      const int i = mesh.triangles[t][(k + 1) % 3], j = mesh.triangles[t][(k + 2) % 3];
-      entries.emplace_back(i, i, weight);
-      entries.emplace_back(j, j, weight);
-      entries.emplace_back(i, j, -weight);
-      entries.emplace_back(j, i, -weight);
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  if (solver.info() != Eigen::Success) {
-    throw NumericalError("level lines: the smoothing of a field has no solution");
-  }
-  const Eigen::VectorXd x = solver.solve(right);
-  std::copy(x.begin(), x.end(), result.begin());
-  return result;
 }
 
 }  // namespace palmar

@@ -36,11 +36,4 @@ struct IsoParts {
 };
 IsoParts iso_parts(const TriangleMesh& mesh, std::span<const double> field, double level);
 
-/// The field after heat has flowed along the surface: a bell of standard deviation `width` [mm],
-/// whatever the triangles. Solves (M + width^2 / 2 L) x = M f with the lumped areas M and the
-/// cotangent Laplacian L, negative weights left out (Crane et al. 2013, eq. 3). Constant fields
-/// stay; nothing leaves the range of the field. Throws UsageError if width is negative.
-std::vector<double> smooth_field(const TriangleMesh& mesh, std::span<const double> field,
-                                 double width);
-
 }  // namespace palmar

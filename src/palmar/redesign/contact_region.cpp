@@ -12,6 +12,7 @@
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/iso_lines.h"
 #include "palmar/geometry/mesh_measures.h"
+#include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {
 namespace {
@@ -108,7 +109,7 @@ void find_field(const TriangleMesh& map, const std::vector<int>& touching,
                 const RegionOptions& options, ContactRegion& region) {
   region.field.reserve(touching.size());
   for (const int hands : touching) region.field.push_back(hands >= region.least_hands ? 1.0 : -1.0);
-  region.field = smooth_field(map, region.field, options.smoothing);
+  region.field = SurfaceDiffusion(map, options.smoothing).smooth(region.field);
   for (const bool holes : {false, true}) {
     const IsoParts parts = iso_parts(map, region.field, 0.0);
     if (std::count(parts.is_inside.begin(), parts.is_inside.end(), holes ? 0 : 1) == 0) return;
