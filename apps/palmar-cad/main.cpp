@@ -41,7 +41,11 @@ int fail(const fs::path& folder, const std::string& message, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, Verb> verbs = {};
+  const std::map<std::string, Verb> verbs = {{"check", palmar::cad_worker::check},
+                                             {"features", palmar::cad_worker::features},
+                                             {"import", palmar::cad_worker::import},
+                                             {"make", palmar::cad_worker::make},
+                                             {"version", palmar::cad_worker::version}};
   if (argc != 3 || verbs.count(argv[1]) == 0) {
     std::fprintf(stderr, "palmar-cad is started by palmar; see `palmar product -h`\n");
     return 2;

@@ -14,5 +14,10 @@ using Json = nlohmann::ordered_json;
 // The verbs: what request.json asks for becomes reply.json, beside files in `folder`. Lengths in
 // mm, keys with their unit. They throw palmar::Error; everything else that is thrown, crashes and
 // signals are told by the parent. One file each.
+Json check(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json version(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 
 }  // namespace palmar::cad_worker

@@ -26,6 +26,12 @@ int CadModel::solid_count() const {
   return count;
 }
 
+std::vector<std::string> body_names(const CadModel& model) {
+  std::vector<std::string> names;
+  for (const CadModel::Impl::Body& body : model.impl().bodies) names.push_back(body.name);
+  return names;
+}
+
 CadModel make_cad_model(std::vector<CadModel::Impl::Body> bodies) {
   auto impl = std::make_shared<CadModel::Impl>();
   impl->bodies = std::move(bodies);

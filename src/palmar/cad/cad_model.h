@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace palmar {
 
@@ -25,5 +27,8 @@ class CadModel {
  private:
   std::shared_ptr<const Impl> impl_;
 };
+
+/// In their order.
+std::vector<std::string> body_names(const CadModel& model);
 
 }  // namespace palmar

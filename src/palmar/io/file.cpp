@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "palmar/core/error.h"
 
@@ -18,13 +19,14 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-/// Closes a file descriptor; movable state isn't needed here.
+/// Closes a file descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
   ~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
@@ -74,33 +76,47 @@ struct TemporaryFile {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
+namespace {
+
+/// An input opened and looked at: a regular file that isn't empty.
+struct OpenInput {
+  Descriptor file;
+  std::uint64_t size = 0;
+};
+
+OpenInput open_input(const std::filesystem::path& path, std::uint64_t max_bytes) {
   const std::string name = path.string();
   // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.get() < 0) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) {
     if (errno == ENOENT) throw InputError(name + ": no such file");
     throw InputError(name + ": can't be read: " + system_text(errno));
   }
+  OpenInput input{Descriptor(fd)};
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0) {
+  if (::fstat(fd, &status) != 0) {
     throw InputError(name + ": can't be read: " + system_text(errno));
   }
   if (S_ISDIR(status.st_mode)) throw InputError(name + ": is a directory; a file is required");
   if (!S_ISREG(status.st_mode)) {
     throw InputError(name + ": is a pipe or device; a regular file is required");
   }
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size == 0) throw InputError(name + ": is empty (0 bytes)");
-  if (size > max_bytes) {
-    throw InputError(name + ": has " + std::to_string(size) + " bytes; up to " +
+  input.size = static_cast<std::uint64_t>(status.st_size);
+  if (input.size == 0) throw InputError(name + ": is empty (0 bytes)");
+  if (input.size > max_bytes) {
+    throw InputError(name + ": has " + std::to_string(input.size) + " bytes; up to " +
                      std::to_string(max_bytes) + " are read");
   }
+  return input;
+}
 
-  std::string bytes(static_cast<std::size_t>(size), '\0');
+std::string read_part(const OpenInput& input, std::uint64_t offset, std::size_t size,
+                      const std::string& name) {
+  std::string bytes(size, '\0');
   std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t got = ::read(file.get(), bytes.data() + done, bytes.size() - done);
+  while (done < size) {
+    const ssize_t got = ::pread(input.file.get(), bytes.data() + done, size - done,
+                                static_cast<off_t>(offset + done));
     if (got < 0) {
       if (errno == EINTR) continue;
       throw InputError(name + ": can't be read: " + system_text(errno));
@@ -108,11 +124,26 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
     if (got == 0) break;  // shortened while being read
     done += static_cast<std::size_t>(got);
   }
-  if (done != bytes.size()) {
-    throw InputError(name + ": changed while it was read: " + std::to_string(done) + " of " +
-                     std::to_string(size) + " bytes");
+  if (done != size) {
+    throw InputError(name + ": changed while it was read: " + std::to_string(offset + done) +
+                     " of " + std::to_string(input.size) + " bytes");
   }
   return bytes;
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
+  const OpenInput input = open_input(path, max_bytes);
+  return read_part(input, 0, static_cast<std::size_t>(input.size), path.string());
+}
+
+FileEnds read_ends(const std::filesystem::path& path, std::size_t size) {
+  const OpenInput input = open_input(path, kMaxInputBytes);
+  const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(size, input.size));
+  const std::string name = path.string();
+  return {read_part(input, 0, part, name), read_part(input, input.size - part, part, name),
+          input.size};
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -17,6 +17,14 @@ inline constexpr std::uint64_t kMaxInputBytes = std::uint64_t{4} << 30;
 /// `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = kMaxInputBytes);
 
+/// What a file begins and ends with, to tell what it is without reading it. Both at most `size`
+/// bytes; they overlap in a short file. Throws InputError as read_file().
+struct FileEnds {
+  std::string head, tail;
+  std::uint64_t bytes = 0;  ///< of the whole file
+};
+FileEnds read_ends(const std::filesystem::path& path, std::size_t size);
+
 /// Writes a file so that at any moment the path holds either the old or the whole new content: a
 /// temporary name in the same folder, fsync, rename. On failure nothing is left behind and an old
 /// file stays as it was. Existing devices and pipes are written directly; symbolic links are

@@ -1,0 +1,77 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// import: {file, millimetres_per_unit?, chordal_error_mm?, angle_deg?, max_triangles?} -> mesh.bin
+// and what the file held.
+#include <numbers>
+
+#include "palmar/cad/cad_check.h"
+#include "palmar/cad/cad_file.h"
+#include "palmar/cad/tessellation.h"
+#include "palmar/core/error.h"
+#include "palmar/io/face_mesh_file.h"
+#include "verbs.h"
+
+namespace palmar::cad_worker {
+namespace {
+
+/// The second part of the work as a share of all of it.
+Progress part_of(const Progress& progress, double begin, double end) {
+  Progress part = progress;
+  if (progress.report) {
+    part.report = [report = progress.report, begin, end](double share,
+                                                         const std::string& activity) {
+      report(begin + share * (end - begin), activity);
+    };
+  }
+  return part;
+}
+
+}  // namespace
+
+Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
+  ReadCadOptions read;
+  if (request.contains("millimetres_per_unit")) {
+    read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
+  }
+  TessellationOptions options;
+  if (request.contains("chordal_error_mm")) {
+    options.chordal_error = request.at("chordal_error_mm").get<double>();
+  }
+  if (request.contains("angle_deg")) {
+    options.angle = request.at("angle_deg").get<double>() * std::numbers::pi / 180.0;
+  }
+  options.max_triangles = request.value("max_triangles", options.max_triangles);
+  options.check();
+
+  const std::string object = request.at("file").get<std::string>();
+  CadFile file = read_cad(object, read, part_of(progress, 0.0, 0.5));
+  Tessellation mesh;
+  try {
+    mesh = tessellate(file.model, options, part_of(progress, 0.5, 0.95));
+  } catch (const InputError& error) {
+    throw InputError(object + ": " + error.what());
+  }
+  Json notes = file.notes;
+  for (const std::string& note : mesh.notes) notes.push_back(note);
+  Json bodies = Json::array();
+  for (const auto& name : body_names(file.model)) bodies.push_back(name);
+  const Json reply = {{"format", file.format},
+                      {"unit", file.unit},
+                      {"millimetres_per_unit", file.millimetres_per_unit},
+                      {"bodies", std::move(bodies)},
+                      {"solids", file.solids},
+                      {"open_shells", file.open_shells},
+                      {"faces", file.model.face_count()},
+                      {"edges", file.model.edge_count()},
+                      {"chordal_error_mm", mesh.chordal_error},
+                      {"chordal_reason", mesh.chordal_reason},
+                      {"triangles", mesh.mesh.triangle_count()},
+                      {"volume_mm3", volume_of(file.model)},
+                      {"notes", std::move(notes)}};
+  write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  progress.update(1.0, "imported");
+  return reply;
+}
+
+}  // namespace palmar::cad_worker

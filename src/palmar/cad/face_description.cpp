@@ -1,0 +1,353 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomAbs_SurfaceType.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListIteratorOfListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "palmar/cad/occt_model.h"
+#include "palmar/cad/tessellation.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kSmooth = std::numbers::pi / 180.0;  // rad; a kink below 1 degree can't be felt
+
+FaceKind kind_of(const BRepAdaptor_Surface& surface) {
+  switch (surface.GetType()) {
+    case GeomAbs_Plane:
+      return FaceKind::kPlane;
+    case GeomAbs_Cylinder:
+      return FaceKind::kCylinder;
+    case GeomAbs_Cone:
+      return FaceKind::kCone;
+    case GeomAbs_Sphere:
+      return FaceKind::kSphere;
+    case GeomAbs_Torus:
+      return FaceKind::kTorus;
+    default:
+      return FaceKind::kFreeform;
+  }
+}
+
+double radius_of(const BRepAdaptor_Surface& surface) {
+  switch (surface.GetType()) {
+    case GeomAbs_Cylinder:
+      return surface.Cylinder().Radius();
+    case GeomAbs_Sphere:
+      return surface.Sphere().Radius();
+    case GeomAbs_Torus:
+      return surface.Torus().MinorRadius();
+    default:
+      return 0.0;
+  }
+}
+
+/// Outward normal of a face (out of the material) at surface parameters; null where there is none.
+gp_Vec normal_at(const TopoDS_Face& face, const BRepAdaptor_Surface& surface, double u, double v) {
+  gp_Pnt point;
+  gp_Vec du, dv;
+  surface.D1(u, v, point, du, dv);
+  gp_Vec normal = du.Crossed(dv);
+  if (normal.Magnitude() < 1e-12) return {0.0, 0.0, 0.0};
+  normal.Normalize();
+  if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
+  return normal;
+}
+
+/// A round face is concave where its centre of curvature lies outside of the material, on the side
+/// that the normal points to.
+bool is_concave(const TopoDS_Face& face, const BRepAdaptor_Surface& surface) {
+  const double u = 0.5 * (surface.FirstUParameter() + surface.LastUParameter());
+  const double v = 0.5 * (surface.FirstVParameter() + surface.LastVParameter());
+  const gp_Pnt at = surface.Value(u, v);
+  gp_Pnt centre;
+  switch (surface.GetType()) {
+    case GeomAbs_Cylinder:
+    case GeomAbs_Cone: {
+      const gp_Ax1 axis =
+          surface.GetType() == GeomAbs_Cylinder ? surface.Cylinder().Axis() : surface.Cone().Axis();
+      const gp_Vec from(axis.Location(), at);
+      centre =
+          axis.Location().Translated(gp_Vec(axis.Direction()) * from.Dot(gp_Vec(axis.Direction())));
+      break;
+    }
+    case GeomAbs_Sphere:
+      centre = surface.Sphere().Location();
+      break;
+    case GeomAbs_Torus: {
+      const gp_Torus torus = surface.Torus();
+      const gp_Vec axis(torus.Axis().Direction());
+      gp_Vec out(torus.Location(), at);
+      out -= axis * out.Dot(axis);
+      if (out.Magnitude() < 1e-12) return false;
+      centre = torus.Location().Translated(out.Normalized() * torus.MajorRadius());
+      break;
+    }
+    default:
+      return false;
+  }
+  return gp_Vec(at, centre).Dot(normal_at(face, surface, u, v)) > 0.0;
+}
+
+/// Whether two neighbours lie on one and the same surface, cut by a seam.
+bool is_same_surface(const BRepAdaptor_Surface& a, const BRepAdaptor_Surface& b) {
+  if (a.GetType() != b.GetType()) return false;
+  constexpr double kSame = 1e-6;  // mm, rad
+  switch (a.GetType()) {
+    case GeomAbs_Plane:
+      return a.Plane().Axis().IsParallel(b.Plane().Axis(), kSame);
+    case GeomAbs_Cylinder:
+      return std::abs(a.Cylinder().Radius() - b.Cylinder().Radius()) < kSame &&
+             a.Cylinder().Axis().IsCoaxial(b.Cylinder().Axis(), kSame, kSame);
+    case GeomAbs_Cone:
+      return std::abs(a.Cone().SemiAngle() - b.Cone().SemiAngle()) < kSame &&
+             a.Cone().Apex().Distance(b.Cone().Apex()) < kSame;
+    case GeomAbs_Sphere:
+      return std::abs(a.Sphere().Radius() - b.Sphere().Radius()) < kSame &&
+             a.Sphere().Location().Distance(b.Sphere().Location()) < kSame;
+    case GeomAbs_Torus:
+      return std::abs(a.Torus().MinorRadius() - b.Torus().MinorRadius()) < kSame &&
+             a.Torus().Location().Distance(b.Torus().Location()) < kSame;
+    default:
+      return false;
+  }
+}
+
+struct Describer {
+  const CadModel::Impl& impl;
+  std::vector<BRepAdaptor_Surface> surfaces;
+  ProductFaces result;
+
+  explicit Describer(const CadModel::Impl& model) : impl(model) {
+    for (int f = 1; f <= impl.faces.Extent(); ++f) {
+      surfaces.emplace_back(TopoDS::Face(impl.faces(f)), Standard_True);
+    }
+  }
+
+  const TopoDS_Face& face(int index) const { return TopoDS::Face(impl.faces(index + 1)); }
+
+  void describe_faces() {
+    for (int f = 0; f < impl.faces.Extent(); ++f) {
+      ProductFace one;
+      one.number = f + 1;
+      if (const auto name = impl.face_name.find(f + 1); name != impl.face_name.end()) {
+        one.name = name->second;
+      }
+      if (const auto colour = impl.face_colour.find(f + 1); colour != impl.face_colour.end()) {
+        one.colour = colour->second;
+      }
+      one.kind = kind_of(surfaces[f]);
+      one.radius = radius_of(surfaces[f]);
+      one.is_concave = is_concave(face(f), surfaces[f]);
+      GProp_GProps properties;
+      BRepGProp::SurfaceProperties(face(f), properties);
+      one.area = std::abs(properties.Mass());
+      result.face.push_back(std::move(one));
+    }
+    for (const CadModel::Impl::Body& body : impl.bodies) {
+      for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next()) {
+        ProductFace& one = result.face[impl.faces.FindIndex(it.Current()) - 1];
+        if (!one.part.empty()) continue;  // a face between two solids belongs to the first
+        one.part = body.name;
+        if (!one.colour) one.colour = body.colour;
+      }
+    }
+  }
+
+  void describe_edges() {
+    TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+    TopExp::MapShapesAndAncestors(impl.shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+    for (int e = 1; e <= impl.edges.Extent(); ++e) {
+      const TopoDS_Edge& edge = TopoDS::Edge(impl.edges(e));
+      ProductEdge one;
+      one.number = e;
+      if (const int found = faces_of.FindIndex(edge); found > 0) {
+        int side = 0;
+        for (TopTools_ListIteratorOfListOfShape it(faces_of(found)); it.More() && side < 2;
+             it.Next()) {
+          one.faces[side++] = impl.faces.FindIndex(it.Value()) - 1;
+        }
+      }
+      if (!BRep_Tool::Degenerated(edge)) measure(edge, one);
+      result.edge.push_back(std::move(one));
+    }
+  }
+
+  void measure(const TopoDS_Edge& edge, ProductEdge& one) const {
+    BRepAdaptor_Curve curve;
+    try {
+      curve.Initialize(edge);
+      one.length = GCPnts_AbscissaPoint::Length(curve);
+    } catch (const Standard_Failure&) {
+      return;  // without a curve in space; its faces' triangles tell where it runs
+    }
+    if (!std::isfinite(one.length)) one.length = 0.0;
+    if (one.faces[0] < 0 || one.faces[1] < 0) return;
+    const double middle = 0.5 * (curve.FirstParameter() + curve.LastParameter());
+    gp_Pnt point;
+    gp_Vec tangent;
+    curve.D1(middle, point, tangent);
+    const auto normal = [&](int f, bool second) {
+      // A seam has two curves in the parameters of its face: one per orientation.
+      const TopoDS_Edge used = second ? TopoDS::Edge(edge.Reversed()) : edge;
+      double first = 0, last = 0;
+      const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(used, face(f), first, last);
+      if (flat.IsNull()) return gp_Vec(0, 0, 0);
+      const gp_Pnt2d uv = flat->Value(middle);
+      return normal_at(face(f), surfaces[f], uv.X(), uv.Y());
+    };
+    const bool is_seam = one.faces[0] == one.faces[1];
+    const gp_Vec a = normal(one.faces[0], false);
+    const gp_Vec b = normal(one.faces[1], is_seam);
+    if (a.Magnitude() < 0.5 || b.Magnitude() < 0.5) return;
+    one.angle = a.Angle(b);
+    one.is_smooth = one.angle < kSmooth;
+    // Seen from outside, material of face 0 lies left of the edge as that face runs along it.
+    if (orientation_in(edge, one.faces[0]) == TopAbs_REVERSED) tangent.Reverse();
+    one.is_convex = !one.is_smooth && a.Crossed(b).Dot(tangent) > 0.0;
+  }
+
+  /// Which way the outline of a face runs along an edge.
+  TopAbs_Orientation orientation_in(const TopoDS_Edge& edge, int f) const {
+    for (TopExp_Explorer it(face(f), TopAbs_EDGE); it.More(); it.Next()) {
+      if (it.Current().IsSame(edge)) {
+        // Relative to the curve's own direction, which the adaptor follows.
+        return it.Current().Orientation();
+      }
+    }
+    return TopAbs_FORWARD;
+  }
+
+  /// Blends: round across, smooth to other faces on both long sides.
+  void find_fillets() {
+    std::vector<std::vector<int>> edges_of(result.face.size());
+    for (int e = 0; e < static_cast<int>(result.edge.size()); ++e) {
+      const ProductEdge& edge = result.edge[e];
+      for (int side = 0; side < 2; ++side) {
+        if (edge.faces[side] >= 0 && (side == 0 || edge.faces[1] != edge.faces[0])) {
+          edges_of[edge.faces[side]].push_back(e);
+        }
+      }
+    }
+    for (int f = 0; f < static_cast<int>(result.face.size()); ++f) {
+      result.face[f].is_fillet = is_fillet(f, edges_of[f]);
+    }
+  }
+
+  int other_side(const ProductEdge& edge, int f) const {
+    return edge.faces[0] == f ? edge.faces[1] : edge.faces[0];
+  }
+
+  bool meets_smoothly(const ProductEdge& edge, int f) const {
+    const int other = other_side(edge, f);
+    return edge.is_smooth && other >= 0 && other != f &&
+           !is_same_surface(surfaces[f], surfaces[other]);
+  }
+
+  /// Whether an edge runs along the blend (not around its section).
+  bool runs_along(const ProductEdge& edge, const BRepAdaptor_Surface& surface) const {
+    BRepAdaptor_Curve curve;
+    try {
+      curve.Initialize(TopoDS::Edge(impl.edges(edge.number)));
+    } catch (const Standard_Failure&) {
+      return false;
+    }
+    const double middle = 0.5 * (curve.FirstParameter() + curve.LastParameter());
+    gp_Pnt point;
+    gp_Vec tangent;
+    curve.D1(middle, point, tangent);
+    if (tangent.Magnitude() < 1e-12) return false;
+    tangent.Normalize();
+    constexpr double kAlong = 0.7;  // cosine of 45 degrees: nearer along than around
+    if (surface.GetType() == GeomAbs_Cylinder) {
+      return std::abs(tangent.Dot(gp_Vec(surface.Cylinder().Axis().Direction()))) > kAlong;
+    }
+    // Around the axis of the torus.
+    const gp_Torus torus = surface.Torus();
+    const gp_Vec axis(torus.Axis().Direction());
+    gp_Vec around = axis.Crossed(gp_Vec(torus.Location(), point));
+    if (around.Magnitude() < 1e-12) return false;
+    return std::abs(tangent.Dot(around.Normalized())) > kAlong;
+  }
+
+  bool is_fillet(int f, const std::vector<int>& edges) const {
+    const BRepAdaptor_Surface& surface = surfaces[f];
+    if (surface.GetType() == GeomAbs_Sphere) {
+      // A corner between three fillets or more: smooth all around, to different faces.
+      std::vector<int> neighbours;
+      for (const int e : edges) {
+        const ProductEdge& edge = result.edge[e];
+        if (edge.length == 0.0 || other_side(edge, f) == f) continue;
+        if (!meets_smoothly(edge, f)) return false;
+        neighbours.push_back(other_side(edge, f));
+      }
+      std::sort(neighbours.begin(), neighbours.end());
+      const auto end = std::unique(neighbours.begin(), neighbours.end());
+      return end - neighbours.begin() >= 3;
+    }
+    if (surface.GetType() != GeomAbs_Cylinder && surface.GetType() != GeomAbs_Torus) {
+      return surface.GetType() != GeomAbs_Plane && surface.GetType() != GeomAbs_Cone &&
+             is_freeform_fillet(f, edges);
+    }
+    // More than half a turn rounds nothing off: it is a rod or a ring.
+    const bool is_cylinder = surface.GetType() == GeomAbs_Cylinder;
+    const double turn = is_cylinder ? surface.LastUParameter() - surface.FirstUParameter()
+                                    : surface.LastVParameter() - surface.FirstVParameter();
+    if (turn > std::numbers::pi + 1e-6) return false;
+    double smooth = 0.0, along = 0.0;  // mm
+    std::vector<int> smooth_edges;
+    for (const int e : edges) {
+      const ProductEdge& edge = result.edge[e];
+      if (other_side(edge, f) == f || !runs_along(edge, surface)) continue;
+      along += edge.length;
+      if (!meets_smoothly(edge, f)) continue;
+      smooth += edge.length;
+      smooth_edges.push_back(e);
+    }
+    // Both sides, each of one edge or more.
+    constexpr double kNearlyAll = 0.95;
+    return smooth_edges.size() >= 2 && smooth > kNearlyAll * along;
+  }
+
+  /// A strip whose two longest edges, much longer than the others, are both smooth.
+  bool is_freeform_fillet(int f, const std::vector<int>& edges) const {
+    std::vector<const ProductEdge*> outline;
+    for (const int e : edges) {
+      if (result.edge[e].length > 0.0) outline.push_back(&result.edge[e]);
+    }
+    if (outline.size() < 3) return false;
+    std::sort(outline.begin(), outline.end(),
+              [](const ProductEdge* a, const ProductEdge* b) { return a->length > b->length; });
+    constexpr double kStrip = 2.0;  // times longer than wide
+    return meets_smoothly(*outline[0], f) && meets_smoothly(*outline[1], f) &&
+           outline[1]->length > kStrip * outline[2]->length;
+  }
+};
+
+}  // namespace
+
+ProductFaces describe_faces(const CadModel& model) {
+  if (model.is_empty()) return {};
+  Describer describer(model.impl());
+  describer.describe_faces();
+  describer.describe_edges();
+  describer.find_fillets();
+  return std::move(describer.result);
+}
+
+}  // namespace palmar
