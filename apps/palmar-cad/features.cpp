@@ -1,0 +1,151 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// features: {source, reference?, edits: [...], keep_out?, step?, mesh?, change?, chordal_error_mm?}
+// -> product.step, mesh.bin, volumes and the largest change of the surface.
+//
+// A source is {file, millimetres_per_unit?} or {kind, parameters}. Edits:
+//   {feature: "fillet", edges, radius_mm}           {feature: "offset", faces, offset_mm}
+//   {feature: "taper", faces, taper_deg}
+//   {feature: "groove", points_mm | ring_at_mm, is_closed?, radius_mm, depth_mm, rim_mm?}
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "palmar/cad/cad_check.h"
+#include "palmar/cad/cad_file.h"
+#include "palmar/cad/feature_choice.h"
+#include "palmar/cad/feature_edits.h"
+#include "palmar/cad/solids.h"
+#include "palmar/cad/surface_change.h"
+#include "palmar/cad/tessellation.h"
+#include "palmar/core/error.h"
+#include "palmar/io/face_mesh_file.h"
+#include "verbs.h"
+
+namespace palmar::cad_worker {
+namespace {
+
+constexpr double kSameVolume = 1e-3;  // of the volume; what a STEP must keep through the file
+
+CadModel model_of(const Json& source, Json& notes) {
+  if (source.contains("kind")) {
+    const ParametricKind& kind = parametric_kind(source.at("kind").get<std::string>());
+    std::vector<std::pair<std::string, double>> given;
+    const Json parameters = source.value("parameters", Json::object());
+    for (const auto& [name, value] : parameters.items()) {
+      given.emplace_back(name, value.get<double>());
+    }
+    return make_kind_solid(kind, complete_values(kind, given));
+  }
+  ReadCadOptions options;
+  if (source.contains("millimetres_per_unit")) {
+    options.millimetres_per_unit = source.at("millimetres_per_unit").get<double>();
+  }
+  const std::string file = source.at("file").get<std::string>();
+  CadFile read = read_cad(file, options);
+  if (read.solids == 0) {
+    throw InputError(
+        fmt::format("{}: no solid, only open surfaces; features of a solid can change", file));
+  }
+  for (const std::string& note : read.notes) notes.push_back(note);
+  return read.model;
+}
+
+FeatureEdits edits_of(const Json& list) {
+  FeatureEdits edits;
+  for (const Json& one : list) {
+    const std::string feature = one.at("feature").get<std::string>();
+    if (feature == "fillet") {
+      edits.fillets.push_back(
+          {one.at("edges").get<std::string>(), one.at("radius_mm").get<double>()});
+    } else if (feature == "offset") {
+      edits.offsets.push_back(
+          {one.at("faces").get<std::string>(), one.at("offset_mm").get<double>()});
+    } else if (feature == "taper") {
+      TaperEdit taper;
+      taper.faces = one.value("faces", taper.faces);
+      taper.angle = one.at("taper_deg").get<double>() * std::numbers::pi / 180;
+      edits.tapers.push_back(taper);
+    } else if (feature == "groove") {
+      GrooveEdit groove;
+      if (one.contains("ring_at_mm")) groove.ring_at = one.at("ring_at_mm").get<double>();
+      for (const Json& point : one.value("points_mm", Json::array())) {
+        groove.points.push_back(
+            {point.at(0).get<double>(), point.at(1).get<double>(), point.at(2).get<double>()});
+      }
+      groove.is_closed = one.value("is_closed", false);
+      groove.radius = one.at("radius_mm").get<double>();
+      groove.depth = one.at("depth_mm").get<double>();
+      groove.rim = one.value("rim_mm", 0.0);
+      if (groove.depth != 0.0) edits.grooves.push_back(std::move(groove));
+    } else {
+      throw UsageError(
+          fmt::format("feature \"{}\"; allowed are fillet, offset, taper and groove", feature));
+    }
+  }
+  return edits;
+}
+
+/// What is written must be a closed, valid solid of the same volume when it is read again.
+void require_same(const std::filesystem::path& path, const EditedModel& edited) {
+  const CadCheck again = check_cad(read_step(path).model);
+  if (!again.is_good() || std::abs(again.volume - edited.volume) > kSameVolume * edited.volume) {
+    throw NumericalError(fmt::format(
+        "the STEP of the changed product doesn't read back as it is: {}, {:.6g} mm3 instead of "
+        "{:.6g} mm3",
+        again.findings.empty() ? "valid" : again.findings.front(), again.volume, edited.volume));
+  }
+}
+
+}  // namespace
+
+Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
+  Json notes = Json::array();
+  const CadModel source = model_of(request.at("source"), notes);
+  progress.update(0.2, "read the product");
+  const EditedModel edited = edit_features(source, edits_of(request.value("edits", Json::array())));
+  for (const std::string& note : edited.notes) notes.push_back(note);
+  progress.update(0.5, "changed its features");
+
+  Json reply = {{"volume_mm3", edited.volume},
+                {"faces", edited.model.face_count()},
+                {"edges", edited.model.edge_count()},
+                {"solids", edited.model.solid_count()}};
+  if (request.value("change", true)) {
+    Json none = Json::array();
+    const CadModel before =
+        request.contains("reference") ? model_of(request.at("reference"), none) : source;
+    const std::string keep_out = request.value("keep_out", std::string());
+    const SurfaceChange change =
+        surface_change(before, edited.model,
+                       keep_out.empty() ? std::vector<int>() : choose_faces(before, keep_out));
+    reply["volume_before_mm3"] = volume_of(before);
+    reply["largest_change_mm"] = change.largest;
+    reply["keep_out_change_mm"] = change.of_faces;
+  }
+  progress.update(0.7, "measured the change");
+  if (request.value("step", false)) {
+    write_step(folder / "product.step", edited.model);
+    require_same(folder / "product.step", edited);
+  }
+  if (request.value("mesh", true)) {
+    TessellationOptions options;
+    if (request.contains("chordal_error_mm")) {
+      options.chordal_error = request.at("chordal_error_mm").get<double>();
+    }
+    Tessellation mesh = tessellate(edited.model, options);
+    for (const std::string& note : mesh.notes) notes.push_back(note);
+    reply["chordal_error_mm"] = mesh.chordal_error;
+    write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  }
+  reply["notes"] = std::move(notes);
+  progress.update(1.0, "made");
+  return reply;
+}
+
+}  // namespace palmar::cad_worker

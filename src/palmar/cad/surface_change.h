@@ -1,0 +1,23 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/cad/cad_model.h"
+
+namespace palmar {
+
+/// How far a changed model's surface lies from the surface before, mm.
+struct SurfaceChange {
+  double largest = 0.0;   ///< over both surfaces' points: to the nearest point of the other one
+  double of_faces = 0.0;  ///< over the points of the given faces before, to the surface after
+};
+
+/// Measured on triangles within 0.02 mm of the surfaces, at points not farther apart than a
+/// hundredth of the model's size (at most 2 mm): a Hausdorff distance. `faces`: numbers in
+/// `before`.
+SurfaceChange surface_change(const CadModel& before, const CadModel& after,
+                             const std::vector<int>& faces = {});
+
+}  // namespace palmar
