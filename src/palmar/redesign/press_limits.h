@@ -1,0 +1,63 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/redesign/press_region.h"
+#include "palmar/redesign/pressed_shape.h"
+
+namespace palmar {
+
+// What holds a pressed shape within its limits; parts of press_shape().
+
+/// 0 at x <= 0, 1 at x >= 1, level at both: 3 x^2 - 2 x^3.
+double smooth_step(double x);
+
+/// `depth` below 0.75 limit; beyond that a curve without a kink that comes near `limit` [mm] and
+/// never reaches it.
+double held_below(double depth, double limit);
+
+/// Distance of each point to a mesh, mm; `range` where it is farther.
+std::vector<double> distance_to(const TriangleMesh& mesh, const std::vector<Vec3>& points,
+                                double range);
+
+/// Per triangle of the product: 1 if it lies on a face that is kept out; empty if no face is named.
+/// Throws UsageError naming a face that doesn't exist, or that the product has none.
+std::vector<unsigned char> kept_face_triangles(const Product& product, const KeepOut& keep_out);
+
+/// All triangles of the region's mesh that must not be pressed: by face, or by a box of `keep_out`.
+TriangleMesh kept_part(const PressRegion& region, const std::vector<unsigned char>& kept_faces,
+                       const KeepOut& keep_out);
+
+/// The surface as it becomes when every vertex of the region goes `depth` [mm] against its outward
+/// direction.
+class PressedSurface {
+ public:
+  /// Both must outlive it. `outward` is per vertex of the region.
+  PressedSurface(const PressRegion& region, const std::vector<Vec3>& outward)
+      : region_(region), outward_(outward) {}
+
+  std::vector<Vec3> moved(const std::vector<double>& depth) const;
+
+  /// Shares in [0, 1] of `depth` per vertex for which the surface doesn't fold or cross itself
+  /// where the original didn't, and vertices keep `wall` [mm] of product under them, along their
+  /// direction, that had it (`wall_before`). 1 where nothing is wrong; round what is wrong it is
+  /// halved, with a blend, until nothing is.
+  std::vector<double> sound_share(const std::vector<double>& depth,
+                                  const std::vector<double>& wall_before, double wall,
+                                  const Progress& progress) const;
+
+  /// Least thickness under vertices deeper than `pressed`, mm; infinity if there are none.
+  double thinnest_wall(const std::vector<double>& depth, double pressed) const;
+
+ private:
+  std::vector<double> walls(const std::vector<double>& depth, double pressed) const;
+  std::vector<unsigned char> folded(const std::vector<Vec3>& moved) const;
+
+  const PressRegion& region_;
+  const std::vector<Vec3>& outward_;
+};
+
+}  // namespace palmar
