@@ -45,7 +45,7 @@ ImportedCad import_cad(const fs::path& path, const ImportCadOptions& options,
                        const CadLimits& limits, const Progress& progress) {
   check_cad_format(path);  // what needs no child is said without one
   const std::string object = path.string();
-  Json request = {{"file", fs::absolute(path).string()}, {"max_triangles", options.max_triangles}};
+  Json request = {{"file", path.string()}, {"max_triangles", options.max_triangles}};
   if (options.millimetres_per_unit) request["millimetres_per_unit"] = *options.millimetres_per_unit;
   if (options.chordal_error) request["chordal_error_mm"] = *options.chordal_error;
   const CadFolder folder;
@@ -83,7 +83,7 @@ CadVerdict check_cad_file(const fs::path& path, std::optional<double> millimetre
                           const CadLimits& limits, const Progress& progress) {
   check_cad_format(path);
   const std::string object = path.string();
-  Json request = {{"file", fs::absolute(path).string()}};
+  Json request = {{"file", path.string()}};
   if (millimetres_per_unit) request["millimetres_per_unit"] = *millimetres_per_unit;
   const CadFolder folder;
   const std::string reply = run_cad("check", request.dump(), folder, object, limits, progress);

@@ -4,18 +4,27 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "palmar/core/error.h"
-#include "palmar/io/external_program.h"
+#include "palmar/io/child_process.h"
 #include "palmar/io/file.h"
 
 namespace palmar {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLargestReply = std::uint64_t{256} << 20;  // bytes of reply.json
+/// So near the limit of memory a crash is one for want of memory.
+constexpr double kNearLimit = 0.9;
 
 fs::path worker_program() {
   if (const char* given = std::getenv("PALMAR_CAD"); given != nullptr && *given != '\0') {
@@ -24,6 +33,25 @@ fs::path worker_program() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   return (error ? fs::path() : self.parent_path()) / "palmar-cad";
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// "0.3500 tessellating": share and activity, of a child that isn't trusted.
+void report_line(const std::string& line, const Progress& progress) {
+  if (!progress.report) return;
+  char* end = nullptr;
+  const double share = std::strtod(line.c_str(), &end);
+  if (end == line.c_str() || *end != ' ' || !(share >= 0.0 && share <= 1.0)) return;
+  std::string activity = end + 1;
+  for (char& c : activity) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  progress.report(share, activity);
 }
 
 [[noreturn]] void rethrow(const std::string& message, int code) {
@@ -39,12 +67,48 @@ fs::path worker_program() {
   }
 }
 
+[[noreturn]] void fail_memory(const std::string& object, const CadLimits& limits) {
+  throw InputError(object + ": needs more than " + number(limits.memory_mb) +
+                   " MB of memory, the limit (--memory-limit-mb raises it)");
+}
+
+[[noreturn]] void fail_time(const std::string& object, const CadLimits& limits) {
+  throw InputError(object + ": took longer than " + number(limits.seconds) +
+                   " s, the limit (--time-limit-s raises it)");
+}
+
+/// What the child left behind when it ended with an error; nothing if it couldn't.
+void rethrow_told_error(const fs::path& folder, const std::string& object) {
+  const fs::path path = folder / "error.json";
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return;
+  std::string message;
+  int code = 0;
+  try {
+    const auto told = nlohmann::json::parse(read_file(path, kLargestReply));
+    message = told.at("message").get<std::string>();
+    code = told.at("exit_code").get<int>();
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(object + ": the CAD program failed and what it says is damaged");
+  }
+  rethrow(message, code);
+}
+
 }  // namespace
 
-void CadLimits::check() const {}
+void CadLimits::check() const {
+  if (!(seconds >= 0.1 && seconds <= 86400.0)) {
+    throw UsageError("time limit " + number(seconds) + " s; 0.1 to 86400 s is allowed");
+  }
+  if (!(memory_mb >= 256.0 && memory_mb <= 1048576.0)) {
+    throw UsageError("memory limit " + number(memory_mb) + " MB; 256 to 1048576 MB is allowed");
+  }
+}
 
 CadFolder::CadFolder() {
-  std::string name = (fs::temp_directory_path() / "palmar-cad-XXXXXX").string();
+  std::error_code error;
+  const fs::path base = fs::temp_directory_path(error);
+  std::string name = (error ? fs::path("/tmp") : base) / "palmar-cad-XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) {
     throw OutputError(
         name + ": a temporary folder can't be made: " + std::generic_category().message(errno));
@@ -61,16 +125,39 @@ std::string run_cad(const std::string& verb, const std::string& request, const C
                     const std::string& object, const CadLimits& limits, const Progress& progress) {
   limits.check();
   progress.throw_if_cancelled();
-  write_file(folder.path() / "request.json", request);
-  const fs::path program = worker_program();
-  const int code =
-      run_program(program, {verb, folder.path().string()}, folder.path(), "worker.log");
-  if (code == 0) return read_file(folder.path() / "reply.json");
-  if (fs::exists(folder.path() / "error.json")) {
-    const auto error = nlohmann::json::parse(read_file(folder.path() / "error.json"));
-    rethrow(error.at("message").get<std::string>(), error.at("exit_code").get<int>());
+  for (const char* const old : {"reply.json", "error.json"}) {
+    std::error_code ignored;
+    fs::remove(folder.path() / old, ignored);
   }
-  throw InputError(object + ": the CAD program ended with code " + std::to_string(code));
+  write_file(folder.path() / "request.json", request);
+  const ChildResult result = run_child(
+      worker_program(), {verb, folder.path().string()}, folder.path() / "worker.log",
+      {.seconds = limits.seconds, .memory_mb = limits.memory_mb},
+      [&progress](const std::string& line) { report_line(line, progress); },
+      [&progress] { return progress.is_cancelled(); });
+  switch (result.end) {
+    case ChildResult::End::kCancelled:
+      progress.throw_if_cancelled();
+      throw Cancelled("cancelled");
+    case ChildResult::End::kOutOfTime:
+      fail_time(object, limits);
+    case ChildResult::End::kOutOfMemory:
+      fail_memory(object, limits);
+    case ChildResult::End::kSignal:
+      if (result.code == SIGXCPU) fail_time(object, limits);
+      if (result.code == SIGKILL || result.peak_memory_mb > kNearLimit * limits.memory_mb) {
+        fail_memory(object, limits);  // the system, short of memory, ends programs by SIGKILL
+      }
+      throw InputError(object + ": the CAD kernel crashed on it: " + words_of_signal(result.code) +
+                       "; the file is damaged, or holds what the kernel can't handle");
+    case ChildResult::End::kExited:
+      break;
+  }
+  if (result.code == kCadOutOfMemory) fail_memory(object, limits);
+  if (result.code == 0) return read_file(folder.path() / "reply.json", kLargestReply);
+  rethrow_told_error(folder.path(), object);
+  throw InputError(object + ": the CAD program ended with code " + std::to_string(result.code) +
+                   " and said nothing");
 }
 
 }  // namespace palmar

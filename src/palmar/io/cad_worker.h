@@ -17,6 +17,9 @@ struct CadLimits {
   void check() const;       ///< throws UsageError: field, value, allowed range
 };
 
+/// Exit code of the child when memory was refused to it.
+inline constexpr int kCadOutOfMemory = 71;
+
 /// A folder of its own for one run of the worker, removed at the end of its life.
 class CadFolder {
  public:
