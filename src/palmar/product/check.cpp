@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdio>
 
+#include "palmar/geometry/boundary_loops.h"
+#include "palmar/geometry/low_triangles.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/orient.h"
@@ -20,6 +22,7 @@ constexpr double kWidestGrip = 110.0;      // mm
 constexpr double kThinnestHandle = 4.0;    // mm
 constexpr double kShortestProduct = 20.0;  // mm
 constexpr double kTinyShare = 0.01;        // of the diagonal of the whole
+constexpr double kLowShare = 1e-6;         // of the diagonal: height of a triangle without area
 constexpr double kFlattestShare = 1e-3;    // volume / (area * size) below which nothing is enclosed
 
 std::string number(double value) {
@@ -85,6 +88,14 @@ void judge(ProductCheck& c, const OrientResult& oriented) {
   if (c.non_manifold_edges > 0) {
     add(Severity::kNote,
         counted(c.non_manifold_edges, "edge has", "edges have") + " more than two triangles");
+  }
+  if (c.duplicate_triangles > 0) {
+    add(Severity::kNote,
+        counted(c.duplicate_triangles, "triangle stands", "triangles stand") + " there twice");
+  }
+  if (c.low_triangles > 0) {
+    add(Severity::kNote,
+        counted(c.low_triangles, "triangle has", "triangles have") + " no area to speak of");
   }
   if (c.is_inverted) add(Severity::kWarning, "inside out: its triangles face inwards");
   if (c.flipped_triangles > 0) {
@@ -156,6 +167,7 @@ std::string name_of(Severity severity) {
 ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
   ProductCheck c;
   const TriangleMesh welded = weld(mesh, {.drops_duplicates = false}).mesh;
+  c.duplicate_triangles = weld(welded).dropped_duplicate;
   c.triangles = welded.triangle_count();
   c.vertices = welded.vertex_count();
   c.area = surface_area(welded);
@@ -169,6 +181,9 @@ ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
   c.parts = report.components;
   c.boundary_edges = report.boundary_edges;
   c.holes = report.boundary_loops;
+  for (const BoundaryLoop& loop : find_boundary_loops(welded, topology).loops) {
+    c.hole_perimeters.push_back(loop.perimeter);
+  }
   c.non_manifold_edges = report.non_manifold_edges;
   c.euler_number = report.euler_number;
   c.is_closed = report.is_closed;
@@ -178,6 +193,11 @@ ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
   c.extent = principal_extent(welded);
   c.is_too_big = c.extent.x() > kWidestGrip;
   c.is_too_small = c.extent.z() < kShortestProduct || c.extent.y() < kThinnestHandle;
+  c.low_triangles = static_cast<int>(
+      std::count_if(welded.triangles.begin(), welded.triangles.end(), [&](const Triangle& t) {
+        return least_height(welded.vertices[t[0]], welded.vertices[t[1]], welded.vertices[t[2]]) <=
+               kLowShare * c.size.norm();
+      }));
   c.tiny_parts =
       count_tiny_parts(welded, triangle_components(welded, topology), c.parts, c.size.norm());
   if (looks_for_crossings) {
@@ -186,6 +206,8 @@ ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
   const OrientResult oriented = orient_outwards(welded);
   c.flipped_patches = oriented.flipped_patches + oriented.mended_patches;
   c.flipped_triangles = static_cast<int>(oriented.flipped_triangles.size());
+  c.undecided_patches = oriented.undecided_patches;
+  c.twisted_patches = oriented.twisted_patches;
   judge(c, oriented);
   rank(c);
   return c;

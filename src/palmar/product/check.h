@@ -30,10 +30,15 @@ struct ProductCheck {
   int parts = 0;       ///< connected pieces
   int tiny_parts = 0;  ///< pieces below a hundredth of the size of the whole: dust of a scan
   int boundary_edges = 0;
-  int holes = 0;  ///< loops of boundary edges
+  int holes = 0;                        ///< loops of boundary edges
+  std::vector<double> hole_perimeters;  ///< mm, of each hole
   int non_manifold_edges = 0;
+  int duplicate_triangles = 0;       ///< that stand there a second time
+  int low_triangles = 0;             ///< without area: lower than a millionth of the size
   int flipped_patches = 0;           ///< that face inwards, or whose triangles disagree
   int flipped_triangles = 0;         ///< that must be turned
+  int undecided_patches = 0;         ///< of which it can't be told which side is outside
+  int twisted_patches = 0;           ///< one-sided
   int crossing_pairs = 0;            ///< pairs of triangles that go through each other
   int euler_number = 0;              ///< 2 for a ball, 0 for a ring, 2 - 2 g for g tunnels, closed
   bool is_closed = false;            ///< no boundary edge
