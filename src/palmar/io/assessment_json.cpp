@@ -158,6 +158,27 @@ Json contact_object(const ContactResult& contact) {
   return json;
 }
 
+Json face_array(const Product& product, const std::vector<FaceContact>& contacts) {
+  Json faces = Json::array();
+  for (const FaceContact& contact : contacts) {
+    const ProductFace& face = product.faces->face[static_cast<std::size_t>(contact.face)];
+    faces.push_back({{"face", face.number},
+                     {"title", title_of(face)},
+                     {"name", face.name},
+                     {"part", face.part},
+                     {"kind", name_of(face.kind)},
+                     {"is_fillet", face.is_fillet},
+                     {"radius_mm", face.radius > 0.0 ? Json(face.radius) : Json(nullptr)},
+                     {"area_mm2", face.area},
+                     {"force_n", contact.force},
+                     {"contact_area_mm2", contact.area},
+                     {"peak_pressure_mpa", contact.peak_pressure},
+                     {"mean_pressure_mpa", contact.mean_pressure},
+                     {"has_peak", contact.has_peak}});
+  }
+  return faces;
+}
+
 Json wrench_object(const Wrench& wrench) {
   return {{"force_n", vector3(wrench.force)}, {"moment_about_origin_n_mm", vector3(wrench.moment)}};
 }
@@ -336,6 +357,7 @@ std::string assessment_json(const AssessmentSet& set) {
                   {"indices", indices_object(assessment.contact, assessment.indices)},
                   {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};
+    if (one.product.faces != nullptr) entry["faces"] = face_array(one.product, assessment.faces);
     Json times = {{"grasp", assessment.times.grasp},
                   {"balance", assessment.times.balance},
                   {"contact", assessment.times.contact},

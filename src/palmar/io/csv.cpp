@@ -125,4 +125,33 @@ CsvTable region_table(const AssessmentSet& set) {
   return table;
 }
 
+CsvTable face_table(const AssessmentSet& set) {
+  CsvTable table;
+  table.header = {"product",
+                  "hand",
+                  "face",
+                  "title",
+                  "name",
+                  "kind",
+                  "radius_mm",
+                  "area_mm2",
+                  "force_n",
+                  "contact_area_mm2",
+                  "peak_pressure_mpa",
+                  "mean_pressure_mpa",
+                  "has_peak",
+                  "source"};
+  for (const AssessedProduct& one : set.assessments) {
+    for (const FaceContact& contact : one.assessment.faces) {
+      const ProductFace& face = one.product.faces->face[static_cast<std::size_t>(contact.face)];
+      table.rows.push_back({one.product.name, one.assessment.hand_name, std::to_string(face.number),
+                            title_of(face), face.name, name_of(face.kind), shortest(face.radius),
+                            shortest(face.area), shortest(contact.force), shortest(contact.area),
+                            shortest(contact.peak_pressure), shortest(contact.mean_pressure),
+                            contact.has_peak ? "1" : "0", one.product.source});
+    }
+  }
+  return table;
+}
+
 }  // namespace palmar

@@ -25,4 +25,8 @@ std::string format_csv(const CsvTable& table);
 /// one name apart.
 CsvTable region_table(const AssessmentSet& set);
 
+/// One row per face under pressure of products that have faces: title and number, force, area under
+/// pressure, pressures.
+CsvTable face_table(const AssessmentSet& set);
+
 }  // namespace palmar

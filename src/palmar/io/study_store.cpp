@@ -17,6 +17,7 @@
 #include "palmar/core/version.h"
 #include "palmar/geometry/mesh_distance.h"
 #include "palmar/io/bytes.h"
+#include "palmar/io/face_mesh_file.h"
 #include "palmar/io/hand_file.h"
 #include "palmar/io/made_product.h"
 #include "palmar/io/sha256.h"
@@ -238,11 +239,23 @@ struct StudyStore::Impl {
     return numbers;
   }
   StudyHead head() const {
-    StudyHead result{.plan = plan, .hand = "", .products = {}, .shard = shard, .program = program};
-    SqliteStatement rows(*file, "SELECT kind, data FROM input ORDER BY kind, number");
+    StudyHead result{.plan = plan,
+                     .hand = "",
+                     .products = {},
+                     .faces = std::vector<std::string>(plan.products.size()),
+                     .shard = shard,
+                     .program = program};
+    SqliteStatement rows(*file, "SELECT kind, data, number FROM input ORDER BY kind, number");
     while (rows.next()) {
-      if (rows.text(0) == "hand") {
+      const std::string kind = rows.text(0);
+      const std::int64_t number = rows.integer(2);
+      if (kind == "hand") {
         result.hand = rows.blob(1);
+      } else if (kind == "faces") {
+        if (number < 0 || number >= std::ssize(result.faces)) {
+          throw InputError("its inputs are damaged");
+        }
+        result.faces[static_cast<std::size_t>(number)] = rows.blob(1);
       } else {
         result.products.push_back(rows.blob(1));
       }
@@ -267,10 +280,15 @@ void StudyStore::create(const fs::path& path, const StudyPlan& plan, const Study
   StudyHead head{.plan = plan,
                  .hand = pack(format_hand(*inputs.base)),
                  .products = {},
+                 .faces = {},
                  .shard = shard,
                  .program = version()};
-  for (const Product& product : inputs.products) {
+  for (std::size_t i = 0; i < inputs.products.size(); ++i) {
+    const Product& product = inputs.products[i];
     head.products.push_back(pack(mesh_bytes(product.mesh)));
+    // What Palmar makes it makes again, with its faces.
+    const bool is_kept = product.faces != nullptr && !is_made(plan.products[i].file);
+    head.faces.push_back(is_kept ? pack(faces_bytes(*product.faces)) : "");
   }
   const Draft draft{beside(path, "." + std::to_string(::getpid()) + ".new")};
   write_draft(path, draft, [&] { build_store(draft.path, head, false, {}); });
@@ -316,12 +334,17 @@ StudyInputs StudyStore::inputs() const {
     for (std::size_t i = 0; i < head.products.size(); ++i) {
       const StudyProduct& asked = impl_->plan.products[i];
       Product product;
-      if (is_made(asked.file)) {
-        product = make_solid(made_from(asked.file), asked.size);  // its distance is exact
+      if (is_made(asked.file) && is_analytic(made_from(asked.file))) {
+        product = make_solid(made_from(asked.file), {.size = asked.size});  // its distance is exact
       } else {
         product.mesh = mesh_from_bytes(unpack(head.products[i]));
         product.distance = std::make_shared<const MeshDistance>(product.mesh);
         product.source = asked.file;
+        if (!head.faces[i].empty()) {
+          product.faces = std::make_shared<const ProductFaces>(
+              faces_from_bytes(unpack(head.faces[i]), product.mesh.triangle_count(),
+                               "what it says of the faces of product \"" + asked.name + "\""));
+        }
       }
       if (content_hash(product.mesh) != asked.content_hash) {
         throw InputError("product \"" + asked.name + "\" in it is damaged");

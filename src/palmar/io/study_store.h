@@ -17,9 +17,10 @@
 
 namespace palmar {
 
-/// Version of the stores that this program writes; a newer one is refused
-/// (docs/using/study-store.md has every table).
-inline constexpr int kStudyStoreVersion = 1;
+/// Newest version of the stores that this program reads and writes; a newer one is refused
+/// (docs/using/study-store.md has every table). Version 2 keeps faces of products; a study without
+/// any is written as version 1.
+inline constexpr int kStudyStoreVersion = 2;
 
 /// Another process writes the study, or reads what this one wants to write.
 class StudyBusy : public Error {

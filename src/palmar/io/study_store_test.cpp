@@ -189,6 +189,54 @@ void make_store(const fs::path& path, const Study& study, std::vector<std::int64
   store.finish();
 }
 
+TEST(StudyStore, KeepsTheFacesOfProducts) {
+  const TestFolder folder;
+  const fs::path path = folder / "faces.palmar";
+  Study study = small_study();
+  auto faces = std::make_shared<ProductFaces>();
+  ProductFace fillet, plane;
+  fillet.number = 1;
+  fillet.kind = FaceKind::kCylinder;
+  fillet.radius = 10.0 / 3.0;
+  fillet.is_fillet = true;
+  fillet.area = 31.0;
+  plane.number = 2;
+  plane.name = "Griff, \"außen\"";
+  plane.part = "drill / handle";
+  faces->face = {fillet, plane};
+  faces->edge.push_back({});
+  faces->edge[0].number = 1;
+  faces->edge[0].faces = {0, 1};
+  faces->edge[0].points = {{0, 0, 0}, {0, 31.0 / 3.0, 0}};
+  faces->face_of_triangle = {0, 1, 1, 0};
+  study.inputs.products[1].faces = faces;
+  StudyStore::create(path, study.plan, study.inputs);
+  EXPECT_EQ(read_file(path)[63], 2);
+  const auto has_faces = [&](const fs::path& store) {
+    const StudyInputs inputs = StudyStore(store).inputs();
+    const ProductFaces& kept = *inputs.products.at(1).faces;
+    EXPECT_EQ(kept.face.size(), 2U);
+    EXPECT_EQ(kept.face_of_triangle, faces->face_of_triangle);
+    EXPECT_EQ(title_of(kept.face[0]), "face 1 (fillet r 3.33)");
+    EXPECT_EQ(kept.face[0].radius, 10.0 / 3.0);
+    EXPECT_EQ(title_of(kept.face[1]), title_of(plane));
+    EXPECT_EQ(kept.face[1].part, "drill / handle");
+    EXPECT_EQ(kept.edge.at(0).points.at(1).y(), 31.0 / 3.0);
+    // What Palmar makes brings its own.
+    EXPECT_EQ(inputs.products.at(0).faces->face.at(0).name, "side");
+  };
+  has_faces(path);
+  {
+    StudyStore store(path, StudyAccess::kWrite);
+    for (const std::int64_t number : store.missing()) store.keep(record_for(number));
+    store.finish();
+  }
+  has_faces(path);
+  EXPECT_EQ(read_file(path)[63], 2);
+  merge_studies({path}, folder / "merged.palmar");
+  has_faces(folder / "merged.palmar");
+}
+
 TEST(StudyStore, GivesBackWhatItWasGiven) {
   const TestFolder folder;
   const Study study = small_study();
@@ -389,9 +437,10 @@ TEST(StudyStore, DamagedFilesAreNamed) {
     EXPECT_THAT(outcome(good.substr(0, length)), HasSubstr("bad.palmar: is damaged")) << length;
   }
   std::string newer = good;
-  newer[63] = 2;
-  EXPECT_THAT(outcome(newer), HasSubstr("bad.palmar: study of version 2; this program reads up to "
-                                        "version 1 (a newer Palmar wrote it)"));
+  EXPECT_EQ(newer[63], 1);  // no faces: every Palmar reads it
+  newer[63] = 3;
+  EXPECT_THAT(outcome(newer), HasSubstr("bad.palmar: study of version 3; this program reads up to "
+                                        "version 2 (a newer Palmar wrote it)"));
   // One byte of a value: the same file for SQLite, another result.
   const double force = record_for(4).force;
   std::string big_endian(reinterpret_cast<const char*>(&force), sizeof force);

@@ -276,6 +276,13 @@ std::string grasp_query(bool with_fields, bool with_times, std::optional<std::in
   return columns + tables + only_number("g.number", only) + " ORDER BY g.number";
 }
 
+/// The oldest that holds it: what has no faces can be read by every Palmar.
+int version_of(const StudyHead& head) {
+  const bool has_faces = std::any_of(head.faces.begin(), head.faces.end(),
+                                     [](const std::string& one) { return !one.empty(); });
+  return has_faces ? kStudyStoreVersion : 1;
+}
+
 }  // namespace
 
 StudyTableReader::StudyTableReader(SqliteFile& file, bool with_fields,
@@ -370,7 +377,7 @@ void build_store(const std::filesystem::path& path, const StudyHead& head, bool 
            "; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA secure_delete = ON;"
            "PRAGMA locking_mode = EXCLUSIVE; PRAGMA application_id = " +
            std::to_string(kStudyApplicationId) +
-           "; PRAGMA user_version = " + std::to_string(kStudyStoreVersion) + "; BEGIN EXCLUSIVE");
+           "; PRAGMA user_version = " + std::to_string(version_of(head)) + "; BEGIN EXCLUSIVE");
   file.run(kTables);
   if (!is_finished) file.run(kTimings);
   const std::string plan = format_plan(head.plan);
@@ -384,6 +391,10 @@ void build_store(const std::filesystem::path& path, const StudyHead& head, bool 
         .bind(2, static_cast<std::int64_t>(i))
         .bind_blob(3, head.products[i])
         .run();
+  }
+  for (std::size_t i = 0; i < head.faces.size(); ++i) {
+    if (head.faces[i].empty()) continue;
+    input.bind(1, "faces").bind(2, static_cast<std::int64_t>(i)).bind_blob(3, head.faces[i]).run();
   }
   insert_plan(file, head.plan);
   {

@@ -71,6 +71,7 @@ struct StudyHead {
   const StudyPlan& plan;
   std::string hand;                   ///< packed, as in table `input`
   std::vector<std::string> products;  ///< packed
+  std::vector<std::string> faces;     ///< packed, by product; "": has none, or Palmar makes it
   StudyShard shard;
   std::string program;
 };

@@ -171,6 +171,8 @@ void check_report_folder(const std::string& folder) {
   refuse_unless("report.html", [](const std::string& text) {
     return text.find("<meta name=\"generator\" content=\"Palmar ") != std::string::npos;
   });
+  refuse_unless("faces.csv",
+                [](const std::string& text) { return text.starts_with("product,hand,face,"); });
   refuse_unless("regions.csv",
                 [](const std::string& text) { return text.starts_with("product,hand,region,"); });
 }
@@ -186,6 +188,11 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   const std::string json = assessment_json(set);
   write_file(root / "assessment.json", json);
   write_file(root / "regions.csv", format_csv(region_table(set)));
+  const CsvTable faces = face_table(set);
+  // One of an earlier run must not stand beside results that it isn't of.
+  if (!faces.rows.empty() || std::filesystem::exists(root / "faces.csv")) {
+    write_file(root / "faces.csv", format_csv(faces));
+  }
 
   const ColourScale scale = pressure_scale(set);
   std::vector<std::vector<EncodedPicture>> embedded(set.assessments.size());

@@ -9,6 +9,7 @@
 #include "palmar/io/vtk.h"
 #include "palmar/report/balance_section.h"
 #include "palmar/report/error_band.h"
+#include "palmar/report/face_tables.h"
 #include "palmar/report/friction_section.h"
 #include "palmar/report/html_comparison.h"
 #include "palmar/report/html_style.h"
@@ -145,7 +146,8 @@ std::string product_section(const Hand& hand, const AssessedProduct& one,
   if (is_judged) html += balance_section(assessment);
   html += scene_view(hand, one, scale, "scene-" + std::to_string(index));
   if (is_judged) {
-    html += charts(contact) + region_contact_table(contact) + error_band_section(assessment);
+    html += charts(contact) + region_contact_table(contact) + face_contact_table(one) +
+            error_band_section(assessment);
   } else if (!contact.regions.empty()) {
     html += "<details><summary>What the hand touches all the same</summary>" +
             region_contact_table(contact) + "</details>\n";

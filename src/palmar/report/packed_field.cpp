@@ -63,17 +63,22 @@ std::string packed_positions(std::span<const Vec3> places) {
 }
 
 std::string packed_triangles(std::span<const Triangle> triangles) {
+  std::vector<int> corners;
+  corners.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  return packed_numbers(corners);
+}
+
+std::string packed_numbers(std::span<const int> numbers) {
   std::string bytes;
-  bytes.reserve(12 * triangles.size());
+  bytes.reserve(4 * numbers.size());
   std::uint32_t before = 0;
-  for (const Triangle& t : triangles) {
-    for (const int v : t) {
-      const std::uint32_t difference = static_cast<std::uint32_t>(v) - before;
-      for (int shift = 0; shift < 32; shift += 8) {
-        bytes += static_cast<char>(difference >> shift & 0xffU);
-      }
-      before = static_cast<std::uint32_t>(v);
+  for (const int number : numbers) {
+    const std::uint32_t difference = static_cast<std::uint32_t>(number) - before;
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes += static_cast<char>(difference >> shift & 0xffU);
     }
+    before = static_cast<std::uint32_t>(number);
   }
   return deflated(bytes);
 }

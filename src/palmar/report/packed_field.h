@@ -23,6 +23,9 @@ std::string packed_positions(std::span<const Vec3> places);
 /// 3 per triangle, as int32 little-endian differences to the corner before.
 std::string packed_triangles(std::span<const Triangle> triangles);
 
+/// The same for any whole numbers: int32 differences to the one before.
+std::string packed_numbers(std::span<const int> numbers);
+
 /// Values as shares of `upper` in 255 steps, one byte each; what is above has the colour of the
 /// end.
 std::string packed_shares(std::span<const double> values, double upper);

@@ -17,15 +17,8 @@ std::string count(int value) { return std::to_string(value); }
 
 using Row = std::vector<std::string>;
 
-/// The columns that every table begins with, and their names.
+/// The columns that every table begins with.
 const Row kConditionHeader = {"population", "profile", "setting", "grip"};
-Row condition_cells(const StudyPlan& plan, const StudyCondition& one) {
-  const std::optional<Grip>& grip = plan.grips[at(one.grip)];
-  return {one.population ? plan.populations[at(*one.population)].population.name : "all",
-          plan.profiles[at(one.profile)].name, plan.settings[at(one.setting)].name,
-          grip ? std::string(name_of(*grip)) : "auto"};
-}
-
 Row joined(Row first, const Row& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -170,6 +163,13 @@ CsvTable size_table(const StudyResults& results, const StudyAnalysis& analysis) 
 }
 
 }  // namespace
+
+std::vector<std::string> condition_cells(const StudyPlan& plan, const StudyCondition& one) {
+  const std::optional<Grip>& grip = plan.grips[at(one.grip)];
+  return {one.population ? plan.populations[at(*one.population)].population.name : "all",
+          plan.profiles[at(one.profile)].name, plan.settings[at(one.setting)].name,
+          grip ? std::string(name_of(*grip)) : "auto"};
+}
 
 CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analysis,
                         const std::string& key) {

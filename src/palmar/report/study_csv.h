@@ -21,6 +21,9 @@ struct NamedTable {
 /// size_dependence.csv, sizes.csv. Units stand in the headers or in a column beside the quantity.
 std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis);
 
+/// Population, profile, setting and grip of a condition: what every table begins with.
+std::vector<std::string> condition_cells(const StudyPlan& plan, const StudyCondition& one);
+
 /// The comparison alone; only of one quantity if `key` isn't empty.
 CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analysis,
                         const std::string& key = {});

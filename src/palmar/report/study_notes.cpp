@@ -139,10 +139,15 @@ std::string scene_section(const StudyPage& page) {
       "class=\"view-bar\">" +
       svg_bar(page.scales.grasp, "grasp", false) + svg_bar(page.scales.mean, "mean", true) +
       svg_bar(page.scales.sd, "sd", false) + svg_bar(page.scales.above, "above", false) +
-      "</div></div><p class=\"view-says\" aria-live=\"polite\"></p><div class=\"controls\">" +
-      toggle("skin", "Hand", true) + toggle("pressure", "Pressure on the skin", true) +
-      toggle("product", "Product", true) + toggle("footprint", "Pressure on the product", false) +
+      "</div></div><p class=\"view-says\" aria-live=\"polite\"></p>" +
+      (page.faces.empty() ? ""
+                          : "<p class=\"view-says view-face\">Point at the product: its face is "
+                            "named here.</p>") +
+      "<div class=\"controls\">" + toggle("skin", "Hand", true) +
+      toggle("pressure", "Pressure on the skin", true) + toggle("product", "Product", true) +
+      toggle("footprint", "Pressure on the product", false) +
       toggle("see-through", "See through the product", true) +
+      (page.faces.empty() ? "" : toggle("faces", "Borders of faces", true)) +
       toggle("open", "Maps on the open hand", false) +
       "</div><div class=\"controls\"><span>Look from:</span>" + look("palm", "Palm") +
       look("back", "Back") + look("thumb", "Thumb side") + look("little", "Little finger") +

@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/version.h"
 #include "palmar/io/vtk.h"
+#include "palmar/report/face_tables.h"
 #include "palmar/report/html_style.h"
 #include "palmar/report/html_text.h"
 #include "palmar/report/plain_words.h"
@@ -99,7 +100,9 @@ std::string study_page(const StudyPage& page) {
     } else {
       html += "<p>Its figures stand beside this file in the folder figures.</p>\n";
     }
-    html += condition_tables(page, one);
+    html +=
+        face_statistics_section(plan, page.products, page.faces, one.condition, page.threshold) +
+        condition_tables(page, one);
   }
   html += scene_section(page) + pictures_of(page) + method_section(page) + provenance_section(page);
   return html + "</main>\n<footer><p>Made by Palmar " + html_escaped(version()) +

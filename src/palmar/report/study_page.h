@@ -8,6 +8,7 @@
 #include "palmar/report/html_report.h"
 #include "palmar/report/study_figures.h"
 #include "palmar/report/study_scene.h"
+#include "palmar/study/face_statistics.h"
 #include "palmar/study/study_analysis.h"
 
 namespace palmar {
@@ -21,11 +22,13 @@ struct StudyPage {
   const std::vector<StudyFigure>& figures;
   const StudyScales& scales;
   const std::vector<std::vector<EncodedPicture>>& pictures;  ///< of the maps, by product; or empty
-  std::string scene;             ///< study_scene_json(); "": no 3-D view
-  std::vector<int> shown_hands;  ///< in the 3-D view, its order
-  double threshold = 0.0;        ///< of the maps, MPa
-  std::string program;           ///< that ran the study
-  std::string digest;            ///< of the store; "": not finished
+  const std::vector<Product>& products;
+  const std::vector<FaceStatistics>& faces;  ///< of products that have any
+  std::string scene;                         ///< study_scene_json(); "": no 3-D view
+  std::vector<int> shown_hands;              ///< in the 3-D view, its order
+  double threshold = 0.0;                    ///< of the maps, MPa
+  std::string program;                       ///< that ran the study
+  std::string digest;                        ///< of the store; "": not finished
 };
 
 /// The study as one HTML document that needs no other file and no network (its content policy

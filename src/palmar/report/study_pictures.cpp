@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/study_pictures.h"
 
+#include <utility>
+
 #include "palmar/core/error.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/render.h"
@@ -9,6 +11,8 @@
 
 namespace palmar {
 namespace {
+
+constexpr Rgb kBorderColour{110, 118, 126};
 
 /// A surface with a field in the colours of a scale.
 SceneObject painted(const TriangleMesh& mesh, const std::vector<double>& field,
@@ -20,6 +24,37 @@ SceneObject painted(const TriangleMesh& mesh, const std::vector<double>& field,
   object.field_upper = scale.upper;
   object.map = scale.map;
   return object;
+}
+
+/// Borders of the product's faces as dark threads; empty if it has none.
+Scene threads_on_borders(const Product& product) {
+  if (product.faces == nullptr) return {};
+  Box3 box;
+  for (const Vec3& v : product.mesh.vertices) box.extend(v);
+  const double radius = 0.0016 * box.diagonal().norm();
+  SceneObject threads;
+  threads.colour = kBorderColour;
+  for (const auto& [a, b] : border_edges(product.mesh, product.faces->face_of_triangle)) {
+    const Vec3 &start = product.mesh.vertices[static_cast<std::size_t>(a)],
+               &end = product.mesh.vertices[static_cast<std::size_t>(b)];
+    if (!((end - start).norm() > 0.0)) continue;
+    const Vec3 along = (end - start).normalized();
+    const Vec3 across = along.unitOrthogonal() * radius;
+    const Vec3 third = along.cross(across);
+    const int first = threads.mesh.vertex_count();
+    for (const Vec3& at : {start, end}) {
+      threads.mesh.vertices.push_back(at + across);
+      threads.mesh.vertices.push_back(at - 0.5 * across + 0.866 * third);
+      threads.mesh.vertices.push_back(at - 0.5 * across - 0.866 * third);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      threads.mesh.triangles.push_back({first + k, first + next, first + 3 + next});
+      threads.mesh.triangles.push_back({first + k, first + 3 + next, first + 3 + k});
+    }
+  }
+  if (threads.mesh.triangles.empty()) return {};
+  return {std::move(threads)};
 }
 
 struct View {
@@ -82,7 +117,8 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
          name + ": share of hands whose pressure is above " + limit + ", on the open hand.", palm,
          Vec3::UnitY()},
         name, "Share of " + hands + " above " + limit, percent, options, progress));
-    const Scene held = {painted(surface, maps.on_product.mean, scales.mean, kProductColour)};
+    Scene held = {painted(surface, maps.on_product.mean, scales.mean, kProductColour)};
+    for (SceneObject& threads : threads_on_borders(product)) held.push_back(std::move(threads));
     pictures.push_back(picture_of(
         held,
         {"mean_product_palm", "Mean pressure on the product, side in the palm",

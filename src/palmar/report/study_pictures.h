@@ -13,7 +13,8 @@ namespace palmar {
 /// Pictures of a product's maps over hands, made without a display:
 ///
 ///     mean_hand, above_hand   on the template's open hand, palm side
-///     mean_product            on the product, from the side of the palm and of the fingers
+///     mean_product            on the product, from the side of the palm and of the fingers; the
+///                             borders of its faces drawn, if it has any
 ///
 /// `product_from_hand` is how a typical hand holds it. When cancelled, those that are finished.
 std::vector<Picture> study_pictures(const Hand& base, const Product& product,

@@ -11,6 +11,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/hand/hand_instance.h"
 #include "palmar/io/file.h"
+#include "palmar/report/face_tables.h"
 #include "palmar/report/study_csv.h"
 #include "palmar/report/study_figures.h"
 #include "palmar/report/study_page.h"
@@ -168,12 +169,18 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   maps.resize(plan.products.size());  // the first condition's
   const StudyScales scales = study_scales(results, maps);
 
+  const std::vector<FaceStatistics> faces =
+      face_statistics(plan, input.inputs.products, input.records, {.threshold = options.threshold});
+  if (!faces.empty()) {
+    write_file(root / "faces.csv", format_csv(face_statistics_csv(plan, input.inputs.products,
+                                                                  faces, options.threshold)));
+  }
   progress.update(0.3, "3-D view");
   const StudyHandMaker hand_of = study_hand_maker(plan, input.inputs.base);
   std::string scene;
   if (options.most_grasps > 0) {
     scene = study_scene_json({results, input.inputs, maps, condition, input.records, hand_of,
-                              scales, options.most_grasps});
+                              scales, faces, options.most_grasps});
   }
   std::vector<std::vector<EncodedPicture>> pictures(plan.products.size());
   if (options.pictures) {
@@ -182,11 +189,20 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   progress.update(0.95, "report.html");
   const std::vector<StudyWarning> warnings =
       study_warnings(results, input.inputs.products, input.inputs.base->dimensions);
-  const StudyPage page{
-      results,           analysis,         *input.inputs.base,
-      warnings,          figures,          scales,
-      pictures,          std::move(scene), shown_hands(plan, condition, options.most_grasps),
-      options.threshold, input.program,    input.digest};
+  const StudyPage page{results,
+                       analysis,
+                       *input.inputs.base,
+                       warnings,
+                       figures,
+                       scales,
+                       pictures,
+                       input.inputs.products,
+                       faces,
+                       std::move(scene),
+                       shown_hands(plan, condition, options.most_grasps),
+                       options.threshold,
+                       input.program,
+                       input.digest};
   write_file(root / "report.html", study_page(page));
 }
 

@@ -12,6 +12,7 @@
 #include "palmar/hand/skinning.h"
 #include "palmar/io/vtk.h"
 #include "palmar/report/display_mesh.h"
+#include "palmar/report/face_tables.h"
 #include "palmar/report/packed_field.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/study_words.h"
@@ -57,6 +58,7 @@ std::vector<double> unpacked(const SparseField& field, std::size_t size) {
 /// A product as it is shown: its map, coarser if it is very fine.
 struct ShownProduct {
   TriangleMesh map;
+  std::vector<int> face_of_triangle;  ///< of `map`
   DisplayMesh shown;
   std::vector<double> shown_field(const std::vector<double>& field) const {
     return display_mesh(map, field, kMostProductTriangles).value;
@@ -65,7 +67,9 @@ struct ShownProduct {
 
 ShownProduct shown_product(const Product& product) {
   ShownProduct one;
-  one.map = product_map(product.mesh);
+  ProductMap map = product_map(product);
+  one.map = std::move(map.mesh);
+  one.face_of_triangle = std::move(map.face_of_triangle);
   one.shown =
       display_mesh(one.map, std::vector<double>(one.map.vertices.size()), kMostProductTriangles);
   return one;
@@ -92,6 +96,31 @@ std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, 
             "\"";
   }
   return json + "}";
+}
+
+/// What the view says and draws of a product's faces; "null" if it has none.
+std::string faces_json(const StudySceneInput& input, int product, const ShownProduct& shown) {
+  const Product& given = input.inputs.products[at(product)];
+  if (given.faces == nullptr) return "null";
+  std::vector<const FaceSummary*> summary(given.faces->face.size(), nullptr);
+  for (const FaceStatistics& one : input.faces) {
+    if (one.product != product || !is_same(one.condition, input.condition)) continue;
+    for (const FaceSummary& face : one.faces) summary[at(face.face)] = &face;
+  }
+  std::vector<Vec3> borders;
+  for (const auto& edge : border_edges(given.mesh, given.faces->face_of_triangle)) {
+    for (const int v : edge) borders.push_back(given.mesh.vertices[at(v)]);
+  }
+  std::string says;
+  for (std::size_t f = 0; f < summary.size(); ++f) {
+    says += (f > 0 ? "," : "") + quoted(face_words(given.faces->face[f], summary[f]));
+  }
+  // A coarser mesh has other triangles than the map.
+  const bool is_whole = shown.shown.mesh.triangles.size() == shown.face_of_triangle.size();
+  return "{\"ends\":" + std::to_string(borders.size()) +
+         ",\"borders\":" + packed_positions(borders) + ",\"ofTriangle\":" +
+         (is_whole ? "\"" + packed_numbers(shown.face_of_triangle) + "\"" : "null") +
+         ",\"says\":[" + says + "]}";
 }
 
 std::string map_json(const PressureMap& skin, const PressureMap& product, const ShownProduct& shown,
@@ -282,7 +311,8 @@ std::string study_scene_json(const StudySceneInput& input) {
             ",\"distal\":" + triple(rotation * Vec3::UnitY()) +
             ",\"radial\":" + triple(rotation * (radial * Vec3::UnitX())) +
             ",\"typical\":" + std::to_string(typical) +
-            ",\"held\":" + std::to_string(input.maps[p].hands) + ",\"maps\":" +
+            ",\"held\":" + std::to_string(input.maps[p].hands) +
+            ",\"faces\":" + faces_json(input, static_cast<int>(p), one) + ",\"maps\":" +
             map_json(input.maps[p].skin, input.maps[p].on_product, one, input.scales) + "}";
   }
   json += "],\"grasps\":[";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "palmar/report/colour_bar.h"
+#include "palmar/study/face_statistics.h"
 #include "palmar/study/mean_maps.h"
 #include "palmar/study/study_hand_maker.h"
 #include "palmar/study/study_results.h"
@@ -46,7 +47,8 @@ struct StudySceneInput {
   const RecordSource& records;
   const StudyHandMaker& hand_of;
   const StudyScales& scales;
-  int most_grasps = 200;  ///< some 35 kB each in the page
+  const std::vector<FaceStatistics>& faces;  ///< of `condition` at least, of products that have any
+  int most_grasps = 200;                     ///< some 35 kB each in the page
 };
 
 /// Data of the report's 3-D view (StudySceneData in viewer/study_view.ts) as JSON: the template's

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "palmar/report/face_tables.h"
 #include "palmar/report/html_text.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/study_charts.h"
@@ -306,6 +307,10 @@ std::string summary_section(const StudyPage& page) {
   std::string html = "<h2 class=\"first\" id=\"summary\">Verdict</h2>\n<ul class=\"plain\">";
   const ConditionAnalysis& first = page.analysis.conditions.front();
   for (const std::string& sentence : study_verdict(page.results, page.analysis)) {
+    html += "<li>" + html_escaped(sentence) + "</li>";
+  }
+  for (const std::string& sentence :
+       face_sentences(plan, page.products, page.faces, first.condition)) {
     html += "<li>" + html_escaped(sentence) + "</li>";
   }
   html += "</ul>\n";

@@ -5,7 +5,7 @@
 // side. Draws when something changes.
 import {
   Color, DataTexture, DirectionalLight, HemisphereLight, NearestFilter, Object3D, PerspectiveCamera,
-  RGBAFormat, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
+  Mesh, Raycaster, RGBAFormat, Scene, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
@@ -137,6 +137,28 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.draw();
+  }
+
+  // Tells which triangle of the mesh that `of` gives lies under the pointer; -1: none.
+  onPoint(of: () => Mesh | null, tell: (triangle: number) => void): void {
+    const canvas = this.renderer.domElement;
+    const ray = new Raycaster();
+    let latest: PointerEvent | null = null;
+    const look = () => {
+      const event = latest;
+      latest = null;
+      if (!event) return;
+      const mesh = of();
+      const box = canvas.getBoundingClientRect();
+      ray.setFromCamera(new Vector2((2 * (event.clientX - box.left)) / box.width - 1,
+                                    1 - (2 * (event.clientY - box.top)) / box.height), this.camera);
+      tell(mesh ? (ray.intersectObject(mesh, false)[0]?.faceIndex ?? -1) : -1);
+    };
+    canvas.addEventListener("pointermove", (event) => {
+      if (!latest) requestAnimationFrame(look); // at most once a frame
+      latest = event;
+    });
+    canvas.addEventListener("pointerleave", () => tell(-1));
   }
 
   draw(): void {

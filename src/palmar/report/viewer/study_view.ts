@@ -4,14 +4,17 @@
 // The turnable 3-D view of a study: any hand with any product, and the maps over all hands. Data
 // are packed grasp by grasp and unpacked when looked at.
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Group, Matrix4, Mesh,
-  MeshStandardMaterial, Vector3,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Group, LineBasicMaterial,
+  LineSegments, Matrix4, Mesh, MeshStandardMaterial, Vector3,
 } from "three";
 import { Stage, Triple, bytes, rgb, scaleTexture } from "./stage";
 
 // Strings are base64 of zlib; see packed_field.h.
 interface Places { low: Triple; step: number; data: string }
 interface FieldPair { skin: string; product: string } // a byte per vertex: share of the scale's end
+
+// Of a product from CAD. Borders: pairs of ends; no ofTriangle where the mesh shown is a coarser one.
+interface ProductFaces { ends: number; borders: Places; ofTriangle: string | null; says: string[] }
 
 interface StudyProduct {
   name: string;
@@ -21,6 +24,7 @@ interface StudyProduct {
   palmward: Triple; distal: Triple; radial: Triple; // of the typical hand, product frame
   typical: number; // index into hands; -1: nobody holds it
   held: number; // hands in the maps
+  faces: ProductFaces | null;
   maps: { mean: FieldPair; sd: FieldPair; above: FieldPair };
 }
 
@@ -67,7 +71,7 @@ async function placesOf(places: Places, count: number): Promise<Float32Array> {
   return xyz;
 }
 
-async function trianglesOf(text: string): Promise<Uint32Array> {
+async function numbersOf(text: string): Promise<Uint32Array> {
   const differences = new Int32Array((await inflated(text)).buffer);
   const index = new Uint32Array(differences.length);
   let now = 0;
@@ -77,6 +81,8 @@ async function trianglesOf(text: string): Promise<Uint32Array> {
 
 class Surface {
   readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial>;
+  borders: LineSegments | null = null; // of its faces
+  faceOf: Uint32Array | null = null; // per triangle
 
   // Of two surfaces in one place the one with `isBehind` is covered.
   constructor(private readonly count: number, index: Uint32Array, isBehind: boolean) {
@@ -124,6 +130,7 @@ export class StudyView {
   private readonly surfaces = new Map<number, Promise<Surface>>(); // products
   private readonly skin: Promise<Surface>;
   private request = 0;
+  private shown: { product: number; surface: Surface } | null = null; // the product in the scene
 
   constructor(private readonly section: HTMLElement, private readonly data: StudySceneData) {
     // The thumb of a left hand points to -x.
@@ -136,11 +143,21 @@ export class StudyView {
       pressure: scaleTexture(data.table, data.neutral),
       share: scaleTexture(data.shareTable, data.neutral),
     };
-    this.skin = trianglesOf(data.triangles).then((index) => new Surface(data.vertices, index, false));
+    this.skin = numbersOf(data.triangles).then((index) => new Surface(data.vertices, index, false));
     for (const input of section.querySelectorAll<HTMLInputElement | HTMLSelectElement>("[data-toggle]")) {
       input.addEventListener("change", () => void this.show(false));
     }
+    this.stage.onPoint(() => this.shown?.surface.mesh ?? null, (triangle) => this.saysFace(triangle));
     void this.show(true);
+  }
+
+  private saysFace(triangle: number): void {
+    const line = this.section.querySelector<HTMLElement>(".view-face");
+    const faces = this.shown ? this.data.products[this.shown.product].faces : null;
+    const face = triangle >= 0 ? this.shown?.surface.faceOf?.[triangle] : undefined;
+    if (!line) return;
+    line.textContent = face === undefined || !faces ? "Point at the product: its face is named here."
+      : `${faces.says[face].charAt(0).toUpperCase()}${faces.says[face].slice(1)}.`;
   }
 
   private control<T extends HTMLElement>(name: string): T | null {
@@ -155,8 +172,14 @@ export class StudyView {
     if (!surface) {
       const one = this.data.products[k];
       surface = (async () => {
-        const made = new Surface(one.vertices, await trianglesOf(one.triangles), true);
+        const made = new Surface(one.vertices, await numbersOf(one.triangles), true);
         made.place(await placesOf(one.places, one.vertices));
+        if (one.faces) {
+          const lines = new BufferGeometry();
+          lines.setAttribute("position", new BufferAttribute(await placesOf(one.faces.borders, one.faces.ends), 3));
+          made.borders = new LineSegments(lines, new LineBasicMaterial({ color: 0x5a646e }));
+          if (one.faces.ofTriangle) made.faceOf = await numbersOf(one.faces.ofTriangle);
+        }
         return made;
       })();
       this.surfaces.set(k, surface);
@@ -198,7 +221,9 @@ export class StudyView {
     surface.paint(this.chosen("footprint") ? texture : null, this.data.productColour,
                   this.chosen("see-through") ? 0.3 : 1);
     if (xyz && this.chosen("skin")) this.group.add(skin.mesh);
-    if (this.chosen("product") && !isOpen) this.group.add(surface.mesh);
+    this.shown = this.chosen("product") && !isOpen ? { product: k, surface } : null;
+    if (this.shown) this.group.add(surface.mesh);
+    if (this.shown && surface.borders && this.chosen("faces")) this.group.add(surface.borders);
     // The open hand stands in its own frame, whose axes are the scene's.
     if (isOpen) {
       this.group.quaternion.identity();
