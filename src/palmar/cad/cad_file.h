@@ -14,7 +14,7 @@ namespace palmar {
 
 struct ReadCadOptions {
   /// mm; what one unit of the file is if the user knows better than the file.
-  std::optional<double> millimetres_per_unit;
+  std::optional<double> millimetres_per_unit = {};
   /// Assemblies may repeat parts of parts: a small file can stand for any number of bodies.
   int max_bodies = 2000;
   int max_faces = 200'000;

@@ -57,7 +57,7 @@ double chords(double radius, double turn, double chordal_error, double angle) {
   return std::max(1.0, std::ceil(std::abs(turn) / step));
 }
 
-/// Largest curvatures [1/mm] of a surface along u and v on a coarse grid.
+/// Triangles of a surface by the turns of its tangents on a coarse grid.
 double estimate_freeform(const BRepAdaptor_Surface& surface, double chordal_error, double angle) {
   constexpr int kGrid = 8;
   const double u0 = surface.FirstUParameter(), u1 = surface.LastUParameter();
@@ -179,8 +179,9 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
 }
 
 void mesh_shape(const CadModel& model, const Choice& choice, double angle,
-                const Progress& progress) {
+                IMeshTools_MeshAlgoType algorithm, const Progress& progress) {
   IMeshTools_Parameters parameters;
+  parameters.MeshAlgo = algorithm;
   parameters.Deflection = choice.chordal_error;
   parameters.DeflectionInterior = choice.chordal_error;
   parameters.Angle = angle;
@@ -194,6 +195,45 @@ void mesh_shape(const CadModel& model, const Choice& choice, double angle,
   mesher.ChangeParameters() = parameters;
   mesher.Perform(indicator->Start());
   progress.throw_if_cancelled();
+}
+
+double area_of(const Poly_Triangulation& triangulation) {
+  double area = 0.0;
+  for (int t = 1; t <= triangulation.NbTriangles(); ++t) {
+    int a = 0, b = 0, c = 0;
+    triangulation.Triangle(t).Get(a, b, c);
+    const gp_Pnt origin = triangulation.Node(a);
+    area += 0.5 * gp_Vec(origin, triangulation.Node(b))
+                      .Crossed(gp_Vec(origin, triangulation.Node(c)))
+                      .Magnitude();
+  }
+  return area;
+}
+
+/// Faces (by number) whose triangles don't cover them.
+std::vector<int> uncovered_faces(const CadModel& model, const ProductFaces& faces) {
+  constexpr double kWrong = 0.05;       // of the area; chords of a rounding in 0.25 rad lose 0.3 %
+  constexpr double kNegligible = 1e-6;  // mm^2
+  std::vector<int> uncovered;
+  for (int f = 1; f <= model.face_count(); ++f) {
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) triangulation =
+        BRep_Tool::Triangulation(TopoDS::Face(model.impl().faces(f)), place);
+    const double area = triangulation.IsNull() ? 0.0 : area_of(*triangulation);
+    const double exact = faces.face[f - 1].area;
+    if (std::abs(area - exact) > std::max(kNegligible, kWrong * exact)) uncovered.push_back(f);
+  }
+  return uncovered;
+}
+
+/// The fast algorithm; where it leaves faces uncovered, the thorough one, if that covers more.
+std::vector<int> mesh_and_examine(const CadModel& model, const ProductFaces& faces,
+                                  const Choice& choice, double angle, const Progress& progress) {
+  mesh_shape(model, choice, angle, IMeshTools_MeshAlgoType_Delabella, progress);
+  std::vector<int> uncovered = uncovered_faces(model, faces);
+  if (uncovered.empty()) return uncovered;
+  mesh_shape(model, choice, angle, IMeshTools_MeshAlgoType_Watson, progress);
+  return uncovered_faces(model, faces);
 }
 
 /// Vertices that edges and corners of the model make one.
@@ -225,7 +265,6 @@ struct MeshBuilder {
   std::vector<std::vector<int>> nodes_of_edge;  ///< the first face's nodes along it
   std::vector<int> node_of_corner;              ///< per vertex of the model
   TopTools_IndexedMapOfShape corners;
-  std::vector<int> faces_without_mesh;
 
   MeshBuilder(const CadModel& cad, Tessellation& tessellation)
       : model(cad), result(tessellation), nodes_of_edge(cad.edge_count()) {
@@ -277,10 +316,7 @@ struct MeshBuilder {
     const TopoDS_Face& face = TopoDS::Face(model.impl().faces(f + 1));
     TopLoc_Location place;
     const Handle(Poly_Triangulation) triangulation = BRep_Tool::Triangulation(face, place);
-    if (triangulation.IsNull() || triangulation->NbTriangles() == 0) {
-      faces_without_mesh.push_back(f + 1);
-      return;
-    }
+    if (triangulation.IsNull()) return;
     const gp_Trsf move = place.Transformation();
     const int first_node = welder.size();
     for (int n = 1; n <= triangulation->NbNodes(); ++n) {
@@ -370,7 +406,8 @@ Tessellation tessellate(const CadModel& model, const TessellationOptions& option
   const double guess = estimate_all(model, choice.chordal_error, options.angle);
   if (guess > kDoubt * options.max_triangles) fail_too_many(guess, choice, options, true);
   progress.update(0.1, "tessellating");
-  mesh_shape(model, choice, options.angle, progress);
+  const std::vector<int> uncovered =
+      mesh_and_examine(model, result.faces, choice, options.angle, progress);
   const long long count = triangles_of(model);
   if (count > options.max_triangles) {
     fail_too_many(static_cast<double>(count), choice, options, false);
@@ -383,14 +420,16 @@ Tessellation tessellate(const CadModel& model, const TessellationOptions& option
     throw InputError("none of its " + std::to_string(model.face_count()) +
                      " faces can be turned into triangles");
   }
-  if (!builder.faces_without_mesh.empty()) {
+  if (!uncovered.empty()) {
     std::string text;
     constexpr std::size_t kMostNamed = 10;
-    for (std::size_t i = 0; i < std::min(kMostNamed, builder.faces_without_mesh.size()); ++i) {
-      text += (i > 0 ? ", " : "") + std::to_string(builder.faces_without_mesh[i]);
+    for (std::size_t i = 0; i < std::min(kMostNamed, uncovered.size()); ++i) {
+      text += (i > 0 ? ", " : "") + std::to_string(uncovered[i]);
     }
-    result.notes.push_back(std::to_string(builder.faces_without_mesh.size()) +
-                           " faces can't be turned into triangles (face " + text + ")");
+    if (uncovered.size() > kMostNamed) text += ", ...";
+    result.notes.push_back(
+        (uncovered.size() == 1 ? "1 face is" : std::to_string(uncovered.size()) + " faces are") +
+        " not covered by triangles as they should be (face " + text + ")");
   }
   result.chordal_error = choice.chordal_error;
   result.chordal_reason = choice.reason;

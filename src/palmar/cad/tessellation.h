@@ -17,8 +17,8 @@ struct TessellationOptions {
   /// mm; largest gap between a triangle's edge and the surface. Unset: a 2000th of the model's
   /// longest side, a 20th of the smallest fillet or rounding, within 0.01 to 0.2 mm; and coarser if
   /// the triangles would be more than allowed (told).
-  std::optional<double> chordal_error;
-  double angle = 0.2;  ///< rad; most between neighbouring chords of a curve
+  std::optional<double> chordal_error = {};
+  double angle = 0.25;  ///< rad; most between neighbouring chords of a curve
   int max_triangles = 2'000'000;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };

@@ -15,8 +15,8 @@
 namespace palmar {
 
 struct ImportCadOptions {
-  std::optional<double> millimetres_per_unit;  ///< unset: as the file says
-  std::optional<double> chordal_error;         ///< mm; unset: from size and smallest radius
+  std::optional<double> millimetres_per_unit = {};  ///< unset: as the file says
+  std::optional<double> chordal_error = {};         ///< mm; unset: from size and smallest radius
   int max_triangles = 2'000'000;
 };
 

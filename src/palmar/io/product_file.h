@@ -14,11 +14,12 @@ namespace palmar {
 struct LoadProductOptions {
   /// Unit of the file. Unset: the format's own unit, else one proposed from the size against a hand
   /// and told in Product::notes.
-  std::optional<LengthUnit> unit;
+  std::optional<LengthUnit> unit = {};
   // Of CAD files (STEP, IGES):
-  std::optional<double> chordal_error;  ///< mm; unset: from size and smallest radius, told in notes
-  CadLimits limits;
-  Progress progress;
+  std::optional<double> chordal_error =
+      {};  ///< mm; unset: from size and smallest radius, told in notes
+  CadLimits limits = {};
+  Progress progress = {};
 };
 
 /// Reads a mesh file (see read_mesh()) or a CAD file (see import_cad()), settles its unit, converts
