@@ -3,6 +3,7 @@
 //
 // make: {kind, parameters: {diameter_mm: 35, ...}, step?: true, mesh?: true, chordal_error_mm?}
 // -> product.step, mesh.bin, and what the solid is.
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,10 +12,27 @@
 #include "palmar/cad/cad_file.h"
 #include "palmar/cad/solids.h"
 #include "palmar/cad/tessellation.h"
+#include "palmar/core/error.h"
 #include "palmar/io/face_mesh_file.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
+
+namespace {
+
+constexpr double kSameVolume = 1e-3;  // of the volume
+
+/// What the file says is what is meant.
+void check_written(const std::filesystem::path& path, const ParametricKind& kind, double volume) {
+  const CadCheck check = check_cad(read_step(path).model);
+  if (check.is_good() && std::abs(check.volume - volume) <= kSameVolume * volume) return;
+  std::string why = check.findings.empty() ? "" : ": " + check.findings.front();
+  throw NumericalError(kind.name + ": its STEP file read back isn't the solid that was written (" +
+                       std::to_string(check.volume) + " mm3 for " + std::to_string(volume) +
+                       " mm3)" + why);
+}
+
+}  // namespace
 
 Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
   const ParametricKind& kind = parametric_kind(request.at("kind").get<std::string>());
@@ -30,7 +48,11 @@ Json make(const Json& request, const std::filesystem::path& folder, const Progre
                 {"faces", model.face_count()},
                 {"edges", model.edge_count()},
                 {"notes", Json::array()}};
-  if (request.value("step", false)) write_step(folder / "product.step", model);
+  if (request.value("step", false)) {
+    write_step(folder / "product.step", model);
+    check_written(folder / "product.step", kind, volume_of(model));
+    progress.update(0.7, "wrote and read back " + kind.name);
+  }
   if (request.value("mesh", false)) {
     TessellationOptions options;
     if (request.contains("chordal_error_mm")) {

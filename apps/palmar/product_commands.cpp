@@ -9,7 +9,9 @@
 #include "palmar/io/mesh_file.h"
 #include "palmar/io/product_file.h"
 #include "palmar/product/check.h"
-#include "palmar/product/primitives.h"
+#include "palmar/product/repair.h"
+#include "product_make_command.h"
+#include "product_repair_command.h"
 
 namespace palmar::cli {
 namespace {
@@ -42,7 +44,8 @@ Json check_json(const Product& product, const ProductCheck& check) {
           {"principal_extent_mm", vector(check.extent)},
           {"area_mm2", check.area},
           {"volume_mm3", check.volume},
-          {"findings", std::move(findings)}};
+          {"findings", std::move(findings)},
+          {"fixes", fix_list(check, repair_limits({}, check.size.norm()))}};
 }
 
 std::string check_text(const Product& product, const ProductCheck& check) {
@@ -53,6 +56,9 @@ std::string check_text(const Product& product, const ProductCheck& check) {
       check.size.x(), check.size.y(), check.size.z(), check.area, check.volume, check.euler_number);
   for (const Finding& finding : check.findings) {
     text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
+  }
+  for (const std::string& fix : fix_list(check, repair_limits({}, check.size.norm()))) {
+    text += "fix      " + fix + "\n";
   }
   return text + "verdict: " + name_of(check.verdict) + "\n";
 }
@@ -112,70 +118,6 @@ void add_convert(CLI::App& noun, Context& context) {
   });
 }
 
-/// One kind of solid: its options on the command line and the function that makes it.
-template <typename Options>
-void add_kind(CLI::App& make, Context& context, const std::string& kind, const std::string& example,
-              Product (*function)(const Options&),
-              const std::function<void(CLI::App&, Options&)>& add_options) {
-  const auto options = std::make_shared<Options>();
-  const auto out = std::make_shared<std::string>();
-  CLI::App* verb =
-      add_verb(make, kind, "Make this solid", "palmar product make " + kind + " " + example);
-  add_options(*verb, *options);
-  verb->add_option("--chordal-error-mm", options->fineness.chordal_error,
-                   "Largest gap between mesh and solid, mm")
-      ->capture_default_str();
-  verb->add_option("--out", *out, "File to write: .stl, .obj or .ply")->required();
-  verb->callback([&context, options, out, function] {
-    context.run = [&context, options, out, function] {
-      const Product product = function(*options);
-      write_mesh(*out, product.mesh);
-      note(context.common,
-           fmt::format("wrote {} ({} triangles, unit: mm)", *out, product.mesh.triangle_count()));
-      return 0;
-    };
-  });
-}
-
-void add_make(CLI::App& product, Context& context) {
-  CLI::App* make = add_verb(product, "make", "Make a simple solid",
-                            "palmar product make cylinder --diameter-mm 48 --out handle.stl");
-  make->require_subcommand(1);
-  const auto length = [](CLI::App& verb, const std::string& name, double& value) {
-    verb.add_option(name, value, "mm")->capture_default_str();
-  };
-  add_kind<CylinderProductOptions>(*make, context, "cylinder", "--diameter-mm 48 --out c48.stl",
-                                   make_cylinder_product, [&](CLI::App& verb, auto& o) {
-                                     length(verb, "--diameter-mm", o.diameter);
-                                     length(verb, "--length-mm", o.length);
-                                   });
-  add_kind<PrismProductOptions>(*make, context, "prism",
-                                "--width-mm 40 --fillet-mm 3 --out prism.stl", make_prism_product,
-                                [&](CLI::App& verb, auto& o) {
-                                  length(verb, "--width-mm", o.width);
-                                  length(verb, "--depth-mm", o.depth);
-                                  length(verb, "--length-mm", o.length);
-                                  length(verb, "--fillet-mm", o.fillet_radius);
-                                });
-  add_kind<SphereProductOptions>(
-      *make, context, "sphere", "--diameter-mm 60 --out ball.stl", make_sphere_product,
-      [&](CLI::App& verb, auto& o) { length(verb, "--diameter-mm", o.diameter); });
-  add_kind<EllipsoidProductOptions>(*make, context, "ellipsoid",
-                                    "--x-mm 50 --y-mm 60 --z-mm 120 --out egg.stl",
-                                    make_ellipsoid_product, [&](CLI::App& verb, auto& o) {
-                                      length(verb, "--x-mm", o.diameters.x());
-                                      length(verb, "--y-mm", o.diameters.y());
-                                      length(verb, "--z-mm", o.diameters.z());
-                                    });
-  add_kind<PlaneProductOptions>(*make, context, "plane",
-                                "--width-mm 200 --depth-mm 100 --out plate.stl", make_plane_product,
-                                [&](CLI::App& verb, auto& o) {
-                                  length(verb, "--width-mm", o.width);
-                                  length(verb, "--depth-mm", o.depth);
-                                  length(verb, "--thickness-mm", o.thickness);
-                                });
-}
-
 }  // namespace
 
 void add_product_commands(CLI::App& app, Context& context) {
@@ -185,7 +127,8 @@ void add_product_commands(CLI::App& app, Context& context) {
   add_inspection(*product, context, "info", "Size, area, volume and state of a mesh", false);
   add_inspection(*product, context, "check", "Like info; exit code 5 if something is wrong", true);
   add_convert(*product, context);
-  add_make(*product, context);
+  add_product_repair(*product, context);
+  add_product_make_command(*product, context);
 }
 
 }  // namespace palmar::cli

@@ -15,6 +15,10 @@ NamedSolid make_tapered_handle(const KindValues& values);
 NamedSolid make_bottle(const KindValues& values);
 NamedSolid make_bicycle_grip(const KindValues& values);
 
+NamedSolid make_pistol_grip(const KindValues& values);
+NamedSolid make_knife_handle(const KindValues& values);
+NamedSolid make_screwdriver_handle(const KindValues& values);
+
 NamedSolid make_elliptic_handle(const KindValues& values);
 NamedSolid make_prism(const KindValues& values);
 NamedSolid make_phone(const KindValues& values);

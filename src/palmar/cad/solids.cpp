@@ -32,7 +32,10 @@ const std::map<std::string, std::function<NamedSolid(const KindValues&)>>& maker
       {"prism", make_prism},
       {"bottle", make_bottle},
       {"bicycle_grip", make_bicycle_grip},
+      {"pistol_grip", make_pistol_grip},
       {"phone", make_phone},
+      {"knife_handle", make_knife_handle},
+      {"screwdriver_handle", make_screwdriver_handle},
       {"sphere", make_sphere},
       {"ellipsoid", make_ellipsoid}};
   return all;

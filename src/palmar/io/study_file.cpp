@@ -11,8 +11,10 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/io/file.h"
+#include "palmar/io/parameter_sweep.h"
 #include "palmar/io/text_scan.h"
 #include "palmar/io/toml_section.h"
+#include "palmar/product/parametric_kinds.h"
 #include "palmar/study/grasp_indices.h"
 #include "palmar/study/study_results.h"
 
@@ -22,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxBytes = 1 << 20;
-constexpr double kAny = 1e6;               // mm; bound of coordinates
-constexpr std::size_t kMostValues = 1000;  // of a sweep
+constexpr double kAny = 1e6;  // mm; bound of coordinates
 
 /// Runs `body`; what a module below complains of gets the file's line.
 template <typename Body>
@@ -146,10 +147,15 @@ HandProfile read_profile(const TomlSection& section) {
   return profile;
 }
 
-/// 35, [30, 35, 40] or {from = 30, to = 50, step = 5}.
-std::vector<double> read_sweep(const TomlSection& section, const std::string& key,
-                               const std::string& unit, double lowest, double highest) {
+/// 35, [30, 35, 40], {from = 30, to = 50, step = 5} or "30:50:5".
+std::vector<double> read_sweep(const TomlSection& section, const KindParameter& parameter) {
+  const std::string& key = parameter.name;
+  const std::string unit = unit_of_parameter(key);
+  const double lowest = parameter.lowest, highest = parameter.highest;
   const toml::node* node = section.values().get(key);
+  if (node->is_string()) {
+    return at_key(section, key, [&] { return parse_sweep(key, *section.text(key)); });
+  }
   if (node->is_array()) {
     const std::vector<double> values = section.numbers(key, unit, lowest, highest);
     if (values.empty()) section.fail(key, "is an empty list; at least one value is needed");
@@ -161,35 +167,23 @@ std::vector<double> read_sweep(const TomlSection& section, const std::string& ke
   const double from = sweep.need_number("from", unit, lowest, highest);
   const double to = sweep.need_number("to", unit, from, highest);
   const double step = sweep.need_number("step", unit, 1e-3, highest);
-  const double count = std::floor((to - from) / step + 1e-9) + 1.0;
-  if (count > static_cast<double>(kMostValues)) {
-    section.fail(key, "makes " + shortest(count) + " values; up to " + std::to_string(kMostValues) +
-                          " are allowed");
+  try {
+    return sweep_values(key, from, to, step);
+  } catch (const UsageError& error) {
+    section.fail(error.what());
   }
-  std::vector<double> values;
-  for (int i = 0; i < static_cast<int>(count); ++i) values.push_back(from + i * step);
-  return values;
 }
 
-/// "name" with what tells the variants apart.
-std::string variant_name(const std::string& name, const std::string& key, double value) {
-  std::string what = key.substr(0, key.rfind('_'));
-  return name + " " + what + " " + shortest(value);
-}
-
-/// A product of the file; a sweep over a length makes several.
+/// A product of the file; a sweep over a parameter makes several.
 std::vector<ProductRequest> read_products(const TomlSection& section) {
   std::vector<std::string> known = {"name", "file",    "unit",       "sizes", "at_mm",
-                                    "axis", "mass_kg", "posture_of", "kind"};
+                                    "axis", "mass_kg", "posture_of", "kind",  "family"};
   const std::string kind = section.text("kind").value_or("");
-  const std::vector<std::string> lengths = made_lengths(kind);
-  if (section.has("kind") && lengths.empty()) {
-    const std::string nearest = nearest_name(kind, made_kinds());
-    section.fail("kind", "is " + in_quotes(kind) +
-                             "; cylinder, prism, sphere or ellipsoid is allowed" +
-                             (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  const ParametricKind* made = nullptr;
+  if (section.has("kind")) {
+    made = at_key(section, "kind", [&] { return &parametric_kind(kind); });
+    for (const KindParameter& one : made->parameters) known.push_back(one.name);
   }
-  known.insert(known.end(), lengths.begin(), lengths.end());
   section.allow(known);
   if (section.has("file") == section.has("kind")) {
     section.fail(section.has("file") ? "file and kind exclude each other; one is allowed"
@@ -219,33 +213,29 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   }
   request.held.mass = section.number("mass_kg", "kg", 0.0, 100.0).value_or(0.0);
   request.held.posture_of = section.text("posture_of").value_or("");
-  if (kind.empty()) return {request};
+  request.held.family = section.text("family").value_or("");
+  if (made == nullptr) return {request};
 
-  request.made.kind = kind;
-  std::vector<ProductRequest> variants = {request};
-  for (const std::string& key : lengths) {
-    if (!section.has(key)) continue;
-    const double lowest = key == "fillet_mm" ? 0.0 : 0.1;
-    const std::vector<double> values = read_sweep(section, key, "mm", lowest, 10'000.0);
-    std::vector<ProductRequest> next;
-    for (const ProductRequest& before : variants) {
-      for (const double value : values) {
-        ProductRequest one = before;
-        one.made.length.emplace_back(key, value);
-        if (values.size() > 1) {
-          if (one.held.family.empty()) one.held.family = request.name.empty() ? kind : request.name;
-          one.name = variant_name(one.name.empty() ? kind : one.name, key, value);
-        }
-        next.push_back(std::move(one));
-      }
-    }
-    variants = std::move(next);
-    if (variants.size() > kMostValues) {
-      section.fail(key, "makes " + std::to_string(variants.size()) + " variants; up to " +
-                            std::to_string(kMostValues) + " are allowed");
-    }
+  MadeSweep sweep{kind, {}};
+  for (const KindParameter& one : made->parameters) {
+    if (section.has(one.name)) sweep.given.emplace_back(one.name, read_sweep(section, one));
   }
-  return variants;
+  std::vector<MadeVariant> variants;
+  try {
+    variants = variants_of(sweep);
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+  std::vector<ProductRequest> requests;
+  for (MadeVariant& one : variants) {
+    requests.push_back(request);
+    requests.back().made = std::move(one.product);
+    if (one.suffix.empty()) continue;
+    const std::string name = request.name.empty() ? kind : request.name;
+    if (request.held.family.empty()) requests.back().held.family = name;
+    requests.back().name = name + " " + one.suffix;
+  }
+  return requests;
 }
 
 template <typename Enum, std::size_t kCount>

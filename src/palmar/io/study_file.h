@@ -26,8 +26,8 @@ struct PopulationRequest {
 
 /// One or more products as asked for: a file or a solid, in all its sizes.
 struct ProductRequest {
-  std::string name;                ///< "": the file's stem, or kind and first length
-  std::string file;                ///< mesh file, or "" for a solid
+  std::string name;                ///< "": the file's stem, or kind and first value
+  std::string file;                ///< mesh or CAD file, "made: ...", or "" for `made`
   std::string written;             ///< the same as the study file has it; "": as in `file`
   std::optional<LengthUnit> unit;  ///< of the file
   MadeProduct made;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
 #include "palmar/hand/hand_instance.h"
 #include "palmar/io/dimension_table_file.h"
 #include "palmar/io/population_file.h"
@@ -14,6 +13,7 @@
 #include "palmar/io/study_store.h"
 #include "palmar/io/text_scan.h"
 #include "palmar/population/built_in_populations.h"
+#include "palmar/product/scaled_product.h"
 #include "palmar/study/study_task.h"
 
 namespace palmar {
@@ -113,7 +113,7 @@ std::string product_name(const ProductRequest& request) {
   if (!request.name.empty()) return request.name;
   if (!request.file.empty()) return std::filesystem::path(request.file).stem().string();
   std::string name = request.made.kind;
-  if (!request.made.length.empty()) name += " " + shortest(request.made.length.front().second);
+  if (!request.made.given.empty()) name += " " + shortest(request.made.given.front().second);
   return name;
 }
 
@@ -121,18 +121,14 @@ std::string sized_name(const std::string& name, double size) {
   return size == 1.0 ? name : name + " x " + shortest(size);
 }
 
-Product sized(const Product& product, double size) {
-  if (size == 1.0) return product;
-  Product result = product;
-  for (Vec3& v : result.mesh.vertices) v *= size;
-  result.distance = std::make_shared<const MeshDistance>(result.mesh);
-  if (result.faces != nullptr) {
-    result.faces = std::make_shared<const ProductFaces>(scaled(*result.faces, size));
-  }
-  return result;
-}
-
 void add_product(const ProductRequest& request, LoadedStudy& study) {
+  if (is_made(request.file)) {
+    ProductRequest solid = request;
+    solid.made = made_from(request.file);
+    solid.file = "";
+    if (solid.name.empty()) solid.name = title_of(solid.made);
+    return add_product(solid, study);
+  }
   const std::string name = product_name(request);
   std::optional<Product> read;
   if (!request.file.empty()) {
@@ -154,7 +150,7 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
                : request.written.empty() ? request.file
                                          : request.written;
     if (!one.posture_of.empty()) one.posture_of = sized_name(one.posture_of, size);
-    Product product = read ? sized(*read, size) : make_solid(request.made, size);
+    Product product = read ? scaled(*read, size) : make_solid(request.made, {.size = size});
     product.name = one.name;
     one.content_hash = content_hash(product.mesh);
     one.unit = name_of(product.unit);
@@ -242,7 +238,7 @@ void check_products(const StudyPlan& plan, const std::filesystem::path& folder) 
       if (is_same || !std::filesystem::is_regular_file(path, error)) continue;
       is_found = true;
       try {
-        const Product now = sized(load_product(path, {.unit = length_unit(one.unit)}), one.size);
+        const Product now = scaled(load_product(path, {.unit = length_unit(one.unit)}), one.size);
         is_same = content_hash(now.mesh) == one.content_hash;
       } catch (const InputError&) {
         continue;  // no longer a product at all

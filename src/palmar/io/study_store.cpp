@@ -217,6 +217,12 @@ void publish_new(const Draft& draft, const fs::path& path) {
   sync_folder(path);
 }
 
+/// Whether the product is made anew from its words, exact distance, faces and all; others come from
+/// the store.
+bool is_made_again(const StudyProduct& product) {
+  return is_made(product.file) && is_analytic(made_from(product.file));
+}
+
 }  // namespace
 
 struct StudyStore::Impl {
@@ -286,8 +292,7 @@ void StudyStore::create(const fs::path& path, const StudyPlan& plan, const Study
   for (std::size_t i = 0; i < inputs.products.size(); ++i) {
     const Product& product = inputs.products[i];
     head.products.push_back(pack(mesh_bytes(product.mesh)));
-    // What Palmar makes it makes again, with its faces.
-    const bool is_kept = product.faces != nullptr && !is_made(plan.products[i].file);
+    const bool is_kept = product.faces != nullptr && !is_made_again(plan.products[i]);
     head.faces.push_back(is_kept ? pack(faces_bytes(*product.faces)) : "");
   }
   const Draft draft{beside(path, "." + std::to_string(::getpid()) + ".new")};
@@ -334,7 +339,7 @@ StudyInputs StudyStore::inputs() const {
     for (std::size_t i = 0; i < head.products.size(); ++i) {
       const StudyProduct& asked = impl_->plan.products[i];
       Product product;
-      if (is_made(asked.file) && is_analytic(made_from(asked.file))) {
+      if (is_made_again(asked)) {
         product = make_solid(made_from(asked.file), {.size = asked.size});  // its distance is exact
       } else {
         product.mesh = mesh_from_bytes(unpack(head.products[i]));

@@ -209,6 +209,84 @@ ParametricKind phone() {
                    [](const KindValues& v) { return 0.9 * v.at("corner_mm"); })}};
 }
 
+ParametricKind pistol_grip() {
+  return {"pistol_grip",
+          "Raked grip as of a pistol, a drill or a spray gun, from its foot to the frame above",
+          {{"width_mm", 32, 15, 70, "from side to side, along x"},
+           {"depth_mm", 46, 20, 90, "from the fingers to the palm, along y"},
+           {"height_mm", 105, 50, 250, "from the foot to the frame, along z"},
+           {"rake_deg", 18, 0, 40, "by which the foot lies behind"},
+           {"palm_swell_mm", 4, 0, 15, "by which the back bulges into the palm"},
+           {"tang_mm", 9, 0, 25, "by which the back runs out over the web of the thumb"},
+           {"flare_mm", 5, 0, 20, "by which the foot runs out under the little finger"},
+           {"squareness", 0.3, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
+           {"end_fillet_mm", 2.5, 0, 10, "radius of the edges of foot and frame; 0: sharp"}},
+          {at_most("palm_swell_mm", "a quarter of depth_mm",
+                   [](const KindValues& v) { return 0.25 * v.at("depth_mm"); }),
+           at_most("tang_mm", "0.4 of depth_mm",
+                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
+           at_most("flare_mm", "0.4 of depth_mm",
+                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
+           at_most("depth_mm", "2.5 times width_mm",
+                   [](const KindValues& v) { return 2.5 * v.at("width_mm"); }),
+           at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
+           at_most("end_fillet_mm", "a tenth of width_mm",
+                   [](const KindValues& v) { return 0.1 * v.at("width_mm"); })}};
+}
+
+ParametricKind knife_handle() {
+  return {"knife_handle",
+          "Handle of a kitchen or hunting knife: blade below z, butt above, spine to the back",
+          {{"length_mm", 118, 60, 250, "from the blade to the butt, along z"},
+           {"depth_mm", 26, 12, 60, "from spine to belly at its fullest, along y"},
+           {"width_mm", 20, 8, 50, "from side to side, along x"},
+           {"belly_mm", 2.5, 0, 12, "by which the handle is drawn in around its belly"},
+           {"guard_mm", 3, 0, 20, "by which it runs out before the forefinger"},
+           {"pommel_drop_mm", 6, 0, 25, "by which the butt runs out behind the little finger"},
+           {"squareness", 0.45, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
+           {"end_fillet_mm", 1.5, 0, 8, "radius of the edges of both ends; 0: sharp"}},
+          {at_most("belly_mm", "0.2 of depth_mm",
+                   [](const KindValues& v) { return 0.2 * v.at("depth_mm"); }),
+           at_most("guard_mm", "0.4 of depth_mm",
+                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
+           at_most("pommel_drop_mm", "half of depth_mm",
+                   [](const KindValues& v) { return 0.5 * v.at("depth_mm"); }),
+           at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
+           at_least("width_mm", "a third of depth_mm",
+                    [](const KindValues& v) { return v.at("depth_mm") / 3.0; }),
+           at_most("end_fillet_mm", "a tenth of width_mm",
+                   [](const KindValues& v) { return 0.1 * v.at("width_mm"); })}};
+}
+
+ParametricKind screwdriver_handle() {
+  return {"screwdriver_handle",
+          "Handle of a screwdriver with flutes between lobes; the blade's side is below z",
+          {{"diameter_mm", 33, 14, 70, "over the lobes"},
+           {"length_mm", 108, 50, 250, "from the collar to the cap"},
+           {"flutes", 6, 3, 12, "flutes, and lobes between them", true},
+           {"flute_depth_mm", 2, 0, 10, "from the lobes to the flutes; 0: round"},
+           {"neck_diameter_mm", 19, 8, 60, "of the neck, where it is thinnest"},
+           {"neck_length_mm", 36, 10, 120, "from the collar to where the grip begins"},
+           {"collar_diameter_mm", 23, 8, 70, "at the blade's end"},
+           {"end_fillet_mm", 6, 0, 25, "radius of the edges of collar and cap"}},
+          {at_most("neck_diameter_mm", "diameter_mm",
+                   [](const KindValues& v) { return v.at("diameter_mm"); }),
+           at_most("collar_diameter_mm", "diameter_mm",
+                   [](const KindValues& v) { return v.at("diameter_mm"); }),
+           at_least("collar_diameter_mm", "neck_diameter_mm",
+                    [](const KindValues& v) { return v.at("neck_diameter_mm"); }),
+           at_most("neck_length_mm", "half of length_mm",
+                   [](const KindValues& v) { return 0.5 * v.at("length_mm"); }),
+           at_most("flute_depth_mm", "0.2 of diameter_mm",
+                   [](const KindValues& v) { return 0.2 * v.at("diameter_mm"); }),
+           at_most("flute_depth_mm", "0.7 of diameter_mm / flutes",
+                   [](const KindValues& v) { return 0.7 * v.at("diameter_mm") / v.at("flutes"); }),
+           at_most("end_fillet_mm", "0.3 of collar_diameter_mm",
+                   [](const KindValues& v) { return 0.3 * v.at("collar_diameter_mm"); }),
+           at_most("end_fillet_mm", "0.3 of neck_length_mm",
+                   [](const KindValues& v) { return 0.3 * v.at("neck_length_mm"); })}};
+}
+
 const KindParameter* find_parameter(const ParametricKind& kind, const std::string& name) {
   const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
                                   [&](const KindParameter& one) { return one.name == name; });
@@ -224,7 +302,8 @@ const KindParameter* find_parameter(const ParametricKind& kind, const std::strin
   }
   const std::string nearest = nearest_name(name, names);
   throw UsageError(kind.name + " has no parameter \"" + name + "\"" +
-                   (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " It has " + list);
+                   (nearest.empty() ? "; " : "; did you mean \"" + nearest + "\"? ") + "It has " +
+                   list);
 }
 
 void check_range(const ParametricKind& kind, const KindParameter& parameter, double value) {
@@ -251,9 +330,10 @@ void check_relation(const ParametricKind& kind, const KindRelation& relation,
 }  // namespace
 
 const std::vector<ParametricKind>& parametric_kinds() {
-  static const std::vector<ParametricKind> kinds = {cylinder(), elliptic_handle(), tapered_handle(),
-                                                    prism(),    bottle(),          bicycle_grip(),
-                                                    phone(),    sphere(),          ellipsoid()};
+  static const std::vector<ParametricKind> kinds = {
+      cylinder(),     elliptic_handle(),    tapered_handle(), prism(),
+      bottle(),       bicycle_grip(),       pistol_grip(),    phone(),
+      knife_handle(), screwdriver_handle(), sphere(),         ellipsoid()};
   return kinds;
 }
 
@@ -272,8 +352,8 @@ const ParametricKind& parametric_kind(const std::string& name) {
   for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
   const std::string nearest = nearest_name(name, names);
   throw UsageError("kind \"" + name + "\" isn't known" +
-                   (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " Known are " +
-                   list);
+                   (nearest.empty() ? "; " : "; did you mean \"" + nearest + "\"? ") +
+                   "Known are " + list);
 }
 
 std::string unit_of_parameter(const std::string& parameter) {
