@@ -18,6 +18,7 @@ Json check(const Json& request, const std::filesystem::path& folder, const Progr
 Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json region(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json version(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 
 }  // namespace palmar::cad_worker

@@ -164,31 +164,53 @@ ContactCount start_count(const TriangleMesh& map, double threshold) {
   return count;
 }
 
-void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held) {
+void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held,
+              const Imprint& reach) {
   struct Pressed {
     Vec3 at;
     HandPart part;
+    double pressure;
   };
   std::vector<Pressed> pressed;
   for (std::size_t v = 0; v < held.pressure.size(); ++v) {
     const auto part = part_of(held.who->region[v]);
-    if (part && held.pressure[v] > 0.0) pressed.push_back({held.skin.vertices[v], *part});
+    if (part && held.pressure[v] > 0.0) {
+      pressed.push_back({held.skin.vertices[v], *part, held.pressure[v]});
+    }
   }
   ++count.hands;
-  for (std::size_t i = 0; i < held.product_pressure.vertex.size(); ++i) {
-    if (!(held.product_pressure.value[i] > count.threshold)) continue;
-    const auto vertex = static_cast<std::size_t>(held.product_pressure.vertex[i]);
-    if (vertex >= count.any.size()) {
-      throw UsageError("contact region: the pressure of hand " + std::to_string(held.hand + 1) +
-                       " belongs to another map of the product");
-    }
-    ++count.any[vertex];
-    const Vec3& x = map.vertices[vertex];
-    const auto nearest =
+  const std::string whose = "hand " + std::to_string(held.hand + 1);
+  const auto check = [&](int vertex) {
+    if (vertex >= 0 && static_cast<std::size_t>(vertex) < count.any.size()) return;
+    throw UsageError("contact region: the pressure of " + whose +
+                     " belongs to another map of the product");
+  };
+  const auto nearest = [&](int vertex) -> const Pressed* {
+    const Vec3& x = map.vertices[static_cast<std::size_t>(vertex)];
+    const auto found =
         std::min_element(pressed.begin(), pressed.end(), [&x](const Pressed& a, const Pressed& b) {
           return (a.at - x).squaredNorm() < (b.at - x).squaredNorm();
         });
-    if (nearest != pressed.end()) ++count.of_part[static_cast<std::size_t>(nearest->part)][vertex];
+    return found == pressed.end() ? nullptr : &*found;
+  };
+  std::vector<char> is_counted(count.any.size(), 0);
+  const auto add = [&](int vertex, const Pressed* by) {
+    const auto v = static_cast<std::size_t>(vertex);
+    if (is_counted[v] != 0) return;
+    is_counted[v] = 1;
+    ++count.any[v];
+    if (by != nullptr) ++count.of_part[static_cast<std::size_t>(by->part)][v];
+  };
+  for (std::size_t i = 0; i < held.product_pressure.vertex.size(); ++i) {
+    const int vertex = held.product_pressure.vertex[i];
+    check(vertex);
+    if (held.product_pressure.value[i] > count.threshold) add(vertex, nearest(vertex));
+  }
+  for (const int vertex : reach.point) {
+    check(vertex);
+    if (is_counted[static_cast<std::size_t>(vertex)] != 0) continue;
+    const Pressed* const by = nearest(vertex);
+    if (by != nullptr && by->pressure > count.threshold) add(vertex, by);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 #include "palmar/redesign/held_hand.h"
+#include "palmar/redesign/imprint.h"
 
 namespace palmar {
 
@@ -29,9 +30,12 @@ struct ContactCount {
 };
 /// Nobody yet. Throws UsageError unless the threshold is at least 0.
 ContactCount start_count(const TriangleMesh& map, double threshold = 0.0);
-/// One hand more. A vertex is touched by the part whose pressed skin, as it was before it gave way,
-/// is nearest.
-void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held);
+/// One hand more. Touched is where the product's pressure says so, and, because the skin's facets
+/// cut sharp edges short there, wherever the skin as it was before it gave way reaches in (`reach`,
+/// per vertex of the map) and the nearest pressed skin presses enough. A vertex belongs to the part
+/// of the hand whose pressed skin, before it gave way, is nearest.
+void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held,
+              const Imprint& reach = {});
 
 struct RegionOptions {
   /// Share of the hands that must touch, 0 to 1; 0: any hand.
