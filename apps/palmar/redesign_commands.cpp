@@ -10,7 +10,9 @@ void add_redesign_commands(CLI::App& app, Context& context) {
       app.add_subcommand("redesign", "Better shapes for the same hands, and back to CAD");
   noun->require_subcommand(1);
   noun->fallthrough();
-  static_cast<void>(context);
+  add_redesign_feature_commands(*noun, context);
+  add_redesign_press_command(*noun, context);
+  add_redesign_region_command(*noun, context);
 }
 
 }  // namespace palmar::cli

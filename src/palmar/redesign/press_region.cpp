@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/editable_mesh.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/split_edges.h"
 
@@ -22,6 +24,7 @@ constexpr double kDeep = 10.0;  // mm; what is deeper has neighbours that are le
 
 using Cell = std::array<int, 3>;
 
+// Rounding, not floor: a mirrored hand marks mirrored cells.
 /// Cells of the product's surface above vertices of one skin that are in or at the product.
 std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) {
   Box3 box = product.distance->bounding_box();
@@ -35,10 +38,10 @@ std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) 
   product.distance->sample(points, kDeep, samples);
   std::vector<Cell> cells;
   for (const DistanceSample& s : samples) {
-    if (s.triangle < 0 || s.distance > kNear) continue;
-    cells.push_back({static_cast<int>(std::floor(s.closest.x() / kCell)),
-                     static_cast<int>(std::floor(s.closest.y() / kCell)),
-                     static_cast<int>(std::floor(s.closest.z() / kCell))});
+    if (s.distance > kNear || s.distance <= -kDeep) continue;
+    cells.push_back({static_cast<int>(std::lround(s.closest.x() / kCell)),
+                     static_cast<int>(std::lround(s.closest.y() / kCell)),
+                     static_cast<int>(std::lround(s.closest.z() / kCell))});
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -59,10 +62,56 @@ TriangleMesh marks_under(const Product& product, std::span<const TriangleMesh> s
   TriangleMesh marks;
   for (const Cell& c : all) {
     const int v = marks.vertex_count();
-    marks.vertices.emplace_back((c[0] + 0.5) * kCell, (c[1] + 0.5) * kCell, (c[2] + 0.5) * kCell);
+    marks.vertices.emplace_back(c[0] * kCell, c[1] * kCell, c[2] * kCell);
     marks.triangles.push_back({v, v, v});
   }
   return marks;
+}
+
+/// Whether the edge of two triangles in one plane is the wrong diagonal: the angles that face it
+/// sum to more than 180 degrees (Delaunay), and the other one lies within them, too.
+bool is_wrong_diagonal(const EditableMesh& mesh, int h, double edge_length) {
+  const int twin = mesh.twin(h);
+  if (twin < 0 || h > twin) return false;
+  const Vec3& a = mesh.position(mesh.start(h));
+  const Vec3& b = mesh.position(mesh.end(h));
+  const Vec3& c = mesh.position(mesh.apex(h));
+  const Vec3& d = mesh.position(mesh.apex(twin));
+  // What is larger than split triangles are is left as it was.
+  if ((a - b).norm() > edge_length || (c - d).norm() > edge_length) return false;
+  const Vec3 n = (b - a).cross(c - a);
+  const Vec3 m = (a - b).cross(d - b);
+  const double flat = 1e-12 * edge_length * edge_length;
+  if (n.norm() <= flat || m.norm() <= flat || n.dot(m) < (1.0 - 1e-12) * n.norm() * m.norm()) {
+    return false;
+  }
+  const double c_cot = (a - c).dot(b - c) / n.norm();
+  const double d_cot = (a - d).dot(b - d) / m.norm();
+  if (!(c_cot + d_cot < -1e-9)) return false;
+  const Vec3 up = n.normalized();
+  return (d - c).cross(b - c).dot(up) > flat && (c - d).cross(a - d).dot(up) > flat;
+}
+
+/// Turns wrong diagonals; the surface and its vertices stay. Smoothing needs triangles that aren't
+/// needles for no reason. A mesh that isn't 2-manifold stays as it is.
+TriangleMesh with_turned_diagonals(TriangleMesh mesh, double edge_length) {
+  constexpr int kMaxRounds = 50;
+  try {
+    EditableMesh editable(mesh);
+    for (int round = 0; round < kMaxRounds; ++round) {
+      bool has_turned = false;
+      for (int h = 0; h < editable.half_edge_capacity(); ++h) {
+        if (!editable.has_half_edge(h) || !is_wrong_diagonal(editable, h, edge_length)) continue;
+        has_turned = editable.flip(h) || has_turned;
+      }
+      if (!has_turned) break;
+    }
+    EditableMesh::Compacted result = editable.compacted();
+    if (result.mesh.vertices.size() == mesh.vertices.size()) return std::move(result.mesh);
+  } catch (const InputError&) {
+    // Not 2-manifold.
+  }
+  return mesh;
 }
 
 std::vector<int> triangles_below(const TriangleMesh& original, const TriangleMesh& fine) {
@@ -100,7 +149,8 @@ PressRegion refine_under(const Product& product, std::span<const TriangleMesh> s
         {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
     return query.closest(centre, reach + radius).has_value();
   };
-  region.mesh = split_long_edges(product.mesh, edge_length, is_near);
+  region.mesh =
+      with_turned_diagonals(split_long_edges(product.mesh, edge_length, is_near), edge_length);
   region.triangle_of = triangles_below(product.mesh, region.mesh);
 
   std::vector<int> part_of(region.mesh.vertices.size(), -1);

@@ -181,7 +181,7 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
   const std::vector<double> areas = vertex_areas(region.part);
   const std::vector<Vec3> outward = press_directions(region.part);
   const ImprintGauge gauge(product.mesh, region.part.vertices, outward);
-  std::vector<Imprint> imprints = measure_all(gauge, skins, {}, {}, progress);
+  std::vector<Imprint> imprints = measure_all(gauge, skins, {}, Vec3::Zero(), progress);
   if (options.align_along) {
     shape.shift = align_imprints(imprints, region.part.vertices, areas, *options.align_along,
                                  options.align_limit);

@@ -37,8 +37,14 @@ struct SurfaceDiffusion::Impl {
   bool is_identity = false;
 
   Eigen::MatrixXd smooth(Eigen::MatrixXd values) const {
+    const Eigen::RowVectorXd low = values.colwise().minCoeff();
+    const Eigen::RowVectorXd high = values.colwise().maxCoeff();
     for (int step = 0; step < 2; ++step) {
       values = factor.solve((mass.asDiagonal() * values).eval()).eval();
+    }
+    // Obtuse triangles can overshoot a little.
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      values.col(c) = values.col(c).cwiseMax(low[c]).cwiseMin(high[c]);
     }
     return values;
   }
@@ -70,7 +76,6 @@ SurfaceDiffusion::SurfaceDiffusion(const TriangleMesh& mesh, double length) {
     std::vector<Eigen::Triplet<double>> entries;
     for (int v = 0; v < n; ++v) entries.emplace_back(v, v, impl->mass[v]);
     for (const auto& [edge, w] : weight) {
-      if (!(w > 0.0)) continue;
       const auto& [i, j] = edge;
       entries.emplace_back(i, i, t * w);
       entries.emplace_back(j, j, t * w);

@@ -13,9 +13,9 @@ namespace palmar {
 ///
 ///     (M + t L) u = M u0,   solved twice with t = length^2 / 4,
 ///
-/// M the vertices' areas, L the cotangent Laplacian with edge weights below 0 set to 0. Nearly a
-/// Gaussian of standard deviation `length` on a plane. Values never leave the range of the input,
-/// and the sum of M u stays. Uneven triangles don't matter; walls that are near but not joined
+/// M the vertices' areas, L the cotangent Laplacian (linear finite elements). Nearly a Gaussian of
+/// standard deviation `length` on a plane. Values are held within the range of the input; but for
+/// that the sum of M u stays. Uneven triangles don't matter; walls that are near but not joined
 /// don't mix. A border lets nothing through.
 ///
 /// Source: Desbrun, Meyer, Schroeder, Barr 1999, "Implicit fairing of irregular meshes using
