@@ -45,7 +45,8 @@ SurfaceChange surface_change(const CadModel& before, const CadModel& after,
   change.largest = std::max(largest_distance(split_long_edges(old.mesh, step), now.mesh),
                             largest_distance(split_long_edges(now.mesh, step), old.mesh));
   if (!faces.empty()) {
-    TriangleMesh part{.vertices = old.mesh.vertices};
+    TriangleMesh part;
+    part.vertices = old.mesh.vertices;
     for (size_t i = 0; i < old.mesh.triangles.size(); ++i) {
       const int number = old.faces.face[static_cast<size_t>(old.faces.face_of_triangle[i])].number;
       if (std::find(faces.begin(), faces.end(), number) != faces.end()) {
