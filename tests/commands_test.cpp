@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
@@ -161,6 +162,41 @@ TEST(Help, EveryVerbShowsAWorkedExample) {
     EXPECT_EQ(run.exit_code, 0) << verb;
     EXPECT_THAT(run.out, HasSubstr("Example: palmar " + verb)) << verb;
   }
+}
+
+TEST(ProductCommand, RepairClosesASmallHoleAndLeavesTheOriginal) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("product make sphere --diameter-mm 60 --out ball.obj", folder).exit_code, 0);
+  // Without its last triangle.
+  std::string text = read_text(folder + "/ball.obj");
+  text.resize(text.rfind("\nf ") + 1);
+  std::ofstream(fs::path(folder) / "torn.obj", std::ios::binary) << text;
+  const ProgramRun check = run_palmar("product check torn.obj --unit mm", folder);
+  EXPECT_EQ(check.exit_code, 5);
+  EXPECT_THAT(check.out, HasSubstr("fix      holes: `palmar product repair` fills"));
+  const ProgramRun run =
+      run_palmar("product repair torn.obj --unit mm --out whole.obj --json", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json result = Json::parse(run.out);
+  EXPECT_EQ(result.at("done").size(), 1U);
+  EXPECT_EQ(result.at("done")[0].at("name"), "holes");
+  EXPECT_EQ(result.at("before").at("verdict"), "warning");
+  EXPECT_EQ(result.at("after").at("euler_number"), 2);
+  EXPECT_EQ(read_text(folder + "/torn.obj"), text);
+  EXPECT_EQ(run_palmar("product check whole.obj --unit mm", folder).exit_code, 0);
+}
+
+TEST(ProductCommand, RepairRefusesItsInputAndAbsurdLengths) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("product make sphere --out ball.obj", folder).exit_code, 0);
+  const ProgramRun same = run_palmar("product repair ball.obj --unit mm --out ./ball.obj", folder);
+  EXPECT_EQ(same.exit_code, 2);
+  EXPECT_THAT(same.err, HasSubstr("is the product itself"));
+  const ProgramRun weld =
+      run_palmar("product repair ball.obj --unit mm --out b.obj --weld-mm 1e9", folder);
+  EXPECT_EQ(weld.exit_code, 2);
+  EXPECT_THAT(weld.err, HasSubstr("the weld's tolerance is 1e+09 mm"));
+  EXPECT_FALSE(fs::exists(fs::path(folder) / "b.obj"));
 }
 
 }  // namespace
