@@ -128,8 +128,8 @@ NamedSolid make_screwdriver_handle(const KindValues& v) {
   return make_loft(section, {.bottom = bottom,
                              .top = 0.5 * length,
                              .end_fillet = fillet,
-                             .columns = depth > 0.0 ? std::max(32, 8 * flutes) : 32,
-                             .row_distance = 4.0,
+                             .columns = depth > 0.0 ? std::max(32, 6 * flutes) : 32,
+                             .row_distance = std::min(5.0, neck_length / 7.0),
                              .bands = {{bottom + fillet, grip, {}, {"neck"}}, grip_band}});
 }
 

@@ -275,6 +275,14 @@ ParametricKind screwdriver_handle() {
                    [](const KindValues& v) { return v.at("diameter_mm"); }),
            at_least("collar_diameter_mm", "neck_diameter_mm",
                     [](const KindValues& v) { return v.at("neck_diameter_mm"); }),
+           at_least("neck_length_mm", "1.4 times what collar_diameter_mm is above the neck",
+                    [](const KindValues& v) {
+                      return 1.4 * (v.at("collar_diameter_mm") - v.at("neck_diameter_mm"));
+                    }),
+           at_least("neck_length_mm", "1.15 times what diameter_mm is above the neck",
+                    [](const KindValues& v) {
+                      return 1.15 * (v.at("diameter_mm") - v.at("neck_diameter_mm"));
+                    }),
            at_most("neck_length_mm", "half of length_mm",
                    [](const KindValues& v) { return 0.5 * v.at("length_mm"); }),
            at_most("flute_depth_mm", "0.2 of diameter_mm",
