@@ -1,7 +1,8 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// features: {source, reference?, edits: [...], keep_out?, step?, mesh?, change?, chordal_error_mm?}
+// features: {source, reference?, edits: [...], keep_out?, step?, mesh?, change?, chordal_error_mm?,
+//            describe_only?}
 // -> product.step, mesh.bin, volumes and the largest change of the surface.
 //
 // A source is {file, millimetres_per_unit?} or {kind, parameters}. Edits:
@@ -108,11 +109,25 @@ Json features(const Json& request, const std::filesystem::path& folder, const Pr
   Json notes = Json::array();
   const CadModel source = model_of(request.at("source"), notes);
   progress.update(0.2, "read the product");
-  const EditedModel edited = edit_features(source, edits_of(request.value("edits", Json::array())));
+  const FeatureEdits edits = edits_of(request.value("edits", Json::array()));
+  Json fillets = Json::array();
+  for (const FilletEdit& fillet : edits.fillets) {
+    const EdgeChoice choice = choose_edges(source, fillet.edges);
+    fillets.push_back({{"text", words_of(choice)}, {"radius_mm", mean_radius(source, choice)}});
+  }
+  if (request.value("describe_only", false)) {
+    for (const OffsetEdit& offset : edits.offsets) choose_faces(source, offset.faces);
+    for (const TaperEdit& taper : edits.tapers) choose_faces(source, taper.faces);
+    const std::string keep_out = request.value("keep_out", std::string());
+    if (!keep_out.empty()) choose_faces(source, keep_out);
+    return {{"fillets", std::move(fillets)}};
+  }
+  const EditedModel edited = edit_features(source, edits);
   for (const std::string& note : edited.notes) notes.push_back(note);
   progress.update(0.5, "changed its features");
 
   Json reply = {{"volume_mm3", edited.volume},
+                {"fillets", std::move(fillets)},
                 {"faces", edited.model.face_count()},
                 {"edges", edited.model.edge_count()},
                 {"solids", edited.model.solid_count()}};

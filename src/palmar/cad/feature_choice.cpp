@@ -208,6 +208,17 @@ EdgeChoice choose_edges(const CadModel& model, const std::string& words) {
   return choice;
 }
 
+double mean_radius(const CadModel& model, const EdgeChoice& choice) {
+  if (choice.rounded.empty()) return 0.0;
+  const Features features = features_of(model.impl());
+  double sum = 0.0;
+  for (const int face : choice.rounded) {
+    const Blend* const blend = features.blend(face);
+    sum += blend == nullptr ? 0.0 : blend->radius;
+  }
+  return sum / static_cast<double>(choice.rounded.size());
+}
+
 std::vector<int> choose_faces(const CadModel& model, const std::string& words) {
   const CadModel::Impl& impl = model.impl();
   const Features features = features_of(impl);

@@ -30,6 +30,9 @@ struct EdgeChoice {
 /// Throws UsageError naming the word, the number or the name, and what there is.
 EdgeChoice choose_edges(const CadModel& model, const std::string& words);
 
+/// mm; radius of the chosen fillets, the mean; 0 if all edges are sharp.
+double mean_radius(const CadModel& model, const EdgeChoice& choice);
+
 /// Faces in words, joined by "+": "face=3+5", "name=grip", "sides" (all along the longest direction
 /// but fillets), "ends" (planes across it), "all" (but fillets). Ascending. Throws UsageError.
 std::vector<int> choose_faces(const CadModel& model, const std::string& words);

@@ -1,0 +1,47 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/study/study_results.h"
+
+namespace palmar {
+
+/// One figure of a product over all hands that a search makes better.
+struct FeatureGoal {
+  enum class Statistic { kMean, kP95, kShareAbove };
+  std::string key = "peak_pressure_cells_mpa";  ///< of a quantity, see quantities_of()
+  Statistic statistic = Statistic::kMean;
+  double threshold = 0.0;  ///< of kShareAbove; in the quantity's unit
+  std::string name, unit;  ///< "mean of peak pressure on sensor cells", "MPa"
+  bool is_lower_better = true;
+};
+
+/// From words: "peak" (pressure on sensor cells), "mean" (pressure), "stability" (largest wrench
+/// that every direction resists), "discomfort" (largest mean pressure of a region over its onset of
+/// discomfort), or the key of any quantity that has a better direction; with ":p95" the 95th
+/// percentile over hands, with ":above=0.3" the share of hands above that. Throws UsageError.
+FeatureGoal feature_goal(const std::string& words);
+/// Whether grasps need their indices for it.
+bool needs_indices(const FeatureGoal& goal);
+
+struct GoalFigure {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error over hands; 0 of a percentile
+  int hands = 0;       ///< that hold the original and have a value of it
+  int lost = 0;        ///< of these don't hold this product
+};
+
+/// The goal of product `product` over the hands that hold the original (product `original`). A hand
+/// that loses hold counts as the worst hand does with the original: no shape gets better by
+/// falling out of hands. Throws UsageError if no hand has a value with the original.
+GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int product,
+                   int original = 0);
+
+/// Mean of a quantity over the hands that have it with both products: of `product` divided by that
+/// of `original`. 0 if there is no such hand.
+double mean_ratio(const StudyResults& results, const std::string& key, int product,
+                  int original = 0);
+
+}  // namespace palmar
