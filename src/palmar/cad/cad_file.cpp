@@ -25,6 +25,7 @@
 #include <map>
 
 #include "palmar/cad/occt_progress.h"
+#include "palmar/cad/step_instances.h"
 #include "palmar/cad/xcaf_bodies.h"
 #include "palmar/core/error.h"
 #include "palmar/io/cad_format.h"
@@ -176,6 +177,15 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
   }
   progress.update(0.3, "translating " + path.filename().string());
   const Handle(StepData_StepModel) model = reader.ChangeReader().StepModel();
+  if (const double instances = count_instances(model); instances > options.max_bodies) {
+    throw InputError(object + ": " +
+                     (std::isinf(instances)
+                          ? "an assembly of it contains itself"
+                          : "its assemblies repeat parts to " + number(instances) +
+                                " bodies; up to " + std::to_string(options.max_bodies) +
+                                " are read") +
+                     ". Export the part that is held, not the whole assembly");
+  }
   Handle(TDocStd_Document) document = new_document();
   const Handle(OcctProgress) indicator =
       new OcctProgress(progress, 0.3, 0.9, "translating " + path.filename().string());

@@ -10,7 +10,8 @@ namespace palmar {
 
 /// A boundary representation: one or more bodies with names and colours, mm. An immutable value,
 /// cheap to copy; operations give a new one. Faces and edges are numbered from 1 in the order in
-/// which the CAD kernel walks through the bodies; the same order that ProductFaces has.
+/// which the CAD kernel walks through the bodies, edges by the numbers of their faces and then by
+/// where their middle is; the same order that ProductFaces has, and that a file keeps.
 class CadModel {
  public:
   struct Impl;  ///< occt_model.h, for the sources of this module only

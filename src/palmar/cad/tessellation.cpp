@@ -135,37 +135,44 @@ double estimate_all(const CadModel& model, double chordal_error, double angle) {
 struct Choice {
   double chordal_error = 0.0;
   std::string reason;
+  double angle = 0.0;
 };
+
+bool can_be_coarser(const Choice& choice) { return choice.chordal_error < 0.5 * kLargestAllowed; }
+
+void coarsen(Choice& choice, const TessellationOptions& options) {
+  choice.chordal_error *= 2.0;
+  choice.angle = std::min(1.0, 1.4 * choice.angle);
+  choice.reason =
+      "so that there are no more than " + std::to_string(options.max_triangles) + " triangles";
+}
 
 Choice choose(const CadModel& model, const ProductFaces& faces,
               const TessellationOptions& options) {
-  if (options.chordal_error) return {*options.chordal_error, "as told"};
+  if (options.chordal_error) return {*options.chordal_error, "as told", options.angle};
   const double size = size_of(model);
   double smallest = 0.0;
   for (const ProductFace& face : faces.face) {
     if (face.radius > 0.0 && (smallest == 0.0 || face.radius < smallest)) smallest = face.radius;
   }
-  Choice choice{size / kSizeShare, "a 2000th of its size of " + number(size) + " mm"};
+  Choice choice{size / kSizeShare, "a 2000th of its size of " + number(size) + " mm",
+                options.angle};
   if (smallest > 0.0 && smallest / kRoundShare < choice.chordal_error) {
-    choice = {smallest / kRoundShare,
-              "a 20th of its smallest radius of " + number(smallest) + " mm"};
+    choice.chordal_error = smallest / kRoundShare;
+    choice.reason = "a 20th of its smallest radius of " + number(smallest) + " mm";
   }
   if (choice.chordal_error < kFinest) {
-    choice = {kFinest, "the finest that is chosen without being told"};
+    choice.chordal_error = kFinest;
+    choice.reason = "the finest that is chosen without being told";
   }
   if (choice.chordal_error > kCoarsest) {
-    choice = {kCoarsest, "the coarsest that is chosen without being told"};
+    choice.chordal_error = kCoarsest;
+    choice.reason = "the coarsest that is chosen without being told";
   }
-  // Coarser as long as there would be too many triangles; half of them are kept in reserve.
-  bool is_coarser = false;
-  while (choice.chordal_error < kLargestAllowed &&
-         2.0 * estimate_all(model, choice.chordal_error, options.angle) > options.max_triangles) {
-    choice.chordal_error *= 2.0;
-    is_coarser = true;
-  }
-  if (is_coarser) {
-    choice.reason =
-        "so that there are no more than " + std::to_string(options.max_triangles) + " triangles";
+  // Half of the triangles are kept in reserve: it is an estimate.
+  while (can_be_coarser(choice) &&
+         2.0 * estimate_all(model, choice.chordal_error, choice.angle) > options.max_triangles) {
+    coarsen(choice, options);
   }
   return choice;
 }
@@ -178,14 +185,14 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
                    " are made. Give a larger --chordal-error-mm");
 }
 
-void mesh_shape(const CadModel& model, const Choice& choice, double angle,
-                IMeshTools_MeshAlgoType algorithm, const Progress& progress) {
+void mesh_shape(const CadModel& model, const Choice& choice, IMeshTools_MeshAlgoType algorithm,
+                const Progress& progress) {
   IMeshTools_Parameters parameters;
   parameters.MeshAlgo = algorithm;
   parameters.Deflection = choice.chordal_error;
   parameters.DeflectionInterior = choice.chordal_error;
-  parameters.Angle = angle;
-  parameters.AngleInterior = 2.0 * angle;
+  parameters.Angle = choice.angle;
+  parameters.AngleInterior = 2.0 * choice.angle;
   parameters.InParallel = Standard_True;
   parameters.Relative = Standard_False;
   const Handle(OcctProgress) indicator = new OcctProgress(progress, 0.1, 0.8, "tessellating");
@@ -228,11 +235,11 @@ std::vector<int> uncovered_faces(const CadModel& model, const ProductFaces& face
 
 /// The fast algorithm; where it leaves faces uncovered, the thorough one, if that covers more.
 std::vector<int> mesh_and_examine(const CadModel& model, const ProductFaces& faces,
-                                  const Choice& choice, double angle, const Progress& progress) {
-  mesh_shape(model, choice, angle, IMeshTools_MeshAlgoType_Delabella, progress);
+                                  const Choice& choice, const Progress& progress) {
+  mesh_shape(model, choice, IMeshTools_MeshAlgoType_Delabella, progress);
   std::vector<int> uncovered = uncovered_faces(model, faces);
   if (uncovered.empty()) return uncovered;
-  mesh_shape(model, choice, angle, IMeshTools_MeshAlgoType_Watson, progress);
+  mesh_shape(model, choice, IMeshTools_MeshAlgoType_Watson, progress);
   return uncovered_faces(model, faces);
 }
 
@@ -401,14 +408,18 @@ Tessellation tessellate(const CadModel& model, const TessellationOptions& option
   progress.update(0.0, "looking at faces");
   Tessellation result;
   result.faces = describe_faces(model);
-  const Choice choice = choose(model, result.faces, options);
+  Choice choice = choose(model, result.faces, options);
   constexpr double kDoubt = 4.0;  // an estimate so many times too large is believed
-  const double guess = estimate_all(model, choice.chordal_error, options.angle);
+  const double guess = estimate_all(model, choice.chordal_error, choice.angle);
   if (guess > kDoubt * options.max_triangles) fail_too_many(guess, choice, options, true);
   progress.update(0.1, "tessellating");
-  const std::vector<int> uncovered =
-      mesh_and_examine(model, result.faces, choice, options.angle, progress);
-  const long long count = triangles_of(model);
+  std::vector<int> uncovered = mesh_and_examine(model, result.faces, choice, progress);
+  long long count = triangles_of(model);
+  while (count > options.max_triangles && !options.chordal_error && can_be_coarser(choice)) {
+    coarsen(choice, options);
+    uncovered = mesh_and_examine(model, result.faces, choice, progress);
+    count = triangles_of(model);
+  }
   if (count > options.max_triangles) {
     fail_too_many(static_cast<double>(count), choice, options, false);
   }

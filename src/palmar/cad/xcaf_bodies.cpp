@@ -84,6 +84,7 @@ class Flattener {
     if (all.faces == 0.0) fail_without_faces(all);
     has_solids_ = all.solids > 0.0;
     for (const TDF_Label& root : roots) walk(root, TopLoc_Location(), "", std::nullopt);
+    add_loose_faces();
     finish(all, file);
   }
 
@@ -207,38 +208,51 @@ class Flattener {
         infos.Bind(sub_shape, {name_of(sub), colour_of(colours_, sub)});
       }
     }
-    std::vector<TopoDS_Shape> pieces;
-    for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) {
-      pieces.push_back(it.Current());
-    }
-    std::vector<TopoDS_Face> loose;
     if (!has_solids_) {
+      // Surfaces of a file without solids may stand in it one by one: all are sewn in the end.
       for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
-        loose.push_back(TopoDS::Face(it.Current()));
+        const TopoDS_Shape face = placed(it.Current(), place, scale_);
+        ShapeInfo info;
+        if (const ShapeInfo* known = infos.Seek(it.Current())) info = *known;
+        if (!info.colour) info.colour = colour;
+        loose_.push_back(TopoDS::Face(face));
+        loose_info_.Bind(face, info);
+        loose_path_.Bind(face, path);
       }
+      return;
     }
-    std::vector<RepairedBody> bodies;
-    for (const TopoDS_Shape& piece : pieces) bodies.push_back(repaired(piece));
-    if (!loose.empty()) {
-      for (RepairedBody& body : sew(loose)) bodies.push_back(std::move(body));
+    std::vector<TopoDS_Shape> solids;
+    for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) {
+      solids.push_back(it.Current());
     }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const TopoDS_Shape& solid : solids) {
       std::string name = path;
       Colour own = colour;
-      if (i < pieces.size()) {
-        if (const ShapeInfo* info = infos.Seek(pieces[i])) {
-          if (info->colour) own = info->colour;
-          if (bodies.size() > 1 || name.empty()) {
-            if (!info->name.empty()) name += (name.empty() ? "" : " / ") + info->name;
-          }
+      if (const ShapeInfo* info = infos.Seek(solid)) {
+        if (info->colour) own = info->colour;
+        if (!info->name.empty() && (solids.size() > 1 || name.empty())) {
+          name += (name.empty() ? "" : " / ") + info->name;
         }
       }
-      add_body(bodies[i], place, name, own, infos);
+      RepairedBody body = repaired(solid);
+      body.shape = placed(body.shape, place, scale_);
+      add_body(body, name, own, infos);
     }
   }
 
-  void add_body(const RepairedBody& body, const TopLoc_Location& place, std::string name,
-                const Colour& colour, const InfoMap& infos) {
+  void add_loose_faces() {
+    if (loose_.empty()) return;
+    for (const RepairedBody& body : sew(loose_)) {
+      std::string name;
+      if (!body.original_faces.empty() && !body.original_faces.front().IsNull()) {
+        if (const std::string* path = loose_path_.Seek(body.original_faces.front())) name = *path;
+      }
+      add_body(body, name, std::nullopt, loose_info_);
+    }
+  }
+
+  void add_body(const RepairedBody& body, std::string name, const Colour& colour,
+                const InfoMap& infos) {
     if (body.is_healed) ++healed_;
     if (body.is_turned) ++turned_;
     if (body.was_invalid && !body.is_healed) ++invalid_;
@@ -254,7 +268,7 @@ class Flattener {
       info.by_face.push_back(found != nullptr ? *found : ShapeInfo());
     }
     infos_.push_back(std::move(info));
-    bodies_.push_back({.shape = placed(body.shape, place, scale_), .name = name, .colour = colour});
+    bodies_.push_back({.shape = body.shape, .name = name, .colour = colour});
     (body.is_solid ? solids_ : open_) += 1;
   }
 
@@ -308,6 +322,9 @@ class Flattener {
   std::map<std::string, int> names_;
   std::vector<CadModel::Impl::Body> bodies_;
   std::vector<FaceInfo> infos_;
+  std::vector<TopoDS_Face> loose_;  ///< of a file without solids
+  InfoMap loose_info_;
+  NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher> loose_path_;
   bool has_solids_ = false;
   int solids_ = 0, open_ = 0, healed_ = 0, turned_ = 0, invalid_ = 0, sewn_solids_ = 0;
 };
