@@ -15,6 +15,7 @@
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/self_intersection.h"
+#include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 constexpr int kMaxHalvings = 12;        // 12 mm become 3 micrometres; then nothing moves there
 constexpr double kBlend = 3.0;          // mm; round what is wrong
 constexpr double kLeastFacing = 0.1;    // cosine between a moved triangle and its direction
+constexpr double kFree = 1.0;           // mm deep; from there a vertex follows the smooth surface
 constexpr double kWallRounding = 1e-3;  // mm; rays are single precision
 
 std::vector<std::array<int, 2>> new_crossings(const TriangleMesh& before, const TriangleMesh& after,
@@ -42,11 +44,11 @@ double smooth_step(double x) {
 }
 
 double held_below(double depth, double limit) {
-  constexpr double kFree = 0.75;
+  constexpr double kStraight = 0.75;
   if (!(limit > 0.0)) return 0.0;
   const double x = depth / limit;
-  if (x <= kFree) return depth;
-  return limit * (1.0 - (1.0 - kFree) * std::exp(-(x - kFree) / (1.0 - kFree)));
+  if (x <= kStraight) return depth;
+  return limit * (1.0 - (1.0 - kStraight) * std::exp(-(x - kStraight) / (1.0 - kStraight)));
 }
 
 std::vector<double> distance_to(const TriangleMesh& mesh, const std::vector<Vec3>& points,
@@ -115,6 +117,19 @@ std::vector<Vec3> PressedSurface::moved(const std::vector<double>& depth) const 
   std::vector<Vec3> result = region_.part.vertices;
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (depth[i] > 0.0) result[i] -= depth[i] * outward_[i];
+  }
+  return result;
+}
+
+std::vector<double> PressedSurface::without_creases(const std::vector<double>& depth,
+                                                    double length) const {
+  if (!(length > 0.0)) return depth;
+  const TriangleMesh pressed{moved(depth), region_.part.triangles};
+  const std::vector<Vec3> smooth = SurfaceDiffusion(pressed, length).smooth(pressed.vertices);
+  std::vector<double> result = depth;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double change = (pressed.vertices[i] - smooth[i]).dot(outward_[i]);
+    result[i] += smooth_step(depth[i] / kFree) * std::max(0.0, change);
   }
   return result;
 }

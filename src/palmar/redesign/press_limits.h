@@ -41,6 +41,11 @@ class PressedSurface {
 
   std::vector<Vec3> moved(const std::vector<double>& depth) const;
 
+  /// Depths with which the pressed surface has no creases where an edge of the original was pressed
+  /// deeper than it is round: vertices go on along their directions to a surface smoothed over
+  /// `length` [mm] where that lies deeper; less where the depth is below 1 mm, so that rims stay.
+  std::vector<double> without_creases(const std::vector<double>& depth, double length) const;
+
   /// Shares in [0, 1] of `depth` per vertex for which the surface doesn't fold or cross itself
   /// where the original didn't, and vertices keep `wall` [mm] of product under them, along their
   /// direction, that had it (`wall_before`). 1 where nothing is wrong; round what is wrong it is

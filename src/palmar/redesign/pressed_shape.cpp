@@ -210,6 +210,9 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
   depth.apply([&](std::size_t i, double d) {
     return outward[i].isZero() ? 0.0 : d * (1.0 - smooth_step(from_imprint[i] / options.rim_width));
   });
+  const PressedSurface surface(region, outward);
+  const std::vector<double> even = surface.without_creases(depth.value(), options.smoothing);
+  depth.apply([&](std::size_t i, double) { return even[i]; });
   const TriangleMesh kept = kept_part(region, kept_faces, options.keep_out);
   if (!kept.triangles.empty()) {
     const double blend = std::max(options.keep_out.blend, 1e-6);
@@ -223,7 +226,6 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
     return held_below(d, std::max(0.0, 0.5 * (gauge.wall()[i] - options.wall)));
   });
 
-  const PressedSurface surface(region, outward);
   const std::vector<double> scale =
       surface.sound_share(depth.value(), gauge.wall(), options.wall, progress);
   shape.limited_by_crossing = depth.apply([&](std::size_t i, double d) { return scale[i] * d; });

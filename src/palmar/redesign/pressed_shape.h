@@ -27,7 +27,7 @@ struct PressedShapeOptions {
   double share = 0.5;  ///< of the combined depth, 0 to 1: 0 leaves the product, 1 makes room for
                        ///< the whole undeformed skin, so that nothing would press any more
   CombineOptions combine;     ///< over hands
-  double depth_limit = 6.0;   ///< mm, 0.1 to 50: never deeper; what comes near is flattened
+  double depth_limit = 8.0;   ///< mm, 0.1 to 50: never deeper; what comes near is flattened
   double wall = 2.0;          ///< mm, 0 to 50: thickness that must remain
   double smoothing = 2.0;     ///< mm, 0 to 20: standard deviation of the smoothing
   double rim_width = 6.0;     ///< mm, 0.5 to 50: round the imprint, over which the depth ends
@@ -70,7 +70,8 @@ struct PressedShape {
 ///    edge they turn steadily; depths are measured along -m (imprint.h), and vertices go that way.
 ///    So at share 1 every vertex lands on the skin, on faces and at edges alike.
 /// 3. Combined over hands, times share, smoothed along the surface, taken back to nothing over
-///    rim_width round the imprint, held below the limits by a curve without a kink.
+///    rim_width round the imprint; creases of pressed edges are smoothed away, deeper; then held
+///    below the limits by a curve without a kink.
 /// 4. Where the result would cross itself, fold or leave less than `wall`, the depth is halved
 ///    there until it does no more.
 ///
