@@ -138,6 +138,42 @@ TEST_F(StudyReportCommand, PageHoldsTheNumbersOfTheTables) {
   }
 }
 
+TEST_F(StudyReportCommand, FacesSumUpToTheirProduct) {
+  std::map<std::string, double> total;  // N, on the skin
+  for (const auto& row : table(folder_ + "/report/statistics.csv")) {
+    if (row.at("quantity") == "force_n") total[row.at("product")] = std::stod(row.at("mean"));
+  }
+  std::map<std::string, double> force, share;
+  std::map<std::string, int> with_peak;
+  std::map<std::string, std::string> of_prism;  // peaks by face
+  for (const auto& row : table(folder_ + "/report/faces.csv")) {
+    const std::string& product = row.at("product");
+    force[product] += std::stod(row.at("force_mean_n"));
+    share[product] += std::stod(row.at("force_share_mean"));
+    with_peak[product] += std::stoi(row.at("has_peak"));
+    EXPECT_LE(std::stod(row.at("peak_mean_mpa")), std::stod(row.at("peak_max_mpa")) + 1e-12);
+    EXPECT_EQ(row.at("hands"), "5");
+    if (row.at("kind") == "cylinder") {
+      EXPECT_EQ(row.at("is_fillet"), "1");
+      EXPECT_EQ(row.at("radius_mm"), product == "prism x 0.9" ? "4.5" : "5");
+    }
+    if (product == "prism") of_prism[row.at("face")] = row.at("peak_mean_mpa");
+    if (product == "twin") {
+      EXPECT_EQ(row.at("peak_mean_mpa"), of_prism.at(row.at("face")));
+    }
+  }
+  ASSERT_EQ(force.size(), 3U);
+  for (const auto& [product, sum] : force) {
+    // The map's vertices are 3 mm apart, the skin's 2.3 mm.
+    EXPECT_NEAR(sum, total.at(product), 0.12 * total.at(product)) << product;
+    EXPECT_NEAR(share.at(product), 1.0, 1e-9) << product;
+    EXPECT_EQ(with_peak.at(product), 5) << product;
+  }
+  EXPECT_THAT(page_, HasSubstr("Faces of the products"));
+  EXPECT_THAT(page_, HasSubstr("highest of the product in"));
+  EXPECT_THAT(page_, HasSubstr("\"ofTriangle\":\""));
+}
+
 TEST_F(StudyReportCommand, TablesHaveMeansOfTheRecords) {
   // The mean over hands, computed here from the export of single grasps.
   const ProgramRun exported = run("study export study.palmar --out export --quiet");

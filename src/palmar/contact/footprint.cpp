@@ -16,8 +16,9 @@
 namespace palmar {
 namespace {
 
-constexpr double kReach = 1.0;     // mm; the skin's facets stand off a curved product by less
-constexpr double kFacing = 0.3;    // cosine; skin and product normals must not agree by more
+constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
+constexpr double kBridge = 5.0;  // mm; how deep under an edge a facet of skin goes straight through
+constexpr double kFacing = 0.3;  // cosine; skin and product normals must not agree by more
 constexpr double kMaxRatio = 2.0;  // of areas; skin folded into a crease has next to none left
 
 /// Loaded points sorted along x, for finding those near a triangle.
@@ -107,15 +108,15 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
     skin.triangles.push_back(t);
     for (const int v : t) box.extend(contact.deformed[v]);
   }
-  box.min().array() -= kReach;
-  box.max().array() += kReach;
+  box.min().array() -= kBridge;
+  box.max().array() += kBridge;
   const ClosestPointQuery query(skin);
   const std::vector<Vec3> normals = vertex_normals(surface.vertices, surface.triangles);
   const std::vector<double> pressure = pressure_on_product(hand, contact);
   footprint.pressure.assign(surface.vertices.size(), 0.0);
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!box.contains(surface.vertices[i])) continue;
-    const auto found = query.closest(surface.vertices[i], kReach);
+    const auto found = query.closest(surface.vertices[i], kBridge);
     if (!found) continue;
     const Triangle& t = skin.triangles[static_cast<std::size_t>(found->triangle)];
     const Vec3 n = (skin.vertices[t[1]] - skin.vertices[t[0]])
@@ -123,6 +124,10 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
                        .normalized();
     // Not through a thin wall: the skin must face this side.
     if (n.dot(normals[i]) > kFacing) continue;
+    // Skin that stands off the product carries nothing; a facet between two sides of an edge goes
+    // through the product, and the edge lies before it.
+    const Vec3 off = surface.vertices[i] - found->point;
+    if (off.norm() > kReach && off.dot(n) > -0.7 * off.norm()) continue;
     for (int k = 0; k < 3; ++k) footprint.pressure[i] += found->weights[k] * pressure[t[k]];
   }
   return footprint;

@@ -13,6 +13,7 @@
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/analytic_distance.h"
 
 namespace palmar {
 namespace {
@@ -206,6 +207,32 @@ TEST(Footprint, CarriesTheForceOfTheSkin) {
   // rim; in the middle, where the pressure is highest, nothing.
   EXPECT_NEAR(*std::max_element(footprint.pressure.begin(), footprint.pressure.end()),
               contact.total.peak_pressure, 0.03 * contact.total.peak_pressure);
+}
+
+TEST(Footprint, GoesRoundASharpEdge) {
+  // A ball of skin on the edge between x = 20 and y = 20 mm, which goes 5 mm into it: facets of
+  // skin lead from one side to the other, straight through the product.
+  const PreparedHand& hand = prepared_ball();
+  const double away = (kRadius - 5.0) / std::sqrt(2.0);
+  Rigid3 product_from_hand;
+  product_from_hand.translation = Vec3(20.0 + away, 20.0 + away, 0.0);
+  const auto edge =
+      make_prism_distance({.width = 40, .depth = 40, .length = 60, .fillet_radius = 0});
+  const ContactResult contact =
+      solve_hand_contact(hand, hand.hand().skin.vertices, product_from_hand, *edge);
+  ASSERT_GT(contact.total.force, 0.0);
+  const ProductFootprint footprint =
+      map_to_product(hand.hand(), contact, make_box(Vec3(40, 40, 60), 20), 0.7);
+  double force = 0.0;
+  for (const Triangle& t : footprint.surface.triangles) {
+    const Vec3& a = footprint.surface.vertices[t[0]];
+    force +=
+        (footprint.surface.vertices[t[1]] - a).cross(footprint.surface.vertices[t[2]] - a).norm() /
+        6.0 * (footprint.pressure[t[0]] + footprint.pressure[t[1]] + footprint.pressure[t[2]]);
+  }
+  // The way round the edge is longer than that through it, by up to a factor of sqrt 2.
+  EXPECT_GT(force, 0.9 * contact.total.force);
+  EXPECT_LT(force, std::sqrt(2.0) * contact.total.force);
 }
 
 }  // namespace

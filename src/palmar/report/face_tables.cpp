@@ -77,7 +77,7 @@ std::string face_contact_table(const AssessedProduct& assessed) {
     const ProductFace& face = face_at(product, one.face);
     if (one.has_peak) {
       words = "<p>Highest pressure on the product: " + html_escaped(title_of(face)) + ", " +
-              short_number(one.peak_pressure) + " MPa.</p>\n";
+              short_number(one.peak_pressure, 2) + " MPa.</p>\n";
     }
     rows += "<tr>" + row_head(face) + number_cell(one.force) + number_cell(one.area) +
             number_cell(face.area) + number_cell(one.peak_pressure) +
@@ -95,7 +95,7 @@ std::string face_contact_table(const AssessedProduct& assessed) {
 
 std::string face_words(const ProductFace& face, const FaceSummary* summary) {
   if (summary == nullptr) return title_of(face) + ": nobody touches it";
-  return title_of(face) + ": peak " + short_number(summary->peak.mean) + " MPa" +
+  return title_of(face) + ": peak " + short_number(summary->peak.mean, 2) + " MPa" +
          (summary->peak.n > 1 ? " in the mean" : "") + ", highest of the product in " +
          percent(summary->has_peak.share) + " of " + counted(summary->has_peak.n, "hand");
 }
@@ -153,7 +153,7 @@ std::string face_statistics_section(const StudyPlan& plan, const std::vector<Pro
                   "deviation over the hands that touch the face. " +
                   below,
               heads({"Highest of the product in", "Touched by", "Peak, MPa", "95th percentile, MPa",
-                     "Largest, MPa", "Peak above " + short_number(1000.0 * threshold) + " kPa",
+                     "Largest, MPa", "Peak above " + short_number(1000.0 * threshold, 2) + " kPa",
                      "Share of the force"}),
               rows);
   }

@@ -75,7 +75,7 @@ TEST(FaceTables, OfAStudyHaveTheHottestFirstAndNoMarkupOfNames) {
   EXPECT_THAT(html, HasSubstr("Face 5 &quot;&lt;script&gt;&quot; (fillet r 3)<br>"));
   EXPECT_THAT(html, HasSubstr("a &amp; b"));
   EXPECT_THAT(html, Not(HasSubstr("<script>")));
-  EXPECT_LT(html.find("(fillet r 3)</th>"), html.find("Face 1 &quot;right&quot; (plane)</th>"));
+  EXPECT_LT(html.find("(fillet r 3)<br>"), html.find("Face 1 &quot;right&quot; (plane)</th>"));
   EXPECT_THAT(html, HasSubstr("Peak above 50 kPa"));
   EXPECT_THAT(html, HasSubstr("Of 10 faces nobody touches 8."));
   // Another condition has no table, nor has a product without faces.

@@ -89,7 +89,8 @@ std::string title_of(const StudyPlan& plan, const StudyCondition& condition) {
     title = "all populations";
   }
   if (plan.profiles.size() > 1) {
-    const std::string& name = plan.profiles[index(condition.profile)].name;
+    std::string name = plan.profiles[index(condition.profile)].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
     title += name == "none" ? ", no restriction" : ", " + name;
   }
   if (plan.settings.size() > 1) title += ", " + plan.settings[index(condition.setting)].name;
