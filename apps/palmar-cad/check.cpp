@@ -1,11 +1,15 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// check: {file, millimetres_per_unit?} -> what the CAD kernel finds. version: {} -> the kernel's.
+// check: {file, millimetres_per_unit?} -> what the CAD kernel finds.
+// convert: the same -> product.step. version: {} -> the kernel's.
 #include <Standard_Version.hxx>
+#include <cmath>
+#include <string>
 
 #include "palmar/cad/cad_check.h"
 #include "palmar/cad/cad_file.h"
+#include "palmar/core/error.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
@@ -24,6 +28,24 @@ Json check(const Json& request, const std::filesystem::path&, const Progress& pr
           {"edges", result.edges},         {"free_edges", result.free_edges},
           {"volume_mm3", result.volume},   {"area_mm2", result.area},
           {"findings", result.findings},   {"notes", file.notes}};
+}
+
+Json convert(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
+  ReadCadOptions read;
+  if (request.contains("millimetres_per_unit")) {
+    read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
+  }
+  const std::string object = request.at("file").get<std::string>();
+  const CadFile file = read_cad(object, read, progress);
+  write_step(folder / "product.step", file.model);
+  const double before = volume_of(file.model);
+  const double after = volume_of(read_step(folder / "product.step").model);
+  constexpr double kSame = 1e-3;
+  if (std::abs(after - before) > kSame * std::abs(before)) {
+    throw NumericalError(object + ": written as STEP and read back its volume is " +
+                         std::to_string(after) + " mm3; it was " + std::to_string(before) + " mm3");
+  }
+  return {{"bodies", body_names(file.model)}, {"faces", file.model.face_count()}};
 }
 
 Json version(const Json&, const std::filesystem::path&, const Progress&) {

@@ -13,6 +13,7 @@
 #include "palmar/core/version.h"
 #include "palmar/geometry/mesh_distance.h"
 #include "palmar/geometry/primitive_meshes.h"
+#include "palmar/io/cad_file.h"
 #include "palmar/io/external_program.h"
 #include "palmar/io/file.h"
 #include "palmar/io/study_store.h"
@@ -87,6 +88,7 @@ int run_doctor(const CommonOptions& common) {
       examine("nearest points", distance_state),
       examine("temporary folder", temporary_state),
       examine("memory", memory_state),
+      examine("CAD (palmar-cad)", [] { return "OpenCASCADE " + cad_kernel_version(); }),
       examine("study stores", [] { return "SQLite " + sqlite_version(); }),
       examine("Slurm", slurm_state),
       examine("threads", [] {

@@ -4,12 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cad_arguments.h"
 #include "cli.h"
 #include "palmar/core/error.h"
+#include "palmar/io/cad_format.h"
 #include "palmar/io/mesh_file.h"
 #include "palmar/io/product_file.h"
 #include "palmar/product/check.h"
 #include "palmar/product/repair.h"
+#include "product_cad_text.h"
 #include "product_make_command.h"
 #include "product_repair_command.h"
 
@@ -65,10 +68,13 @@ std::string check_text(const Product& product, const ProductCheck& check) {
 
 struct FileArguments {
   std::string product, unit, out;
+  CadArguments cad;
 };
 
+constexpr const char* kProductHelp = "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES";
+
 /// The mesh as the file has it (in mm, not yet repaired), for an honest check.
-ProductCheck check_of_file(const FileArguments& arguments, Product& product) {
+ProductCheck check_of_mesh_file(const FileArguments& arguments, Product& product) {
   product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
   MeshFile raw = read_mesh(arguments.product);
   const double scale = millimetres_per(product.unit);
@@ -78,44 +84,90 @@ ProductCheck check_of_file(const FileArguments& arguments, Product& product) {
                                                      : check_mesh(product.mesh);
 }
 
+int inspect(const FileArguments& o, const Context& context, bool fails_on_error) {
+  const LoadProductOptions options = o.cad.options(o.unit, make_progress(context.common));
+  const bool is_cad = is_cad_file(o.product);
+  Product product;
+  ProductCheck check;
+  Json cad;
+  std::string text;
+  std::string fault;  // that the CAD kernel finds
+  if (is_cad) {
+    CadProduct read = load_cad_product(o.product, options);
+    product = std::move(read.product);
+    check = check_mesh(product.mesh);
+    text = cad_text(read.cad);
+    cad = cad_json(read.cad);
+    if (fails_on_error) {
+      const CadVerdict verdict = check_cad_file(o.product, read.cad.millimetres_per_unit,
+                                                options.limits, options.progress);
+      text += verdict_text(verdict);
+      cad["kernel"] = verdict_json(verdict);
+      if (!verdict.is_good()) {
+        fault = verdict.findings.empty() ? "no valid closed solid" : verdict.findings.front();
+      }
+    }
+  } else {
+    check = check_of_mesh_file(o, product);
+  }
+  for (const std::string& line : product.notes) note(context.common, line);
+  if (context.common.json) {
+    Json json = check_json(product, check);
+    if (is_cad) json["cad"] = std::move(cad);
+    print(json.dump(2) + "\n");
+  } else {
+    print(check_text(product, check) + text);
+  }
+  if (fails_on_error && check.verdict >= Severity::kWarning) {
+    throw CheckFailed(o.product + ": " + check.findings.front().text);
+  }
+  if (!fault.empty()) throw CheckFailed(o.product + ": " + fault);
+  return 0;
+}
+
 void add_inspection(CLI::App& noun, Context& context, const std::string& name,
                     const std::string& description, bool fails_on_error) {
   const auto o = std::make_shared<FileArguments>();
   CLI::App* verb =
       add_verb(noun, name, description, "palmar product " + name + " handle.stl --unit mm");
-  verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
+  verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
+  o->cad.add_to(*verb);
   verb->callback([&context, o, fails_on_error] {
-    context.run = [&context, o, fails_on_error] {
-      Product product;
-      const ProductCheck check = check_of_file(*o, product);
-      for (const std::string& text : product.notes) note(context.common, text);
-      print(context.common.json ? check_json(product, check).dump(2) + "\n"
-                                : check_text(product, check));
-      if (fails_on_error && check.verdict >= Severity::kWarning) {
-        throw CheckFailed(o->product + ": " + check.findings.front().text);
-      }
-      return 0;
-    };
+    context.run = [&context, o, fails_on_error] { return inspect(*o, context, fails_on_error); };
   });
+}
+
+int convert(const FileArguments& o, const Context& context) {
+  const LoadProductOptions options = o.cad.options(o.unit, make_progress(context.common));
+  if (cad_format_of_name(o.out) == CadFormat::kStep) {
+    if (!is_cad_file(o.product)) {
+      throw UsageError(o.product +
+                       ": a mesh has no surfaces that STEP could hold; --out .stl, "
+                       ".obj or .ply is required");
+    }
+    const std::optional<double> unit =
+        options.unit ? std::optional(millimetres_per(*options.unit)) : std::nullopt;
+    convert_to_step(o.product, o.out, unit, options.limits, options.progress);
+  } else {
+    const Product product = load_product(o.product, options);
+    for (const std::string& text : product.notes) note(context.common, text);
+    write_mesh(o.out, product.mesh);
+  }
+  note(context.common, "wrote " + o.out + " (unit: mm)");
+  return 0;
 }
 
 void add_convert(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<FileArguments>();
   CLI::App* verb = add_verb(noun, "convert", "Another format, in mm, welded and oriented",
                             "palmar product convert handle.3mf --out handle.stl");
-  verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
+  verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
-  verb->add_option("--out", o->out, "File to write: .stl, .obj or .ply")->required();
-  verb->callback([&context, o] {
-    context.run = [&context, o] {
-      const Product product = load_product(o->product, {.unit = parse_unit(o->unit)});
-      for (const std::string& text : product.notes) note(context.common, text);
-      write_mesh(o->out, product.mesh);
-      note(context.common, "wrote " + o->out + " (unit: mm)");
-      return 0;
-    };
-  });
+  verb->add_option("--out", o->out, "File to write: .stl, .obj or .ply; .step if it was CAD")
+      ->required();
+  o->cad.add_to(*verb);
+  verb->callback([&context, o] { context.run = [&context, o] { return convert(*o, context); }; });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/io/cad_format.h"
+#include "palmar/io/file.h"
 
 namespace palmar {
 namespace {
@@ -77,6 +78,17 @@ std::string cad_kernel_version() {
   const std::string reply = run_cad("version", "{}", folder, "palmar-cad", {.seconds = 10.0});
   return take_reply(reply, "palmar-cad",
                     [](const Json& json) { return json.at("opencascade").get<std::string>(); });
+}
+
+void convert_to_step(const fs::path& path, const fs::path& out,
+                     std::optional<double> millimetres_per_unit, const CadLimits& limits,
+                     const Progress& progress) {
+  check_cad_format(path);
+  Json request = {{"file", path.string()}};
+  if (millimetres_per_unit) request["millimetres_per_unit"] = *millimetres_per_unit;
+  const CadFolder folder;
+  run_cad("convert", request.dump(), folder, path.string(), limits, progress);
+  write_file(out, read_file(folder.path() / "product.step"));
 }
 
 CadVerdict check_cad_file(const fs::path& path, std::optional<double> millimetres_per_unit,

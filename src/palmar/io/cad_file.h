@@ -42,6 +42,12 @@ ImportedCad import_cad(const std::filesystem::path& path, const ImportCadOptions
 /// "7.6.3": of OpenCASCADE. Throws OutputError if the program palmar-cad isn't there or can't run.
 std::string cad_kernel_version();
 
+/// Reads a CAD file and writes it as STEP in mm (see write_step() of module cad) to `out`. Throws
+/// as import_cad(), and OutputError.
+void convert_to_step(const std::filesystem::path& path, const std::filesystem::path& out,
+                     std::optional<double> millimetres_per_unit = {}, const CadLimits& limits = {},
+                     const Progress& progress = {});
+
 /// What the CAD kernel says of a file.
 struct CadVerdict {
   bool is_valid = false, is_closed = false;

@@ -3,10 +3,8 @@
 #include "palmar/io/product_file.h"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 
-#include "palmar/io/cad_file.h"
 #include "palmar/io/cad_format.h"
 #include "palmar/io/made_product.h"
 #include "palmar/io/mesh_file.h"
@@ -22,53 +20,60 @@ std::string number(double value) {
   return text.data();
 }
 
-std::optional<LengthUnit> unit_of(const ImportedCad& cad) {
-  if (cad.unit.empty()) return std::nullopt;
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
-    if (std::abs(cad.millimetres_per_unit / millimetres_per(unit) - 1.0) < 1e-9) return unit;
-  }
-  return LengthUnit::kMillimetre;  // a foot, say: what it was converted to
+/// The unit that the file tells, if it is one of Palmar's.
+std::optional<LengthUnit> told_unit(const ImportedCad& cad) {
+  if (cad.unit == "millimetre" || cad.unit == "mm") return LengthUnit::kMillimetre;
+  if (cad.unit == "centimetre" || cad.unit == "cm") return LengthUnit::kCentimetre;
+  if (cad.unit == "metre" || cad.unit == "m") return LengthUnit::kMetre;
+  if (cad.unit == "inch" || cad.unit == "in") return LengthUnit::kInch;
+  return std::nullopt;
 }
 
-Product load_cad(const std::filesystem::path& path, const LoadProductOptions& options) {
+/// In which unit the size is judged. A foot, say, is none of Palmar's: its lengths are in mm
+/// already.
+UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
+                    const std::string& object) {
+  std::optional<LengthUnit> from_file = told_unit(cad);
+  if (!from_file && !cad.unit.empty() && !options.unit) from_file = LengthUnit::kMillimetre;
+  const double per_unit =
+      millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));
+  Box3 box;
+  for (const Vec3& v : cad.mesh.mesh.vertices) box.extend(Vec3(v / per_unit));
+  return decide_unit(box, from_file, options.unit, object);
+}
+
+}  // namespace
+
+CadProduct load_cad_product(const std::filesystem::path& path, const LoadProductOptions& options) {
   const std::string object = path.string();
   ImportCadOptions import;
   import.chordal_error = options.chordal_error;
-  ImportedCad cad;
-  UnitDecision decision;
-  // The second round is for a file without a unit whose size doesn't tell mm.
-  for (int round = 0; round < 2; ++round) {
-    if (options.unit) import.millimetres_per_unit = millimetres_per(*options.unit);
-    cad = import_cad(path, import, options.limits, options.progress);
-    const std::optional<LengthUnit> from_file = options.unit ? std::nullopt : unit_of(cad);
-    const double per_unit =
-        millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));
-    Box3 box;
-    for (const Vec3& v : cad.mesh.mesh.vertices) box.extend(Vec3(v / per_unit));
-    if (round == 1) break;
-    decision = decide_unit(box, from_file, options.unit, object);
-    if (decision.source != UnitSource::kProposed || decision.unit == LengthUnit::kMillimetre) break;
+  if (options.unit) import.millimetres_per_unit = millimetres_per(*options.unit);
+  CadProduct result;
+  result.cad = import_cad(path, import, options.limits, options.progress);
+  UnitDecision decision = decide(result.cad, options, object);
+  if (decision.source == UnitSource::kProposed && decision.unit != LengthUnit::kMillimetre) {
+    // A file without a unit whose size doesn't tell mm: once more, so that the chordal error is in
+    // mm.
     import.millimetres_per_unit = millimetres_per(decision.unit);
+    result.cad = import_cad(path, import, options.limits, options.progress);
   }
-  // The child has turned everything into mm.
+  const ImportedCad& cad = result.cad;
   const LengthUnit unit = decision.unit;
-  decision.unit = LengthUnit::kMillimetre;
-  Product product =
-      make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
+  decision.unit = LengthUnit::kMillimetre;  // the child has turned everything into mm
+  Product& product = result.product;
+  product = make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
   product.unit = unit;
   product.notes.push_back(cad.format + ", unit " + (cad.unit.empty() ? "not told" : cad.unit) +
                           "; chordal error " + number(cad.chordal_error) + " mm (" +
                           cad.chordal_reason + ")");
   product.notes.insert(product.notes.end(), cad.notes.begin(), cad.notes.end());
-  return product;
+  return result;
 }
-
-}  // namespace
 
 Product load_product(const std::filesystem::path& path, const LoadProductOptions& options) {
   if (is_made(path.string())) return make_solid(made_from(path.string()));
-  if (is_cad_file(path)) return load_cad(path, options);
+  if (is_cad_file(path)) return load_cad_product(path, options).product;
   const MeshFile file = read_mesh(path);
   Box3 box;
   for (const Vec3& v : file.mesh.vertices) box.extend(v);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "palmar/core/progress.h"
+#include "palmar/io/cad_file.h"
 #include "palmar/io/cad_worker.h"
 #include "palmar/product/product.h"
 
@@ -27,5 +28,13 @@ struct LoadProductOptions {
 /// Of CAD, Product::faces tells the faces. Throws InputError naming the file and what is wrong with
 /// it, also when the unit can't be decided.
 Product load_product(const std::filesystem::path& path, const LoadProductOptions& options = {});
+
+/// A CAD file as product, and what else the file holds.
+struct CadProduct {
+  Product product;
+  ImportedCad cad;  ///< its mesh is the one before make_product()
+};
+CadProduct load_cad_product(const std::filesystem::path& path,
+                            const LoadProductOptions& options = {});
 
 }  // namespace palmar
