@@ -28,8 +28,8 @@
 namespace palmar {
 namespace {
 
-constexpr double kSewing = 1e-5;      // mm; faces share their borders to rounding
-constexpr int kFilletRows = 6;        // of a quarter round; the spline is off by 1e-4 of its radius
+constexpr double kSewing = 1e-5;  // mm; faces share their borders to rounding
+constexpr int kFilletRows = 9;    // of a quarter round; beside it the spline is off by 0.002 radii
 constexpr double kDerivative = 1e-4;  // of a turn, for normals of sections
 
 struct Row {

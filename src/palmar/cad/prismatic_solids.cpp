@@ -69,7 +69,7 @@ NamedSolid make_phone(const KindValues& v) {
   gp_Trsf upright;
   upright.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)), 0.5 * std::numbers::pi);
   // The screen, made upwards, faces the front, -y.
-  BRepBuilderAPI_Transform turned(flat.shape, upright);
+  BRepBuilderAPI_Transform turned(flat.shape, upright, true);
   NamedSolid solid{turned.Shape(), {}};
   for (const NamedSolid::Name& one : flat.names) {
     solid.names.push_back({TopoDS::Face(turned.ModifiedShape(one.face)), one.text});

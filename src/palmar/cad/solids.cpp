@@ -7,10 +7,12 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <ShapeUpgrade_RemoveLocations.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <functional>
@@ -66,6 +68,18 @@ std::string what_is_wrong(const TopoDS_Shape& shape) {
   return properties.Mass() > 0.0 ? "" : "it has no volume";
 }
 
+/// The same without parts that are only moved: a STEP file tells no names of those.
+NamedSolid without_locations(const NamedSolid& made) {
+  ShapeUpgrade_RemoveLocations flat;
+  flat.Remove(made.shape);
+  NamedSolid result{flat.GetResult(), {}};
+  for (const NamedSolid::Name& one : made.names) {
+    const TopoDS_Shape face = flat.ModifiedShape(one.face);
+    if (!face.IsNull()) result.names.push_back({TopoDS::Face(face), one.text});
+  }
+  return result;
+}
+
 /// The solid with its faces in the order of their names.
 TopoDS_Solid in_order(const NamedSolid& made) {
   const BRep_Builder builder;
@@ -99,7 +113,7 @@ CadModel make_kind_solid(const ParametricKind& kind, const KindValues& values) {
   if (maker == makers().end()) throw refuse("its kind has no maker");
   NamedSolid made;
   try {
-    made = maker->second(values);
+    made = without_locations(maker->second(values));
   } catch (const Standard_Failure& failure) {
     throw refuse(failure.DynamicType()->Name());
   } catch (const NumericalError& error) {
