@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "balance_arguments.h"
+#include "cad_arguments.h"
 #include "cli.h"
 #include "friction_arguments.h"
 #include "grasp_options.h"
@@ -30,6 +31,7 @@ struct AssessArguments {
   ContactArguments contact;
   FrictionArguments friction;
   BalanceArguments balance;
+  CadArguments cad;
   std::string natural_postures;
   std::string out;
   bool no_pictures = false;
@@ -97,7 +99,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   std::vector<Product> products;
   for (const std::string& path : arguments.products) {
     if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
-    products.push_back(load_product(path, {.unit = parse_unit(arguments.grasp.unit)}));
+    products.push_back(load_product(path, arguments.cad.options(arguments.grasp.unit, progress)));
     if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
     add_findings(products.back());
     friction.push_back(arguments.friction.options_for(products.back()));
@@ -178,9 +180,10 @@ void add_assess_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<AssessArguments>();
   CLI::App* verb = add_verb(app, "assess", "How products feel in the hand: grasp, contact, report",
                             "palmar assess old.stl new.stl --unit mm --out report");
-  verb->add_option("PRODUCT", arguments->products, "Mesh files: STL, OBJ, PLY, 3MF, glTF")
+  verb->add_option("PRODUCT", arguments->products, "Files: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   arguments->grasp.add_to(*verb);
+  arguments->cad.add_to(*verb);
   arguments->contact.add_to(*verb);
   arguments->friction.add_to(*verb);
   arguments->balance.add_to(*verb);
