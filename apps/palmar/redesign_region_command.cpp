@@ -16,7 +16,7 @@
 #include "palmar/io/made_product.h"
 #include "palmar/io/mesh_file.h"
 #include "palmar/product/make_product.h"
-#include "palmar/redesign/imprint.h"
+#include "palmar/redesign/contact_study.h"
 #include "palmar/report/region_picture.h"
 #include "redesign_arguments.h"
 #include "redesign_region_files.h"
@@ -58,23 +58,6 @@ Vec3 handle_axis(const RedesignArguments& arguments, const TriangleMesh& mesh) {
   return principal_frame(mesh).axes.col(0);
 }
 
-/// Hands counted on the map and their mean imprint.
-void count_hands(const HeldOriginal& original, const RegionArguments& a, RegionFindings& findings,
-                 const Progress& progress) {
-  const TriangleMesh& map = findings.map.mesh;
-  findings.count = start_count(map, a.threshold);
-  const ImprintGauge gauge(original.product().mesh, map.vertices, vertex_normals(map));
-  std::vector<Imprint> imprints;
-  for_each_held_hand(
-      original.study.plan, original.study.inputs, original.source(), {}, 0,
-      [&](const HeldHand& held) {
-        imprints.push_back(gauge.measure(held.skin));
-        add_hand(findings.count, map, held, imprints.back());
-      },
-      progress);
-  findings.imprint = combine_imprints(imprints, map.vertex_count());
-}
-
 FittedPatch fit_patch(const RegionFindings& findings, const ContactRegion& region, int number,
                       const std::vector<Vec3>& normals, double pressed_share) {
   FittedPatch fitted;
@@ -98,8 +81,11 @@ FittedPatch fit_patch(const RegionFindings& findings, const ContactRegion& regio
 RegionFindings find_regions(const HeldOriginal& original, const RegionArguments& a,
                             const Context& context, const Progress& progress) {
   RegionFindings findings;
-  findings.map = product_map(original.product());
-  count_hands(original, a, findings, progress);
+  ContactStudy contact = study_contact(original.study.plan, original.study.inputs,
+                                       original.source(), {}, 0, a.threshold, progress);
+  findings.map = std::move(contact.map);
+  findings.count = std::move(contact.count);
+  findings.imprint = std::move(contact.imprint);
   const TriangleMesh& map = findings.map.mesh;
   findings.regions.push_back(contact_region(map, findings.count, {}, a.region));
   for (const HandPart part : {HandPart::kFingers, HandPart::kThumb, HandPart::kPalm}) {
@@ -134,8 +120,9 @@ RegionFindings find_regions(const HeldOriginal& original, const RegionArguments&
     ReliefOptions options = a.relief;
     options.axis = handle_axis(a.redesign, original.product().mesh);
     try {
-      findings.plan = plan_reliefs(map, contact_region(map, findings.count, {}, wide),
-                                   findings.imprint, options);
+      findings.plan =
+          plan_reliefs(map, findings.regions.front(), contact_region(map, findings.count, {}, wide),
+                       findings.imprint, options);
       for (const std::string& text : findings.plan->notes) note(context.common, text);
     } catch (const UsageError& error) {
       note(context.common, error.what());
@@ -243,14 +230,10 @@ int run_region(RegionArguments a, const Context& context) {
   const Json cad = run_region_cad(a, findings, product, redesign, progress);
   if (findings.plan && !redesign) {
     // A mesh has no solid: its own triangles go back instead.
-    const TriangleMesh mesh = relieved_mesh(product.mesh, findings.plan->reliefs);
-    write_mesh(out / "redesign.stl", mesh);
-    UnitDecision unit;
-    unit.unit = LengthUnit::kMillimetre;
-    unit.source = UnitSource::kMade;
     redesign =
-        RedesignedProduct{make_product(product.name + ", reliefs", mesh, unit, "redesign.stl"),
+        RedesignedProduct{relieved_product(product, *findings.plan, product.name + ", reliefs"),
                           "reliefs", (out / "redesign.stl").string()};
+    write_mesh(out / "redesign.stl", redesign->product.mesh);
     note(context.common,
          product.name +
              " is a mesh: region.step has outlines and surfaces but no solid, and the "

@@ -151,7 +151,8 @@ void unwrap(double& angle, double about) {
 
 double area_of(const TopoDS_Face& face) {
   GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
+  // With a tolerance: without, a face that ends at a free curve comes out some per cent small.
+  BRepGProp::SurfaceProperties(face, properties, 1e-5);
   return properties.Mass();
 }
 

@@ -30,9 +30,8 @@ void set_name(const TDF_Label& label, const std::string& name) {
 }
 
 void set_colour(const Handle(XCAFDoc_ColorTool) & tool, const TDF_Label& label,
-                const std::array<float, 3>& colour) {
-  tool->SetColor(label, Quantity_Color(colour[0], colour[1], colour[2], Quantity_TOC_sRGB),
-                 XCAFDoc_ColorSurf);
+                const std::array<float, 3>& colour, XCAFDoc_ColorType type = XCAFDoc_ColorSurf) {
+  tool->SetColor(label, Quantity_Color(colour[0], colour[1], colour[2], Quantity_TOC_sRGB), type);
 }
 
 Handle(TDocStd_Document) document_of(const CadModel& model) {
@@ -45,9 +44,13 @@ Handle(TDocStd_Document) document_of(const CadModel& model) {
     // A body that is a moved instance is written where it is, as a part of its own.
     shapes->SetShape(label, body.shape);
     set_name(label, body.name.empty() ? "body" : body.name);
-    if (body.colour) set_colour(colours, label, *body.colour);
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(body.shape, TopAbs_FACE, faces);
+    if (body.colour) {
+      // A wire has no surface to colour.
+      set_colour(colours, label, *body.colour,
+                 faces.IsEmpty() ? XCAFDoc_ColorCurv : XCAFDoc_ColorSurf);
+    }
     for (int f = 1; f <= faces.Extent(); ++f) {
       const int number = impl.faces.FindIndex(faces(f));
       const auto name = impl.face_name.find(number);

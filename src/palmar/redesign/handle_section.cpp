@@ -14,6 +14,8 @@ namespace palmar {
 namespace {
 
 constexpr double kSpacing = 0.4;  // mm between samples of the outline
+constexpr double kKink = 0.35;    // rad; facets of a round side turn less
+constexpr double kBent = 1.5;     // mm; facets of a round side are about twice as long
 
 double area_of(const std::vector<Eigen::Vector2d>& p) {
   double twice = 0.0;
@@ -50,15 +52,31 @@ HandleSection::HandleSection(const TriangleMesh& mesh, const Vec3& point, const 
   for (std::size_t i = 0; i < n; ++i) {
     way_[i + 1] = way_[i] + (outline_[(i + 1) % n] - outline_[i]).norm();
   }
+  std::vector<Eigen::Vector2d> inward(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d step = (outline_[(i + 1) % n] - outline_[i]).normalized();
+    inward[i] = Eigen::Vector2d(-step.y(), step.x());
+  }
+  // Facets of a round side share the direction at their corner; a kink has both.
+  const auto at_corner = [&](std::size_t corner, std::size_t facet) -> Eigen::Vector2d {
+    const Eigen::Vector2d &before = inward[(corner + n - 1) % n], &after = inward[corner % n];
+    return before.dot(after) > std::cos(kKink) ? Eigen::Vector2d((before + after).normalized())
+                                               : inward[facet];
+  };
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector2d step = outline_[(i + 1) % n] - outline_[i];
-    const double length = step.norm();
-    if (length < 1e-9) continue;
-    const Eigen::Vector2d inward(-step.y() / length, step.x() / length);
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / kSpacing)));
+    const Eigen::Vector2d first_way = at_corner(i, i), last_way = at_corner(i + 1, i);
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / kSpacing)));
+    // Long facets are flat: only their ends bend.
+    const double bent = std::min(0.5, kBent / step.norm());
     for (int k = 0; k < parts; ++k) {
       const double share = (k + 0.5) / parts;
-      samples_.push_back({outline_[i] + share * step, inward, way_[i] + share * length});
+      const double to_last = std::max(0.0, (share - 1.0 + bent) / bent);
+      const double to_first = std::max(0.0, (bent - share) / bent);
+      const Eigen::Vector2d direction =
+          inward[i] + to_last * (last_way - inward[i]) + to_first * (first_way - inward[i]);
+      samples_.push_back(
+          {outline_[i] + share * step, direction.normalized(), way_[i] + share * step.norm()});
     }
   }
   // The largest disc: a grid that narrows down on its best point.
@@ -134,37 +152,63 @@ std::vector<SectionRidge> HandleSection::ridges(double radius) const {
     missing[i] = is_inside(centre) ? radius - distance(centre) : radius;
   }
   // Facets of a round outline stand off it by as much as this.
-  const double tolerance = 0.004 * radius;
+  const double tolerance = 0.01 * radius;
   std::vector<SectionRidge> ridges;
   std::size_t first = 0;
   while (first < n && missing[first] > tolerance) ++first;
   if (first == n) return ridges;  // nowhere room for the disc
-  std::size_t best = n;
+  const auto disc_at = [&](std::size_t i) -> Eigen::Vector2d {
+    return samples_[i].at + radius * samples_[i].inward;
+  };
+  std::size_t begin = n;  // of the part that the disc doesn't reach
   for (std::size_t k = 1; k <= n; ++k) {
     const std::size_t i = (first + k) % n;
     if (missing[i] > tolerance) {
-      if (best == n || missing[i] > missing[best]) best = i;
+      if (begin == n) begin = i;
       continue;
     }
-    if (best < n) {
-      // In the middle of those that miss the most: a tip that is round has many.
-      std::size_t begin = best, end = best;
-      while (missing[(begin + n - 1) % n] > 0.98 * missing[best]) begin = (begin + n - 1) % n;
-      while (missing[(end + 1) % n] > 0.98 * missing[best]) end = (end + 1) % n;
-      double way = samples_[end].way - samples_[begin].way;
-      if (way < 0.0) way += way_.back();
-      SectionRidge ridge;
-      ridge.way = std::fmod(samples_[begin].way + 0.5 * way, way_.back());
-      ridge.apex =
-          nearest(samples_[(begin + (end + n - begin) % n / 2) % n].at, ridge.way - 1e-6, 2e-6);
-      const double turn =
-          std::acos(std::clamp(samples_[begin].inward.dot(samples_[end].inward), -1.0, 1.0));
-      ridge.radius = turn > 0.05 ? way / turn : 0.0;
-      ridges.push_back(ridge);
-      best = n;
+    if (begin == n) continue;
+    // The discs that stop on both sides are the same, but for the spacing of samples; the tip is
+    // farthest from it.
+    const Eigen::Vector2d centre = 0.5 * (disc_at((begin + n - 1) % n) + disc_at(i));
+    std::size_t tip = begin;
+    for (std::size_t m = begin; m != i; m = (m + 1) % n) {
+      if ((samples_[m].at - centre).norm() > (samples_[tip].at - centre).norm()) tip = m;
     }
+    ridges.push_back({samples_[tip].at, samples_[tip].way, tip_radius(samples_[tip].way)});
+    begin = n;
   }
   return ridges;
+}
+
+double HandleSection::tip_radius(double way) const {
+  // Kasa's circle through the outline near the tip; a kink has no radius.
+  constexpr double kReach = 1.5;  // mm
+  const std::size_t n = outline_.size();
+  const auto is_near = [&](double at) {
+    const double off = std::abs(at - way);
+    return std::min(off, way_[n] - off) <= kReach;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_near(way_[i])) continue;
+    const Eigen::Vector2d in = (outline_[i] - outline_[(i + n - 1) % n]).normalized();
+    const Eigen::Vector2d out = (outline_[(i + 1) % n] - outline_[i]).normalized();
+    if (in.dot(out) < std::cos(kKink)) return 0.0;
+  }
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Vec3 b = Vec3::Zero();
+  const Eigen::Vector2d origin = nearest(samples_.front().at, way - 1e-6, 2e-6);
+  for (const Sample& one : samples_) {
+    if (!is_near(one.way)) continue;
+    const Eigen::Vector2d p = one.at - origin;
+    const Vec3 row(2.0 * p.x(), 2.0 * p.y(), 1.0);
+    a += row * row.transpose();
+    b += p.squaredNorm() * row;
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(a);
+  if (lu.rank() < 3) return 0.0;
+  const Vec3 x = lu.solve(b);
+  return std::sqrt(std::max(0.0, x[2] + x.head<2>().squaredNorm()));
 }
 
 std::optional<SectionRidge> HandleSection::ridge_near(const Eigen::Vector2d& point,

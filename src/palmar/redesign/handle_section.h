@@ -49,6 +49,7 @@ class HandleSection {
   /// Nearest point of the outline's part from `from` over `length` mm.
   Eigen::Vector2d nearest(const Eigen::Vector2d& x, double from, double length) const;
   double distance(const Eigen::Vector2d& x) const;
+  double tip_radius(double way) const;
   bool is_inside(const Eigen::Vector2d& x) const;
 
   std::vector<Eigen::Vector2d> outline_;

@@ -69,7 +69,7 @@ struct Touched {
   Eigen::Vector2d at;
   double s = 0.0;       // along the axis
   double depth = 0.0;   // of the imprint, mm
-  double weight = 0.0;  // mm^2
+  double weight = 0.0;  // mm^2; 0 where only the reach has it
 };
 
 /// A ridge with a disc in it, in one section.
@@ -158,9 +158,11 @@ Vec3 onto_relief(const RidgeRelief& relief, const Vec3& x) {
 }
 
 ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
-                        const std::vector<double>& imprint, const ReliefOptions& options) {
+                        const ContactRegion& reach, const std::vector<double>& imprint,
+                        const ReliefOptions& options) {
   options.check();
-  if (region.field.size() != map.vertices.size() || imprint.size() != map.vertices.size()) {
+  if (region.field.size() != map.vertices.size() || reach.field.size() != map.vertices.size() ||
+      imprint.size() != map.vertices.size()) {
     throw UsageError("relief: region, imprint and map don't belong together");
   }
   if (region.patches.empty()) {
@@ -186,8 +188,10 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
     const double s = map.vertices[v].dot(plan.axis);
     bottom = std::min(bottom, s);
     top = std::max(top, s);
-    if (region.field[v] < 0.0) continue;
-    touched.push_back({flat(map.vertices[v]), s, imprint[v], areas[v]});
+    const bool is_inside = region.field[v] >= 0.0;
+    if (!is_inside && reach.field[v] < 0.0) continue;
+    touched.push_back({flat(map.vertices[v]), s, imprint[v], is_inside ? areas[v] : 0.0});
+    if (!is_inside) continue;
     low = std::min(low, s);
     high = std::max(high, s);
   }
@@ -221,7 +225,9 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
       first = std::min(first, one.s);
       last = std::max(last, one.s);
     }
-    if (here.empty()) {
+    const bool is_touched =
+        std::any_of(here.begin(), here.end(), [](const Touched& one) { return one.weight > 0.0; });
+    if (!is_touched) {
       plan.notes.push_back(name + ": not in the region; left as it is");
       continue;
     }
@@ -301,7 +307,11 @@ TriangleMesh relieved_mesh(const TriangleMesh& mesh, std::span<const RidgeRelief
   TriangleMesh result = split_long_edges(mesh, edge_length, is_touched);
   for (Vec3& x : result.vertices) {
     for (const RidgeRelief& relief : reliefs) {
-      if (is_cut(relief, x)) x = onto_relief(relief, x);
+      if (!is_cut(relief, x)) continue;
+      // Not quite onto it: points that lie over each other (of an end that is cut through) must not
+      // fall together, or the mesh would tear where they are welded.
+      const Vec3 on = onto_relief(relief, x);
+      x = on + 1e-3 * (x - on);
     }
   }
   return result;

@@ -68,7 +68,8 @@ struct ReliefPlan {
 /// `imprint`: mean depth over hands per vertex of the map, mm. Throws UsageError naming what is
 /// missing if nothing can be rounded: the region is empty, no ridge, no closed section.
 ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
-                        const std::vector<double>& imprint, const ReliefOptions& options = {});
+                        const ContactRegion& reach, const std::vector<double>& imprint,
+                        const ReliefOptions& options = {});
 
 /// The mesh with its reliefs: triangles near them are split to `edge_length` [mm], and vertices
 /// that are cut away go onto the relief. Faces stay as they are connected. For bodies without a CAD

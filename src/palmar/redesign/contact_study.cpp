@@ -1,0 +1,39 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/redesign/contact_study.h"
+
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/product/make_product.h"
+#include "palmar/redesign/imprint.h"
+
+namespace palmar {
+
+ContactStudy study_contact(const StudyPlan& plan, const StudyInputs& inputs,
+                           const RecordSource& records, const StudyCondition& condition,
+                           int product, double threshold, const Progress& progress) {
+  const Product& held_product = inputs.products[static_cast<std::size_t>(product)];
+  ContactStudy study;
+  study.map = product_map(held_product);
+  const TriangleMesh& map = study.map.mesh;
+  study.count = start_count(map, threshold);
+  const ImprintGauge gauge(held_product.mesh, map.vertices, vertex_normals(map));
+  std::vector<Imprint> imprints;
+  for_each_held_hand(
+      plan, inputs, records, condition, product,
+      [&](const HeldHand& held) {
+        imprints.push_back(gauge.measure(held.skin));
+        add_hand(study.count, map, held, imprints.back());
+      },
+      progress);
+  study.imprint = combine_imprints(imprints, map.vertex_count());
+  return study;
+}
+
+Product relieved_product(const Product& original, const ReliefPlan& plan, const std::string& name) {
+  UnitDecision unit;
+  unit.unit = LengthUnit::kMillimetre;
+  unit.source = UnitSource::kMade;
+  return make_product(name, relieved_mesh(original.mesh, plan.reliefs), unit, "made: " + name);
+}
+
+}  // namespace palmar
