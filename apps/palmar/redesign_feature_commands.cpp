@@ -144,7 +144,7 @@ int run_features(const FeatureArguments& a, const Context& context) {
   const std::vector<double>& values =
       story.result.history[static_cast<size_t>(*story.result.best)].values;
   const std::string name = words_of(run.settings, run.all_values(values));
-  const ChangedCad made = run.make(values, true, progress);
+  const ChangedCad made = run.make(values, true, true, progress);
   const fs::path step = folder / "redesign.step";
   write_file(step, made.step);
   const Product product = run.product_of(made, name, step.string());

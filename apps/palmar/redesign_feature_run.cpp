@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "palmar/core/error.h"
 #include "palmar/product/make_product.h"
@@ -83,10 +84,11 @@ std::vector<double> FeatureRun::all_values(const std::vector<double>& varying) c
   return values;
 }
 
-ChangedCad FeatureRun::make(const std::vector<double>& varying, bool step,
+ChangedCad FeatureRun::make(const std::vector<double>& varying, bool mesh, bool step,
                             const Progress& progress) const {
   CadFeatureRequest request = request_for(source, settings, all_values(varying));
   request.keep_out = limits.keep_out;
+  request.mesh = mesh;
   request.step = step;
   request.chordal_error = kChordalError;
   try {
@@ -127,7 +129,7 @@ std::vector<SearchConstraint> FeatureRun::constraints() const {
 
 SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory::Beside& beside,
                                  const Progress& progress) const {
-  const ChangedCad made = make(varying, false, progress);
+  const ChangedCad made = make(varying, true, false, progress);
   const Product product = product_of(made, "candidate", "candidate");
   const StudyResults results =
       assess_candidate(arguments, *original, product, needs_indices(goal), silent(progress));
@@ -138,13 +140,29 @@ SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory
   beside.volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
   SearchOutcome outcome{
       .failure = "", .goal = figure.value, .goal_error = figure.error, .constraint = {}};
-  if (limits.largest_offset) outcome.constraint.push_back(made.largest_change);
-  if (!limits.keep_out.empty()) outcome.constraint.push_back(made.keep_out_change);
-  if (limits.smallest_volume) outcome.constraint.push_back(beside.volume_ratio);
-  if (limits.largest_volume) outcome.constraint.push_back(beside.volume_ratio);
-  if (limits.least_grip_force) outcome.constraint.push_back(beside.grip_force_ratio);
-  outcome.constraint.push_back(static_cast<double>(figure.lost) / figure.hands);
+  outcome.constraint =
+      values_of(made, beside.grip_force_ratio, static_cast<double>(figure.lost) / figure.hands);
   return outcome;
+}
+
+SearchOutcome FeatureRun::measure(const std::vector<double>& varying,
+                                  const Progress& progress) const {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {.failure = "",
+          .constraint = values_of(make(varying, false, false, progress), kUnknown, kUnknown)};
+}
+
+std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_force_ratio,
+                                          double lost_share) const {
+  const double volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
+  std::vector<double> values;
+  if (limits.largest_offset) values.push_back(made.largest_change);
+  if (!limits.keep_out.empty()) values.push_back(made.keep_out_change);
+  if (limits.smallest_volume) values.push_back(volume_ratio);
+  if (limits.largest_volume) values.push_back(volume_ratio);
+  if (limits.least_grip_force) values.push_back(grip_force_ratio);
+  values.push_back(lost_share);
+  return values;
 }
 
 SearchStory FeatureRun::search(double step, const SearchOptions& options,
@@ -161,6 +179,9 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   story.problem.evaluate = [&](const std::vector<double>& values) {
     story.beside.emplace_back();
     return assess(values, story.beside.back(), progress);
+  };
+  story.problem.measure = [&](const std::vector<double>& values) {
+    return measure(values, progress);
   };
   if (!story.problem.variables.empty()) {
     story.result = search_features(story.problem, options, progress);

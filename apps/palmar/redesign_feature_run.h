@@ -41,13 +41,19 @@ struct FeatureRun {
   /// Values of all settings from those of the ones that vary.
   std::vector<double> all_values(const std::vector<double>& varying) const;
   /// The solid of a candidate.
-  ChangedCad make(const std::vector<double>& varying, bool step, const Progress& progress) const;
+  ChangedCad make(const std::vector<double>& varying, bool mesh, bool step,
+                  const Progress& progress) const;
   Product product_of(const ChangedCad& made, const std::string& name,
                      const std::string& source_name) const;
   std::vector<SearchConstraint> constraints() const;
   /// Made, held by all hands, judged.
   SearchOutcome assess(const std::vector<double>& varying, SearchStory::Beside& beside,
                        const Progress& progress) const;
+  /// Made only: constraints that hands decide are NaN.
+  SearchOutcome measure(const std::vector<double>& varying, const Progress& progress) const;
+  /// By constraints().
+  std::vector<double> values_of(const ChangedCad& made, double grip_force_ratio,
+                                double lost_share) const;
   /// With nothing that varies: the one candidate.
   SearchStory search(double step, const SearchOptions& options, const Progress& progress) const;
 };

@@ -66,6 +66,7 @@ Json request_json(const CadFeatureRequest& request) {
   Json json = {{"source", source_json(request.source)},
                {"edits", std::move(features)},
                {"keep_out", request.keep_out},
+               {"mesh", request.mesh},
                {"step", request.step}};
   if (request.reference) json["reference"] = source_json(*request.reference);
   if (request.chordal_error) json["chordal_error_mm"] = *request.chordal_error;
@@ -98,7 +99,7 @@ ChangedCad change_features(const CadFeatureRequest& request, const CadLimits& li
     changed.chordal_error = number(answer, "chordal_error_mm");
     changed.fillets = fillets_in(answer);
     for (const Json& note : answer.at("notes")) changed.notes.push_back(note.get<std::string>());
-    changed.mesh = read_face_mesh(folder.path() / "mesh.bin");
+    if (request.mesh) changed.mesh = read_face_mesh(folder.path() / "mesh.bin");
     if (request.step) changed.step = read_file(folder.path() / "product.step");
   } catch (const Json::exception& error) {
     throw InputError(object + ": the CAD program's answer is damaged: " + error.what());

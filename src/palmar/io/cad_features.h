@@ -41,6 +41,7 @@ struct CadFeatureRequest {
   std::optional<CadSource> reference;  ///< what the change is measured from; unset: the source
   std::vector<CadFeature> features{};
   std::string keep_out{};  ///< faces of the reference that must stay where they are, in words
+  bool mesh = true;        ///< wants the mesh
   bool step = false;       ///< wants a STEP file
   std::optional<double> chordal_error{};  ///< mm, of the mesh; unset: as tessellation.h chooses
 };

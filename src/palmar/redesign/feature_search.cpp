@@ -59,19 +59,40 @@ class Candidates {
   /// Candidates that may be made until BudgetSpent is thrown.
   void limit(int candidates) { limit_ = std::min(candidates, budget_); }
 
+  /// How far a variable can go from the start towards 0 or 1 (`end`), the others at the start: to
+  /// whole steps, by bisection. In [0, 1].
+  double reach(std::vector<double> x, size_t variable, double end) const {
+    if (!problem_.measure) return end;
+    const SearchVariable& own = problem_.variables[variable];
+    const double range = own.highest - own.lowest;
+    const auto is_allowed = [&](double at) {
+      progress_.throw_if_cancelled();
+      x[variable] = at;
+      try {
+        const SearchOutcome outcome = problem_.measure(values_at(steps_at(x)));
+        if (!outcome.failure.empty()) return false;
+        for (size_t i = 0; i < problem_.constraints.size(); ++i) {
+          // NaN: not known without the assessment.
+          if (excess(problem_.constraints[i], outcome.constraint.at(i)) > kExcess) return false;
+        }
+        return true;
+      } catch (const NumericalError&) {
+        return false;
+      }
+    };
+    if (is_allowed(end)) return end;
+    double good = (own.start - own.lowest) / range, bad = end;
+    while (std::abs(bad - good) * range > 1.01 * own.step) {
+      const double middle = 0.5 * (good + bad);
+      (is_allowed(middle) ? good : bad) = middle;
+    }
+    return good;
+  }
+
   /// `x` in [0, 1] per variable.
   const SearchTrial& at(const std::vector<double>& x) {
-    std::vector<long> key;
-    std::vector<double> values;
-    for (size_t i = 0; i < problem_.variables.size(); ++i) {
-      const SearchVariable& variable = problem_.variables[i];
-      const double range = variable.highest - variable.lowest;
-      const long last = static_cast<long>(std::floor(range / variable.step + 1e-9));
-      const long steps =
-          std::clamp(std::lround(std::clamp(x[i], 0.0, 1.0) * range / variable.step), 0L, last);
-      key.push_back(steps);
-      values.push_back(variable.lowest + static_cast<double>(steps) * variable.step);
-    }
+    const std::vector<long> key = steps_at(x);
+    const std::vector<double> values = values_at(key);
     const auto known = by_steps_.find(key);
     if (known != by_steps_.end()) return history_[known->second];
     if (static_cast<int>(history_.size()) >= limit_) throw BudgetSpent();
@@ -123,6 +144,27 @@ class Candidates {
   }
 
  private:
+  std::vector<long> steps_at(const std::vector<double>& x) const {
+    std::vector<long> steps;
+    for (size_t i = 0; i < problem_.variables.size(); ++i) {
+      const SearchVariable& variable = problem_.variables[i];
+      const double range = variable.highest - variable.lowest;
+      const long last = static_cast<long>(std::floor(range / variable.step + 1e-9));
+      steps.push_back(
+          std::clamp(std::lround(std::clamp(x[i], 0.0, 1.0) * range / variable.step), 0L, last));
+    }
+    return steps;
+  }
+
+  std::vector<double> values_at(const std::vector<long>& steps) const {
+    std::vector<double> values;
+    for (size_t i = 0; i < steps.size(); ++i) {
+      const SearchVariable& variable = problem_.variables[i];
+      values.push_back(variable.lowest + static_cast<double>(steps[i]) * variable.step);
+    }
+    return values;
+  }
+
   double signed_goal(const SearchTrial& trial) const {
     const double scale = history_.empty() || !history_.front().outcome.failure.empty() ||
                                  history_.front().outcome.goal == 0.0
@@ -212,11 +254,11 @@ double excess_at(const std::vector<double>& x, std::vector<double>&, void* data)
 
 /// True if it ended by itself, false if the budget was spent.
 bool run(nlopt::algorithm algorithm, const SearchProblem& problem, const SearchOptions& options,
-         Candidates& candidates, std::vector<double> x) {
+         Candidates& candidates, std::vector<double> x, double low = 0.0, double high = 1.0) {
   const unsigned n = static_cast<unsigned>(problem.variables.size());
   nlopt::opt optimiser(algorithm, n);
-  optimiser.set_lower_bounds(0.0);
-  optimiser.set_upper_bounds(1.0);
+  optimiser.set_lower_bounds(low);
+  optimiser.set_upper_bounds(high);
   const bool has_constraints = algorithm == nlopt::LN_COBYLA;
   std::exception_ptr thrown;
   Callback goal{&candidates, 0, has_constraints ? 0 : problem.constraints.size(), &thrown};
@@ -235,7 +277,7 @@ bool run(nlopt::algorithm algorithm, const SearchProblem& problem, const SearchO
   }
   optimiser.set_xtol_abs(tolerance);
   optimiser.set_xtol_rel(0.0);
-  optimiser.set_initial_step(options.first_step);
+  optimiser.set_initial_step(std::min(options.first_step, 0.5 * (high - low)));
   // Rounded values are answered from memory, so the optimiser might go on for long without a new
   // candidate.
   optimiser.set_maxeval(100 * options.evaluations);
@@ -312,16 +354,26 @@ SearchResult search_features(const SearchProblem& problem, const SearchOptions& 
   bool has_ended = true;
   try {
     candidates.at(x);
-    if (options.method == SearchMethod::kDirect) {
-      candidates.limit(std::max(2, options.evaluations / 2));
-      run(nlopt::GN_DIRECT_L, problem, options, candidates, x);
-      candidates.limit(options.evaluations);
-      if (const auto best = candidates.best()) {
-        x = candidates.place(candidates.history()[static_cast<size_t>(*best)]);
+    double low = 0.0, high = 1.0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      for (const double end : {1.0, 0.0}) {
+        std::vector<double> far = x;
+        far[i] = candidates.reach(x, i, end);
+        candidates.at(far);
+        if (x.size() == 1) (end == 1.0 ? high : low) = far[i];
       }
     }
-    has_ended =
-        run(uses_quadratic ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, problem, options, candidates, x);
+    if (options.method == SearchMethod::kDirect) {
+      candidates.limit(std::max(2, options.evaluations / 2));
+      run(nlopt::GN_DIRECT_L, problem, options, candidates, x, low, high);
+      candidates.limit(options.evaluations);
+    }
+    if (const auto best = candidates.best()) {
+      x = candidates.place(candidates.history()[static_cast<size_t>(*best)]);
+      for (double& one : x) one = std::clamp(one, low, high);
+    }
+    has_ended = run(uses_quadratic ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, problem, options,
+                    candidates, x, low, high);
   } catch (const BudgetSpent&) {
     has_ended = false;
   }

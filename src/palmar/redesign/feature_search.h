@@ -43,6 +43,9 @@ struct SearchProblem {
   /// Makes and assesses a candidate. What throws NumericalError counts as a candidate that can't be
   /// made; other errors end the search.
   std::function<SearchOutcome(const std::vector<double>&)> evaluate;
+  /// Makes a candidate without assessing it, if that is much quicker: values of constraints, NaN of
+  /// those that need the assessment. May be empty.
+  std::function<SearchOutcome(const std::vector<double>&)> measure{};
 };
 
 enum class SearchMethod {
@@ -79,9 +82,13 @@ struct SearchResult {
 };
 
 /// Looks for the values with the best goal within bounds and constraints, without derivatives: a
-/// fixed number of candidates, none twice. Candidates that can't be made are penalised: they count
-/// as somewhat worse than the worst one that could. The same problem gives the same history.
-/// Throws UsageError on a problem that makes no sense (field and value), Cancelled.
+/// fixed number of candidates, none twice. What hands feel has more than one valley (a fillet that
+/// grows is felt only when it reaches the skin), so the start is followed by both ends of every
+/// variable: as far as `measure` says that it can go with the others at the start, found by
+/// bisection; a single variable stays within these ends. The optimiser goes on from the best.
+/// Candidates that can't be made are penalised: they count as somewhat worse than the worst one
+/// that could. The same problem gives the same history. Throws UsageError on a problem that makes
+/// no sense (field and value), Cancelled.
 SearchResult search_features(const SearchProblem& problem, const SearchOptions& options = {},
                              const Progress& progress = {});
 

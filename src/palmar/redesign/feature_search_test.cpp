@@ -137,6 +137,32 @@ TEST(SearchFeatures, DirectFindsTheDeeperOfTwoValleys) {
   EXPECT_NEAR(best_of(result).values[0], 8.0, 0.3);
 }
 
+TEST(SearchFeatures, ALittleHillBesideTheStartDoesNotHideTheValleyBehindIt) {
+  // As fillets of the prism feel: nothing changes up to 6, then it gets better; the budget of
+  // change ends at 10.2, which is measured without assessing.
+  const double root = std::sqrt(2.0) - 1;
+  int measured = 0;
+  SearchProblem problem{.variables = {variable("fillet", 1, 15, 3)},
+                        .constraints = {{"largest change", "mm", 3.0, true}},
+                        .evaluate = [&](const Values& v) {
+                          const double hill = 0.01 * std::exp(-std::pow(v[0] - 5.5, 2));
+                          return SearchOutcome{.failure = "",
+                                               .goal = 0.2 + hill - 0.012 * std::max(0.0, v[0] - 6),
+                                               .constraint = {root * std::abs(v[0] - 3)}};
+                        }};
+  problem.measure = [&](const Values& v) {
+    ++measured;
+    return SearchOutcome{.failure = "", .constraint = {root * std::abs(v[0] - 3)}};
+  };
+  const SearchResult result = search_features(problem, {.evaluations = 12});
+  EXPECT_NEAR(best_of(result).values[0], 10.20, 1e-9);
+  for (const SearchTrial& trial : result.history) {
+    EXPECT_TRUE(trial.is_feasible) << trial.values[0] << " " << trial.outcome.failure;
+  }
+  EXPECT_GT(measured, 2);
+  EXPECT_LT(measured, 25);
+}
+
 TEST(SearchFeatures, MakesNoCandidateTwiceAndNoneOffTheMachinesSteps) {
   std::multiset<Values> made;
   const SearchProblem problem{.variables = {variable("x", 1, 15, 3, 0.5)},
