@@ -106,11 +106,12 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
   for (size_t i = 0; i < proposals.size(); ++i) {
     progress.update(static_cast<double>(i) / static_cast<double>(proposals.size()),
                     proposals[i].words);
-    TriedProposal one{proposals[i].words, proposals[i].reason, {}, 0.0, false};
+    TriedProposal one{proposals[i].words, proposals[i].reason, {}, 0.0, false, 0.0};
     run.settings = {feature_setting("--propose", one.words, {})};
     try {
       one.outcome = run.assess({}, beside, progress);
       one.is_feasible = true;
+      one.grip_force_ratio = beside.grip_force_ratio;
       for (size_t k = 0; k < constraints.size(); ++k) {
         if (excess(constraints[k], one.outcome.constraint[k]) > 1e-9) one.is_feasible = false;
       }
@@ -130,13 +131,18 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
 
 std::string proposals_csv(const std::vector<TriedProposal>& tried, const FeatureGoal& goal) {
   CsvTable table;
-  table.header = {"vary",    goal.name + (goal.unit.empty() ? "" : ", " + goal.unit),
-                  "gain, %", "within constraints",
-                  "failure", "reason"};
+  table.header = {"vary",
+                  goal.name + (goal.unit.empty() ? "" : ", " + goal.unit),
+                  "gain, %",
+                  "grip force by the original's",
+                  "within constraints",
+                  "failure",
+                  "reason"};
   for (const TriedProposal& one : tried) {
     const bool is_made = one.outcome.failure.empty();
     table.rows.push_back({one.words, is_made ? fmt::format("{:.6g}", one.outcome.goal) : "",
                           is_made ? fmt::format("{:.2f}", 100 * one.gain) : "",
+                          is_made ? fmt::format("{:.4f}", one.grip_force_ratio) : "",
                           one.is_feasible ? "yes" : "no", one.outcome.failure, one.reason});
   }
   return format_csv(table);
@@ -149,6 +155,7 @@ Json proposals_json(const std::vector<TriedProposal>& tried, const FeatureGoal& 
     if (one.outcome.failure.empty()) {
       json["goal"] = one.outcome.goal;
       json["gain_share"] = one.gain;
+      json["grip_force_ratio"] = one.grip_force_ratio;
     } else {
       json["failure"] = one.outcome.failure;
     }
@@ -165,8 +172,9 @@ std::string proposals_text(const std::vector<TriedProposal>& tried, const Featur
       text += fmt::format("  {:<28} {}\n", one.words, one.outcome.failure);
       continue;
     }
-    text += fmt::format("  {:<28} {:+6.1f} % better{}; {}\n", one.words, 100 * one.gain,
-                        one.is_feasible ? "" : ", beyond the constraints", one.reason);
+    text += fmt::format("  {:<28} {:+6.1f} % better{}, grip force {:.0f} %; {}\n", one.words,
+                        100 * one.gain, one.is_feasible ? "" : ", beyond the constraints",
+                        100 * one.grip_force_ratio, one.reason);
   }
   return text + "--vary takes these words; give a range instead of the value to search it\n";
 }

@@ -17,6 +17,7 @@ struct TriedProposal {
   SearchOutcome outcome;
   double gain = 0.0;  ///< share by which the goal gets better; below 0: worse
   bool is_feasible = false;
+  double grip_force_ratio = 0.0;  ///< by the original's
 };
 
 /// From the original's grasps: faces that carry the highest pressure in a tenth of hands or more.

@@ -68,7 +68,13 @@ void round(SolidEdit& edit, const std::vector<RoundedEdge>& edges, const std::st
     for (const RoundedEdge& wanted : edges) {
       const std::optional<TopoDS_Edge> edge = edge_between(edit, wanted);
       if (!edge) {
-        if (!wanted.is_asked) continue;  // eaten by a larger fillet beside it
+        if (!wanted.is_asked) {
+          edit.notes.push_back(
+              fmt::format("the fillet of {:.4g} mm that was face {} is gone: the faces beside it "
+                          "no longer meet",
+                          wanted.radius, wanted.blend));
+          continue;
+        }
         throw NumericalError(fmt::format("{}: can't be made (faces {} and {} no longer meet)",
                                          feature, wanted.face[0], wanted.face[1]));
       }

@@ -5,13 +5,17 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
 #include <BRepLProp_SLProps.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <Bnd_OBB.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
+#include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -19,7 +23,10 @@
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Ax1.hxx>
+#include <gp_Ax3.hxx>
 #include <gp_Pnt2d.hxx>
+#include <gp_Trsf.hxx>
 #include <gp_Vec.hxx>
 #include <numbers>
 #include <optional>
@@ -34,6 +41,7 @@ constexpr double kSmoothAngle =
 constexpr double kSharper = 1.05;
 constexpr double kFlat = 1e-4;  // 1/mm; radii above 10 m are flat
 constexpr double kSameRadius = 0.02;
+constexpr double kAskew = 10 * std::numbers::pi / 180;  // rad
 
 /// A face at one point of its rim.
 struct FaceAtEdge {
@@ -183,6 +191,37 @@ std::vector<Blend> blends_of(const CadModel::Impl& model,
   return result;
 }
 
+namespace {
+
+/// A box of a turned body may lie askew; the axis of its largest face that goes all round is exact.
+void settle_on_turned_face(const CadModel::Impl& model, LongAxis& axis) {
+  double largest = 0.0;
+  std::optional<gp_Ax1> turned;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const BRepAdaptor_Surface surface(TopoDS::Face(model.faces(i)));
+    const double turn = surface.LastUParameter() - surface.FirstUParameter();
+    std::optional<gp_Ax1> own;
+    if (surface.GetType() == GeomAbs_Cylinder) own = surface.Cylinder().Axis();
+    if (surface.GetType() == GeomAbs_Cone) own = surface.Cone().Axis();
+    if (surface.GetType() == GeomAbs_Torus) own = surface.Torus().Axis();
+    if (!own || turn < 2 * std::numbers::pi - 1e-6) continue;
+    const double angle = own->Direction().Angle(axis.direction);
+    if (std::min(angle, std::numbers::pi - angle) > kAskew) continue;
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(model.faces(i), properties);
+    if (properties.Mass() <= largest) continue;
+    largest = properties.Mass();
+    turned = angle > std::numbers::pi / 2 ? own->Reversed() : *own;
+  }
+  if (!turned) return;
+  axis.direction = turned->Direction();
+  const gp_Vec from(turned->Location(), axis.middle);
+  axis.middle =
+      turned->Location().Translated(gp_Vec(axis.direction) * from.Dot(gp_Vec(axis.direction)));
+}
+
+}  // namespace
+
 LongAxis long_axis_of(const CadModel::Impl& model) {
   Bnd_OBB box;
   BRepBndLib::AddOBB(model.shape, box, Standard_False, Standard_True, Standard_False);
@@ -204,6 +243,18 @@ LongAxis long_axis_of(const CadModel::Impl& model) {
           ? direction.X()
           : (std::abs(direction.Y()) >= std::abs(direction.Z()) ? direction.Y() : direction.Z());
   axis.direction = gp_Dir(largest < 0.0 ? direction.Reversed() : direction);
+  settle_on_turned_face(model, axis);
+
+  // Middle and length along it: of the box in the axis' own frame.
+  gp_Trsf into;
+  into.SetTransformation(gp_Ax3(axis.middle, axis.direction));
+  Bnd_Box along;
+  BRepBndLib::AddOptimal(model.shape.Moved(TopLoc_Location(into)), along, Standard_False,
+                         Standard_False);
+  double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
+  along.Get(x0, y0, z0, x1, y1, z1);
+  axis.length = z1 - z0;
+  axis.middle.Translate(gp_Vec(axis.direction) * (0.5 * (z0 + z1)));
   return axis;
 }
 

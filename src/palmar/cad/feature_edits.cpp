@@ -234,6 +234,7 @@ EditedModel edit_features(const CadModel& model, const FeatureEdits& edits) {
             removed.size() - wanted.rounded.size()));
       }
     }
+    for (const std::string& note : edit.notes) result.notes.push_back(note);
     CadModel::Impl::Body after = body;
     after.shape = edit.solid;
     result.volume_before += volume_of(body.shape);

@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <TopoDS_Edge.hxx>
 #include <cmath>
@@ -133,6 +134,13 @@ TEST(EditFeatures, TaperedSidesMakeAFrustum) {
   EXPECT_EQ(choose_edges(frustum.model, "long").sharp.size(), 4U);
 }
 
+TEST(EditFeatures, TaperedSidesKeepTheirFillets) {
+  const CadModel r3 = fillet(box(), "long", 3).model;
+  const EditedModel tapered = edit_features(r3, {.tapers = {{.angle = kPi / 180}}});
+  EXPECT_EQ(tapered.model.face_count(), 10);
+  EXPECT_EQ(choose_edges(tapered.model, "long").rounded.size(), 4U);
+}
+
 TEST(EditFeatures, ARingGrooveTakesAwayWhatPappusSays) {
   // Section: the part of a disk of radius R that dips by d below the line: circular segment.
   const double r = 16, R = 8, d = 1.5;
@@ -149,6 +157,19 @@ TEST(EditFeatures, ARingGrooveTakesAwayWhatPappusSays) {
   rounded.rim = 2.0;
   const EditedModel soft = edit_features(cylinder(r, 100), {.grooves = {rounded}});
   EXPECT_LT(soft.volume, grooved.volume);
+}
+
+TEST(EditFeatures, ARingFindsTheAxisOfATurnedBodyWhoseBoxLiesAskew) {
+  const TopoDS_Shape cone =
+      BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(5, 5, -50), gp_Dir(0, 0, 1)), 19, 14, 100).Shape();
+  const CadModel rimmed = fillet(make_cad_model(cone, "cone"), "convex", 4).model;
+  const GrooveEdit groove{.ring_at = 0, .radius = 10, .depth = 1.5};
+  const EditedModel grooved = edit_features(rimmed, {.grooves = {groove}});
+  // About that of a cylinder of its mean radius.
+  const double half = std::acos(8.5 / 10);
+  const double segment = 100 * (half - std::sin(half) * std::cos(half));
+  EXPECT_NEAR(grooved.volume_before - grooved.volume, 2 * kPi * 16 * segment,
+              0.05 * 2 * kPi * 16 * segment);
 }
 
 TEST(EditFeatures, AGrooveThatIsLongerByATakesAwayASegmentTimesAMore) {

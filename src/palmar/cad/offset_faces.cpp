@@ -6,14 +6,19 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepLProp_SLProps.hxx>
 #include <BRepOffsetAPI_DraftAngle.hxx>
 #include <BRepOffset_MakeOffset.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_Surface.hxx>
 #include <ShapeAnalysis_Surface.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Shell.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <gp_Pln.hxx>
 #include <gp_Pnt2d.hxx>
@@ -24,6 +29,7 @@
 namespace palmar {
 namespace {
 
+constexpr double kSameWay = 0.9;     // rad; a taper tilts by less than 0.79, other faces lie across
 constexpr double kTolerance = 1e-4;  // mm; of intersections, a tenth of what machines keep
 
 std::string words_of(BRepOffset_Error error) {
@@ -73,6 +79,27 @@ bool is_turned_over(const TopoDS_Face& before, const std::vector<TopoDS_Face>& a
   return std::any_of(after.begin(), after.end(), [&](const TopoDS_Face& face) {
     return sample_near(face, &aim).normal.Dot(was.normal) < 0.0;
   });
+}
+
+/// The face of a tilted body that a face has become: nearest to a point in its middle, and facing
+/// the same way.
+TopTools_ListOfShape nearest_face(const TopoDS_Face& before,
+                                  const TopTools_IndexedMapOfShape& made) {
+  const FaceSample was = sample_near(before, nullptr);
+  const TopoDS_Vertex point = BRepBuilderAPI_MakeVertex(was.at).Vertex();
+  TopTools_ListOfShape nearest;
+  double least = 0.0;
+  for (int i = 1; i <= made.Extent(); ++i) {
+    const TopoDS_Face face = TopoDS::Face(made(i));
+    const FaceSample now = sample_near(face, &was.at);
+    if (now.normal.Magnitude() == 0.0 || now.normal.Angle(was.normal) > kSameWay) continue;
+    const BRepExtrema_DistShapeShape away(point, face);
+    if (!away.IsDone() || (!nearest.IsEmpty() && away.Value() >= least)) continue;
+    least = away.Value();
+    nearest.Clear();
+    nearest.Append(face);
+  }
+  return nearest;
 }
 
 }  // namespace
@@ -138,7 +165,10 @@ void taper_faces(SolidEdit& edit, const std::vector<int>& faces, double angle,
       throw NumericalError(feature + ": can't be made (the tilted faces don't meet)");
     }
     const TopoDS_Shape solid = checked_solid(draft.Shape(), feature);
-    edit.follow(solid, [&](const TopoDS_Face& face) { return draft.Modified(face); });
+    // The history speaks of faces that the kernel replaced once more: found again by their place.
+    TopTools_IndexedMapOfShape made;
+    TopExp::MapShapes(solid, TopAbs_FACE, made);
+    edit.follow(solid, [&](const TopoDS_Face& face) { return nearest_face(face, made); });
   });
 }
 

@@ -15,7 +15,8 @@ namespace palmar {
 /// A solid while it is changed, and what has become of the faces that it had.
 struct SolidEdit {
   TopoDS_Shape solid;
-  std::map<int, std::vector<TopoDS_Face>> image;  ///< by the number of the face in the model
+  std::map<int, std::vector<TopoDS_Face>> image{};  ///< by the number of the face in the model
+  std::vector<std::string> notes{};                 ///< what a user should know of what was made
   /// Takes the next state: `images_of` gives what became of a face, nothing if it stays as it is.
   /// Faces that aren't part of the new solid are forgotten.
   void follow(const TopoDS_Shape& next,
