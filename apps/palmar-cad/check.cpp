@@ -10,16 +10,22 @@
 #include "palmar/cad/cad_check.h"
 #include "palmar/cad/cad_file.h"
 #include "palmar/core/error.h"
+#include "read_request.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
 
-Json check(const Json& request, const std::filesystem::path&, const Progress& progress) {
+CadFile read_request(const Json& request, const Progress& progress) {
   ReadCadOptions read;
   if (request.contains("millimetres_per_unit")) {
     read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
   }
-  const CadFile file = read_cad(request.at("file").get<std::string>(), read, progress);
+  const std::string object = request.at("file").get<std::string>();
+  return on_file(object, [&] { return read_cad(object, read, progress); });
+}
+
+Json check(const Json& request, const std::filesystem::path&, const Progress& progress) {
+  const CadFile file = read_request(request, progress);
   const CadCheck result = check_cad(file.model);
   return {{"format", file.format},         {"unit", file.unit},
           {"is_good", result.is_good()},   {"is_valid", result.is_valid},
@@ -31,12 +37,8 @@ Json check(const Json& request, const std::filesystem::path&, const Progress& pr
 }
 
 Json convert(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
-  ReadCadOptions read;
-  if (request.contains("millimetres_per_unit")) {
-    read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
-  }
   const std::string object = request.at("file").get<std::string>();
-  const CadFile file = read_cad(object, read, progress);
+  const CadFile file = read_request(request, progress);
   write_step(folder / "product.step", file.model);
   const double before = volume_of(file.model);
   const double after = volume_of(read_step(folder / "product.step").model);

@@ -3,13 +3,17 @@
 //
 // import: {file, millimetres_per_unit?, chordal_error_mm?, angle_deg?, max_triangles?} -> mesh.bin
 // and what the file held.
+#include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include "palmar/cad/cad_check.h"
 #include "palmar/cad/cad_file.h"
 #include "palmar/cad/tessellation.h"
 #include "palmar/core/error.h"
 #include "palmar/io/face_mesh_file.h"
+#include "read_request.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
@@ -27,13 +31,41 @@ Progress part_of(const Progress& progress, double begin, double end) {
   return part;
 }
 
+/// The parent judges the size with care; this one keeps triangles from being made of what is no
+/// product in any unit.
+void check_size(const CadFile& file, const std::string& object) {
+  constexpr double kLargest = 20'000.0;  // mm
+  const Box3 box = box_of(file.model);
+  const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
+  if (size <= kLargest) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", size);
+  throw InputError(object + ": its longest side is " + text + " mm (unit " +
+                   (file.unit.empty() ? "not told" : file.unit) +
+                   "); up to 10000 mm is allowed. If the unit is wrong, give it with --unit mm, "
+                   "cm, m or inch");
+}
+
+/// Geometry with numbers that are none gives triangles that are none.
+void check_numbers(const Tessellation& mesh, const std::string& object) {
+  for (const ProductFace& face : mesh.faces.face) {
+    if (std::isfinite(face.area) && std::isfinite(face.radius)) continue;
+    throw InputError(object + ": the size of face " + std::to_string(face.number) +
+                     " is no finite number; the file is damaged");
+  }
+  for (int t = 0; t < mesh.mesh.triangle_count(); ++t) {
+    for (const int v : mesh.mesh.triangles[t]) {
+      if (mesh.mesh.vertices[v].allFinite()) continue;
+      throw InputError(object + ": face " +
+                       std::to_string(mesh.faces.face[mesh.faces.face_of_triangle[t]].number) +
+                       " has a point that is no finite number; the file is damaged");
+    }
+  }
+}
+
 }  // namespace
 
 Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
-  ReadCadOptions read;
-  if (request.contains("millimetres_per_unit")) {
-    read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
-  }
   TessellationOptions options;
   if (request.contains("chordal_error_mm")) {
     options.chordal_error = request.at("chordal_error_mm").get<double>();
@@ -45,13 +77,16 @@ Json import(const Json& request, const std::filesystem::path& folder, const Prog
   options.check();
 
   const std::string object = request.at("file").get<std::string>();
-  CadFile file = read_cad(object, read, part_of(progress, 0.0, 0.5));
-  Tessellation mesh;
-  try {
-    mesh = tessellate(file.model, options, part_of(progress, 0.5, 0.95));
-  } catch (const InputError& error) {
-    throw InputError(object + ": " + error.what());
-  }
+  const CadFile file = read_request(request, part_of(progress, 0.0, 0.5));
+  Tessellation mesh = on_file(object, [&] {
+    check_size(file, object);
+    try {
+      return tessellate(file.model, options, part_of(progress, 0.5, 0.95));
+    } catch (const InputError& error) {
+      throw InputError(object + ": " + error.what());
+    }
+  });
+  check_numbers(mesh, object);
   Json notes = file.notes;
   for (const std::string& note : mesh.notes) notes.push_back(note);
   Json bodies = Json::array();

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/cad/cad_check.h"
 
+#include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListIteratorOfListOfStatus.hxx>
 #include <BRepCheck_ListOfStatus.hxx>
 #include <BRepCheck_Result.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -90,6 +92,18 @@ int free_edges_of(const TopoDS_Shape& shape) {
 }
 
 }  // namespace
+
+Box3 box_of(const CadModel& model) {
+  Box3 result;
+  if (model.is_empty()) return result;
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(model.impl().shape, box, Standard_False, Standard_False);
+  if (box.IsVoid()) return result;
+  const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
+  result.extend(Vec3(low.X(), low.Y(), low.Z()));
+  result.extend(Vec3(high.X(), high.Y(), high.Z()));
+  return result;
+}
 
 double volume_of(const CadModel& model) {
   double volume = 0.0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/cad/cad_model.h"
+#include "palmar/geometry/types.h"
 
 namespace palmar {
 
@@ -24,6 +25,9 @@ struct CadCheck {
 };
 
 CadCheck check_cad(const CadModel& model);
+
+/// Of the triangles if there are any, else of the surfaces; empty if there is nothing.
+Box3 box_of(const CadModel& model);
 
 /// mm^3; of the solids, by the surface integral over the exact surfaces.
 double volume_of(const CadModel& model);

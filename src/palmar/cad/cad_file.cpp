@@ -126,6 +126,19 @@ double settle_unit(const std::vector<FileUnit>& units, const ReadCadOptions& opt
   return file.millimetres_per_unit / from_file;
 }
 
+/// "3 entities are broken, the first is #57"; "" if none is. Such files
+/// may still hold what is wanted, or crash the kernel.
+std::string broken_entities(const Handle(StepData_StepModel) & model) {
+  int count = 0, first = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (!model->Check(i, Standard_True)->HasFailed()) continue;
+    if (count++ == 0) first = i;
+  }
+  if (count == 0) return "";
+  return std::to_string(count) + (count == 1 ? " entity is" : " entities are") +
+         " broken, the first is #" + std::to_string(model->IdentLabel(model->Value(first)));
+}
+
 std::string schema_of(const std::string& head) {
   const std::size_t begin = head.find("FILE_SCHEMA");
   if (begin == head.npos) return "";
@@ -175,8 +188,12 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) {
     throw InputError(object + ": is not a STEP file that can be read: its text is broken");
   }
-  progress.update(0.3, "translating " + path.filename().string());
   const Handle(StepData_StepModel) model = reader.ChangeReader().StepModel();
+  const std::string broken = broken_entities(model);
+  const std::string activity =
+      "translating " + path.filename().string() + (broken.empty() ? "" : " (" + broken + ")");
+  if (!broken.empty()) file.notes.push_back(broken);
+  progress.update(0.3, activity);  // told if the kernel crashes on it
   if (const double instances = count_instances(model); instances > options.max_bodies) {
     throw InputError(object + ": " +
                      (std::isinf(instances)
@@ -187,8 +204,7 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
                      ". Export the part that is held, not the whole assembly");
   }
   Handle(TDocStd_Document) document = new_document();
-  const Handle(OcctProgress) indicator =
-      new OcctProgress(progress, 0.3, 0.9, "translating " + path.filename().string());
+  const Handle(OcctProgress) indicator = new OcctProgress(progress, 0.3, 0.9, activity);
   const bool is_done = reader.Transfer(document, indicator->Start());
   progress.throw_if_cancelled();
   if (!is_done) {

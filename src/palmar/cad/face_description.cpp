@@ -188,6 +188,7 @@ struct Describer {
     }
   }
 
+  /// Leaves `one` as it is where the geometry gives no finite numbers.
   void measure(const TopoDS_Edge& edge, ProductEdge& one) const {
     BRepAdaptor_Curve curve;
     try {
@@ -216,6 +217,7 @@ struct Describer {
     const gp_Vec b = normal(one.faces[1], is_seam);
     if (a.Magnitude() < 0.5 || b.Magnitude() < 0.5) return;
     one.angle = a.Angle(b);
+    if (!std::isfinite(one.angle)) one.angle = 0.0;
     one.is_smooth = one.angle < kSmooth;
     // Seen from outside, material of face 0 lies left of the edge as that face runs along it.
     if (orientation_in(edge, one.faces[0]) == TopAbs_REVERSED) tangent.Reverse();

@@ -3,11 +3,9 @@
 #include "palmar/cad/tessellation.h"
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
@@ -23,6 +21,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "palmar/cad/cad_check.h"
 #include "palmar/cad/occt_model.h"
 #include "palmar/cad/occt_progress.h"
 #include "palmar/core/error.h"
@@ -43,11 +42,8 @@ std::string number(double value) {
 }
 
 double size_of(const CadModel& model) {
-  Bnd_Box box;
-  BRepBndLib::AddOptimal(model.impl().shape, box, Standard_False, Standard_False);
-  if (box.IsVoid()) return 0.0;
-  const gp_XYZ sides = box.CornerMax().XYZ() - box.CornerMin().XYZ();
-  return std::max({sides.X(), sides.Y(), sides.Z()});
+  const Box3 box = box_of(model);
+  return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
 }
 
 /// Chords over an arc of radius r [mm] and angle [rad].

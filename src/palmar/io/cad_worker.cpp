@@ -42,8 +42,7 @@ std::string number(double value) {
 }
 
 /// "0.3500 tessellating": share and activity, of a child that isn't trusted.
-void report_line(const std::string& line, const Progress& progress) {
-  if (!progress.report) return;
+void report_line(const std::string& line, const Progress& progress, std::string& last) {
   char* end = nullptr;
   const double share = std::strtod(line.c_str(), &end);
   if (end == line.c_str() || *end != ' ' || !(share >= 0.0 && share <= 1.0)) return;
@@ -51,7 +50,8 @@ void report_line(const std::string& line, const Progress& progress) {
   for (char& c : activity) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   }
-  progress.report(share, activity);
+  last = activity;
+  if (progress.report) progress.report(share, activity);
 }
 
 [[noreturn]] void rethrow(const std::string& message, int code) {
@@ -130,10 +130,11 @@ std::string run_cad(const std::string& verb, const std::string& request, const C
     fs::remove(folder.path() / old, ignored);
   }
   write_file(folder.path() / "request.json", request);
+  std::string activity;
   const ChildResult result = run_child(
       worker_program(), {verb, folder.path().string()}, folder.path() / "worker.log",
       {.seconds = limits.seconds, .memory_mb = limits.memory_mb},
-      [&progress](const std::string& line) { report_line(line, progress); },
+      [&](const std::string& line) { report_line(line, progress, activity); },
       [&progress] { return progress.is_cancelled(); });
   switch (result.end) {
     case ChildResult::End::kCancelled:
@@ -148,8 +149,10 @@ std::string run_cad(const std::string& verb, const std::string& request, const C
       if (result.code == SIGKILL || result.peak_memory_mb > kNearLimit * limits.memory_mb) {
         fail_memory(object, limits);  // the system, short of memory, ends programs by SIGKILL
       }
-      throw InputError(object + ": the CAD kernel crashed on it: " + words_of_signal(result.code) +
-                       "; the file is damaged, or holds what the kernel can't handle");
+      throw InputError(object + ": the CAD kernel crashed on it" +
+                       (activity.empty() ? "" : " while " + activity) + ": " +
+                       words_of_signal(result.code) +
+                       "; it is damaged, or holds what the kernel can't handle");
     case ChildResult::End::kExited:
       break;
   }

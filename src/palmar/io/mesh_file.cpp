@@ -102,7 +102,7 @@ MeshFile read_mesh(const std::filesystem::path& path) {
     const std::string foreign = foreign_format(bytes, extension);
     if (foreign == "STEP" || foreign == "IGES") {
       throw InputError(path.string() + ": " + foreign +
-                       " is not supported yet; export STL, OBJ or 3MF");
+                       " holds surfaces, not a mesh; `palmar product convert` makes one of it");
     }
     if (!foreign.empty()) {
       throw InputError(path.string() + ": " + foreign + " is not supported; " +

@@ -75,11 +75,11 @@ TEST(MeshFile, WhatCantBeReadIsNamedWithWhatCan) {
     return read_message(folder / name).substr(folder.path().string().size() + 1);
   };
   EXPECT_EQ(message("a.step", "ISO-10303-21;\nHEADER;\n"),
-            "a.step: STEP is not supported yet; export STL, OBJ or 3MF");
+            "a.step: STEP holds surfaces, not a mesh; `palmar product convert` makes one of it");
   EXPECT_EQ(message("b.stl", "ISO-10303-21;\nHEADER;\n"),
-            "b.stl: STEP is not supported yet; export STL, OBJ or 3MF");
+            "b.stl: STEP holds surfaces, not a mesh; `palmar product convert` makes one of it");
   EXPECT_EQ(message("c.igs", std::string(72, ' ') + "S      1\n"),
-            "c.igs: IGES is not supported yet; export STL, OBJ or 3MF");
+            "c.igs: IGES holds surfaces, not a mesh; `palmar product convert` makes one of it");
   EXPECT_EQ(message("d.fbx", "Kaydara FBX Binary"),
             "d.fbx: FBX is not supported; STL, OBJ, PLY, 3MF, glTF and GLB are read");
   EXPECT_EQ(message("e.docx.txt", "Dear reader"),
