@@ -96,6 +96,7 @@ Json history_json(const SearchStory& story) {
                  {"name", story.goal.name},
                  {"unit", story.goal.unit},
                  {"better", story.goal.is_lower_better ? "lower" : "higher"}}},
+               {"original", story.original.value},
                {"optimiser", story.result.method},
                {"ending", story.result.ending},
                {"variables", std::move(variables)},
@@ -176,13 +177,13 @@ std::string history_text(const SearchStory& story) {
   if (!result.best) return text + "no candidate is within the constraints\n";
   const auto best = static_cast<size_t>(*result.best);
   const SearchTrial& trial = result.history[best];
-  const SearchTrial& start = result.history.front();
-  text += fmt::format("best: {}: {:.4f}{}", words_of(story.settings, trial.values),
+  text += fmt::format("best: {}{:.4f}{}",
+                      story.settings.empty() ? "" : words_of(story.settings, trial.values) + ": ",
                       trial.outcome.goal, unit);
   if (trial.outcome.goal_error > 0.0) text += fmt::format(" (SE {:.4f})", trial.outcome.goal_error);
-  if (start.outcome.failure.empty() && start.outcome.goal != 0.0) {
-    text += fmt::format(", start {:.4f}{}: {:+.1f} %", start.outcome.goal, unit,
-                        100 * (trial.outcome.goal / start.outcome.goal - 1));
+  if (story.original.value != 0.0) {
+    text += fmt::format("; the original {:.4f}{}: {:+.1f} %", story.original.value, unit,
+                        100 * (trial.outcome.goal / story.original.value - 1));
   }
   text += "\n";
   for (size_t k = 0; k < story.problem.constraints.size(); ++k) {

@@ -18,6 +18,7 @@ struct SearchStory {
   SearchProblem problem;
   FeatureGoal goal;
   SearchResult result;
+  GoalFigure original;  ///< in the same hands
   /// One per trial that could be made: hands that lost hold, grip force by the original's.
   struct Beside {
     int hands = 0, lost = 0;

@@ -167,7 +167,9 @@ std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_fo
 
 SearchStory FeatureRun::search(double step, const SearchOptions& options,
                                const Progress& progress) const {
-  SearchStory story{.settings = {}, .problem = {}, .goal = goal, .result = {}, .beside = {}};
+  SearchStory story{
+      .settings = {}, .problem = {}, .goal = goal, .result = {}, .original = {}, .beside = {}};
+  story.original = goal_of({.plan = original->study.plan, .records = original->records}, goal, 0);
   for (size_t i = 0; i < settings.size(); ++i) {
     if (!settings[i].varies()) continue;
     story.settings.push_back(settings[i]);

@@ -1,0 +1,99 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+// Redesign 3 as a user runs it: features of CAD products changed and searched.
+
+namespace palmar::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kPrism = "\"made: prism width_mm=35 depth_mm=35 length_mm=100 fillet_mm=3\"";
+const std::string kFew = " --hands 1 --seed 2014 --no-compare --quiet";
+
+const std::string& folder() {
+  static const std::string made = temporary_folder();
+  return made;
+}
+
+ProgramRun redesign(const std::string& arguments) {
+  return run_palmar("redesign " + arguments, folder());
+}
+
+TEST(RedesignFeatures, ASearchWritesAValidSolidAndItsHistory) {
+  const ProgramRun run = redesign("fillet " + kPrism +
+                                  " --radius-mm 2:12 --largest-offset-mm 3 --evaluations 4"
+                                  " --step-mm 0.5 --json --out search" +
+                                  kFew);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json& history = json.at("history");
+  ASSERT_GE(history.size(), 2U);
+  ASSERT_LE(history.size(), 4U);
+  EXPECT_EQ(history.at(0).at("values").at(0), 3.0);
+  const Json& best = history.at(json.at("best").get<std::size_t>());
+  EXPECT_TRUE(best.at("is_feasible").get<bool>());
+  // The surface of an edge of 90 degrees moves by (sqrt 2 - 1) times the change of its radius.
+  const double radius = best.at("values").at(0).get<double>();
+  EXPECT_NEAR(best.at("constraints").at(0).get<double>(),
+              (std::sqrt(2.0) - 1) * std::abs(radius - 3), 0.02);
+  const double volume = 100 * (35 * 35 - (4 - M_PI) * radius * radius);
+  EXPECT_NEAR(json.at("redesign").at("volume_mm3").get<double>(), volume, 1e-3 * volume);
+  for (const char* file :
+       {"redesign.step", "redesign.stl", "history.csv", "history.svg", "search.json"}) {
+    EXPECT_TRUE(fs::is_regular_file(fs::path(folder()) / "search" / file)) << file;
+  }
+  const ProgramRun check = run_palmar("product check search/redesign.step", folder());
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
+TEST(RedesignFeatures, WhatThereIsNotIsToldBeforeHandsAreMade) {
+  struct Case {
+    std::string arguments, message;
+    int exit_code = 2;
+  };
+  for (const Case& one : {
+           Case{"fillet " + kPrism + " --edges edge=99", "edge 99: the product has edges 1 to"},
+           Case{"fillet " + kPrism + " --edges longest", "allowed are long, convex"},
+           Case{"fillet " + kPrism + " --radius-mm 9:2", "from the smaller to the larger"},
+           Case{"fillet " + kPrism + " --goal grip_force_n", "neither better higher nor lower"},
+           Case{"fillet " + kPrism + " --goal peek", "did you mean peak"},
+           Case{"features " + kPrism + " --vary width=20:30", "no parameter width"},
+           Case{"features " + kPrism + " --vary chamfer:long=1:2", "fillet:EDGES, offset:FACES"},
+           Case{"features " + kPrism, "--vary is needed"},
+           Case{"features missing.step --vary fillet:long=1:2", "missing.step", 3},
+       }) {
+    const ProgramRun run = redesign(one.arguments + " --out none" + kFew);
+    EXPECT_EQ(run.exit_code, one.exit_code) << one.arguments << run.err;
+    EXPECT_THAT(run.err, HasSubstr(one.message)) << one.arguments;
+    EXPECT_FALSE(fs::exists(fs::path(folder()) / "none"));
+  }
+}
+
+TEST(RedesignFeatures, AMeshHasNoFeatures) {
+  ASSERT_EQ(run_palmar("product make cylinder --out c.stl --quiet", folder()).exit_code, 0);
+  const ProgramRun run =
+      redesign("features c.stl --unit mm --vary fillet:long=1:2 --out none" + kFew);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("c.stl: a mesh; features change in CAD files"));
+}
+
+TEST(RedesignFeatures, ARadiusThatLeavesNoRoomIsToldWithItsValue) {
+  const ProgramRun run = redesign("fillet " + kPrism + " --radius-mm 18 --out eighteen" + kFew);
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_THAT(run.err, HasSubstr("fillet of 18 mm on fillets"));
+}
+
+}  // namespace
+}  // namespace palmar::testing
