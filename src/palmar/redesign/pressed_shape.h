@@ -24,7 +24,7 @@ struct KeepOut {
 };
 
 struct PressedShapeOptions {
-  double share = 0.6;  ///< of the combined depth, 0 to 1: 0 leaves the product, 1 makes room for
+  double share = 0.7;  ///< of the combined depth, 0 to 1: 0 leaves the product, 1 makes room for
                        ///< the whole undeformed skin, so that nothing would press any more
   CombineOptions combine;     ///< over hands
   double depth_limit = 8.0;   ///< mm, 0.1 to 50: never deeper; what comes near is flattened

@@ -139,8 +139,7 @@ ValidationRows validate_fillets(ValidationBench& bench) {
     rows.push_back(judge(start + "peak on cells, r10", "MPa", r10.peak_pressure_cells,
                          at_most(0.7, "Xie 2014, figures of chapter 5; one hand of 30")));
   }
-  rows.push_back(not_built("redesigns 1 and 2 below both fillets", "redesign: issue 6"));
-  for (ValidationRow& row : validate_fillets_over_hands(bench, sharp, round)) {
+  for (ValidationRow& row : validate_designs_over_hands(bench, sharp, round)) {
     rows.push_back(std::move(row));
   }
   return rows;

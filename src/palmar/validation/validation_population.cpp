@@ -11,6 +11,9 @@
 #include "palmar/core/error.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/product/primitives.h"
+#include "palmar/redesign/contact_study.h"
+#include "palmar/redesign/held_hand.h"
+#include "palmar/redesign/pressed_shape.h"
 #include "palmar/statistics/correlation.h"
 #include "palmar/statistics/paired_test.h"
 #include "palmar/statistics/summary.h"
@@ -106,6 +109,52 @@ void add_areas(ValidationRows& rows, const StudyResults& results, int setting) {
                        spearman(areas, lengths).r, at_least(0.5, source)));
 }
 
+RecordSource source_of(const StudyResults& results) {
+  return [&](const std::function<void(const StudyRecord&)>& visit) {
+    for (const StudyRecord& record : results.records) visit(record);
+  };
+}
+
+/// Redesign 1 of product 0: pressed in where hands reach into it.
+Product pressed(const StudyPlan& plan, const StudyInputs& inputs, const StudyResults& results) {
+  std::vector<TriangleMesh> skins;
+  for_each_held_hand(plan, inputs, source_of(results), {}, 0,
+                     [&](const HeldHand& hand) { skins.push_back(hand.skin); });
+  const Product& original = inputs.products.front();
+  return pressed_product(original, press_shape(original, skins), "redesign 1");
+}
+
+/// Redesign 2 of product 0: its ridges rounded by a cutter where hands touch them.
+Product relieved(const StudyPlan& plan, const StudyInputs& inputs, const StudyResults& results) {
+  const ContactStudy contact = study_contact(plan, inputs, source_of(results), {}, 0);
+  const TriangleMesh& map = contact.map.mesh;
+  RegionOptions any_hand;
+  any_hand.share = 0.0;
+  const ReliefPlan reliefs =
+      plan_reliefs(map, contact_region(map, contact.count),
+                   contact_region(map, contact.count, {}, any_hand), contact.imprint);
+  return relieved_product(inputs.products.front(), reliefs, "redesign 2");
+}
+
+/// That a product has less of a quantity than the one before it, over the same hands.
+void add_difference(ValidationRows& rows, const StudyResults& results, const std::string& key,
+                    const std::string& start, int product, const std::string& source) {
+  const std::vector<double> before = plain(values_of(results, {}, product - 1, key));
+  const std::vector<double> after = plain(values_of(results, {}, product, key));
+  const auto name = [&](int index) {
+    return results.plan.products[static_cast<std::size_t>(index)].name;
+  };
+  if (before.size() != after.size() || before.size() < 2) {
+    throw NumericalError("case G6: " + std::to_string(before.size()) + " hands hold " +
+                         name(product - 1) + ", " + std::to_string(after.size()) + " " +
+                         name(product));
+  }
+  const PairedTest test = paired_t_test(before, after);
+  const std::string both = start + ", " + name(product - 1) + " less " + name(product);
+  rows.push_back(judge(both, "MPa", test.difference, at_least(0.0, source)));
+  rows.push_back(judge(both + ", paired t-test, p", "", test.p_value, at_most(0.01, source)));
+}
+
 }  // namespace
 
 ValidationRows validate_contact_area(ValidationBench& bench) {
@@ -128,32 +177,30 @@ ValidationRows validate_contact_area(ValidationBench& bench) {
   return rows;
 }
 
-ValidationRows validate_fillets_over_hands(ValidationBench& bench, const Product& sharp,
+ValidationRows validate_designs_over_hands(ValidationBench& bench, const Product& sharp,
                                            const Product& round) {
   StudyPlan plan = thesis_plan();
   plan.settings = {setting("palmar")};
   StudyInputs inputs{.base = bench.shared_hand(), .products = {}};
   add_product(plan, inputs, sharp, "r3");
+  const StudyResults held = run(plan, inputs, bench, "case G6, the sharp prism");
+  Product redesign_1 = pressed(plan, inputs, held), redesign_2 = relieved(plan, inputs, held);
   add_product(plan, inputs, round, "r10", "r3");
+  add_product(plan, inputs, std::move(redesign_2), "redesign 2", "r3");
+  add_product(plan, inputs, std::move(redesign_1), "redesign 1", "r3");
   const StudyResults results = run(plan, inputs, bench, "case G6");
 
   ValidationRows rows;
-  const std::string source = "Xie 2014, 5.5.3: 30 hands, t-test p < 0.01";
+  const std::string source = "Xie 2014, 5.5.3 and 5.5.4: 30 hands, t-test p < 0.01";
   for (const auto& [key, name] : {std::pair{"peak_pressure_cells_mpa", "peak on cells"},
                                   {"peak_pressure_mpa", "peak of vertices"},
                                   {"mean_pressure_mpa", "mean pressure"}}) {
-    const std::vector<double> r3 = plain(values_of(results, {}, 0, key));
-    const std::vector<double> r10 = plain(values_of(results, {}, 1, key));
     const std::string start = std::string("30 hands, ") + name;
-    if (r3.size() != r10.size() || r3.size() < 2) {
-      throw NumericalError("case G6: " + std::to_string(r3.size()) + " hands hold the prism with " +
-                           "3 mm fillets, " + std::to_string(r10.size()) + " the other");
+    for (std::size_t next = 1; next < plan.products.size(); ++next) {
+      add_difference(rows, results, key, start, static_cast<int>(next), source);
     }
-    const PairedTest test = paired_t_test(r3, r10);
-    rows.push_back(judge(start + ", r3 less r10", "MPa", test.difference, at_least(0.0, source)));
-    rows.push_back(judge(start + ", paired t-test, p", "", test.p_value, at_most(0.01, source)));
     if (std::string(key) == "peak_pressure_cells_mpa") {
-      std::vector<double> sorted = r3;
+      std::vector<double> sorted = plain(values_of(results, {}, 0, key));
       std::sort(sorted.begin(), sorted.end());
       rows.push_back(judge(start + ", r3, 95 % of hands below", "MPa", quantile(sorted, 0.95),
                            at_most(0.7, "Xie 2014, figures of chapter 5")));
