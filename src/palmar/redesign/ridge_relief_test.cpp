@@ -92,7 +92,9 @@ TEST(PlanReliefs, FindsTheRoundingThatTheImprintHasTheShapeOf) {
   const Situation s = situation(
       prism(), [](const Vec3& x) { return x.x() + x.y() > 22.0 && x.z() > -20.0 && x.z() < 30.0; },
       depth);
-  const ReliefPlan plan = plan_reliefs(s.map, s.region, s.region, s.imprint);
+  ReliefOptions options;
+  options.largest_depth = 5.0;
+  const ReliefPlan plan = plan_reliefs(s.map, s.region, s.region, s.imprint, options);
   ASSERT_EQ(plan.reliefs.size(), 1U);
   EXPECT_EQ(plan.notes.size(), 3U);  // the other edges aren't touched
   const RidgeRelief& relief = plan.reliefs[0];
