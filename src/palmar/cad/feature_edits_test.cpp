@@ -16,6 +16,7 @@
 
 #include "palmar/cad/feature_choice.h"
 #include "palmar/cad/occt_model.h"
+#include "palmar/cad/surface_change.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -233,6 +234,22 @@ TEST(EditFeatures, UnknownEdgesFacesAndWordsAreToldWithWhatThereIs) {
   const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Edge();
   EXPECT_THAT(message_of<UsageError>([&] { fillet(make_cad_model(line, "wire"), "long", 1); }),
               HasSubstr("no faces"));
+}
+
+TEST(SurfaceChange, IsTheDistanceBetweenTheSurfacesBothWays) {
+  const CadModel r3 = fillet(box(), "long", 3).model;
+  // An edge of 90 degrees: (sqrt 2 - 1) times the change of its radius.
+  const double root = std::sqrt(2.0) - 1;
+  EXPECT_NEAR(surface_change(r3, fillet(r3, "long", 10).model).largest, 7 * root, 0.02);
+  EXPECT_NEAR(surface_change(r3, box()).largest, 3 * root, 0.02);
+  EXPECT_NEAR(surface_change(r3, r3).largest, 0.0, 1e-9);
+  const CadModel bar = cylinder(16, 100);
+  const CadModel thicker = edit_features(bar, {.offsets = {{"sides", 2.0}}}).model;
+  EXPECT_NEAR(surface_change(bar, thicker).largest, 2.0, 0.03);
+  // Ends that must stay: their own points do, though they grow.
+  const std::vector<int> ends = choose_faces(bar, "ends"), sides = choose_faces(bar, "sides");
+  EXPECT_NEAR(surface_change(bar, thicker, ends).of_faces, 0.0, 0.02);
+  EXPECT_NEAR(surface_change(bar, thicker, sides).of_faces, 2.0, 0.03);
 }
 
 TEST(ChooseEdges, KnowFilletsByTheirCurvatureAndDirection) {

@@ -40,7 +40,7 @@ SurfaceChange surface_change(const CadModel& before, const CadModel& after,
                              const std::vector<int>& faces) {
   const TessellationOptions options{.chordal_error = kChordalError, .angle = kAngle};
   const Tessellation old = tessellate(before, options), now = tessellate(after, options);
-  const double step = std::clamp(size_of(old.mesh) / 100, 0.25, 2.0);
+  const double step = std::clamp(size_of(old.mesh) / 50, 0.5, 3.0);
   SurfaceChange change;
   change.largest = std::max(largest_distance(split_long_edges(old.mesh, step), now.mesh),
                             largest_distance(split_long_edges(now.mesh, step), old.mesh));

@@ -14,8 +14,9 @@ struct SurfaceChange {
   double of_faces = 0.0;  ///< over the points of the given faces before, to the surface after
 };
 
-/// Measured on triangles within 0.02 mm of the surfaces, at points not farther apart than a
-/// hundredth of the model's size (at most 2 mm): a Hausdorff distance. `faces`: numbers in
+/// Measured on triangles within 0.02 mm of the surfaces, at their corners (dense where a surface is
+/// bent) and at points not farther apart than a fiftieth of the model's size (at most 3 mm): a
+/// Hausdorff distance. `faces`: numbers in
 /// `before`.
 SurfaceChange surface_change(const CadModel& before, const CadModel& after,
                              const std::vector<int>& faces = {});
