@@ -58,24 +58,36 @@ Vec3 handle_axis(const RedesignArguments& arguments, const TriangleMesh& mesh) {
   return principal_frame(mesh).axes.col(0);
 }
 
-FittedPatch fit_patch(const RegionFindings& findings, const ContactRegion& region, int number,
-                      const std::vector<Vec3>& normals, double pressed_share) {
-  FittedPatch fitted;
-  fitted.region = &region;
-  fitted.number = number;
-  std::vector<Vec3> points, directions;
-  for (const int v : fitted.patch().vertices) {
+/// Surfaces of one patch: one, or one for each piece of it if it goes over edges.
+void fit_patch(RegionFindings& findings, const ContactRegion& region, int number,
+               const std::vector<Vec3>& normals, double pressed_share) {
+  const RegionPatch& patch = region.patches[static_cast<std::size_t>(number - 1)];
+  std::vector<Vec3> points, directions, targets;
+  for (const int v : patch.vertices) {
     const auto i = static_cast<std::size_t>(v);
     points.push_back(findings.map.mesh.vertices[i]);
     directions.push_back(normals[i]);
-    fitted.target_points.push_back(points.back() -
-                                   pressed_share * findings.imprint[i] * normals[i]);
-    fitted.mean_depth += findings.imprint[i];
+    targets.push_back(points.back() - pressed_share * findings.imprint[i] * normals[i]);
   }
-  fitted.mean_depth /= static_cast<double>(points.size());
-  fitted.product = choose_surface(points, directions);
-  fitted.target = choose_surface(fitted.target_points, directions);
-  return fitted;
+  const auto pieces = split_patch(targets, directions);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    FittedPatch fitted;
+    fitted.region = &region;
+    fitted.number = number;
+    fitted.piece = pieces.size() > 1 ? static_cast<int>(p) + 1 : 0;
+    std::vector<Vec3> at, out;
+    for (const int k : pieces[p]) {
+      const auto i = static_cast<std::size_t>(k);
+      at.push_back(points[i]);
+      out.push_back(directions[i]);
+      fitted.target_points.push_back(targets[i]);
+      fitted.mean_depth += findings.imprint[static_cast<std::size_t>(patch.vertices[i])];
+    }
+    fitted.mean_depth /= static_cast<double>(at.size());
+    fitted.product = choose_surface(at, out);
+    fitted.target = choose_surface(fitted.target_points, out);
+    findings.patches.push_back(std::move(fitted));
+  }
 }
 
 RegionFindings find_regions(const HeldOriginal& original, const RegionArguments& a,
@@ -104,8 +116,7 @@ RegionFindings find_regions(const HeldOriginal& original, const RegionArguments&
       if (region.patches[k].area < a.smallest_patch || region.patches[k].vertices.size() < 8) {
         continue;
       }
-      findings.patches.push_back(
-          fit_patch(findings, region, static_cast<int>(k) + 1, normals, a.pressed_share));
+      fit_patch(findings, region, static_cast<int>(k) + 1, normals, a.pressed_share);
     }
   }
   try {
@@ -200,10 +211,9 @@ std::string findings_text(const RegionFindings& findings, const Product& product
     }
   }
   for (const FittedPatch& one : findings.patches) {
-    text +=
-        fmt::format("{}: {:.0f} mm2, {} (rms {:.2f} mm); pressed {} (rms {:.2f} mm)\n", one.name(),
-                    one.patch().area, title_of(one.product.best().surface), one.product.best().rms,
-                    title_of(one.target.best().surface), one.target.best().rms);
+    text += fmt::format("{}: {} (rms {:.2f} mm); pressed {} (rms {:.2f} mm)\n", one.name(),
+                        title_of(one.product.best().surface), one.product.best().rms,
+                        title_of(one.target.best().surface), one.target.best().rms);
   }
   if (findings.plan) {
     for (const RidgeRelief& one : findings.plan->reliefs) {
@@ -277,7 +287,7 @@ void add_redesign_region_command(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(
       noun, "region",
       "Export where hands touch for CAD: faces, outlines, simple surfaces; and round the ridges",
-      "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 5 --out "
+      "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 3.5 --out "
       "region");
   a->redesign.add_to(*verb);
   verb->add_option("--share", a->share, "Of the hands that must touch: any, half, or 0 to 1")

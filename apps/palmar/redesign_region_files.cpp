@@ -82,7 +82,8 @@ bool has_faces(const RegionFindings& findings, const Product& product) {
 }  // namespace
 
 std::string FittedPatch::name() const {
-  return fmt::format("contact {}, patch {}", region->title, number);
+  return fmt::format("contact {}, patch {}", region->title, number) +
+         (piece > 0 ? fmt::format(", piece {}", piece) : "");
 }
 
 std::vector<NamedCurve> curves_of(const RegionFindings& findings) {
@@ -110,7 +111,8 @@ std::vector<NamedSurface> surfaces_of(const RegionFindings& findings) {
                          .surface = fit.surface,
                          .points = one.target_points,
                          .outline = {}};
-    if (one.patch().outline.size() == 1) surface.outline = one.patch().outline.front().points;
+    if (one.piece == 0 && one.patch().outline.size() == 1)
+      surface.outline = one.patch().outline.front().points;
     surfaces.push_back(std::move(surface));
   }
   return surfaces;
@@ -130,12 +132,16 @@ Json region_json(const RegionFindings& findings, const Product& product) {
                   {"area_mm2", patch.area},
                   {"centre_mm", vector_json(patch.centre)},
                   {"outline_lengths_mm", std::move(lengths)}};
+      Json surfaces = Json::array();
       for (const FittedPatch& fitted : findings.patches) {
         if (fitted.region != &region || fitted.number != static_cast<int>(k) + 1) continue;
-        one["mean_imprint_mm"] = fitted.mean_depth;
-        one["surface"] = choice_json(fitted.product);
-        one["pressed_surface"] = choice_json(fitted.target);
+        surfaces.push_back({{"name", fitted.name()},
+                            {"points", fitted.target_points.size()},
+                            {"mean_imprint_mm", fitted.mean_depth},
+                            {"surface", choice_json(fitted.product)},
+                            {"pressed_surface", choice_json(fitted.target)}});
       }
+      one["surfaces"] = std::move(surfaces);
       patches.push_back(std::move(one));
     }
     Json entry = {{"title", region.title},

@@ -21,12 +21,13 @@ namespace palmar::cli {
 struct FittedPatch {
   const ContactRegion* region = nullptr;
   int number = 0;           ///< from 1, in the region
+  int piece = 0;            ///< from 1, where the patch goes over edges and was cut; 0: whole
   SurfaceChoice product;    ///< fitted to the product's own surface there
   SurfaceChoice target;     ///< fitted to it less the share of the imprint
   double mean_depth = 0.0;  ///< mm; mean imprint over hands in the patch
   std::vector<Vec3> target_points;
   const RegionPatch& patch() const { return region->patches[static_cast<std::size_t>(number - 1)]; }
-  std::string name() const;  ///< "contact palm, half of 30 hands, patch 1"
+  std::string name() const;  ///< "contact palm, half of 30 hands, patch 1, piece 2"
 };
 
 /// Everything that `palmar redesign region` found.

@@ -10,9 +10,12 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <GProp_GProps.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -23,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gp_Ax1.hxx>
+#include <gp_Ax2.hxx>
 #include <utility>
 
 #include "palmar/cad/occt_model.h"
@@ -34,7 +38,8 @@ namespace {
 
 constexpr double kClear = 3.0;     // mm; the cutter's body reaches that far beyond the material
 constexpr double kThrough = 60.0;  // mm; beyond an end that is gone through
-constexpr double kLeast = 0.01;    // mm^3; a cut of less takes nothing away
+constexpr double kRoundingShare = 0.01;  // of area and volume; rounding a junction changes less
+constexpr double kLeast = 0.01;          // mm^3; a cut of less takes nothing away
 
 /// A relief's own frame: s along it, w across, h outwards, from the start of its axis.
 struct ToolFrame {
@@ -52,28 +57,64 @@ struct ToolFrame {
   double length;
 };
 
-/// What the cutter takes away where it stands at s: between its circle and a roof over the ridge.
-TopoDS_Face cutter_section(const RidgeRelief& relief, const ToolFrame& frame, double s) {
+/// Corners of a roof over the ridge, from the right flank to the left one: parallel to both flanks,
+/// or with a flat top where they are steep.
+std::vector<gp_Pnt> cutter_roof(const RidgeRelief& relief, const ToolFrame& frame, double s) {
   const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
-  const double r = relief.radius, far = r + kClear;
-  const gp_Pnt left = frame.at(s, -r * sine, r * cosine), right = frame.at(s, r * sine, r * cosine);
-  std::vector<gp_Pnt> roof = {right, frame.at(s, far * sine, far * cosine)};
-  const double flat = r + relief.depth + kClear;
+  const double far = relief.radius + kClear;
+  const double flat = relief.radius + relief.depth + kClear;
+  std::vector<gp_Pnt> roof = {frame.at(s, far * sine, far * cosine)};
   if (far / std::max(cosine, 1e-9) <= flat + 4.0 * kClear) {
-    roof.push_back(frame.at(s, 0.0, far / cosine));  // parallel to both flanks
+    roof.push_back(frame.at(s, 0.0, far / cosine));
   } else {
     roof.push_back(frame.at(s, far * sine, flat));
     roof.push_back(frame.at(s, -far * sine, flat));
   }
   roof.push_back(frame.at(s, -far * sine, far * cosine));
-  roof.push_back(left);
+  return roof;
+}
+
+TopoDS_Face cutter_face(BRepBuilderAPI_MakeWire& wire, const std::vector<gp_Pnt>& corners) {
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    wire.Add(BRepBuilderAPI_MakeEdge(corners[i], corners[i + 1]).Edge());
+  }
+  return BRepBuilderAPI_MakeFace(wire.Wire(), Standard_True).Face();
+}
+
+/// What the cutter takes away where it stands at s: between its circle and the roof.
+TopoDS_Face cutter_section(const RidgeRelief& relief, const ToolFrame& frame, double s) {
+  const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
+  const double r = relief.radius;
+  const gp_Pnt left = frame.at(s, -r * sine, r * cosine), right = frame.at(s, r * sine, r * cosine);
   BRepBuilderAPI_MakeWire wire;
   wire.Add(
       BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, frame.at(s, 0.0, r), right).Value()).Edge());
-  for (std::size_t i = 0; i + 1 < roof.size(); ++i) {
-    wire.Add(BRepBuilderAPI_MakeEdge(roof[i], roof[i + 1]).Edge());
-  }
-  return BRepBuilderAPI_MakeFace(wire.Wire(), Standard_True).Face();
+  std::vector<gp_Pnt> corners = cutter_roof(relief, frame, s);
+  corners.insert(corners.begin(), right);
+  corners.push_back(left);
+  return cutter_face(wire, corners);
+}
+
+/// The run-out at s: the space over the ridge turned about the centre of the cutter's path, less
+/// the ring that the cutter leaves standing, so that its face is a torus and nothing else.
+TopoDS_Shape run_out_body(const RidgeRelief& relief, const ToolFrame& frame, double s,
+                          const gp_Dir& turn, double angle) {
+  const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
+  const double deep = relief.radius - std::min(2.0, 0.5 * relief.radius);
+  std::vector<gp_Pnt> corners = cutter_roof(relief, frame, s);
+  corners.insert(corners.begin(), frame.at(s, deep * sine, deep * cosine));
+  corners.push_back(frame.at(s, -deep * sine, deep * cosine));
+  corners.push_back(corners.front());
+  BRepBuilderAPI_MakeWire wire;
+  const gp_Pnt centre = frame.at(s, 0.0, relief.radius + relief.run_out);
+  const TopoDS_Shape space =
+      BRepPrimAPI_MakeRevol(cutter_face(wire, corners), gp_Ax1(centre, turn), angle).Shape();
+  const gp_Dir seam(frame.outward.x(), frame.outward.y(), frame.outward.z());
+  const TopoDS_Shape ring = BRepPrimAPI_MakeTorus(gp_Ax2(centre, turn, seam),
+                                                  relief.radius + relief.run_out, relief.radius)
+                                .Shape();
+  BRepAlgoAPI_Cut cut(space, ring);
+  return checked_solid(cut.Shape(), relief.name);
 }
 
 /// Height of the cutter's roof above its axis.
@@ -103,14 +144,17 @@ TopTools_ListOfShape cutter_bodies(const RidgeRelief& relief) {
   for (const bool is_end : {false, true}) {
     if (is_end ? relief.is_open_end : relief.is_open_start) continue;
     const double s = is_end ? frame.length : 0.0;
-    const gp_Pnt centre = frame.at(s, 0.0, relief.radius + relief.run_out);
     gp_Vec turn = vector(frame.across);
     if (!is_end) turn.Reverse();
-    bodies.Append(
-        BRepPrimAPI_MakeRevol(cutter_section(relief, frame, s), gp_Ax1(centre, gp_Dir(turn)), angle)
-            .Shape());
+    bodies.Append(run_out_body(relief, frame, s, gp_Dir(turn), angle));
   }
   return bodies;
+}
+
+double area_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties);
+  return properties.Mass();
 }
 
 /// Rounds the edges between new run-outs (tori) and old faces, those that can be.
@@ -150,6 +194,11 @@ int round_junctions(SolidEdit& edit, const std::string& name, double radius, int
         fillet.Build();
         if (!fillet.IsDone()) throw NumericalError("");
         const TopoDS_Shape solid = checked_solid(fillet.Shape(), name);
+        // The kernel's check lets surfaces through that run away and come back.
+        if (std::abs(area_of(solid) / area_of(edit.solid) - 1.0) > kRoundingShare ||
+            std::abs(volume_of(solid) / volume_of(edit.solid) - 1.0) > kRoundingShare) {
+          throw NumericalError("");
+        }
         edit.follow(solid, [&](const TopoDS_Face& face) { return fillet.Modified(face); });
         ++rounded;
       } catch (const Standard_Failure&) {

@@ -105,10 +105,16 @@ RegionOutline smooth_outline(const std::vector<Vec3>& raw, const ClosestPointQue
 }
 
 /// Inside from 0 on; specks and holes dropped.
-void find_field(const TriangleMesh& map, const std::vector<int>& touching,
+void find_field(const TriangleMesh& map, const std::vector<int>& touching, int hands,
                 const RegionOptions& options, ContactRegion& region) {
+  // Hands that touch more or less than asked, up to a tenth of all either way: as far above as
+  // below, or smoothing would move the border.
+  const double asked = region.least_hands - 0.5;
+  const double band = std::min({0.1 * hands, asked, hands - asked});
   region.field.reserve(touching.size());
-  for (const int hands : touching) region.field.push_back(hands >= region.least_hands ? 1.0 : -1.0);
+  for (const int count : touching) {
+    region.field.push_back(std::clamp((count - asked) / std::max(0.5, band), -1.0, 1.0));
+  }
   region.field = SurfaceDiffusion(map, options.smoothing).smooth(region.field);
   for (const bool holes : {false, true}) {
     const IsoParts parts = iso_parts(map, region.field, 0.0);
@@ -228,7 +234,7 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
   region.title = title(count, part, options.share);
   region.part = part;
   region.least_hands = std::max(1, static_cast<int>(std::ceil(options.share * count.hands - 1e-9)));
-  find_field(map, touching, options, region);
+  find_field(map, touching, count.hands, options, region);
   region.area_of = areas_above(map, region.field, 0.0);
   const IsoParts parts = iso_parts(map, region.field, 0.0);
   std::vector<int> patch_of(parts.area.size(), -1);

@@ -445,4 +445,56 @@ SurfaceChoice choose_surface(std::span<const Vec3> points, std::span<const Vec3>
   return choice;
 }
 
+std::vector<std::vector<int>> split_patch(std::span<const Vec3> points,
+                                          std::span<const Vec3> normals,
+                                          const PatchSplitOptions& split,
+                                          const SurfaceFitOptions& options) {
+  if (normals.size() != points.size()) {
+    throw UsageError(
+        fmt::format("surface fit: {} normals for {} points", normals.size(), points.size()));
+  }
+  std::vector<std::vector<int>> pieces;
+  const auto visit = [&](const auto& self, const std::vector<int>& piece, int depth) -> void {
+    std::vector<Vec3> at, out;
+    for (const int i : piece) {
+      at.push_back(points[static_cast<std::size_t>(i)]);
+      out.push_back(normals[static_cast<std::size_t>(i)]);
+    }
+    const bool may_split =
+        depth < split.largest_depth && static_cast<int>(piece.size()) >= 2 * split.least_points;
+    if (!may_split || choose_surface(at, out, options).best().rms <= split.tolerance) {
+      pieces.push_back(piece);
+      return;
+    }
+    // Two means of the normals, apart along the direction in which they differ most.
+    const Vec3 middle = mean_of(out);
+    const Vec3 widest = principal_axes(out, middle).direction[2];
+    Vec3 first = middle + 0.3 * widest, second = middle - 0.3 * widest;
+    std::vector<int> one, other;
+    for (int round = 0; round < 20; ++round) {
+      one.clear();
+      other.clear();
+      Vec3 sum_one = Vec3::Zero(), sum_other = Vec3::Zero();
+      for (std::size_t k = 0; k < piece.size(); ++k) {
+        const bool is_first = (out[k] - first).squaredNorm() <= (out[k] - second).squaredNorm();
+        (is_first ? one : other).push_back(piece[k]);
+        (is_first ? sum_one : sum_other) += out[k];
+      }
+      if (one.empty() || other.empty()) break;
+      first = sum_one / static_cast<double>(one.size());
+      second = sum_other / static_cast<double>(other.size());
+    }
+    if (static_cast<int>(std::min(one.size(), other.size())) < split.least_points) {
+      pieces.push_back(piece);
+      return;
+    }
+    self(self, one, depth + 1);
+    self(self, other, depth + 1);
+  };
+  std::vector<int> all(points.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  if (!all.empty()) visit(visit, all, 0);
+  return pieces;
+}
+
 }  // namespace palmar

@@ -69,4 +69,17 @@ struct SurfaceChoice {
 SurfaceChoice choose_surface(std::span<const Vec3> points, std::span<const Vec3> normals,
                              const SurfaceFitOptions& options = {});
 
+struct PatchSplitOptions {
+  double tolerance = 0.3;  ///< mm; a piece whose best surface has a smaller rms isn't cut further
+  int least_points = 24;   ///< pieces don't get smaller
+  int largest_depth = 3;   ///< halvings: at most 8 pieces
+};
+/// Cuts a patch that goes over edges into pieces that simple surfaces suit: two groups of normals
+/// at a time (k-means), as long as none is good enough. Indices of the points of each piece,
+/// ascending; together all points.
+std::vector<std::vector<int>> split_patch(std::span<const Vec3> points,
+                                          std::span<const Vec3> normals,
+                                          const PatchSplitOptions& split = {},
+                                          const SurfaceFitOptions& options = {});
+
 }  // namespace palmar

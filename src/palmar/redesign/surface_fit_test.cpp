@@ -180,6 +180,27 @@ TEST(ChooseSurface, IsTheSameForAPatchThatWasMovedAndTurned) {
   EXPECT_NEAR(a.rms, b.rms, 1e-7);
 }
 
+TEST(SplitPatch, CutsAPatchOverAnEdgeIntoItsTwoPlanes) {
+  Patch patch;
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 10; ++j) {
+      patch.points.emplace_back(i, 1.0 + j, 0.0);
+      patch.normals.emplace_back(0.0, 0.0, 1.0);
+      patch.points.emplace_back(i, 0.0, -1.0 - j);
+      patch.normals.emplace_back(0.0, -1.0, 0.0);
+    }
+  }
+  const auto pieces = split_patch(patch.points, patch.normals);
+  ASSERT_EQ(pieces.size(), 2U);
+  for (const auto& piece : pieces) {
+    EXPECT_EQ(piece.size(), 200U);
+    for (const int i : piece) EXPECT_EQ(i % 2, piece.front() % 2);  // as they were made
+  }
+  // What one surface suits stays whole.
+  EXPECT_EQ(split_patch(cylinder(16.0, 3.0, 50.0).points, cylinder(16.0, 3.0, 50.0).normals).size(),
+            1U);
+}
+
 TEST(DistanceTo, IsOrthogonal) {
   // Hand calculation: 3 mm above the middle of a tube of radius 2: 1 mm outside.
   const SimpleSurface ring{.kind = FaceKind::kTorus, .radius = 10.0, .tube_radius = 2.0};

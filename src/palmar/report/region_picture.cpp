@@ -17,7 +17,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kFine = 1.0;  // mm; edges of the painted mesh, so that borders look as they run
+constexpr double kFine = 0.5;  // mm; edges of the painted mesh, so that borders look as they run
 constexpr Rgb kPlain{206, 208, 205};
 
 /// The map split fine, each vertex in the colour of the first region that it lies in.
@@ -26,7 +26,7 @@ SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& r
   for (const Vec3& x : map.vertices) box.extend(x);
   SceneObject object;
   // Large products needn't be finer than pixels.
-  const double edge = std::max(kFine, box.diagonal().norm() / 300.0);
+  const double edge = std::max(kFine, box.diagonal().norm() / 400.0);
   object.mesh = split_long_edges(map, edge);
   const ClosestPointQuery query(map);
   object.vertex_colours.reserve(object.mesh.vertices.size());
