@@ -40,6 +40,26 @@ double radius_within(double from, double wanted, const FeatureLimits& limits) {
   return std::floor(std::min(wanted, most) * 20) / 20;
 }
 
+bool rounds(const ProductFace& face) { return face.is_fillet && face.radius > 0.0; }
+
+/// A face and those that it runs into smoothly, fillets aside: they move together. "3+4".
+std::string faces_with(const ProductFaces& faces, int face) {
+  std::vector<int> group = {face};
+  for (size_t i = 0; i < group.size(); ++i) {
+    for (const ProductEdge& edge : faces.edge) {
+      if (!edge.is_smooth || edge.faces[0] < 0 || edge.faces[1] < 0) continue;
+      if (edge.faces[0] != group[i] && edge.faces[1] != group[i]) continue;
+      const int beyond = edge.faces[0] == group[i] ? edge.faces[1] : edge.faces[0];
+      if (rounds(faces.face[static_cast<size_t>(beyond)])) continue;
+      if (std::find(group.begin(), group.end(), beyond) == group.end()) group.push_back(beyond);
+    }
+  }
+  std::vector<int> numbers;
+  for (const int one : group) numbers.push_back(faces.face[static_cast<size_t>(one)].number);
+  std::sort(numbers.begin(), numbers.end());
+  return fmt::format("{}", fmt::join(numbers, "+"));
+}
+
 std::vector<Proposal> proposals_for(const ProductFaces& faces, const std::vector<FaceSummary>& hot,
                                     const FeatureLimits& limits) {
   std::vector<Proposal> all;
@@ -48,7 +68,7 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, const std::vector
   for (const FaceSummary& face : hot) {
     const ProductFace& own = faces.face[static_cast<size_t>(face.face)];
     const std::string reason = share_words(faces, face);
-    if (own.is_fillet && !own.is_concave && own.radius > 0.0) {
+    if (rounds(own) && !own.is_concave) {
       const double wider = radius_within(own.radius, 2 * own.radius, limits);
       all.push_back({fmt::format("fillet:face={}={:g}", own.number, wider), reason});
       fillets.push_back(own.number);
@@ -69,7 +89,11 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, const std::vector
     }
     const double move = std::min(kMove, limits.largest_offset.value_or(kMove));
     for (const double by : {-move, move}) {
-      all.push_back({fmt::format("offset:face={}={:g}", own.number, by), reason});
+      const std::string words =
+          fmt::format("offset:face={}={:g}", faces_with(faces, face.face), by);
+      const bool is_there = std::any_of(all.begin(), all.end(),
+                                        [&](const Proposal& one) { return one.words == words; });
+      if (!is_there) all.push_back({words, reason});
     }
   }
   if (fillets.size() > 1) {

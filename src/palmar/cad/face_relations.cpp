@@ -41,7 +41,8 @@ constexpr double kSmoothAngle =
 constexpr double kSharper = 1.05;
 constexpr double kFlat = 1e-4;  // 1/mm; radii above 10 m are flat
 constexpr double kSameRadius = 0.02;
-constexpr double kAskew = 10 * std::numbers::pi / 180;  // rad
+constexpr double kBackToBack = 175 * std::numbers::pi / 180;  // rad
+constexpr double kAskew = 10 * std::numbers::pi / 180;        // rad
 
 /// A face at one point of its rim.
 struct FaceAtEdge {
@@ -116,6 +117,7 @@ EdgeRelation relation_of(const CadModel::Impl& model, int number,
   const auto one = face_at(in_face(edge, met[0]), met[0], t, tangent);
   const auto other = face_at(in_face(edge, met[1]), met[1], t, tangent);
   if (!one || !other) return result;
+  result.normal = gp_Dir(one->normal);
   result.angle = one->normal.Angle(other->normal);
   result.is_smooth = result.angle < kSmoothAngle;
   result.is_convex = one->inward.Dot(other->normal) < 0.0;
@@ -128,6 +130,14 @@ struct Side {
   int edge = 0, neighbour = 0;
   double curvature = 0.0;
 };
+
+bool lies_between_backs(const std::vector<Side>& sides,
+                        const std::vector<EdgeRelation>& relations) {
+  if (sides.size() != 2) return false;
+  const gp_Dir& one = relations[static_cast<size_t>(sides[0].edge) - 1].normal;
+  const gp_Dir& other = relations[static_cast<size_t>(sides[1].edge) - 1].normal;
+  return one.Angle(other) > kBackToBack;
+}
 
 }  // namespace
 
@@ -182,7 +192,7 @@ std::vector<Blend> blends_of(const CadModel::Impl& model,
     std::sort(blend.support.begin(), blend.support.end());
     blend.support.erase(std::unique(blend.support.begin(), blend.support.end()),
                         blend.support.end());
-    if (blend.support.size() < 2) continue;
+    if (blend.support.size() < 2 || lies_between_backs(own, relations)) continue;
     const BRepAdaptor_Surface surface(TopoDS::Face(model.faces(face)));
     blend.middle = surface.Value(0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
                                  0.5 * (surface.FirstVParameter() + surface.LastVParameter()));

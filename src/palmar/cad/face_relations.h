@@ -23,6 +23,7 @@ struct EdgeRelation {
   gp_Pnt middle;
   gp_Dir along;  ///< from end to end; tangent at the middle of a closed edge
   bool is_closed = false;
+  gp_Dir normal;  ///< outward, of the first face at the middle
   /// 1/mm; normal curvature of both faces across the edge, positive if the surface bends towards
   /// its outward normal (a groove).
   std::array<double, 2> curvature{};
@@ -30,7 +31,9 @@ struct EdgeRelation {
 std::vector<EdgeRelation> edge_relations(const CadModel::Impl& model);
 
 /// A face that rounds an edge: over two or more of its edges it meets its neighbours without a
-/// kink, bent more sharply across that edge than they are, all with one radius.
+/// kink, bent more sharply across that edge than they are, all with one radius. A face between two
+/// that lie back to back (the narrow side of a bar that is round there) is none: without it they
+/// wouldn't meet.
 struct Blend {
   int face = 0;
   double radius = 0.0;       ///< mm; across

@@ -106,6 +106,25 @@ Resolved resolve(const CadModel& model, const FeatureEdits& edits,
   return result;
 }
 
+/// A face that runs smoothly into one that stays can't move without it: the kernel would move both.
+void require_whole_moves(const Resolved& wanted, const std::vector<EdgeRelation>& relations,
+                         const std::vector<Blend>& blends) {
+  const auto distance = [&](int face) {
+    const auto at = wanted.offset.find(face);
+    return at == wanted.offset.end() ? 0.0 : at->second;
+  };
+  for (const EdgeRelation& edge : relations) {
+    if (!edge.is_smooth || edge.face[0] == 0 || edge.face[1] == 0) continue;
+    if (find_blend(blends, edge.face[0]) || find_blend(blends, edge.face[1])) continue;
+    if (distance(edge.face[0]) != distance(edge.face[1])) {
+      throw NumericalError(fmt::format(
+          "{}: can't be made (faces {} and {} run smoothly into one another: they move together or "
+          "not at all)",
+          wanted.offset_title, edge.face[0], edge.face[1]));
+    }
+  }
+}
+
 /// Fillets that must come off first: those whose radius changes and those on faces that move.
 std::vector<int> blends_in_the_way(const Resolved& wanted,
                                    const std::vector<EdgeRelation>& relations,
@@ -187,6 +206,7 @@ EditedModel edit_features(const CadModel& model, const FeatureEdits& edits) {
   const std::vector<EdgeRelation> relations = edge_relations(impl);
   const std::vector<Blend> blends = blends_of(impl, relations);
   const Resolved wanted = resolve(model, edits, blends);
+  require_whole_moves(wanted, relations, blends);
   const LongAxis axis = long_axis_of(impl);
   const gp_Ax1 long_line(axis.middle, axis.direction);
 

@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopoDS_Edge.hxx>
 #include <cmath>
 #include <numbers>
@@ -115,6 +117,22 @@ TEST(EditFeatures, AFaceThatMovesTakesItsFilletsWithIt) {
   const EditedModel both =
       edit_features(r3, {.fillets = {{"long", 8}}, .offsets = {{"sides", 1.5}}});
   EXPECT_NEAR(both.volume, prism_volume(8, kWidth + 3), 1e-6 * both.volume);
+}
+
+TEST(EditFeatures, FacesThatRunIntoOneAnotherMoveTogetherOrNotAtAll) {
+  // A bar of two half rounds: its four sides are one smooth surface.
+  TopoDS_Shape bar = BRepPrimAPI_MakeBox(gp_Pnt(-10, -20, -50), 20, 40, 100).Shape();
+  for (const double y : {-20.0, 20.0}) {
+    const gp_Ax2 end(gp_Pnt(0, y, -50), gp_Dir(0, 0, 1));
+    bar = BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(end, 10, 100).Shape()).Shape();
+  }
+  ShapeUpgrade_UnifySameDomain whole(bar);
+  whole.Build();
+  const CadModel rounded = make_cad_model(whole.Shape(), "bar");
+  ASSERT_EQ(rounded.face_count(), 6);
+  const EditedModel thicker = edit_features(rounded, {.offsets = {{"sides", 1.0}}});
+  const double expected = 100 * (40 * 22 + kPi * 11 * 11);
+  EXPECT_NEAR(thicker.volume, expected, 1e-6 * expected);
 }
 
 TEST(EditFeatures, RoundedRimsOfAHandleComeBackAfterItsDiameterChanged) {
