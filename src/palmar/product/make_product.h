@@ -17,8 +17,8 @@ namespace palmar {
 /// `raw` is in the unit of `unit`; `source` is the path or the command that made it and stands in
 /// front of every message. Throws InputError on no triangles, on one triangle, on vertices that are
 /// not finite (naming the vertex), on corners outside the vertex list, and if nothing with an area
-/// is left. `faces` (of a CAD model; null: none) are those of `raw`, triangle by triangle and in its
-/// unit; they follow the mesh. Throws InputError if they don't fit it (check_faces()).
+/// is left. `faces` (of a CAD model; null: none) are those of `raw`, triangle by triangle and in
+/// its unit; they follow the mesh. Throws InputError if they don't fit it (check_faces()).
 Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
                      const std::string& source, const ProductFaces* faces = nullptr);
 

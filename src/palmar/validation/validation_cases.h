@@ -62,8 +62,8 @@ ValidationRows validate_layer(ValidationBench& bench);
 ValidationRows validate_fingertip(ValidationBench& bench);
 // validation_population.cpp
 ValidationRows validate_contact_area(ValidationBench& bench);
-/// Rows of G6 over 30 hands: the round prism and the redesigns of the sharp one, in the posture that
-/// each hand has on the sharp one.
+/// Rows of G6 over 30 hands: the round prism and the redesigns of the sharp one, in the posture
+/// that each hand has on the sharp one.
 ValidationRows validate_designs_over_hands(ValidationBench& bench, const Product& sharp,
                                            const Product& round);
 // validation_grasp.cpp
