@@ -153,15 +153,10 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
   return tried;
 }
 
-std::string proposals_csv(const std::vector<TriedProposal>& tried, const FeatureGoal& goal) {
+std::string proposals_csv(const std::vector<TriedProposal>& tried) {
   CsvTable table;
-  table.header = {"vary",
-                  goal.name + (goal.unit.empty() ? "" : ", " + goal.unit),
-                  "gain, %",
-                  "grip force by the original's",
-                  "within constraints",
-                  "failure",
-                  "reason"};
+  table.header = {"vary",        "goal",    "gain_percent", "grip_force_ratio",
+                  "is_feasible", "failure", "reason"};
   for (const TriedProposal& one : tried) {
     const bool is_made = one.outcome.failure.empty();
     table.rows.push_back({one.words, is_made ? fmt::format("{:.6g}", one.outcome.goal) : "",

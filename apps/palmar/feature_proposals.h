@@ -25,7 +25,7 @@ struct TriedProposal {
 /// radius, a plane or a cylinder moves in and out. Each is tried once; best first.
 std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progress);
 
-std::string proposals_csv(const std::vector<TriedProposal>& tried, const FeatureGoal& goal);
+std::string proposals_csv(const std::vector<TriedProposal>& tried);
 nlohmann::ordered_json proposals_json(const std::vector<TriedProposal>& tried,
                                       const FeatureGoal& goal);
 std::string proposals_text(const std::vector<TriedProposal>& tried, const FeatureGoal& goal);

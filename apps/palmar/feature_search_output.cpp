@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -20,6 +21,20 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + ", " + unit;
 }
 
+/// "fillet_long_mm": a heading as CSV files have it.
+std::string heading(const std::string& name, const std::string& unit) {
+  std::string text;
+  for (const char c : name + (unit.empty() ? "" : "_" + unit)) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain) {
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!text.empty() && text.back() != '_') {
+      text += '_';
+    }
+  }
+  return name.ends_with("_" + unit) ? text.substr(0, text.size() - unit.size() - 1) : text;
+}
+
 std::string cell(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
@@ -28,15 +43,15 @@ std::string history_csv(const SearchStory& story) {
   CsvTable table;
   table.header = {"candidate"};
   for (const SearchVariable& variable : story.problem.variables) {
-    table.header.push_back(with_unit(variable.name, variable.unit));
+    table.header.push_back(heading(variable.name, variable.unit));
   }
-  table.header.push_back(with_unit(story.goal.name, story.goal.unit));
-  table.header.push_back("standard error");
+  table.header.push_back(heading(story.goal.name, story.goal.unit));
+  table.header.emplace_back("standard_error");
   for (const SearchConstraint& constraint : story.problem.constraints) {
-    table.header.push_back(with_unit(constraint.name, constraint.unit));
+    table.header.push_back(heading(constraint.name, constraint.unit));
   }
-  for (const char* const name : {"grip force by the original's", "volume by the original's",
-                                 "feasible", "failure", "seconds"}) {
+  for (const char* const name :
+       {"grip_force_ratio", "volume_ratio", "is_feasible", "failure", "seconds"}) {
     table.header.emplace_back(name);
   }
   for (size_t i = 0; i < story.result.history.size(); ++i) {

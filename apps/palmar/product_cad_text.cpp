@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace palmar::cli {
 namespace {
@@ -17,6 +18,8 @@ std::string hex_of(const std::array<float, 3>& colour) {
   const auto byte = [](float share) { return static_cast<int>(std::lround(255.0F * share)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour[0]), byte(colour[1]), byte(colour[2]));
 }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }  // namespace
 
@@ -40,6 +43,14 @@ std::string cad_text(const ImportedCad& cad) {
                         face.colour ? " " + hex_of(*face.colour) : "",
                         cad.bodies.size() > 1 ? " of " + face.part : "");
   }
+  lines = 0;
+  for (const ProductEdge& edge : cad.mesh.faces.edge) {
+    if (edge.is_smooth || edge.faces[0] < 0 || edge.faces[1] < 0) continue;
+    if (lines++ == kMostFaces) return text + "         and more sharp edges (--json has all)\n";
+    text += fmt::format("edge {} between faces {} and {}: {}, {:.0f} deg, {:.1f} mm\n", edge.number,
+                        edge.faces[0] + 1, edge.faces[1] + 1, edge.is_convex ? "convex" : "concave",
+                        degrees(edge.angle), edge.length);
+  }
   return text;
 }
 
@@ -58,6 +69,19 @@ Json cad_json(const ImportedCad& cad) {
     if (face.colour) one["colour"] = hex_of(*face.colour);
     faces.push_back(std::move(one));
   }
+  Json edges = Json::array();
+  for (const ProductEdge& edge : cad.mesh.faces.edge) {
+    Json met = Json::array();
+    for (const int face : edge.faces) {
+      if (face >= 0) met.push_back(face + 1);
+    }
+    edges.push_back({{"number", edge.number},
+                     {"faces", std::move(met)},
+                     {"is_convex", edge.is_convex},
+                     {"is_smooth", edge.is_smooth},
+                     {"angle_deg", degrees(edge.angle)},
+                     {"length_mm", edge.length}});
+  }
   return {{"format", cad.format},
           {"unit", cad.unit},
           {"millimetres_per_unit", cad.millimetres_per_unit},
@@ -67,7 +91,8 @@ Json cad_json(const ImportedCad& cad) {
           {"chordal_error_mm", cad.chordal_error},
           {"chordal_reason", cad.chordal_reason},
           {"exact_volume_mm3", cad.volume},
-          {"faces", std::move(faces)}};
+          {"faces", std::move(faces)},
+          {"edges", std::move(edges)}};
 }
 
 std::string verdict_text(const CadVerdict& verdict) {

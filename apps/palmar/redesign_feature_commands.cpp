@@ -124,7 +124,7 @@ int run_features(const FeatureArguments& a, const Context& context) {
   if (a.proposes) {
     const std::vector<TriedProposal> tried = try_proposals(run, progress);
     finish_progress();
-    write_file(folder / "proposals.csv", proposals_csv(tried, goal));
+    write_file(folder / "proposals.csv", proposals_csv(tried));
     print(context.common.json ? proposals_json(tried, goal).dump(2) + "\n"
                               : proposals_text(tried, goal));
     return 0;
