@@ -69,7 +69,8 @@ void fit_patch(RegionFindings& findings, const ContactRegion& region, int number
     directions.push_back(normals[i]);
     targets.push_back(points.back() - pressed_share * findings.imprint[i] * normals[i]);
   }
-  const auto pieces = split_patch(targets, directions);
+  // The product's own edges decide, not how unevenly hands press.
+  const auto pieces = split_patch(points, directions);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     FittedPatch fitted;
     fitted.region = &region;

@@ -172,11 +172,14 @@ std::vector<SectionRidge> HandleSection::ridges(double radius) const {
     // farthest from it.
     const Eigen::Vector2d centre = 0.5 * (disc_at((begin + n - 1) % n) + disc_at(i));
     std::size_t tip = begin;
+    double most = 0.0;
     for (std::size_t m = begin; m != i; m = (m + 1) % n) {
       if ((samples_[m].at - centre).norm() > (samples_[tip].at - centre).norm()) tip = m;
+      most = std::max(most, missing[m]);
     }
-    ridges.push_back({samples_[tip].at, samples_[tip].way, tip_radius(samples_[tip].way)});
     begin = n;
+    if (most < 4.0 * tolerance) continue;  // facets of a round side
+    ridges.push_back({samples_[tip].at, samples_[tip].way, tip_radius(samples_[tip].way)});
   }
   return ridges;
 }

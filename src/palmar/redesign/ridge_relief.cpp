@@ -287,8 +287,16 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
     plan.reliefs.push_back(std::move(relief));
   }
   if (plan.reliefs.empty()) {
-    throw UsageError("relief: none of the handle's ridges can be rounded (" +
-                     fmt::format("{}", fmt::join(plan.notes, "; ")) + ")");
+    constexpr std::size_t kTold = 4;
+    std::string why = fmt::format(
+        "{}", fmt::join(plan.notes.begin(),
+                        plan.notes.begin() +
+                            static_cast<std::ptrdiff_t>(std::min(kTold, plan.notes.size())),
+                        "; "));
+    if (plan.notes.size() > kTold) {
+      why += fmt::format("; and {} more", plan.notes.size() - kTold);
+    }
+    throw UsageError("relief: none of the handle's ridges can be rounded (" + why + ")");
   }
   return plan;
 }

@@ -325,6 +325,7 @@ void SurfaceFitOptions::check() const {
   check_range("tolerance", tolerance, 0.0, 10.0, " mm");
   check_range("preference of simpler surfaces", preference, 1.0, 100.0, "");
   check_range("largest radius", largest_radius, 1.0, 1e6, " mm");
+  check_range("smallest radius", smallest_radius, 0.0, largest_radius, " mm");
 }
 
 double distance_to(const SimpleSurface& s, const Vec3& x) {
@@ -426,6 +427,8 @@ SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<co
   fit.rms *= scale;
   fit.max *= scale;
   settle(s, points, normals);
+  const double bend = kind == FaceKind::kTorus ? s.tube_radius : s.radius;
+  if (kind != FaceKind::kCone && bend < options.smallest_radius) fit.has_converged = false;
   return fit;
 }
 

@@ -47,7 +47,8 @@ struct SurfaceFitOptions {
   double preference = 1.25;
   /// mm; larger radii are planes and cylinders to people (and to the kernel of a CAD system).
   double largest_radius = 5000.0;
-  void check() const;  ///< throws UsageError: field, value, allowed range
+  double smallest_radius = 2.0;  ///< mm; smaller ones are no surface of a handle but of noise
+  void check() const;            ///< throws UsageError: field, value, allowed range
 };
 
 /// The best surface of one kind, from several starts: principal axes of points and normals with
