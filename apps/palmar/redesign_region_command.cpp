@@ -53,9 +53,31 @@ double share_from(const std::string& option, const std::string& text) {
   throw UsageError(option + " is \"" + text + "\"; any, half, or a share of the hands from 0 to 1");
 }
 
-Vec3 handle_axis(const RedesignArguments& arguments, const TriangleMesh& mesh) {
+/// Along the handle that hands hold: what was asked for; else the bar whose axis is nearest to
+/// across their fingers; and where the whole product is such a bar, its own principal axis, which
+/// is exact.
+Vec3 handle_axis(const RedesignArguments& arguments, const HeldOriginal& original) {
   if (!arguments.axis.empty()) return parse_vector("--axis", arguments.axis).normalized();
-  return principal_frame(mesh).axes.col(0);
+  constexpr double kAslant = 0.8, kSame = 0.998;  // cosines of 37 and 3.6 degrees
+  Vec3 across = Vec3::Zero();
+  for (const StudyRecord& record : original.records) {
+    if (is_in_hand(record)) across += record.product_from_hand.rotation * Vec3::UnitX();
+  }
+  const TriangleMesh& mesh = original.product().mesh;
+  const PrincipalFrame frame = principal_frame(mesh);
+  if (!(across.norm() > 1e-9)) return frame.axes.col(0);
+  Vec3 axis = across.normalized();
+  double nearest = kAslant;
+  for (const GripSite& site : find_grip_sites(mesh)) {
+    const double cosine = std::abs(site.axis.dot(across.normalized()));
+    if (cosine <= nearest) continue;
+    nearest = cosine;
+    axis = site.axis;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(frame.axes.col(k).dot(axis)) > kSame) return frame.axes.col(k);
+  }
+  return axis;
 }
 
 /// Surfaces of one patch: one, or one for each piece of it if it goes over edges.
@@ -99,6 +121,7 @@ RegionFindings find_regions(const HeldOriginal& original, const RegionArguments&
   findings.map = std::move(contact.map);
   findings.count = std::move(contact.count);
   findings.imprint = std::move(contact.imprint);
+  findings.axis = handle_axis(a.redesign, original);
   const TriangleMesh& map = findings.map.mesh;
   findings.regions.push_back(contact_region(map, findings.count, {}, a.region));
   for (const HandPart part : {HandPart::kFingers, HandPart::kThumb, HandPart::kPalm}) {
@@ -121,8 +144,7 @@ RegionFindings find_regions(const HeldOriginal& original, const RegionArguments&
     }
   }
   try {
-    findings.sheet = unroll(original.product().mesh, findings.regions,
-                            handle_axis(a.redesign, original.product().mesh));
+    findings.sheet = unroll(original.product().mesh, findings.regions, findings.axis);
   } catch (const UsageError& error) {
     note(context.common, error.what());
   }
@@ -130,7 +152,7 @@ RegionFindings find_regions(const HeldOriginal& original, const RegionArguments&
     RegionOptions wide = a.region;
     wide.share = share_from("--relief-share", a.relief_share);
     ReliefOptions options = a.relief;
-    options.axis = handle_axis(a.redesign, original.product().mesh);
+    options.axis = findings.axis;
     try {
       findings.plan =
           plan_reliefs(map, findings.regions.front(), contact_region(map, findings.count, {}, wide),
@@ -265,9 +287,8 @@ int run_region(RegionArguments a, const Context& context) {
     write_file(out / "outline.svg", svg_of(drawing));
   }
   if (!a.no_pictures) {
-    const Vec3 axis = handle_axis(a.redesign, product.mesh);
     write_file(out / "region.png",
-               encode_png(region_picture(findings.map.mesh, parts, axis,
+               encode_png(region_picture(findings.map.mesh, parts, findings.axis,
                                          product.name + ": contact region", {}, progress)));
   }
   finish_progress();

@@ -33,6 +33,7 @@ struct FittedPatch {
 /// Everything that `palmar redesign region` found.
 struct RegionFindings {
   ProductMap map;
+  Vec3 axis = Vec3::UnitZ();  ///< along the handle, unit
   ContactCount count;
   std::vector<double> imprint;         ///< mean over hands, per vertex of the map, mm
   std::vector<ContactRegion> regions;  ///< whole hand, fingers, thumb, palm
