@@ -309,7 +309,7 @@ void add_redesign_region_command(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(
       noun, "region",
       "Export where hands touch for CAD: faces, outlines, simple surfaces; and round the ridges",
-      "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 3.5 --out "
+      "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 4 --out "
       "region");
   a->redesign.add_to(*verb);
   verb->add_option("--share", a->share, "Of the hands that must touch: any, half, or 0 to 1")

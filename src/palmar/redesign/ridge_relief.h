@@ -42,7 +42,7 @@ struct ReliefOptions {
   std::optional<Vec3> axis;  ///< unit, along the handle; unset: the longest extent
   /// Share of the hands' mean imprint that the rounding is fitted to.
   double share = 1.0;
-  double largest_depth = 3.5;    ///< mm, by which a ridge may go back: keeps the overall shape
+  double largest_depth = 4.0;    ///< mm, by which a ridge may go back: keeps the overall shape
   double smallest_radius = 6.0;  ///< mm; of the cutter. Ridges get no smaller one
   double run_out = 40.0;         ///< mm; radius of the arc along which the cutter leaves
   double margin = 3.0;           ///< mm; the full rounding goes on beyond the region
