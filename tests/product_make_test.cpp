@@ -87,16 +87,16 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
     std::string arguments, said;
   } cases[] = {
       {"", "a kind of product is required: cylinder, elliptic_handle"},
-      {"botle --out b.step", "did you mean bottle?"},
-      {"bottle --diametre-mm 70 --out b.step", "did you mean --diameter-mm?"},
-      {"bottle --diameter-mm 700 --out b.step", "bottle: diameter_mm is 700 mm; 20 to 200 mm"},
-      {"bottle --param diametr_mm=70 --out b.step", "did you mean \"diameter_mm\"?"},
-      {"bottle --param diameter_mm --out b.step", "--param is \"diameter_mm\"; name=value"},
+      {"botle --out none.step", "did you mean bottle?"},
+      {"bottle --diametre-mm 70 --out none.step", "did you mean --diameter-mm?"},
+      {"bottle --diameter-mm 700 --out none.step", "bottle: diameter_mm is 700 mm; 20 to 200 mm"},
+      {"bottle --param diametr_mm=70 --out none.step", "did you mean \"diameter_mm\"?"},
+      {"bottle --param diameter_mm --out none.step", "--param is \"diameter_mm\"; name=value"},
       {"bottle --diameter-mm 60:70:0 --out b/", "diameter_mm: the sweep's step is 0 mm"},
       {"bottle --diameter-mm 70:60:1 --out b/", "from 70 mm down to 60 mm"},
       {"bottle --diameter-mm 60:70:0.001 --out b/", "10001 variants; up to 1000 are allowed"},
-      {"bottle --diameter-mm 60:70:5 --out b.step",
-       "the sweep makes 3 products, but --out is one file, b.step; a folder is allowed, as b/"},
+      {"bottle --diameter-mm 60:70:5 --out none.step",
+       "the sweep makes 3 products, but --out is one file, none.step; a folder is allowed, as b/"},
       {"bottle --out b.iges", "--out is b.iges; .step, .stp, .stl, .obj or .ply is allowed"},
       {"bottle --out b/ --format dwg", "--format is \"dwg\"; step, stl, obj and ply"},
       {"prism --fillet-mm 18 --out p.step", "at most 15 mm is allowed (half of the smaller of"},
@@ -106,7 +106,7 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
     EXPECT_EQ(run.exit_code, 2) << one.arguments;
     EXPECT_THAT(run.err, HasSubstr(one.said)) << one.arguments;
   }
-  EXPECT_FALSE(is_there("b.step"));
+  EXPECT_FALSE(is_there("none.step"));
   EXPECT_FALSE(fs::exists(fs::path(folder()) / "b"));
 }
 
