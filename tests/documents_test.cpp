@@ -51,14 +51,19 @@ TEST(Documents, EveryShownCommandWorks) {
                 .exit_code,
             0);
   fs::copy(fs::path(folder) / "handle.step", fs::path(folder) / "handle.iges");  // read by content
+  fs::copy(fs::path(folder) / "handle.step", fs::path(folder) / "prism.step");
   for (const auto& [page, command] : commands) {
     // Pictures take the time and are tested with the main job.
     std::string shortened = command;
     if (command.rfind("assess ", 0) == 0) shortened += " --no-pictures";
-    // So do many hands; what comes of them is tested with the redesigns.
-    const std::size_t hands = command.find("--hands 30");
-    if (command.rfind("redesign ", 0) == 0 && hands != command.npos) {
-      shortened.replace(hands, 10, "--hands 2");
+    // So do many hands and candidates; what comes of them is tested with the redesigns.
+    if (command.rfind("redesign ", 0) == 0) {
+      const std::string many = " --hands 30";
+      const std::size_t at = shortened.find(many);
+      if (at != shortened.npos) shortened.erase(at, many.size());
+      shortened += " --hands 2";
+      const bool searches = command.rfind("redesign f", 0) == 0;  // fillet, features
+      if (searches) shortened += " --evaluations 3";
     }
     const ProgramRun run = run_palmar(shortened, folder);
     EXPECT_EQ(run.exit_code, 0) << page << ": palmar " << command << "\n" << run.err;
