@@ -96,7 +96,8 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
       {"bottle --diameter-mm 70:60:1 --out b/", "from 70 mm down to 60 mm"},
       {"bottle --diameter-mm 60:70:0.001 --out b/", "10001 variants; up to 1000 are allowed"},
       {"bottle --diameter-mm 60:70:5 --out none.step",
-       "the sweep makes 3 products, but --out is one file, none.step; a folder is allowed, as b/"},
+       "the sweep makes 3 products, but --out is one file, none.step; a folder is allowed, as "
+       "none/"},
       {"bottle --out b.iges", "--out is b.iges; .step, .stp, .stl, .obj or .ply is allowed"},
       {"bottle --out b/ --format dwg", "--format is \"dwg\"; step, stl, obj and ply"},
       {"prism --fillet-mm 18 --out p.step", "at most 15 mm is allowed (half of the smaller of"},
