@@ -1,0 +1,51 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/geometry/types.h"
+#include "palmar/hand/hand.h"
+#include "palmar/imaging/volume.h"
+
+namespace palmar {
+
+/// One bone in a scan. Closed, 2-manifold, oriented outwards; patient frame, mm.
+struct ScannedBone {
+  std::string name;  ///< as Hand::bones has it ("index_middle_phalanx", "thumb_metacarpal",
+                     ///< "capitate", "radius"); "" for one that couldn't be named
+  TriangleMesh mesh;
+  bool is_cut = false;  ///< by the edge of the image
+};
+
+/// Skin, bones and markers of one scan. Patient frame (volume.h), mm.
+struct ScanSurfaces {
+  TriangleMesh skin;  ///< closed (capped where the image cuts the forearm), 2-manifold
+  std::vector<ScannedBone> bones;
+  std::vector<Vec3> markers;   ///< centres of the spots stuck on the skin
+  Side side = Side::kRight;    ///< from the anatomy
+  double air_threshold = 0.0;  ///< intensities used, after bias correction
+  double bone_threshold = 0.0;
+  double noise = 0.0;                ///< standard deviation of the intensity in tissue
+  double bone_error_estimate = 0.0;  ///< expected of the surfaces at this resolution and noise, mm
+  std::vector<std::string> notes;    ///< what the user should know: sentences
+};
+
+struct SurfaceOptions {
+  double air_threshold = 0.0;   ///< intensity of the file; 0: found from the histogram
+  double bone_threshold = 0.0;  ///< likewise
+  bool corrects_bias = true;
+  double edge_length = 1.2;      ///< mean edge of the bones' meshes, mm; the skin's twice as long
+  double marker_diameter = 5.0;  ///< mm; 0: no markers are looked for
+  void check() const;            ///< throws UsageError: field, value, allowed range
+};
+
+/// Finds skin, bones and markers in a T1-weighted MR image of one hand. `model`: any hand, for
+/// names: which bones there are and how they follow each other. See docs/method/mri.md.
+/// Throws InputError, naming `name` (the series): no hand, two hands, an image too coarse.
+ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const Hand& model,
+                           const SurfaceOptions& options = {}, const Progress& progress = {});
+
+}  // namespace palmar

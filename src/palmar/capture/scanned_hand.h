@@ -1,0 +1,44 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/capture/measured_joints.h"
+#include "palmar/capture/scan_posture.h"
+#include "palmar/capture/scan_surfaces.h"
+#include "palmar/core/progress.h"
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// Mean distance from the model's posed skin round the thumb ball to the scanned one (Xie 2014,
+/// table 2-5), mm.
+struct SkinError {
+  ScanPosture posture{};
+  double skinning_only = 0.0;
+  std::optional<double> corrected;  ///< with the thumb-ball correction
+};
+
+/// A person's hand, made from scans.
+struct ScannedHand {
+  Hand hand;
+  Rigid3 patient_from_hand;
+  double registration_mean = 0.0;  ///< distance of the hand's skin to the reference scan's, mm
+  double registration_p95 = 0.0;
+  std::vector<SkinError> skin_errors;
+  std::vector<std::string> notes;
+};
+
+/// Registers the skin of `model` to that of the reference scan (segments, regions, creases and
+/// skinning come along), puts the scan's bones and joints in, and corrects the thumb ball by the
+/// markers of the limit postures. Works without markers and limit postures, and says what is lost.
+/// `scans` holds kReference at least. Also used for scans that show skin only: without bones, the
+/// joints of `joints.skeleton` are those that the registration finds.
+ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& scans,
+                              const MeasuredJoints& joints, const Progress& progress = {});
+
+}  // namespace palmar
