@@ -12,24 +12,13 @@
 #include "palmar/cad/cad_file.h"
 #include "palmar/cad/tessellation.h"
 #include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/io/face_mesh_file.h"
 #include "read_request.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
 namespace {
-
-/// The second part of the work as a share of all of it.
-Progress part_of(const Progress& progress, double begin, double end) {
-  Progress part = progress;
-  if (progress.report) {
-    part.report = [report = progress.report, begin, end](double share,
-                                                         const std::string& activity) {
-      report(begin + share * (end - begin), activity);
-    };
-  }
-  return part;
-}
 
 /// The parent judges the size with care; this one keeps triangles from being made of what is no
 /// product in any unit.

@@ -11,6 +11,7 @@
 #include "friction_arguments.h"
 #include "grasp_options.h"
 #include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/io/assessment_json.h"
 #include "palmar/io/coordination_file.h"
 #include "palmar/io/index_json.h"
@@ -116,15 +117,9 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   std::vector<AssessedProduct> done;
   int code = 0;
   for (std::size_t i = 0; i < products.size(); ++i) {
-    Progress part = progress;
-    if (progress.report) {
-      part.report = [&](double share, const std::string& activity) {
-        const double start =
-            0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(products.size());
-        progress.report(start + 0.6 * share / static_cast<double>(products.size()),
-                        products[i].name + ": " + activity);
-      };
-    }
+    const double start = 0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(products.size());
+    const Progress part = part_of(
+        progress, start, start + 0.6 / static_cast<double>(products.size()), products[i].name);
     options.friction = friction[i];
     options.balance.load = options.friction.load;
     try {
@@ -148,12 +143,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     if (folder.empty()) folder = default_folder();
     // What is done is written even when the user has cancelled, but for pictures; a second Ctrl-C
     // ends that too.
-    Progress writing = progress;
-    if (progress.report) {
-      writing.report = [&](double share, const std::string& activity) {
-        progress.report(0.7 + 0.3 * share, activity);
-      };
-    }
+    const Progress writing = part_of(progress, 0.7, 1.0);
     try {
       write_report(folder, set, {.pictures = !arguments.no_pictures}, writing);
     } catch (const Cancelled&) {

@@ -8,6 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/core/version.h"
 
 namespace palmar {
@@ -37,6 +38,21 @@ TEST(SetThreadCount, RefusesNegativeCounts) {
   set_thread_count(1);
   EXPECT_EQ(thread_count(), 1);
   set_thread_count(0);
+}
+
+TEST(Progress, OfAPartRunsWithinItsShareOfTheWhole) {
+  std::vector<std::pair<double, std::string>> told;
+  const Progress whole{.report = [&](double share, const std::string& activity) {
+    told.emplace_back(share, activity);
+  }};
+  const Progress part = part_of(whole, 0.2, 0.6, "index");
+  part.update(0.0, "begins");
+  part_of(part, 0.5, 1.0).update(0.5, "goes on");
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_DOUBLE_EQ(told[0].first, 0.2);
+  EXPECT_EQ(told[0].second, "index: begins");
+  EXPECT_DOUBLE_EQ(told[1].first, 0.2 + 0.4 * 0.75);
+  EXPECT_EQ(told[1].second, "index: goes on");
 }
 
 TEST(Progress, ThrowsCancelledOnceTheFlagIsSet) {
