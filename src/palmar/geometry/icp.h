@@ -12,10 +12,10 @@ namespace palmar {
 
 struct IcpOptions {
   double trim = 0.2;         ///< share of the worst pairs left out of each step, [0, 0.9]
-  int max_iterations = 60;   ///< per start
+  int max_iterations = 60;   ///< of the last, full search
   double tolerance = 1e-4;   ///< mm; a step that moves no point farther ends the search
-  int samples = 1500;        ///< points of the moving surface, spread evenly; all if it has fewer
-  double start_turn = 1.05;  ///< rad; other starts, turned by up to this, are tried too (0: none)
+  int samples = 1500;        ///< points of the moving surface, spread evenly over its area
+  double start_turn = 1.05;  ///< rad, [0, pi]; starts turned by this are tried, too (0: none)
   void check() const;        ///< throws UsageError: field, value, allowed range
 };
 
@@ -34,8 +34,13 @@ struct IcpResult {
 
 /// Rigid registration of a surface to another by trimmed iterative closest points, point to plane
 /// (Chen, Medioni 1992; trimmed as in Chetverikov et al. 2002), started from `start` and from turns
-/// of it. Both surfaces oriented outwards; parts of either may be missing. Partners' normals must
-/// agree within 60 degrees. Deterministic. Throws InputError for a surface without area, Cancelled.
+/// of it about the middle of the moving surface, there and where the fixed surface has its own.
+///
+/// Both surfaces oriented outwards; parts of either may be missing. Partners' normals must agree
+/// within 60 degrees, and a partner on the rim of an open fixed surface doesn't count (Turk, Levoy
+/// 1994); far pairs lose weight (Geman, McClure 1985). A surface turned inside out has no partners:
+/// overlap 0, not converged. Deterministic. Throws UsageError, InputError for a surface without
+/// area, Cancelled.
 IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed,
                            const Rigid3& start = {}, const IcpOptions& options = {},
                            const Progress& progress = {});
