@@ -1,0 +1,237 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/skin_registration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palmar/capture/nonrigid_fit.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/self_intersection.h"
+
+namespace palmar {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Which finger a point in space belongs to (1 thumb ... 5 little), 0 for palm and webs.
+class Fingers {
+ public:
+  explicit Fingers(const Skeleton& skeleton) {
+    for (int f = 0; f < kFingerCount; ++f) {
+      const auto finger = static_cast<Finger>(f);
+      Ray& ray = ray_[at(f)];
+      const auto chain = segments_of(finger);
+      ray.node.push_back(finger == Finger::kThumb ? skeleton.joint(JointId::kThumbCmc).centre
+                                                  : skeleton.joint(JointId::kWrist).centre);
+      for (const auto& s : chain) {
+        if (s) ray.node.push_back(skeleton.joint(joint_of(*s)).centre);
+      }
+      ray.node.push_back(skeleton.fingertips[at(f)]);
+    }
+  }
+
+  int of(const Vec3& point) const {
+    constexpr double kFree = 0.4;  // of the first phalanx; nearer the joint lies the web
+    double best = std::numeric_limits<double>::max();
+    int part = 0;
+    for (int f = 0; f < kFingerCount; ++f) {
+      const Ray& ray = ray_[at(f)];
+      for (std::size_t k = 0; k + 1 < ray.node.size(); ++k) {
+        const Vec3 along = ray.node[k + 1] - ray.node[k];
+        const double t =
+            std::clamp((point - ray.node[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        const double d = (point - ray.node[k] - t * along).squaredNorm();
+        if (d >= best) continue;
+        best = d;
+        part = k == 0 || (k == 1 && t < kFree) ? 0 : f + 1;
+      }
+    }
+    return part;
+  }
+
+ private:
+  struct Ray {
+    std::vector<Vec3> node;
+  };
+  std::array<Ray, kFingerCount> ray_;
+};
+
+/// The model's cut through the forearm: faces proximally, beyond the wrist.
+std::vector<char> cut_of(const Hand& hand) {
+  const std::vector<Vec3> normal = triangle_normals(hand.skin);
+  const double wrist = hand.skeleton.joint(JointId::kWrist).centre.y();
+  std::vector<char> is_cut(hand.skin.vertices.size(), 0);
+  for (std::size_t t = 0; t < normal.size(); ++t) {
+    if (normal[t].y() > -0.8) continue;
+    for (const int v : hand.skin.triangles[t]) {
+      if (hand.skin.vertices[at(v)].y() < wrist) is_cut[at(v)] = 1;
+    }
+  }
+  return is_cut;
+}
+
+FitSurface scanned_surface(const SkinScan& scan, const Skeleton& skeleton) {
+  FitSurface surface;
+  surface.mesh = scan.skin;
+  const Fingers fingers(skeleton);
+  const std::vector<Vec3> normal = vertex_normals(scan.skin);
+  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  surface.is_silent.assign(scan.skin.vertices.size(), 0);
+  surface.part.resize(scan.skin.vertices.size());
+  // A spot of radius r stands on the skin; its rim is rounded off over about as much again.
+  const double bump = 1.9 * scan.marker_radius;
+  parallel_for(scan.skin.vertex_count(), [&](int v) {
+    const Vec3& p = scan.skin.vertices[at(v)];
+    surface.part[at(v)] = fingers.of(p);
+    if (p.y() < wrist && normal[at(v)].y() < -0.8) surface.is_silent[at(v)] = 1;  // its own cut
+    for (const Vec3& marker : scan.markers) {
+      if ((p - marker).squaredNorm() < bump * bump) surface.is_silent[at(v)] = 1;
+    }
+  });
+  for (const auto& edge : boundary_edges(build_topology(scan.skin))) {
+    for (const int v : edge) surface.is_silent[at(v)] = 1;
+  }
+  return surface;
+}
+
+/// Parts surfaces that went through each other, a little at a time.
+void part_crossings(TriangleMesh& skin) {
+  constexpr int kRounds = 30;
+  constexpr double kGap = 0.05;  // mm
+  const std::vector<std::vector<int>> neighbours = vertex_neighbours(build_topology(skin));
+  for (int round = 0; round < kRounds; ++round) {
+    const CrossingDepth crossing = crossing_depth(skin);
+    if (crossing.pairs.empty()) return;
+    const std::vector<Vec3> normal = vertex_normals(skin);
+    std::vector<Vec3> move(skin.vertices.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
+      const auto v = at(crossing.vertex[k]);
+      move[v] = -(0.5 * crossing.depth[k] + kGap) * normal[v];
+    }
+    if (crossing.vertex.empty()) {  // a fold of the surface itself: smoothed away
+      for (const auto& pair : crossing.pairs) {
+        for (const int t : pair) {
+          for (const int v : skin.triangles[at(t)]) {
+            Vec3 mean = Vec3::Zero();
+            for (const int u : neighbours[at(v)]) mean += skin.vertices[at(u)];
+            mean /= static_cast<double>(neighbours[at(v)].size());
+            move[at(v)] = 0.5 * (mean - skin.vertices[at(v)]);
+          }
+        }
+      }
+    }
+    // Surroundings go along, so that no dents remain.
+    for (int pass = 0; pass < 2; ++pass) {
+      std::vector<Vec3> spread = move;
+      for (std::size_t v = 0; v < move.size(); ++v) {
+        if (!move[v].isZero(0.0)) continue;
+        Vec3 mean = Vec3::Zero();
+        for (const int u : neighbours[v]) mean += move[at(u)];
+        spread[v] = 0.5 * mean / static_cast<double>(neighbours[v].size());
+      }
+      move = std::move(spread);
+    }
+    for (std::size_t v = 0; v < move.size(); ++v) skin.vertices[v] += move[v];
+  }
+}
+
+/// Distances at the end: of skin distal of the wrist that lies over scanned skin.
+void measure(const FitSurface& moving, const FitSurface& fixed, double wrist,
+             RegisteredSkin& result) {
+  constexpr double kReach = 5.0;  // mm
+  const ClosestPointQuery query(fixed.mesh);
+  const std::vector<Vec3> normal = vertex_normals(moving.mesh);
+  const std::vector<Vec3> fixed_normal = vertex_normals(fixed.mesh);
+  const std::vector<double> area = vertex_areas(moving.mesh);
+  std::vector<double> distance(moving.mesh.vertices.size(), -1.0);
+  parallel_for(moving.mesh.vertex_count(), [&](int v) {
+    const auto foot = query.closest(moving.mesh.vertices[at(v)], kReach);
+    if (moving.is_silent[at(v)] || !foot) return;
+    Vec3 n = Vec3::Zero();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int u = fixed.mesh.triangles[at(foot->triangle)][c];
+      if (foot->weights[c] > 0.0 && fixed.is_silent[at(u)]) return;
+      n += foot->weights[c] * fixed_normal[at(u)];
+    }
+    if (n.dot(normal[at(v)]) > 0.0) distance[at(v)] = foot->distance;
+  });
+  result.has_partner.assign(distance.size(), 0);
+  std::vector<double> partnered;
+  double all = 0.0, with = 0.0;
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    result.has_partner[v] = distance[v] >= 0.0;
+    if (moving.mesh.vertices[v].y() < wrist) continue;
+    all += area[v];
+    if (distance[v] < 0.0) continue;
+    with += area[v];
+    partnered.push_back(distance[v]);
+    result.mean += distance[v];
+  }
+  result.partner_share = all > 0.0 ? with / all : 0.0;
+  if (partnered.empty()) return;
+  result.mean /= static_cast<double>(partnered.size());
+  const auto k = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(partnered.size() - 1));
+  std::nth_element(partnered.begin(), partnered.begin() + k, partnered.end());
+  result.percentile_95 = partnered[static_cast<std::size_t>(k)];
+}
+
+}  // namespace
+
+Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& segment,
+                  const Skeleton& skeleton, Finger finger) {
+  const auto chain = segments_of(finger);
+  const Segment last = chain[2] ? *chain[2] : *chain[1];
+  const Vec3& joint = skeleton.joint(joint_of(last)).centre;
+  Vec3 tip = skeleton.fingertips[static_cast<std::size_t>(finger)];
+  constexpr int kRounds = 4;  // the direction hardly changes after the first
+  for (int round = 0; round < kRounds; ++round) {
+    const Vec3 along = tip - joint;
+    double best = -std::numeric_limits<double>::max();
+    for (std::size_t v = 0; v < skin.size(); ++v) {
+      if (segment[v] != last) continue;
+      const double height = along.dot(skin[v] - joint);
+      if (height <= best) continue;
+      best = height;
+      tip = skin[v];
+    }
+  }
+  return tip;
+}
+
+RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,
+                             const Progress& progress) {
+  progress.update(0.0, "posing the model by the joints");
+  RegisteredSkin result;
+  result.start = posed_model(model, skeleton);
+  FitSurface moving;
+  moving.mesh = {skin_at(result.start, skeleton), model.skin.triangles};
+  moving.is_silent = cut_of(model);
+  for (const Segment s : model.segment) {
+    const auto finger = finger_of(s);
+    moving.part.push_back(finger ? static_cast<int>(*finger) + 1 : 0);
+  }
+  const FitSurface fixed = scanned_surface(scan, skeleton);
+  moving.mesh.vertices = fit_nonrigidly(moving, fixed, {}, progress);
+  part_crossings(moving.mesh);
+  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  measure(moving, fixed, wrist, result);
+  constexpr double kLeastShare = 0.5;
+  if (result.partner_share < kLeastShare) {
+    throw InputError(
+        fmt::format("scanned skin: it lies near {:.0f} % of the model's only; {:.0f} % are needed: "
+                    "skin and joints don't belong together",
+                    100.0 * result.partner_share, 100.0 * kLeastShare));
+  }
+  result.skin = std::move(moving.mesh.vertices);
+  return result;
+}
+
+}  // namespace palmar

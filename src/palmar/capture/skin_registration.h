@@ -1,0 +1,42 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "palmar/capture/posed_model.h"
+#include "palmar/core/progress.h"
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// Skin of one scan, from whatever device.
+struct SkinScan {
+  TriangleMesh skin;          ///< oriented outwards, mm; may be open
+  std::vector<Vec3> markers;  ///< centres of spots on the skin, whose bumps are no skin; mm
+  double marker_radius = 2.5;
+};
+
+/// A model's skin laid on a scanned one.
+struct RegisteredSkin {
+  std::vector<Vec3> skin;                  ///< vertex for vertex the model's; frame of the scan, mm
+  std::vector<char> has_partner;           ///< per vertex: scanned skin lies there
+  PosedModel start;                        ///< what it was bent from
+  double mean = 0.0, percentile_95 = 0.0;  ///< distance to the scan where there are partners, mm
+  double partner_share = 0.0;              ///< of the area, forearm left out
+};
+
+/// Lays the skin of `model` on a scan. `skeleton`: the person's joints in the scan's frame, which
+/// must be a hand frame; the model is sized and posed by them (posed_model.h), then bent onto the
+/// scan (nonrigid_fit.h). Fingers only find partners on the same finger; skin that isn't in the
+/// scan (touching fingers, the cut forearm, spots) follows its surroundings. At the end no triangle
+/// crosses another. Throws InputError if the scan isn't near the joints.
+RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,
+                             const Progress& progress = {});
+
+/// Most distal skin point of a finger: farthest along the way from its last joint to itself.
+Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& segment,
+                  const Skeleton& skeleton, Finger finger);
+
+}  // namespace palmar
