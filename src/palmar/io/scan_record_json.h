@@ -1,0 +1,23 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/capture/scan_record.h"
+#include "palmar/io/csv.h"
+
+namespace palmar {
+
+/// What became of a person's scans as JSON; keys carry the unit. Axes and centres of joints stand
+/// in the hand frame and in the patient frame of the reference scan.
+std::string scan_record_json(const ScanRecord& record);
+
+/// One row per posture and bone: mean distance of free registration, of joints with a fixed axis,
+/// of the interpolated CMC joint, mm (Xie 2014, tables 2-2 to 2-4, before averaging).
+CsvTable bone_error_table(const ScanRecord& record);
+
+/// One row per limit posture of the thumb: skinning alone, corrected, mm (table 2-5).
+CsvTable skin_error_table(const ScanRecord& record);
+
+}  // namespace palmar

@@ -1,0 +1,26 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/capture/scan_record.h"
+#include "palmar/core/progress.h"
+#include "palmar/report/assessment_pictures.h"
+
+namespace palmar {
+
+/// Pictures of a person's hand made from scans: the new hand with its bones from the palm and from
+/// the thumb's side, and every scan's skin, see-through, with the bones found in it. When
+/// cancelled, those that are finished.
+std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options = {},
+                                   const Progress& progress = {});
+
+/// Writes into `folder`: report.html (works offline: what was scanned, tables 2-2 to 2-5 of Xie
+/// 2014 for this person with charts, dimensions, pictures, notes), scan.json, bone_errors.csv,
+/// skin_errors.csv. Same record, same bytes. Throws OutputError, Cancelled.
+void write_scan_report(const std::string& folder, const ScanRecord& record,
+                       const Progress& progress = {});
+
+}  // namespace palmar
