@@ -31,13 +31,15 @@ AxisFit fit_axis(const Rigid3& motion, const Vec3& near);
 /// A bone of the reference scan found again in the scan of another posture.
 struct BoneMotion {
   std::string bone;
+  std::string counterpart;        ///< its name in the other scan: another one if labels disagree
   Rigid3 posture_from_reference;  ///< patient frame of one scan to that of the other
   IcpResult fit;
 };
 
 /// Finds every bone of `reference` in `posture` by registration along the chain from the carpus
 /// out: each bone starts where its proximal neighbour's motion and the bone of the same name put
-/// it. Bones that have no counterpart are left out.
+/// it. A bone that doesn't fit the one of its name is tried on others near where it must be
+/// (counterpart). Bones that have no counterpart are left out.
 std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
                                     const Progress& progress = {});
 
@@ -62,9 +64,10 @@ struct MeasuredJoints {
   std::vector<std::string> notes;  ///< what is lost for want of a posture or bone: sentences
 };
 
-/// `motions`: those of the bones in every other posture that was scanned. `model`: joints that the
-/// scans don't tell are taken over from it, fitted to the bones.
-MeasuredJoints measure_joints(const ScanSurfaces& reference,
+/// `scans`: kReference at least; `motions`: those of the bones in every other posture that was
+/// scanned. `model`: joints that the scans don't tell are taken over from it, fitted to the bones.
+/// Throws InputError if the reference scan lacks, or shows too few bones to tell where the hand is.
+MeasuredJoints measure_joints(const std::map<ScanPosture, ScanSurfaces>& scans,
                               const std::map<ScanPosture, std::vector<BoneMotion>>& motions,
                               const Hand& model);
 

@@ -130,8 +130,9 @@ class Registration {
   const Vec3& centre() const { return centre_; }
   double radius() const { return radius_; }
 
-  /// Looks for partners and trims.
-  void pair_up(Place& place) const {
+  /// Looks for partners and trims; at last (`keeps_near`), only what lies beyond 3.5 standard
+  /// deviations, by the median, is left out: trimming good pairs costs accuracy.
+  void pair_up(Place& place, bool keeps_near = false) const {
     place.pairs.resize(samples_.size());
     std::vector<double> distances;
     distances.reserve(samples_.size());
@@ -147,14 +148,17 @@ class Registration {
     place.scale = 0.0;
     place.reach = -1.0;
     if (distances.empty()) return;
-    const auto kept = static_cast<std::size_t>(
-        std::ceil((1.0 - options_.trim) * static_cast<double>(distances.size())));
-    const auto last =
-        distances.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(kept, 1) - 1);
-    std::nth_element(distances.begin(), last, distances.end());
-    place.reach = *last;
-    for (auto d = distances.begin(); d <= last; ++d) place.scale += *d * *d;
-    place.scale = std::sqrt(place.scale / static_cast<double>(last - distances.begin() + 1));
+    std::sort(distances.begin(), distances.end());
+    const auto count = static_cast<double>(distances.size());
+    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - options_.trim) * count));
+    place.reach = distances[std::max<std::size_t>(kept, 1) - 1];
+    constexpr double kMedianOfNormal = 0.6745;  // of |z|, z standard normal
+    if (keeps_near) {
+      place.reach = 3.5 / kMedianOfNormal * distances[distances.size() / 2] + 1e-9 * radius_;
+    }
+    const auto end = std::upper_bound(distances.begin(), distances.end(), place.reach);
+    for (auto d = distances.begin(); d != end; ++d) place.scale += *d * *d;
+    place.scale = std::sqrt(place.scale / static_cast<double>(end - distances.begin()));
   }
 
   /// Normal equations of the motion (turn about the centre in units of 1 / radius, shift) for the
@@ -168,7 +172,8 @@ class Registration {
       const Pair& pair = place.pairs[i];
       if (!pair.counts || pair.found.distance > place.reach) continue;
       const Vec3 point = place.fixed_from_moving * samples_[i].point;
-      const Vec3 n = is_plain ? fixed_.smooth_normal(pair.found) : fixed_.face_normal(pair.found);
+      Vec3 n = fixed_.smooth_normal(pair.found);
+      if (!is_plain) n = (n + place.fixed_from_moving.rotation * samples_[i].normal).normalized();
       Vec6 row;
       row << (point - middle).cross(n) / radius_, n;
       const double r = n.dot(pair.found.point - point);
@@ -199,12 +204,12 @@ class Registration {
     return 2.0 * radius_ * angle + x.tail<3>().norm();
   }
 
-  void search(Place& place, int iterations) const {
-    pair_up(place);
-    for (int k = 0; k < iterations; ++k) {
-      if (place.reach < 0.0) return;
+  void search(Place& place, int iterations, bool keeps_near = false) const {
+    place.has_converged = false;
+    pair_up(place, keeps_near);
+    for (int k = 0; k < iterations && place.reach >= 0.0; ++k) {
       const double moved = step(place);
-      pair_up(place);
+      pair_up(place, keeps_near);
       ++place.iterations;
       if (moved < options_.tolerance) {
         place.has_converged = true;
@@ -259,6 +264,22 @@ void sort_places(const Registration& registration, std::vector<Place>& places) {
   sorted.reserve(places.size());
   for (const auto& [sum, k] : cost) sorted.push_back(std::move(places[k]));
   places = std::move(sorted);
+}
+
+/// Leaves only the first of several places that have become the same.
+void drop_repeated(const Registration& registration, std::vector<Place>& places) {
+  std::vector<Place> kept;
+  for (Place& place : places) {
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Place& other) {
+      const Vec3 shift = place.fixed_from_moving * registration.centre() -
+                         other.fixed_from_moving * registration.centre();
+      const double turn =
+          place.fixed_from_moving.rotation.angularDistance(other.fixed_from_moving.rotation);
+      return shift.norm() / registration.radius() + turn < 0.05;
+    });
+    if (is_new) kept.push_back(std::move(place));
+  }
+  places = std::move(kept);
 }
 
 /// Turns by `angle` about the principal axes of the samples and about the diagonals between them.
@@ -349,7 +370,7 @@ IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed
   require_area(moving, "moving");
   require_area(fixed, "fixed");
   const FixedSurface surface(fixed);
-  constexpr int kCoarseSamples = 200;
+  constexpr int kCoarseSamples = 200, kRivalSteps = 10;
   const Registration coarse(
       surface, spread_samples(moving, std::min(kCoarseSamples, options.samples)), options);
   const Registration fine(surface, spread_samples(moving, options.samples), options);
@@ -367,15 +388,17 @@ IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed
     sort_places(coarse, places);
     places.resize(std::min(places.size(), survivors));
   }
+  drop_repeated(coarse, places);
   for (Place& place : places) {
     progress.throw_if_cancelled();
-    place.has_converged = false;
     place.pairs.clear();
-    fine.search(place, options.max_iterations);
+    fine.search(place, kRivalSteps);
   }
   sort_places(fine, places);
+  Place& best = places.front();
+  fine.search(best, options.max_iterations);
+  fine.search(best, options.max_iterations, true);
 
-  const Place& best = places.front();
   IcpResult result;
   result.fixed_from_moving = best.fixed_from_moving;
   result.iterations = best.iterations;

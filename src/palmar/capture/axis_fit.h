@@ -1,0 +1,37 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "palmar/capture/measured_joints.h"
+#include "palmar/geometry/rigid3.h"
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// Six points with the centre and the second moments of a surface's area: for any two affine maps
+/// the mean of |A x - B x|^2 over them equals that over the surface. They stand for a bone wherever
+/// its motions are compared; mm.
+std::array<Vec3, 6> moment_points(const TriangleMesh& mesh);
+
+/// One fixed axis for several motions of a bone.
+struct HingeFit {
+  Vec3 axis = Vec3::UnitX();  ///< unit; the motion that turns most turns positively about it
+  Vec3 point = Vec3::Zero();  ///< on the axis, nearest to where it was looked for, mm
+  std::vector<double> angle;  ///< of each motion, rad
+  double rms = 0.0;           ///< of the points' distances from where the motions put them, mm
+  bool is_observed = false;
+};
+/// The axis (u, p) and angles that make sum_k sum_i |Rot(u, p, theta_k) x_i - M_k x_i|^2 least over
+/// the points x_i of the bone that moves; a single motion gives fit_axis(). Throws UsageError
+/// without motions.
+HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points, const Vec3& near);
+
+/// Turn from which an axis can be told in the presence of what registration leaves (about half a
+/// degree): then it errs by less than ten degrees.
+inline constexpr double kLeastTurn = 0.05;  // rad
+
+}  // namespace palmar

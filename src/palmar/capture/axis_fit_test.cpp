@@ -1,0 +1,183 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/axis_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "palmar/capture/two_axis_fit.h"
+#include "palmar/core/error.h"
+#include "palmar/geometry/primitive_meshes.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+const Vec3 kAxis = Vec3(0.8, -0.35, 0.49).normalized();
+const Vec3 kOnAxis(12.0, 40.0, -7.0);
+
+/// Distance of a point from the true axis, mm.
+double off_axis(const Vec3& point) { return (point - kOnAxis).cross(kAxis).norm(); }
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDeg;
+}
+
+/// Surface points of a bone of 40 mm that lies 20 mm beyond the joint.
+std::vector<Vec3> bone_points() {
+  TriangleMesh bone = make_box({12.0, 40.0, 9.0});
+  for (Vec3& v : bone.vertices) v += kOnAxis + Vec3(0.0, 40.0, 2.0);
+  const std::array<Vec3, 6> points = moment_points(bone);
+  return {points.begin(), points.end()};
+}
+
+TEST(FitAxis, FindsTheAxisOfTurnsFromATenthOfADegreeToNearlyAHalfTurn) {
+  const Vec3 near(10.0, 42.0, -6.0);
+  for (const double degrees : {0.1, 0.5, 5.0, 30.0, 90.0, 150.0, 179.0, 179.9, 179.999}) {
+    const AxisFit fit = fit_axis(Rigid3::about_axis(kAxis, kOnAxis, degrees * kDeg), near);
+    EXPECT_NEAR(fit.angle, degrees * kDeg, 1e-12) << degrees;
+    EXPECT_LT(angle_between(fit.axis, kAxis), 1e-8) << degrees;
+    EXPECT_LT(off_axis(fit.point), 1e-8) << degrees;
+    EXPECT_NEAR((fit.point - near).dot(kAxis), 0.0, 1e-8) << degrees;  // nearest to there
+    EXPECT_NEAR(fit.slide, 0.0, 1e-10) << degrees;
+    EXPECT_EQ(fit.is_observed, degrees > 3.0);
+  }
+}
+
+TEST(FitAxis, TheSlideAlongTheAxisIsDroppedAndTold) {
+  Rigid3 screw = Rigid3::about_axis(kAxis, kOnAxis, 0.7);
+  screw.translation += 1.5 * kAxis;
+  const AxisFit fit = fit_axis(screw, kOnAxis);
+  EXPECT_NEAR(fit.slide, 1.5, 1e-12);
+  EXPECT_LT(off_axis(fit.point), 1e-10);
+  // Turned the other way, the axis is the other way round and so is the slide's sign.
+  Rigid3 back = Rigid3::about_axis(kAxis, kOnAxis, -0.7);
+  back.translation += 1.5 * kAxis;
+  EXPECT_NEAR(fit_axis(back, kOnAxis).slide, -1.5, 1e-12);
+  EXPECT_LT(angle_between(fit_axis(back, kOnAxis).axis, -kAxis), 1e-8);
+}
+
+TEST(FitAxis, AQuaternionAndItsNegativeAreTheSameMotion) {
+  Rigid3 motion = Rigid3::about_axis(kAxis, kOnAxis, 1.0);
+  motion.rotation.coeffs() = -motion.rotation.coeffs();
+  EXPECT_NEAR(fit_axis(motion, kOnAxis).angle, 1.0, 1e-12);
+  EXPECT_LT(angle_between(fit_axis(motion, kOnAxis).axis, kAxis), 1e-8);
+}
+
+TEST(FitAxis, NoTurnHasNoAxis) {
+  EXPECT_FALSE(fit_axis({}, kOnAxis).is_observed);
+  EXPECT_EQ(fit_axis({}, kOnAxis).point, kOnAxis);
+  const AxisFit shift = fit_axis({Quat::Identity(), Vec3(0.0, 3.0, 4.0)}, kOnAxis);
+  EXPECT_FALSE(shift.is_observed);
+  EXPECT_DOUBLE_EQ(shift.slide, 5.0);
+}
+
+TEST(MomentPoints, HaveTheSecondMomentsOfTheSurface) {
+  // Surface of a box a x b x c: x^2 integrates to a^3 (b + c) / 6 over the four sides along x and
+  // to a^2 b c / 2 over the two ends; the area is 2 (a b + b c + c a).
+  const double a = 12.0, b = 40.0, c = 9.0;
+  TriangleMesh box = make_box({a, b, c}, 3);
+  for (Vec3& v : box.vertices) v += Vec3(100.0, -50.0, 20.0);
+  const std::array<Vec3, 6> points = moment_points(box);
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : points) mean += p / 6.0;
+  EXPECT_LT((mean - Vec3(100.0, -50.0, 20.0)).norm(), 1e-10);
+  double xx = 0.0;
+  for (const Vec3& p : points) xx += std::pow(p.x() - 100.0, 2) / 6.0;
+  const double expected =
+      (a * a * a * (b + c) / 6.0 + a * a * b * c / 2.0) / (2.0 * (a * b + b * c + c * a));
+  EXPECT_NEAR(xx, expected, 1e-9);
+}
+
+TEST(FitHinge, SeveralTurnsAboutOneAxisGiveItExactly) {
+  const std::vector<Vec3> points = bone_points();
+  const std::vector<double> angles = {70.0 * kDeg, -12.0 * kDeg, 25.0 * kDeg};
+  std::vector<Rigid3> motions;
+  for (const double angle : angles) motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle));
+  const HingeFit fit = fit_hinge(motions, points, kOnAxis);
+  EXPECT_LT(angle_between(fit.axis, kAxis), 1e-5);
+  EXPECT_LT(off_axis(fit.point), 1e-5);
+  for (std::size_t k = 0; k < angles.size(); ++k) EXPECT_NEAR(fit.angle[k], angles[k], 1e-6);
+  EXPECT_LT(fit.rms, 1e-5);
+}
+
+TEST(FitHinge, NoOtherAxisLeavesLessThanItsOwn) {
+  // Two motions about axes 6 degrees apart: the one fitted lies between, and tilting it either way
+  // makes the residual larger.
+  const std::vector<Vec3> points = bone_points();
+  const Vec3 other = (kAxis + 0.1 * kAxis.unitOrthogonal()).normalized();
+  const std::vector<Rigid3> motions = {Rigid3::about_axis(kAxis, kOnAxis, 0.8),
+                                       Rigid3::about_axis(other, kOnAxis, -0.8)};
+  const HingeFit fit = fit_hinge(motions, points, kOnAxis);
+  const auto residual = [&](const Vec3& axis) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const Rigid3 turn = Rigid3::about_axis(axis, fit.point, fit.angle[k]);
+      for (const Vec3& p : points) sum += (turn * p - motions[k] * p).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(motions.size() * points.size()));
+  };
+  EXPECT_NEAR(residual(fit.axis), fit.rms, 1e-9);
+  EXPECT_GT(fit.rms, 0.1);
+  for (const Vec3& tilt : {fit.axis.unitOrthogonal().eval(), (-fit.axis.unitOrthogonal()).eval(),
+                           fit.axis.cross(fit.axis.unitOrthogonal()).eval()}) {
+    EXPECT_GT(residual((fit.axis + 0.02 * tilt).normalized()), fit.rms);
+  }
+}
+
+TEST(FitTwoAxes, FindsTwoSkewAxesFromFourLimitPostures) {
+  const std::vector<Vec3> points = bone_points();
+  const Vec3 second = (kAxis.unitOrthogonal() + 0.12 * kAxis).normalized();
+  const Vec3 on_second = kOnAxis + 4.0 * kAxis.cross(second).normalized();
+  const std::vector<std::array<double, 2>> angles = {
+      {0.45, 0.06}, {-0.40, -0.05}, {0.05, 0.55}, {-0.04, -0.35}};
+  std::vector<Rigid3> motions;
+  for (const auto& [a, b] : angles) {
+    motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, a) *
+                      Rigid3::about_axis(second, on_second, b));
+  }
+  const std::vector<MainAxis> main = {MainAxis::kFirst, MainAxis::kFirst, MainAxis::kSecond,
+                                      MainAxis::kSecond};
+  TwoAxisPrior prior;
+  prior.near = kOnAxis + Vec3(1.0, 1.0, -1.0);
+  prior.first = (kAxis + Vec3(0.1, 0.1, 0.0)).normalized();
+  prior.second = (second + Vec3(0.0, -0.1, 0.1)).normalized();
+  prior.point_sd = 0.01;  // exact motions
+  const TwoAxisFit fit = fit_two_axes(motions, main, points, prior);
+  EXPECT_LT(angle_between(fit.first_axis, kAxis), 0.5);
+  EXPECT_LT(angle_between(fit.second_axis, second), 0.5);
+  EXPECT_LT((fit.second_point - on_second).cross(second).norm(), 0.3);
+  EXPECT_LT(fit.rms, 0.02);
+  EXPECT_TRUE(fit.is_first_observed && fit.is_second_observed);
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    EXPECT_NEAR(fit.angle[k][0], angles[k][0], 0.01);
+    EXPECT_NEAR(fit.angle[k][1], angles[k][1], 0.01);
+  }
+}
+
+TEST(FitTwoAxes, AnAxisThatNothingTurnsAboutStaysAtThePrior) {
+  const std::vector<Vec3> points = bone_points();
+  const std::vector<Rigid3> motions = {Rigid3::about_axis(kAxis, kOnAxis, 1.2)};
+  TwoAxisPrior prior;
+  prior.near = kOnAxis;
+  prior.first = kAxis;
+  prior.second = kAxis.unitOrthogonal();
+  const std::vector<MainAxis> main = {MainAxis::kFirst};
+  const TwoAxisFit fit = fit_two_axes(motions, main, points, prior);
+  EXPECT_TRUE(fit.is_first_observed);
+  EXPECT_FALSE(fit.is_second_observed);
+  EXPECT_LT(angle_between(fit.second_axis, prior.second), 0.1);
+}
+
+TEST(FitHinge, WithoutMotionsSaysSo) {
+  const std::vector<Vec3> points = bone_points();
+  EXPECT_THROW(fit_hinge({}, points, kOnAxis), UsageError);
+  EXPECT_THROW(fit_two_axes({}, {}, points, {}), UsageError);
+}
+
+}  // namespace
+}  // namespace palmar
