@@ -1,0 +1,299 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/phantom/subject_person.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "palmar/core/random.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/section.h"
+#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/skinning.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+enum Stream : std::uint64_t { kSize = 1, kOutline, kJoints, kPostures };
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Normal, held to two and a half deviations.
+double spread(RandomStream& random, double deviation) {
+  return deviation * std::clamp(random.normal(), -2.5, 2.5);
+}
+
+// Mean and deviation of hand length and circumference and their correlation, mm: ANSUR II (Gordon
+// et al. 2014), public data, 4082 men and 1986 women.
+struct SizeStatistics {
+  double length, length_sd, girth, girth_sd, correlation;
+};
+constexpr SizeStatistics kMen{193.28, 9.946, 212.28, 10.243, 0.5905};
+constexpr SizeStatistics kWomen{181.08, 10.056, 186.55, 8.820, 0.5697};
+
+Hand sized_hand(const Hand& base, std::uint64_t seed) {
+  RandomStream random(seed, kSize);
+  const SizeStatistics& s = random.uniform() < 0.5 ? kWomen : kMen;
+  const double z = spread(random, 1.0), y = spread(random, 1.0);
+  const double length = std::clamp(s.length + s.length_sd * z, 165.0, 194.0);
+  const double girth = std::clamp(
+      s.girth +
+          s.girth_sd * (s.correlation * z + std::sqrt(1.0 - s.correlation * s.correlation) * y),
+      170.0, 222.0);
+  const double larger = length / base.dimensions.hand_length;
+  std::vector<SizedDimension> targets{{{DimensionKind::kHandLength}, length},
+                                      {{DimensionKind::kHandCircumference}, girth}};
+  // Lengths of phalanges vary by about 3 % beside the hand's size; the middle finger follows.
+  targets.push_back({{DimensionKind::kSegmentLength, Segment::kPalm},
+                     base.dimensions.segment[0].length * larger * (1.0 + spread(random, 0.015))});
+  for (int k = 1; k < kSegmentCount; ++k) {
+    const auto segment = static_cast<Segment>(k);
+    const double own = 1.0 + spread(random, 0.03);
+    if (finger_of(segment) == Finger::kMiddle) continue;
+    targets.push_back({{DimensionKind::kSegmentLength, segment},
+                       base.dimensions.segment[at(k)].length * larger * own});
+  }
+  return make_hand_instance(base, targets).hand;
+}
+
+// Angles of the reference scan: a hand laid down relaxed.
+Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
+  Posture posture = reference_posture(skeleton);
+  constexpr std::array<std::array<double, 3>, 4> kFlexion{
+      {{16, 22, 9}, {18, 24, 9}, {20, 24, 9}, {20, 22, 9}}};  // deg, MCP, PIP, DIP
+  for (int f = 0; f < 4; ++f) {
+    const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
+    posture[static_cast<Dof>(first)] = kDeg * (kFlexion[at(f)][0] + spread(random, 2.0));
+    posture[static_cast<Dof>(first + 2)] = kDeg * (kFlexion[at(f)][1] + spread(random, 2.0));
+    posture[static_cast<Dof>(first + 3)] = kDeg * (kFlexion[at(f)][2] + spread(random, 1.5));
+  }
+  posture[Dof::kThumbMpFlexion] = kDeg * (8.0 + spread(random, 2.0));
+  posture[Dof::kThumbIpFlexion] = kDeg * (10.0 + spread(random, 2.0));
+  posture[Dof::kThumbCmcAbduction] += kDeg * (2.0 + spread(random, 1.5));
+  return posture;
+}
+
+// The skeleton with joints, axes and tips where they are in a posture, which becomes its reference.
+Skeleton posed(const Skeleton& skeleton, const Posture& posture) {
+  const PosedSkeleton pose = pose_skeleton(skeleton, posture);
+  Skeleton result = skeleton;
+  const auto carry = [&](JointId id, const Rigid3& before, const Rigid3& after) {
+    Joint& joint = result.joints[static_cast<std::size_t>(id)];
+    joint.centre = before * joint.centre;
+    for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
+      // The first axis of two goes with the distal part.
+      const Rigid3& by = k + 1 < joint.dofs.size() ? after : before;
+      joint.dofs[k].axis = by.rotation * joint.dofs[k].axis;
+      joint.dofs[k].centre = by * joint.dofs[k].centre;
+      joint.dofs[k].reference = posture[joint.dofs[k].dof];
+    }
+  };
+  const Rigid3 still;
+  carry(JointId::kThumbCmc, still, pose.thumb_metacarpal);
+  for (int f = 0; f < kFingerCount; ++f) {
+    Rigid3 before = f == 0 ? pose.thumb_metacarpal : still;
+    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+      if (!segment) continue;
+      const Rigid3& after = pose.segment[static_cast<std::size_t>(*segment)];
+      carry(joint_of(*segment), before, after);
+      before = after;
+    }
+    result.fingertips[at(f)] = before * result.fingertips[at(f)];
+  }
+  // Metacarpal of the thumb: limit postures are measured from here on.
+  for (JointDof& dof : result.joints[at(static_cast<int>(JointId::kThumbCmc))].dofs) {
+    if (dof.dof == Dof::kThumbCmcFlexion) dof.reference = posture[dof.dof];
+  }
+  return result;
+}
+
+// Bumps and hollows of an outline of one's own.
+void reshape(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t seed) {
+  RandomStream random(seed, kOutline);
+  const std::vector<Vec3> normal = vertex_normals(skin);
+  struct Bump {
+    Vec3 place;
+    double width, height;
+  };
+  std::vector<Bump> bumps;
+  for (int k = 0; k < 60; ++k) {
+    const Vec3& place = skin.vertices[random.below(skin.vertices.size())];
+    const double width = 8.0 + 14.0 * random.uniform();
+    bumps.push_back({place, width, spread(random, 0.35)});
+  }
+  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
+    const Vec3 v = skin.vertices[i];
+    double out = 0.0;
+    for (const Bump& b : bumps) {
+      out += b.height * std::exp(-(v - b.place).squaredNorm() / (2.0 * b.width * b.width));
+    }
+    // The end of the forearm stays plane.
+    out *= std::clamp((v.y() - wrist + 20.0) / 10.0, 0.0, 1.0);
+    skin.vertices[i] += std::clamp(out, -0.9, 1.2) * normal[i];
+  }
+}
+
+double finger_width(const TriangleMesh& skin, const Vec3& joint, const Vec3& axis,
+                    const Vec3& along) {
+  double best = 1e9, width = 15.0;
+  for (const SectionCurve& curve : plane_section(skin, joint, along)) {
+    const double d = (curve_centre(curve) - joint).norm();
+    if (d >= best) continue;
+    best = d;
+    width = extent(curve.point, axis);
+  }
+  return width;
+}
+
+Vec3 tilted(const Vec3& axis, RandomStream& random, double deviation) {
+  const Vec3 tilt(spread(random, deviation), spread(random, deviation), spread(random, deviation));
+  return (axis + tilt).normalized();
+}
+
+// Joints that don't turn as Hand's do, at places and about axes a little off those of the base.
+void make_joints(SubjectPerson& person, std::uint64_t seed) {
+  RandomStream random(seed, kJoints);
+  Skeleton& skeleton = person.skeleton;
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto segments = segments_of(static_cast<Finger>(f));
+    const int count = f == 0 ? 2 : 3;
+    std::array<Vec3, 4> node;
+    for (int k = 0; k < count; ++k) node[at(k)] = skeleton.joint(joint_of(*segments[at(k)])).centre;
+    node[at(count)] = skeleton.fingertips[at(f)];
+    const Joint& second = skeleton.joint(joint_of(*segments[1]));
+    const Vec3 finger = (node[2] - node[0]).normalized();
+    person.finger_width[at(f)] =
+        finger_width(person.skin, node[1], second.dofs.back().axis, finger);
+    // Joints of bones lie up to 1 mm dorsal of those of the base, or elsewhere by half a
+    // millimetre.
+    for (int k = 0; k < count; ++k) {
+      const Joint& joint = skeleton.joint(joint_of(*segments[at(k)]));
+      const Vec3 along = (node[at(k + 1)] - node[at(k)]).normalized();
+      const Vec3 palmar = joint.dofs.back().axis.cross(along);
+      const double dorsal = 0.5 + spread(random, 0.25), distal = spread(random, 0.5);
+      node[at(k)] += distal * along - dorsal * palmar;
+    }
+    for (int k = 0; k < count; ++k) {
+      const Segment segment = *segments[at(k)];
+      Joint& model = skeleton.joints[static_cast<std::size_t>(joint_of(segment))];
+      RollingJoint joint;
+      joint.flexion = model.dofs.back().dof;
+      joint.centre = node[at(k)];
+      joint.along = (node[at(k + 1)] - node[at(k)]).normalized();
+      const Vec3 axis = tilted(model.dofs.back().axis, random, 0.04);
+      joint.axis = (axis - axis.dot(joint.along) * joint.along).normalized();
+      joint.axis = (joint.axis + spread(random, 0.03) * joint.along).normalized();
+      joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[at(f)];
+      joint.ellipse = 0.09 + spread(random, 0.02);
+      joint.creep = 0.3 + spread(random, 0.08);
+      joint.twist = spread(random, 0.012);
+      joint.reference = person.reference[joint.flexion];
+      model.centre = joint.centre;
+      if (model.dofs.size() == 2) {
+        joint.abduction = model.dofs.front().dof;
+        const Vec3 square = -joint.axis.cross(joint.along);
+        joint.abduction_axis = tilted(square, random, 0.05);
+        joint.abduction_point = joint.centre + (0.8 + spread(random, 0.3)) * joint.along;
+        joint.abduction_reference = person.reference[*joint.abduction];
+        model.dofs.front().axis = joint.abduction_axis;
+        model.dofs.front().centre = joint.abduction_point;
+      }
+      model.dofs.back().axis = joint.axis;
+      model.dofs.back().centre = joint.centre;
+      person.joints.phalanx[static_cast<std::size_t>(segment)] = joint;
+    }
+  }
+  // Saddle joint: axes of Mirakhorlo et al. 2016, table 3 (as in hand/thumb_cmc.h), tilted; 4 to 6
+  // mm apart (Chang & Pollard 2008: 4.6 mm).
+  Joint& model = skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)];
+  SaddleJoint& cmc = person.joints.cmc;
+  cmc.centre = model.centre + Vec3(spread(random, 0.6), spread(random, 0.6), spread(random, 0.6));
+  cmc.along =
+      (person.joints.phalanx[static_cast<std::size_t>(Segment::kThumbProximal)].centre - cmc.centre)
+          .normalized();
+  cmc.flexion_axis = tilted(model.dofs.at(1).axis, random, 0.06);
+  cmc.abduction_axis = tilted(model.dofs.at(0).axis, random, 0.06);
+  const Vec3 apart = cmc.flexion_axis.cross(cmc.abduction_axis).normalized();
+  const double gap = std::clamp(5.0 + spread(random, 0.6), 4.0, 6.0);
+  cmc.abduction_point = cmc.centre + (apart.dot(cmc.along) < 0.0 ? -gap : gap) * apart;
+  cmc.by_flexion = 0.20 + spread(random, 0.04);
+  cmc.by_abduction = -0.12 + spread(random, 0.03);
+  cmc.by_both = 0.25 + spread(random, 0.08);
+  cmc.flexion_reference = person.reference[Dof::kThumbCmcFlexion];
+  cmc.abduction_reference = person.reference[Dof::kThumbCmcAbduction];
+  model.centre = cmc.centre;
+  model.dofs.at(1).axis = cmc.flexion_axis;
+  model.dofs.at(1).centre = cmc.centre;
+  model.dofs.at(0).axis = cmc.abduction_axis;
+  model.dofs.at(0).centre = cmc.abduction_point;
+}
+
+void make_postures(SubjectPerson& person, std::uint64_t seed) {
+  RandomStream random(seed, kPostures);
+  const Posture& reference = person.reference;
+  const auto turned = [&](Posture& p, Dof dof, double degrees, double deviation) {
+    p[dof] += kDeg * (degrees + spread(random, deviation));
+  };
+  const auto thumb = [&](double flexion, double abduction, double mp, double ip) {
+    Posture p = reference;
+    turned(p, Dof::kThumbCmcFlexion, flexion, 1.5);
+    turned(p, Dof::kThumbCmcAbduction, abduction, 1.5);
+    turned(p, Dof::kThumbMpFlexion, mp, 2.0);
+    turned(p, Dof::kThumbIpFlexion, ip, 2.0);
+    return p;
+  };
+  const auto finger = [&](Posture& p, int f, const std::array<double, 4>& degrees) {
+    const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
+    for (int k = 0; k < 4; ++k) turned(p, static_cast<Dof>(first + k), degrees[at(k)], 1.0);
+  };
+  auto& all = person.postures;
+  all[ScanPosture::kReference] = reference;
+  // In the limits of flexion MP and IP bend and stretch as well, in those of abduction hardly.
+  all[ScanPosture::kThumbFlexion] = thumb(22.0, 0.0, 32.0, 42.0);
+  all[ScanPosture::kThumbExtension] = thumb(-22.0, 0.0, -12.0, -16.0);
+  all[ScanPosture::kThumbAbduction] = thumb(0.0, 22.0, 2.0, 0.0);
+  all[ScanPosture::kThumbAdduction] = thumb(0.0, -22.0, -1.0, 2.0);
+
+  // Degrees from the reference posture: MCP flexion, abduction, PIP, DIP.
+  Posture fist = thumb(-14.0, 4.0, -4.0, -6.0);
+  finger(fist, 0, {54, 1, 64, 38});
+  finger(fist, 1, {56, 0, 66, 38});
+  finger(fist, 2, {56, 0, 64, 38});
+  finger(fist, 3, {54, -1, 62, 38});
+  all[ScanPosture::kFingerFlexion] = fist;
+  Posture fan = thumb(-4.0, 2.0, -2.0, -2.0);
+  finger(fan, 0, {0, 12, -6, -3});
+  finger(fan, 1, {0, 2, -6, -3});
+  finger(fan, 2, {0, -9, -6, -3});
+  finger(fan, 3, {0, -17, -6, -3});
+  all[ScanPosture::kFingerAbduction] = fan;
+  // Round a brake lever and its bar.
+  Posture grasp = thumb(11.0, 12.0, 10.0, 12.0);
+  finger(grasp, 0, {26, 1, 24, 17});
+  finger(grasp, 1, {29, 0, 27, 19});
+  finger(grasp, 2, {30, 1, 27, 18});
+  finger(grasp, 3, {31, 1, 26, 16});
+  all[ScanPosture::kGrasp] = grasp;
+}
+
+}  // namespace
+
+SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
+  const Hand hand = sized_hand(base, seed);
+  RandomStream random(seed, kPostures + 1);
+  SubjectPerson person;
+  person.reference = relaxed(hand.skeleton, random);
+  person.skin = hand.skin;
+  person.skin.vertices = pose_skin(hand, person.reference);
+  person.skeleton = posed(hand.skeleton, person.reference);
+  reshape(person.skin, person.skeleton, seed);
+  make_joints(person, seed);
+  make_postures(person, seed);
+  return person;
+}
+
+}  // namespace palmar
