@@ -22,7 +22,7 @@ struct NonrigidFitOptions {
   double last_reach = 4.0;     ///< at the end, mm
   double normals_agree = 0.5;  ///< least cosine between partners' normals
   double stiffness = 30.0;     ///< at the beginning; against one vertex' pull
-  double last_stiffness = 0.1;
+  double last_stiffness = 1.0;
   int levels = 9;      ///< of stiffness
   int rounds = 4;      ///< of partners at each level
   void check() const;  ///< throws UsageError: field, value, allowed range

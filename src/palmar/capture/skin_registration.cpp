@@ -190,20 +190,19 @@ Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& seg
   const auto chain = segments_of(finger);
   const Segment last = chain[2] ? *chain[2] : *chain[1];
   const Vec3& joint = skeleton.joint(joint_of(last)).centre;
-  Vec3 tip = skeleton.fingertips[static_cast<std::size_t>(finger)];
-  constexpr int kRounds = 4;  // the direction hardly changes after the first
-  for (int round = 0; round < kRounds; ++round) {
-    const Vec3 along = tip - joint;
-    double best = -std::numeric_limits<double>::max();
-    for (std::size_t v = 0; v < skin.size(); ++v) {
-      if (segment[v] != last) continue;
-      const double height = along.dot(skin[v] - joint);
-      if (height <= best) continue;
-      best = height;
-      tip = skin[v];
-    }
+  double farthest = 0.0;
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    if (segment[v] == last) farthest = std::max(farthest, (skin[v] - joint).norm());
   }
-  return tip;
+  // A fingertip is blunt: the middle of what is nearly as far away tells the direction best.
+  constexpr double kCap = 1.0;  // mm
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    if (segment[v] != last) continue;
+    const double above = (skin[v] - joint).norm() - (farthest - kCap);
+    if (above > 0.0) sum += above * (skin[v] - joint);
+  }
+  return joint + farthest * sum.normalized();
 }
 
 RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,

@@ -35,7 +35,8 @@ struct RegisteredSkin {
 RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,
                              const Progress& progress = {});
 
-/// Most distal skin point of a finger: farthest along the way from its last joint to itself.
+/// Most distal skin point of a finger: as far from its last joint as the farthest vertex, in the
+/// middle of those nearly as far. `segment`: of the vertices.
 Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& segment,
                   const Skeleton& skeleton, Finger finger);
 

@@ -20,6 +20,7 @@ constexpr double kDipShare = 0.31;      // of the middle phalanx: 7.5 of about 2
 constexpr double kThumbIpShare = 0.13;  // of the thumb's proximal phalanx: 4 of about 32 mm
 constexpr double kTransverse = 9.0;     // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
 constexpr double kAboveWeb = 1.5;       // mm; keeps the base crease a loop around one finger
+constexpr double kHighestWeb = 0.7;     // of the proximal phalanx; webs reach 0.35 to 0.5
 constexpr double kBehindWeb = 6.0;      // mm; where palmar skin ends on the first web
 constexpr double kWebWeight = 0.3;      // against the rays; small: the border bends gently
 constexpr double kTypicalWristToMcp = 90.0;  // mm, hand of 185 mm
@@ -222,6 +223,10 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
   const Vec3 distal =
       ((a.node[3] - a.node[2]).normalized() + (b.node[3] - b.node[2]).normalized()).normalized();
   const Vec3 foot = 0.5 * (a.node[1] + b.node[1]);
+  // Fingers that touch farther out make no web there. The first web is no cleft between phalanges.
+  const double highest_web = k == 0 ? std::numeric_limits<double>::max()
+                                    : kHighestWeb * std::min((a.node[2] - a.node[1]).norm(),
+                                                             (b.node[2] - b.node[1]).norm());
   const auto nearer = [&](std::size_t i) { return distance.of(k, i) - distance.of(k + 1, i); };
   std::vector<double> level;  // of the vertices; no point of an edge lies higher than its ends
   level.reserve(skin.vertices.size());
@@ -242,7 +247,7 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
         const double s = a_nearer / (a_nearer - b_nearer);
         const Vec3 p = (1.0 - s) * skin.vertices[i] + s * skin.vertices[j];
         const double height = distal.dot(p - foot);
-        if (height <= best) continue;
+        if (height <= best || height > highest_web) continue;
         best = height;
         web = p;
       }
