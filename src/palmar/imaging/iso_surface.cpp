@@ -67,7 +67,7 @@ CellCase make_case(int inside) {
         if (is_in(i) || !is_in(i + 1)) continue;
         std::size_t k = i + 1;
         while (is_in(k)) ++k;
-        next[static_cast<std::size_t>(edge_between(corner[i], corner[i + 1]))] =
+        next[static_cast<std::size_t>(edge_between(corner[i], corner[(i + 1) % 4]))] =
             edge_between(corner[(k - 1) % 4], corner[k % 4]);
       }
     }
