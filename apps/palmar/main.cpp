@@ -8,6 +8,8 @@
 #include <string>
 
 #include "cli.h"
+#include "mri_commands.h"
+#include "phantom_commands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
@@ -82,6 +84,8 @@ int run(int argc, char** argv) {
   add_grasp_commands(app, context);
   add_contact_commands(app, context);
   add_effort_commands(app, context);
+  add_mri_commands(app, context);
+  add_phantom_commands(app, context);
   add_population_commands(app, context);
   add_redesign_commands(app, context);
   add_study_commands(app, context);
