@@ -137,8 +137,9 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
     const auto& [name, to] = scans[at(s)];
     const Posture& posture = person.postures.at(name);
     const auto motion = body_motions(person.joints, posture);
-    const std::vector<Vec3> skin =
-        name == ScanPosture::kReference ? person.skin.vertices : tissue.pose(posture);
+    PosedTissue posed = tissue.pose(posture);
+    if (name == ScanPosture::kReference) posed.skin = person.skin.vertices;
+    const std::vector<Vec3>& skin = posed.skin;
     std::vector<Vec3> markers;
     if (shows_markers(name)) {
       const std::vector<Vec3> normal = vertex_normals(skin, person.skin.triangles);
@@ -150,8 +151,13 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
       result.bone[b.bone.name] = to.patient_from_hand * to.motion(motion[at(b.body)]) *
                                  reference.patient_from_hand.inverse();
     }
-    result.parts = tissue_parts(person, bones, tissue, skin, motion, markers,
-                                {.has_fixture = options.has_fixture});
+    result.parts = tissue_parts({.person = &person,
+                                 .bones = &bones,
+                                 .tissue = &tissue,
+                                 .posed = posed,
+                                 .motion = motion,
+                                 .markers = markers},
+                                options.has_fixture);
     for (ImagedPart& part : result.parts) part.mesh = to.mesh(std::move(part.mesh));
     for (const Vec3& m : markers) result.markers.push_back(to.point(m));
   });

@@ -17,7 +17,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kBand = 7.0;         // mm, between bands of constant volume
+constexpr double kBand = 10.0;        // mm, between bands of constant volume
 constexpr double kLeastShare = 0.01;  // smaller shares of a part are dropped
 constexpr int kChains = kFingerCount + 1;
 constexpr int kPalmChain = kFingerCount;
@@ -418,18 +418,24 @@ SoftTissue::SoftTissue(const SubjectPerson& person, const std::vector<SubjectBon
     : impl_(std::make_unique<const Impl>(person, bones)) {}
 SoftTissue::~SoftTissue() = default;
 
-int SoftTissue::nearest_body(int vertex) const { return impl_->nearest[at(vertex)]; }
-const Vec3& SoftTissue::core(int vertex) const { return impl_->core_point[at(vertex)]; }
 int SoftTissue::thumb_ball_vertex() const { return impl_->ball_vertex; }
 
-std::vector<Vec3> SoftTissue::pose(const Posture& posture) const {
+double SoftTissue::finger_share(int vertex) const {
+  double sum = 0.0;
+  for (const Impl::Share& s : impl_->share[at(vertex)]) {
+    if (s.body != 0 && s.body != kThumbMetacarpalBody) sum += s.weight;
+  }
+  return sum;
+}
+
+PosedTissue SoftTissue::pose(const Posture& posture) const {
   const std::array<Rigid3, kBodyCount> motion = body_motions(impl_->person->joints, posture);
-  std::vector<Vec3> skin, core;
-  impl_->blend(motion, skin, core);
-  impl_->swell(posture, motion[at(kThumbMetacarpalBody)], skin);
-  impl_->keep_volume(core, skin);
-  impl_->lift_off_bones(motion, skin);
-  return skin;
+  PosedTissue posed;
+  impl_->blend(motion, posed.skin, posed.core);
+  impl_->swell(posture, motion[at(kThumbMetacarpalBody)], posed.skin);
+  impl_->keep_volume(posed.core, posed.skin);
+  impl_->lift_off_bones(motion, posed.skin);
+  return posed;
 }
 
 }  // namespace palmar

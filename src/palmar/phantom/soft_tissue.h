@@ -14,6 +14,12 @@ namespace palmar {
 
 inline constexpr double kLeastPosedCover = 1.5;  ///< of skin over bone in any posture, mm
 
+/// Skin of a subject in a posture; hand frame.
+struct PosedTissue {
+  std::vector<Vec3> skin;
+  std::vector<Vec3> core;  ///< per vertex: the point of the nearest bone's axis below it
+};
+
 /// How a subject's skin follows the bones. In this order:
 /// 1. Shares of every rigid part in every vertex by diffusion on the skin: (L + M / d^2) w = M /
 /// d^2
@@ -21,7 +27,7 @@ inline constexpr double kLeastPosedCover = 1.5;  ///< of skin over bone in any p
 ///    for that part (bone heat, Baran, Popovic 2007, section 4.1).
 /// 2. Dual quaternions blended by these shares (Kavan et al. 2008).
 /// 3. Swelling of the thumb ball with flexion and abduction of the CMC joint.
-/// 4. Volume: offsets along the normals, so that every band of the palm and of the fingers (7 mm
+/// 4. Volume: offsets along the normals, so that every band of the palm and of the fingers (10 mm
 ///    along the bones) keeps the volume between skin and bones that it has at the reference.
 /// 5. Skin that came nearer to a bone than kLeastPosedCover is lifted.
 class SoftTissue {
@@ -31,11 +37,10 @@ class SoftTissue {
   ~SoftTissue();
 
   /// The skin in a posture, hand frame (palm still), vertex for vertex.
-  std::vector<Vec3> pose(const Posture& posture) const;
+  PosedTissue pose(const Posture& posture) const;
 
-  /// Nearest rigid part of a vertex and the point of its axis next to the vertex, reference.
-  int nearest_body(int vertex) const;
-  const Vec3& core(int vertex) const;
+  /// Share of the phalanges in a vertex: 0 on the palm, 1 on a finger.
+  double finger_share(int vertex) const;
   /// Middle of the thumb ball's skin at the reference.
   int thumb_ball_vertex() const;
 

@@ -269,11 +269,11 @@ void BoneMaker::make_ray(int f) {
     shape.twist = varied(0.4);
     if (is_last) {
       const Vec3 along = (tip - node[at(k)]).normalized();
-      const double tuft = 0.14 * w * build * varied(0.05);
+      const double tuft = 0.15 * w * build * varied(0.05);
       shape.head = tip - (kTipTissue[at(f)] * scale_ + tuft) * along;
-      shape.condyles = {tuft, 0.24 * w * build * varied(0.05), 0.0};
-      shape.waist_half_width = 0.15 * w * build * varied(0.05);
-      shape.waist_half_depth = 0.13 * w * build * varied(0.05);
+      shape.condyles = {tuft, 0.25 * w * build * varied(0.05), 0.0};
+      shape.waist_half_width = 0.19 * w * build * varied(0.05);
+      shape.waist_half_depth = 0.15 * w * build * varied(0.05);
       shape.bow = 0.3 * scale_;
     } else {
       shape.head = node[at(k + 1)];
@@ -321,8 +321,9 @@ void BoneMaker::make_carpals() {
       c.half[d] *= scale_ * varied(0.05);
     }
   }
+  // Squarer than ellipsoids.
   const auto norm = [&](const Carpal& c, const Vec3& p) {
-    return (p - c.centre).cwiseQuotient(c.half).norm();
+    return std::cbrt((p - c.centre).cwiseQuotient(c.half).cwiseAbs().array().cube().sum());
   };
   constexpr int kRings = 22, kAround = 28;
   const double gap = 1.5;
@@ -380,6 +381,7 @@ void BoneMaker::make_carpals() {
   }
 }
 
+// Radius and ulna: flared distal ends, shafts that run on to the end of the forearm's skin.
 void BoneMaker::make_forearm() {
   double end = 0.0;
   for (const Vec3& v : person_.skin.vertices) end = std::min(end, v.y());
@@ -387,28 +389,32 @@ void BoneMaker::make_forearm() {
                         double shaft) {
     LongBoneShape shape;
     shape.lateral = Vec3::UnitX();
-    shape.head = wrist_ + Vec3(aside * scale_, -(gap + 0.6 * deep) * scale_, 0.0);
-    shape.base = shape.head;
-    shape.base.y() = end + 1.0;
-    shape.gap = kLeastSkinCover;
-    shape.condyles = {0.6 * deep * scale_ * varied(0.04), wide * scale_ * varied(0.04), 0.0};
-    shape.base_half_width = shape.waist_half_width = shaft * scale_ * varied(0.05);
-    shape.base_half_depth = shape.waist_half_depth = 0.85 * shaft * scale_ * varied(0.05);
+    shape.condyles = {deep * scale_ * varied(0.04), wide * scale_ * varied(0.04), 0.0};
+    shape.head = wrist_ + Vec3(aside * scale_, -gap * scale_ - shape.condyles.radius, 0.0);
+    shape.base = Vec3(wrist_.x() + 0.8 * aside * scale_, end, wrist_.z());
+    while (shape.base.y() < wrist_.y() - 30.0 && skin_.at(shape.base).distance > -kLeastSkinCover) {
+      shape.base.y() += 1.0;
+    }
+    shape.gap = 1.0;
+    shape.waist_half_width = shaft * scale_ * varied(0.05);
+    shape.waist_half_depth = 0.85 * shaft * scale_ * varied(0.05);
+    shape.base_half_width = shape.waist_half_width;
+    shape.base_half_depth = shape.waist_half_depth;
     shape.bow = 0.0;
     shape.ripple = 0.05;
-    if (shape.head.y() - shape.base.y() < 8.0) return;
     Draft draft;
     draft.bone.bone.name = name;
     draft.bone.bone.mesh = long_bone_mesh(shape);
     draft.from = shape.base;
     draft.to = shape.head;
-    draft.core = core_on_chord(draft.bone.bone.mesh, shape.base + Vec3(0.0, shape.gap + 2.0, 0.0),
-                               shape.head);
-    draft.thickness = 1.6;
+    const Vec3 along = (shape.head - shape.base).normalized();
+    draft.core =
+        core_on_chord(draft.bone.bone.mesh, shape.base + (shape.gap + 4.0) * along, shape.head);
+    draft.thickness = 2.0;
     place(std::move(draft));
   };
-  make("radius", 7.0, 1.0, 12.0, 9.0, 7.0);
-  make("ulna", -13.0, 3.0, 6.5, 9.0, 5.5);
+  make("radius", 7.0, 2.0, 12.5, 7.0, 7.0);
+  make("ulna", -14.0, 4.0, 6.5, 5.5, 5.5);
 }
 
 }  // namespace

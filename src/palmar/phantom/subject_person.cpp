@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/capture/skin_registration.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/section.h"
@@ -134,6 +135,35 @@ void reshape(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t seed) {
     // The end of the forearm stays plane.
     out *= std::clamp((v.y() - wrist + 20.0) / 10.0, 0.0, 1.0);
     skin.vertices[i] += std::clamp(out, -0.9, 1.2) * normal[i];
+  }
+}
+
+// Draws the stub of the forearm out until no field of view shows its end, which becomes square.
+void lengthen_forearm(TriangleMesh& skin, const Vec3& wrist) {
+  constexpr double kEnd = -85.0;  // mm from the wrist joint
+  const double begin = wrist.y() - 4.0;
+  // The cut: y = c . (1, x, z) through the vertices that face backwards.
+  const std::vector<Vec3> normal = vertex_normals(skin);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Vec3 right = Vec3::Zero();
+  for (std::size_t i = 0; i < normal.size(); ++i) {
+    const Vec3& v = skin.vertices[i];
+    if (v.y() > begin || normal[i].y() > -0.8) continue;
+    const Vec3 row(1.0, v.x(), v.z());
+    sum += row * row.transpose();
+    right += v.y() * row;
+  }
+  if (!(sum(0, 0) >= 3.0)) return;  // closed in another way
+  const Vec3 plane = sum.ldlt().solve(right);
+  for (Vec3& v : skin.vertices) {
+    if (v.y() >= begin) continue;
+    const double end = std::min(plane.dot(Vec3(1.0, v.x(), v.z())), begin - 5.0);
+    const double u = std::clamp((begin - v.y()) / (begin - end), 0.0, 1.05);
+    const double longer = (begin - wrist.y() - kEnd) / (begin - end);
+    v.y() = begin - (begin - end) * (u + (longer - 1.0) * u * u);
+    const double wider = 1.0 + 0.14 * u * u;
+    v.x() = wrist.x() + wider * (v.x() - wrist.x());
+    v.z() = wrist.z() + wider * (v.z() - wrist.z());
   }
 }
 
@@ -291,6 +321,11 @@ SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
   person.skin.vertices = pose_skin(hand, person.reference);
   person.skeleton = posed(hand.skeleton, person.reference);
   reshape(person.skin, person.skeleton, seed);
+  lengthen_forearm(person.skin, person.skeleton.joint(JointId::kWrist).centre);
+  for (int f = 0; f < kFingerCount; ++f) {
+    person.skeleton.fingertips[at(f)] =
+        fingertip_of(person.skin.vertices, hand.segment, person.skeleton, static_cast<Finger>(f));
+  }
   make_joints(person, seed);
   make_postures(person, seed);
   return person;
