@@ -395,6 +395,7 @@ TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
         const char told = static_cast<char>(number);
         if (write(channel[1], &told, 1) != 1) _exit(1);
       }
+      close(channel[1]);  // a parent that waits for a second one when one was left
       pause();
       _exit(0);
     }

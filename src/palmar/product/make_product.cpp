@@ -12,6 +12,7 @@
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/orient.h"
 #include "palmar/geometry/weld.h"
+#include "palmar/product/contact_body.h"
 
 namespace palmar {
 namespace {
@@ -21,6 +22,12 @@ constexpr double kWeldShare = 1e-6;  // of the size; single-precision files roun
 std::string number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string tenths(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", value);
   return text.data();
 }
 
@@ -102,6 +109,20 @@ std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const W
   return std::make_shared<const ProductFaces>(std::move(faces));
 }
 
+/// The surface that skin meets: cavities behind thin walls are filled (contact_body.h). An open
+/// surface stays as it is; its inside is judged by the winding number.
+TriangleMesh body_in_contact(const TriangleMesh& mesh, const TopologyReport& topology,
+                             std::vector<std::string>& notes) {
+  if (!topology.is_closed) return mesh;
+  ContactBody body = contact_body(mesh);
+  if (body.dropped > 0) {
+    notes.push_back("walls (the thinnest " + tenths(body.thinnest_wall) +
+                    " mm) part a cavity from the outside: for contact it counts as solid, as no "
+                    "skin of a hand round the product reaches into it");
+  }
+  return std::move(body.mesh);
+}
+
 }  // namespace
 
 Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
@@ -142,7 +163,8 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   if (faces != nullptr) {
     product.faces = faces_after_weld(scaled(*faces, scale), welded, product.notes);
   }
-  product.distance = std::make_shared<const MeshDistance>(product.mesh);
+  product.distance =
+      std::make_shared<const MeshDistance>(body_in_contact(product.mesh, topology, product.notes));
   return product;
 }
 
