@@ -76,7 +76,8 @@ double weight_of(double distance, double scale) {
 
 class Fitter {
  public:
-  Fitter(const FitSurface& moving, const FitSurface& fixed, const NonrigidFitOptions& options)
+  Fitter(const FitSurface& moving, const FitSurface& fixed, const std::vector<FitPin>& pins,
+         const NonrigidFitOptions& options)
       : moving_(moving),
         fixed_(fixed),
         options_(options),
@@ -84,6 +85,9 @@ class Fitter {
         mesh_(moving.mesh),
         neighbours_(vertex_neighbours(build_topology(moving.mesh))),
         on_fixed_(fixed.mesh, fixed) {
+    for (const FitPin& pin : pins) {
+      pins_.push_back({pin.vertex, pin.share, pin.place, options.pin_weight});
+    }
     const auto n = static_cast<Eigen::Index>(start_.size());
     std::vector<Entry> entries;
     for (int v = 0; v < static_cast<int>(start_.size()); ++v) {
@@ -173,6 +177,7 @@ class Fitter {
                                       kShare * weight_of(found->foot.distance, scale)};
     });
     std::erase_if(pulls, [](const Pull& p) { return p.weight == 0.0; });
+    pulls.insert(pulls.end(), pins_.begin(), pins_.end());
     return pulls;
   }
 
@@ -205,6 +210,7 @@ class Fitter {
   TriangleMesh mesh_;
   std::vector<std::vector<int>> neighbours_;
   Partners on_fixed_;
+  std::vector<Pull> pins_;
   Sparse laplacian_, bending_;
   std::vector<Vec3> coordinate_;  ///< L p
   Eigen::SimplicialLLT<Sparse> solver_;
@@ -227,12 +233,14 @@ void NonrigidFitOptions::check() const {
   require("last_stiffness", last_stiffness, 1e-6, stiffness);
   require("levels", levels, 1, 100);
   require("rounds", rounds, 1, 100);
+  require("pin_weight", pin_weight, 0.0, 1e6);
 }
 
 std::vector<Vec3> fit_nonrigidly(const FitSurface& moving, const FitSurface& fixed,
-                                 const NonrigidFitOptions& options, const Progress& progress) {
+                                 const std::vector<FitPin>& pins, const NonrigidFitOptions& options,
+                                 const Progress& progress) {
   options.check();
-  Fitter fitter(moving, fixed, options);
+  Fitter fitter(moving, fixed, pins, options);
   const auto falling = [&](double from, double to, int level) {
     if (options.levels == 1) return to;
     return from * std::pow(to / from, static_cast<double>(level) / (options.levels - 1));

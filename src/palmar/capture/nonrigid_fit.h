@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "palmar/core/progress.h"
@@ -17,20 +18,28 @@ struct FitSurface {
   std::vector<char> is_silent;  ///< per vertex: has no partner (a cap, a marker, a fixture)
 };
 
+/// A point of the moving surface whose place is known.
+struct FitPin {
+  Triangle vertex{};
+  std::array<double, 3> share{};  ///< barycentric
+  Vec3 place = Vec3::Zero();      ///< mm
+};
+
 struct NonrigidFitOptions {
   double reach = 12.0;         ///< of partners, at the beginning, mm
   double last_reach = 4.0;     ///< at the end, mm
   double normals_agree = 0.5;  ///< least cosine between partners' normals
   double stiffness = 30.0;     ///< at the beginning; against one vertex' pull
   double last_stiffness = 1.0;
-  int levels = 9;      ///< of stiffness
-  int rounds = 4;      ///< of partners at each level
-  void check() const;  ///< throws UsageError: field, value, allowed range
+  int levels = 9;           ///< of stiffness
+  int rounds = 4;           ///< of partners at each level
+  double pin_weight = 8.0;  ///< of a pin, against one vertex' pull
+  void check() const;       ///< throws UsageError: field, value, allowed range
 };
 
 /// Bends `moving` onto `fixed`; returns its vertices. Each round pairs vertices of both surfaces
 /// with the nearest points of the other, as far as parts and normals agree and nothing silent is
-/// met, and solves
+/// met, and solves (pins among the second sum)
 ///
 ///     min_x  sum_i w_i |x_i - t_i|^2 + sum_k w_k |sum_c b_kc x_c - t_k|^2
 ///            + mu sum_i |L x_i - s_i R_i L p_i|^2 ,
@@ -43,6 +52,7 @@ struct NonrigidFitOptions {
 /// Source: Amberg, Romdhani, Vetter 2007 (falling stiffness); Sorkine et al. 2004 (Laplacian
 /// coordinates). Deterministic.
 std::vector<Vec3> fit_nonrigidly(const FitSurface& moving, const FitSurface& fixed,
+                                 const std::vector<FitPin>& pins = {},
                                  const NonrigidFitOptions& options = {},
                                  const Progress& progress = {});
 

@@ -5,10 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "palmar/capture/palm_placement.h"
+#include "palmar/capture/skin_errors.h"
 #include "palmar/capture/skin_registration.h"
+#include "palmar/capture/thumb_ball_scan.h"
 #include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/joint_weights.h"
 #include "palmar/hand/regions.h"
@@ -62,6 +70,60 @@ std::vector<Bone> bones_of(const ScanSurfaces& scan, const Rigid3& hand_from_pat
   return bones;
 }
 
+constexpr std::array<ScanPosture, 4> kThumbLimits{
+    ScanPosture::kThumbFlexion, ScanPosture::kThumbExtension, ScanPosture::kThumbAbduction,
+    ScanPosture::kThumbAdduction};
+
+/// The scans of the thumb's limit postures in the hand frame.
+std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
+    const std::map<ScanPosture, ScanSurfaces>& scans, const MeasuredJoints& joints,
+    std::vector<std::string>& notes) {
+  std::array<std::optional<ThumbLimitScan>, 4> limits;
+  const ScanSurfaces& reference = scans.at(ScanPosture::kReference);
+  for (std::size_t l = 0; l < kThumbLimits.size(); ++l) {
+    const auto scan = scans.find(kThumbLimits[l]);
+    const auto posture = joints.postures.find(kThumbLimits[l]);
+    if (scan == scans.end() || posture == joints.postures.end()) continue;
+    const auto moved_palm = place_palm(reference, scan->second);
+    if (!moved_palm) {
+      notes.push_back(
+          fmt::format("The scan of {} shows too few bones of the palm to tell where the hand is.",
+                      name_of(kThumbLimits[l])));
+      continue;
+    }
+    const Rigid3 hand_from_patient = (*moved_palm * joints.patient_from_hand).inverse();
+    limits[l] = ThumbLimitScan{posture->second, skin_scan(scan->second, hand_from_patient)};
+  }
+  return limits;
+}
+
+/// Corrects the thumb ball and measures what that brings (Xie 2014, table 2-5).
+void correct_thumb_ball(const std::array<std::optional<ThumbLimitScan>, 4>& limits,
+                        const std::vector<Vec3>& markers, const Progress& progress,
+                        ScannedHand& result) {
+  Hand& hand = result.hand;
+  ThumbBallFit fit = fit_scanned_thumb_ball(hand, markers, limits, {}, progress);
+  result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  if (std::none_of(limits.begin(), limits.end(), [](const auto& l) { return l.has_value(); })) {
+    return;
+  }
+  result.notes.push_back(
+      fmt::format("The thumb ball is corrected by {} markers and {} points of the scanned skin.",
+                  fit.markers, fit.skin_points));
+  const std::vector<int> round_ball = thumb_ball_skin(hand);
+  for (std::size_t l = 0; l < limits.size(); ++l) {
+    if (!limits[l]) continue;
+    const auto error = mean_skin_error(hand, limits[l]->posture, round_ball, limits[l]->skin);
+    if (error) result.skin_errors.push_back({kThumbLimits[l], *error, std::nullopt});
+  }
+  hand.thumb_ball = std::move(fit.correction);
+  for (SkinError& error : result.skin_errors) {
+    const auto l = static_cast<std::size_t>(
+        std::find(kThumbLimits.begin(), kThumbLimits.end(), error.posture) - kThumbLimits.begin());
+    error.corrected = mean_skin_error(hand, limits[l]->posture, round_ball, limits[l]->skin);
+  }
+}
+
 }  // namespace
 
 ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& scans,
@@ -76,8 +138,9 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
 
   ScannedHand result;
   result.patient_from_hand = joints.patient_from_hand;
+  const SkinScan skin = skin_scan(scan, hand_from_patient);
   RegisteredSkin registered =
-      register_skin(base, skin_scan(scan, hand_from_patient), joints.skeleton, progress);
+      register_skin(base, skin, joints.skeleton, part_of(progress, 0.0, 0.5));
   result.registration_mean = registered.mean;
   result.registration_p95 = registered.percentile_95;
   constexpr double kWholeShare = 0.97;
@@ -111,6 +174,8 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   hand.bones = bones_of(scan, hand_from_patient, registered.start, hand.skeleton, result.notes);
   hand.dimensions = measure_hand(hand);
   hand.tissue = default_tissue();
+  correct_thumb_ball(thumb_limits(scans, joints, result.notes), skin.markers,
+                     part_of(progress, 0.5, 1.0), result);
   hand.provenance =
       "skin, bones and joints from scans of a person; triangles laid over the skin "
       "by registration of: " +

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <limits>
 
-#include "palmar/capture/nonrigid_fit.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/self_intersection.h"
+#include "palmar/hand/skinning.h"
 
 namespace palmar {
 namespace {
@@ -144,29 +144,18 @@ void part_crossings(TriangleMesh& skin) {
 }
 
 /// Distances at the end: of skin distal of the wrist that lies over scanned skin.
-void measure(const FitSurface& moving, const FitSurface& fixed, double wrist,
+void measure(const FitSurface& moving, const SkinScan& scan, const Skeleton& skeleton,
              RegisteredSkin& result) {
   constexpr double kReach = 5.0;  // mm
-  const ClosestPointQuery query(fixed.mesh);
-  const std::vector<Vec3> normal = vertex_normals(moving.mesh);
-  const std::vector<Vec3> fixed_normal = vertex_normals(fixed.mesh);
+  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
   const std::vector<double> area = vertex_areas(moving.mesh);
-  std::vector<double> distance(moving.mesh.vertices.size(), -1.0);
-  parallel_for(moving.mesh.vertex_count(), [&](int v) {
-    const auto foot = query.closest(moving.mesh.vertices[at(v)], kReach);
-    if (moving.is_silent[at(v)] || !foot) return;
-    Vec3 n = Vec3::Zero();
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int u = fixed.mesh.triangles[at(foot->triangle)][c];
-      if (foot->weights[c] > 0.0 && fixed.is_silent[at(u)]) return;
-      n += foot->weights[c] * fixed_normal[at(u)];
-    }
-    if (n.dot(normal[at(v)]) > 0.0) distance[at(v)] = foot->distance;
-  });
+  const std::vector<double> distance =
+      distances_to_scan(moving.mesh.vertices, vertex_normals(moving.mesh), scan, skeleton, kReach);
   result.has_partner.assign(distance.size(), 0);
   std::vector<double> partnered;
   double all = 0.0, with = 0.0;
   for (std::size_t v = 0; v < distance.size(); ++v) {
+    if (moving.is_silent[v]) continue;
     result.has_partner[v] = distance[v] >= 0.0;
     if (moving.mesh.vertices[v].y() < wrist) continue;
     all += area[v];
@@ -183,7 +172,66 @@ void measure(const FitSurface& moving, const FitSurface& fixed, double wrist,
   result.percentile_95 = partnered[static_cast<std::size_t>(k)];
 }
 
+/// Fingers of the segments: 1 thumb ... 5 little, 0 palm.
+std::vector<int> parts_of(const std::vector<Segment>& segments) {
+  std::vector<int> part;
+  for (const Segment s : segments) {
+    const auto finger = finger_of(s);
+    part.push_back(finger ? static_cast<int>(*finger) + 1 : 0);
+  }
+  return part;
+}
+
+/// Where joints and fingertips are in a posture; axes stay as they are.
+Skeleton posed_centres(const Skeleton& skeleton, const Posture& posture) {
+  const PosedSkeleton posed = pose_skeleton(skeleton, posture);
+  Skeleton result = skeleton;
+  for (int f = 0; f < kFingerCount; ++f) {
+    Rigid3 carrier = f == 0 ? posed.thumb_metacarpal : Rigid3{};
+    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+      if (!segment) continue;
+      Vec3& centre = result.joints[static_cast<std::size_t>(joint_of(*segment))].centre;
+      centre = carrier * centre;
+      carrier = posed.segment[static_cast<std::size_t>(*segment)];
+    }
+    result.fingertips[at(f)] = carrier * result.fingertips[at(f)];
+  }
+  return result;
+}
+
 }  // namespace
+
+std::vector<double> distances_to_scan(const std::vector<Vec3>& point,
+                                      const std::vector<Vec3>& normal, const SkinScan& scan,
+                                      const Skeleton& skeleton, double reach) {
+  const FitSurface fixed = scanned_surface(scan, skeleton);
+  const ClosestPointQuery query(fixed.mesh);
+  const std::vector<Vec3> fixed_normal = vertex_normals(fixed.mesh);
+  std::vector<double> distance(point.size(), -1.0);
+  parallel_for(static_cast<int>(point.size()), [&](int i) {
+    const auto foot = query.closest(point[at(i)], reach);
+    if (!foot) return;
+    Vec3 n = Vec3::Zero();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int u = fixed.mesh.triangles[at(foot->triangle)][c];
+      if (foot->weights[c] > 0.0 && fixed.is_silent[at(u)]) return;
+      n += foot->weights[c] * fixed_normal[at(u)];
+    }
+    if (n.dot(normal[at(i)]) > 0.0) distance[at(i)] = foot->distance;
+  });
+  return distance;
+}
+
+std::vector<Vec3> bend_posed_skin(const Hand& hand, const Posture& posture, const SkinScan& scan,
+                                  const std::vector<FitPin>& pins, const Progress& progress) {
+  const FitSurface moving{
+      {pose_skin(hand, posture), hand.skin.triangles}, parts_of(hand.segment), cut_of(hand)};
+  // The posed skin is near already; the scan shows how far muscle and folds differ.
+  const NonrigidFitOptions options{
+      .stiffness = 20.0, .last_stiffness = 1.0, .levels = 4, .rounds = 4};
+  return fit_nonrigidly(moving, scanned_surface(scan, posed_centres(hand.skeleton, posture)), pins,
+                        options, progress);
+}
 
 Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& segment,
                   const Skeleton& skeleton, Finger finger) {
@@ -213,15 +261,11 @@ RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skel
   FitSurface moving;
   moving.mesh = {skin_at(result.start, skeleton), model.skin.triangles};
   moving.is_silent = cut_of(model);
-  for (const Segment s : model.segment) {
-    const auto finger = finger_of(s);
-    moving.part.push_back(finger ? static_cast<int>(*finger) + 1 : 0);
-  }
+  moving.part = parts_of(model.segment);
   const FitSurface fixed = scanned_surface(scan, skeleton);
-  moving.mesh.vertices = fit_nonrigidly(moving, fixed, {}, progress);
+  moving.mesh.vertices = fit_nonrigidly(moving, fixed, {}, {}, progress);
   part_crossings(moving.mesh);
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
-  measure(moving, fixed, wrist, result);
+  measure(moving, scan, skeleton, result);
   constexpr double kLeastShare = 0.5;
   if (result.partner_share < kLeastShare) {
     throw InputError(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "palmar/capture/nonrigid_fit.h"
 #include "palmar/capture/posed_model.h"
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
@@ -34,6 +35,18 @@ struct RegisteredSkin {
 /// crosses another. Throws InputError if the scan isn't near the joints.
 RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,
                              const Progress& progress = {});
+
+/// Bends the posed skin of a hand onto a scan of the same person in that posture (hand frame).
+/// Where on the scan a point of the skin went: skinning and what it misses. `pins`: markers.
+std::vector<Vec3> bend_posed_skin(const Hand& hand, const Posture& posture, const SkinScan& scan,
+                                  const std::vector<FitPin>& pins = {},
+                                  const Progress& progress = {});
+
+/// Distance to the scan of each point of a surface, where scanned skin lies that faces the same way
+/// and is neither a spot nor a cut; -1 elsewhere. `normal`: per point; `reach` in mm.
+std::vector<double> distances_to_scan(const std::vector<Vec3>& point,
+                                      const std::vector<Vec3>& normal, const SkinScan& scan,
+                                      const Skeleton& skeleton, double reach);
 
 /// Most distal skin point of a finger: as far from its last joint as the farthest vertex, in the
 /// middle of those nearly as far. `segment`: of the vertices.
