@@ -9,6 +9,7 @@
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/bone_chain.h"
 #include "palmar/capture/measured_joints.h"
+#include "palmar/capture/reference_hand.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
@@ -239,7 +240,12 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
   const Vec3 centre = centre_of_volume(bone.mesh);
   const Vec3 extents = extents_of(bone.mesh);
   const bool has_joint = proximal != nullptr && surface_area(proximal->mesh) > 0.0;
-  const Vec3 joint = has_joint ? joint_surface_point(bone.mesh, proximal->mesh) : centre;
+  // What stays where it is when the joint turns: the centre of a long bone's head, and of the
+  // saddle about its surface.
+  const bool is_saddle = has_joint && proximal->name == "trapezium";
+  const Vec3 joint = !has_joint  ? centre
+                     : is_saddle ? joint_surface_point(bone.mesh, proximal->mesh)
+                                 : head_centre(proximal->mesh, bone.mesh);
   const Vec3 seat = motion * joint;
   std::optional<Found> best;
   const auto attempt = [&](const Target& target) {
