@@ -13,6 +13,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/self_intersection.h"
 
 namespace palmar {
 namespace {
@@ -104,6 +105,7 @@ struct SoftTissue::Impl {
   std::vector<std::vector<Hat>> hat;
   std::vector<std::vector<int>> neighbour;
   std::vector<double> band_volume;
+  std::vector<std::array<int, 2>> neighbour_band;
   std::vector<std::unique_ptr<MeshDistance>> bone_distance;
   Vec3 ball, ball_radial, web;  ///< places of the thumb ball's swelling, reference
   Vec3 towards_wrist;           ///< along the thumb's metacarpal
@@ -253,6 +255,7 @@ struct SoftTissue::Impl {
     for (int c = 0; c < kChains; ++c) {
       first[at(c)] = count;
       bands[at(c)] = std::max(2, 1 + static_cast<int>((high[at(c)] - low[at(c)]) / kBand));
+      for (int k = count; k + 1 < count + bands[at(c)]; ++k) neighbour_band.push_back({k, k + 1});
       count += bands[at(c)];
     }
     band_volume.assign(at(count), 0.0);
@@ -353,6 +356,7 @@ struct SoftTissue::Impl {
   void keep_volume(const std::vector<Vec3>& core, std::vector<Vec3>& skin) const {
     const auto bands = static_cast<Eigen::Index>(band_volume.size());
     constexpr double kMost = 2.5;  // mm in one round
+    constexpr double kEven = 0.15;
     for (int round = 0; round < 4; ++round) {
       const std::vector<double> volume = volumes(skin, core);
       const TriangleMesh posed{skin, person->skin.triangles};
@@ -367,6 +371,14 @@ struct SoftTissue::Impl {
             matrix(b.band, c.band) += area[i] * softness(i) * b.weight * c.weight;
           }
         }
+      }
+      // Neighbouring bands move alike where the volume hardly tells.
+      for (const auto& [b, c] : neighbour_band) {
+        const double stiff = kEven * std::min(matrix(b, b), matrix(c, c));
+        matrix(b, b) += stiff;
+        matrix(c, c) += stiff;
+        matrix(b, c) -= stiff;
+        matrix(c, b) -= stiff;
       }
       for (Eigen::Index b = 0; b < bands; ++b) {
         missing[b] = band_volume[static_cast<std::size_t>(b)] - volume[static_cast<std::size_t>(b)];
@@ -384,6 +396,36 @@ struct SoftTissue::Impl {
   // Thick tissue gives way more than that over a knuckle.
   double softness(std::size_t i) const { return std::clamp(depth[i] / 8.0, 0.4, 1.6); }
 
+  // Skin that bends onto skin is pressed flat: both sides give way by half.
+  void part_touching_skin(std::vector<Vec3>& skin) const {
+    constexpr double kMost = 3.0;  // mm in one round
+    for (int round = 0; round < 6; ++round) {
+      const CrossingDepth crossing = crossing_depth({skin, person->skin.triangles});
+      if (crossing.vertex.empty()) return;
+      std::vector<double> in(skin.size(), 0.0);
+      for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
+        in[at(crossing.vertex[k])] = 0.5 * std::min(crossing.depth[k], kMost) + 0.1;
+      }
+      in = widened(std::move(in), 2);
+      const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
+      for (std::size_t i = 0; i < skin.size(); ++i) skin[i] -= in[i] * normal[i];
+    }
+  }
+
+  // What happens to a vertex draws its neighbours along.
+  std::vector<double> widened(std::vector<double> height, int passes) const {
+    for (int pass = 0; pass < passes; ++pass) {
+      std::vector<double> wider = height;
+      for (std::size_t i = 0; i < height.size(); ++i) {
+        double mean = 0.0;
+        for (const int j : neighbour[i]) mean += height[at(j)];
+        wider[i] = std::max(height[i], 0.8 * mean / static_cast<double>(neighbour[i].size()));
+      }
+      height = std::move(wider);
+    }
+    return height;
+  }
+
   void lift_off_bones(const std::array<Rigid3, kBodyCount>& motion, std::vector<Vec3>& skin) const {
     for (int round = 0; round < 3; ++round) {
       std::vector<double> lift(skin.size(), 0.0);
@@ -399,15 +441,7 @@ struct SoftTissue::Impl {
       bool is_free = true;
       for (const double l : lift) is_free = is_free && l < 0.01;
       if (is_free) return;
-      for (int pass = 0; pass < 3; ++pass) {
-        std::vector<double> wider = lift;
-        for (std::size_t i = 0; i < skin.size(); ++i) {
-          double mean = 0.0;
-          for (const int j : neighbour[i]) mean += lift[at(j)];
-          wider[i] = std::max(lift[i], 0.8 * mean / static_cast<double>(neighbour[i].size()));
-        }
-        lift = std::move(wider);
-      }
+      lift = widened(std::move(lift), 3);
       const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
       for (std::size_t i = 0; i < skin.size(); ++i) skin[i] += lift[i] * normal[i];
     }
@@ -434,6 +468,7 @@ PosedTissue SoftTissue::pose(const Posture& posture) const {
   impl_->blend(motion, posed.skin, posed.core);
   impl_->swell(posture, motion[at(kThumbMetacarpalBody)], posed.skin);
   impl_->keep_volume(posed.core, posed.skin);
+  impl_->part_touching_skin(posed.skin);
   impl_->lift_off_bones(motion, posed.skin);
   return posed;
 }

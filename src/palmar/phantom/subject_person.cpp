@@ -214,9 +214,9 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       joint.flexion = model.dofs.back().dof;
       joint.centre = node[at(k)];
       joint.along = (node[at(k + 1)] - node[at(k)]).normalized();
-      const Vec3 axis = tilted(model.dofs.back().axis, random, 0.04);
+      const Vec3 axis = tilted(model.dofs.back().axis, random, 0.02);
       joint.axis = (axis - axis.dot(joint.along) * joint.along).normalized();
-      joint.axis = (joint.axis + spread(random, 0.03) * joint.along).normalized();
+      joint.axis = (joint.axis + spread(random, 0.015) * joint.along).normalized();
       joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[at(f)];
       joint.ellipse = 0.09 + spread(random, 0.02);
       joint.creep = 0.3 + spread(random, 0.08);
@@ -262,6 +262,46 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
   model.dofs.at(0).centre = cmc.abduction_point;
 }
 
+// Bent fingers push each other aside until they lie side by side.
+void make_room(const SubjectPerson& person, Posture& posture) {
+  const auto abduction = [](int f) {
+    return static_cast<Dof>(static_cast<int>(Dof::kIndexMcpAbduction) + 4 * (f - 1));
+  };
+  // Joints and tip of a finger, where it is.
+  const auto chain = [&](int f) {
+    const auto motion = body_motions(person.joints, posture);
+    std::vector<Vec3> point;
+    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+      const auto body = static_cast<std::size_t>(*segment);
+      const RollingJoint& joint = person.joints.phalanx[body];
+      for (const double share : {0.5, 1.0}) {
+        const bool is_last = segment == segments_of(static_cast<Finger>(f))[2];
+        const Vec3 end = is_last ? person.skeleton.fingertips[at(f)] - 6.0 * joint.along
+                                 : person.joints.phalanx[body + 1].centre;
+        point.push_back(motion[body] * (joint.centre + share * (end - joint.centre)));
+      }
+    }
+    return point;
+  };
+  for (int round = 0; round < 40; ++round) {
+    bool is_free = true;
+    for (int f = 1; f + 1 < kFingerCount; ++f) {
+      const std::vector<Vec3> mine = chain(f), next = chain(f + 1);
+      const double touching = 0.47 * (person.finger_width[at(f)] + person.finger_width[at(f + 1)]);
+      double nearest = touching;
+      for (const Vec3& p : mine) {
+        for (const Vec3& q : next) nearest = std::min(nearest, (p - q).norm());
+      }
+      if (nearest >= touching) continue;
+      is_free = false;
+      // The outer of the two gives way.
+      (f == 1 ? posture[abduction(1)] : posture[abduction(f + 1)]) +=
+          (f == 1 ? 1.0 : -1.0) * 0.6 * kDeg;
+    }
+    if (is_free) return;
+  }
+}
+
 void make_postures(SubjectPerson& person, std::uint64_t seed) {
   RandomStream random(seed, kPostures);
   const Posture& reference = person.reference;
@@ -290,10 +330,11 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
 
   // Degrees from the reference posture: MCP flexion, abduction, PIP, DIP.
   Posture fist = thumb(-14.0, 4.0, -4.0, -6.0);
-  finger(fist, 0, {54, 1, 64, 38});
-  finger(fist, 1, {56, 0, 66, 38});
-  finger(fist, 2, {56, 0, 64, 38});
-  finger(fist, 3, {54, -1, 62, 38});
+  finger(fist, 0, {50, 0, 62, 38});
+  finger(fist, 1, {52, 0, 64, 38});
+  finger(fist, 2, {52, 0, 62, 38});
+  finger(fist, 3, {50, 0, 60, 38});
+  make_room(person, fist);
   all[ScanPosture::kFingerFlexion] = fist;
   Posture fan = thumb(-4.0, 2.0, -2.0, -2.0);
   finger(fan, 0, {0, 12, -6, -3});
@@ -307,6 +348,7 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   finger(grasp, 1, {29, 0, 27, 19});
   finger(grasp, 2, {30, 1, 27, 18});
   finger(grasp, 3, {31, 1, 26, 16});
+  make_room(person, grasp);
   all[ScanPosture::kGrasp] = grasp;
 }
 
