@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/bone_names.h"
 #include "palmar/capture/scan_image.h"
 #include "palmar/capture/shell_fit.h"
 #include "palmar/core/error.h"
@@ -189,7 +190,6 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   };
   const ScanImage scan = prepare_scan(image, name, options, share(0.0, 0.4));
   ScanSurfaces surfaces;
-  surfaces.side = model.side;
   surfaces.markers = scan.markers;
   surfaces.notes = scan.notes;
   surfaces.air_threshold = scan.levels.air_threshold;
@@ -221,6 +221,11 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     }
     surfaces.bones[at(c)].mesh = std::move(mesh);
   });
+
+  const BoneNames names = name_bones(surfaces.bones, surfaces.skin, model, share(0.8, 1.0));
+  for (std::size_t b = 0; b < surfaces.bones.size(); ++b) surfaces.bones[b].name = names.name[b];
+  surfaces.side = names.side;
+  surfaces.notes.insert(surfaces.notes.end(), names.notes.begin(), names.notes.end());
   return surfaces;
 }
 

@@ -1,0 +1,237 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/bone_names.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/hand/posture_from_mesh.h"
+#include "palmar/hand/skinning.h"
+#include "palmar/hand/template_hand.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kAlone = 16.0;  // 4 standard deviations
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_cut) {
+  const double place = (found.centre - expected.centre).norm() / 5.0;
+  double cost = place * place;
+  const bool is_long = expected.length > 1.7 * expected.width && found.length > 1.7 * found.width;
+  if (is_long) {
+    const double angle = std::acos(std::clamp(std::abs(found.axis.dot(expected.axis)), 0.0, 1.0));
+    cost += angle * angle / (0.35 * 0.35);
+  }
+  if (!is_cut) {
+    const double ratio = std::log(std::max(found.length, 1.0) / std::max(expected.length, 1.0));
+    cost += ratio * ratio / 0.09;
+  }
+  return cost;
+}
+
+/// Bones of the model next to each other in a finger: pairs of indices, proximal first.
+std::vector<std::array<int, 2>> chain_links(const Hand& model) {
+  std::vector<std::array<int, 2>> links;
+  for (int b = 0; b + 1 < static_cast<int>(model.bones.size()); ++b) {
+    const std::string& name = model.bones[at(b)].name;
+    const std::string& next = model.bones[at(b) + 1].name;
+    // Bones of a finger stand in a row, from the metacarpal outwards.
+    if (name.substr(0, name.find('_')) == next.substr(0, next.find('_')) &&
+        next.ends_with("_phalanx")) {
+      links.push_back({b, b + 1});
+    }
+  }
+  return links;
+}
+
+struct Pairing {
+  std::vector<int> found;  ///< per bone of the model
+  double cost = 0.0;       ///< mean over the model's bones
+  bool has_fit = false;
+};
+
+Pairing pair_bones(const std::vector<BoneOutline>& outlines, const std::vector<ScannedBone>& bones,
+                   const TriangleMesh& skin, const Hand& model, const Progress& progress) {
+  const MeshFit fit = fit_posture_to_mesh(model, skin, {.fits_scale = true}, progress);
+  const std::vector<TriangleMesh> posed = pose_bones(model, fit.posture);
+  std::vector<BoneOutline> expected;
+  for (const TriangleMesh& mesh : posed) {
+    BoneOutline outline = outline_of(mesh);
+    outline.centre = fit.mesh_from_hand * (fit.scale * outline.centre);
+    outline.axis = fit.mesh_from_hand.rotation * outline.axis;
+    outline.length *= fit.scale;
+    outline.width *= fit.scale;
+    expected.push_back(outline);
+  }
+  const std::vector<std::array<int, 2>> links = chain_links(model);
+  Pairing pairing;
+  std::vector<Vec3> shift(expected.size(), Vec3::Zero());
+  for (int round = 0; round < 4; ++round) {
+    std::vector<std::vector<double>> cost(expected.size(),
+                                          std::vector<double>(outlines.size(), 0.0));
+    for (std::size_t e = 0; e < expected.size(); ++e) {
+      BoneOutline moved = expected[e];
+      moved.centre += shift[e];
+      for (std::size_t f = 0; f < outlines.size(); ++f) {
+        cost[e][f] = pair_cost(outlines[f], moved, bones[f].is_cut);
+      }
+    }
+    pairing.found = least_cost_pairs(cost, kAlone);
+    pairing.cost = 0.0;
+    for (std::size_t e = 0; e < expected.size(); ++e) {
+      const int f = pairing.found[e];
+      pairing.cost += f < 0 ? kAlone : cost[e][at(f)];
+    }
+    pairing.cost /= static_cast<double>(std::max<std::size_t>(1, expected.size()));
+    // What a bone is off by tells the same of itself and, by half, of its neighbours.
+    std::vector<Vec3> sum(expected.size(), Vec3::Zero());
+    std::vector<double> weight(expected.size(), 0.5);
+    const auto add = [&](int to, int from, double w) {
+      const int f = pairing.found[at(from)];
+      if (f < 0) return;
+      sum[at(to)] += w * (outlines[at(f)].centre - expected[at(from)].centre);
+      weight[at(to)] += w;
+    };
+    for (int e = 0; e < static_cast<int>(expected.size()); ++e) add(e, e, 0.5);
+    for (const auto& [a, b] : links) {
+      add(a, b, 0.5);
+      add(b, a, 0.5);
+    }
+    for (std::size_t e = 0; e < expected.size(); ++e) shift[e] = sum[e] / weight[e];
+  }
+  return pairing;
+}
+
+}  // namespace
+
+BoneOutline outline_of(const TriangleMesh& mesh) {
+  BoneOutline outline;
+  if (mesh.vertices.empty()) return outline;
+  outline.centre = centre_of_volume(mesh);
+  const std::vector<double> area = vertex_areas(mesh);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 d = mesh.vertices[v] - outline.centre;
+    spread += area[v] * d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  std::array<double, 3> extents{};
+  for (int a = 0; a < 3; ++a) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& v : mesh.vertices) {
+      const double d = axes.eigenvectors().col(a).dot(v);
+      low = std::min(low, d);
+      high = std::max(high, d);
+    }
+    extents[at(a)] = high - low;
+  }
+  outline.axis = axes.eigenvectors().col(2);
+  outline.length = extents[2];
+  outline.width = 0.5 * (extents[0] + extents[1]);
+  return outline;
+}
+
+std::vector<int> least_cost_pairs(const std::vector<std::vector<double>>& cost, double alone) {
+  const int rows = static_cast<int>(cost.size());
+  const int real = rows > 0 ? static_cast<int>(cost.front().size()) : 0;
+  const int columns = real + rows;  // one more column per row, to stay alone in
+  const auto cost_at = [&](int row, int column) {
+    if (column < real) return std::min(cost[at(row)][at(column)], 1e6);
+    return column - real == row ? alone : 1e6;
+  };
+  // Shortest augmenting paths with potentials, row by row (1-based; column 0 is the start).
+  std::vector<double> u(at(rows) + 1, 0.0), v(at(columns) + 1, 0.0);
+  std::vector<int> row_of(at(columns) + 1, 0), before(at(columns) + 1, 0);
+  for (int row = 1; row <= rows; ++row) {
+    row_of[0] = row;
+    int column = 0;
+    std::vector<double> least(at(columns) + 1, std::numeric_limits<double>::infinity());
+    std::vector<char> is_used(at(columns) + 1, 0);
+    do {
+      is_used[at(column)] = 1;
+      const int from = row_of[at(column)];
+      double delta = std::numeric_limits<double>::infinity();
+      int next = 0;
+      for (int c = 1; c <= columns; ++c) {
+        if (is_used[at(c)] != 0) continue;
+        const double reduced = cost_at(from - 1, c - 1) - u[at(from)] - v[at(c)];
+        if (reduced < least[at(c)]) {
+          least[at(c)] = reduced;
+          before[at(c)] = column;
+        }
+        if (least[at(c)] < delta) {
+          delta = least[at(c)];
+          next = c;
+        }
+      }
+      for (int c = 0; c <= columns; ++c) {
+        if (is_used[at(c)] != 0) {
+          u[at(row_of[at(c)])] += delta;
+          v[at(c)] -= delta;
+        } else {
+          least[at(c)] -= delta;
+        }
+      }
+      column = next;
+    } while (row_of[at(column)] != 0);
+    do {
+      const int previous = before[at(column)];
+      row_of[at(column)] = row_of[at(previous)];
+      column = previous;
+    } while (column != 0);
+  }
+  std::vector<int> pair(at(rows), -1);
+  for (int c = 1; c <= real; ++c) {
+    const int row = row_of[at(c)];
+    if (row > 0 && cost_at(row - 1, c - 1) < alone) pair[at(row - 1)] = c - 1;
+  }
+  return pair;
+}
+
+BoneNames name_bones(const std::vector<ScannedBone>& bones, const TriangleMesh& skin,
+                     const Hand& model, const Progress& progress) {
+  std::vector<BoneOutline> outlines;
+  for (const ScannedBone& bone : bones) outlines.push_back(outline_of(bone.mesh));
+  const Hand other = mirrored(model);
+  const Pairing own = pair_bones(outlines, bones, skin, model, progress);
+  const Pairing opposite = pair_bones(outlines, bones, skin, other, progress);
+  const bool is_own = own.cost <= opposite.cost;
+  const Pairing& best = is_own ? own : opposite;
+
+  BoneNames names;
+  names.name.resize(bones.size());
+  names.side = is_own ? model.side : other.side;
+  names.misfit = best.cost;
+  names.other_misfit = is_own ? opposite.cost : own.cost;
+  std::vector<std::string> missing;
+  for (std::size_t e = 0; e < best.found.size(); ++e) {
+    const int f = best.found[e];
+    if (f >= 0) {
+      names.name[at(f)] = model.bones[e].name;
+    } else {
+      missing.push_back(model.bones[e].name);
+    }
+  }
+  if (!missing.empty()) {
+    std::string list;
+    for (const std::string& name : missing) list += (list.empty() ? "" : ", ") + name;
+    names.notes.push_back(
+        fmt::format("{} of {} bones not found: {}", missing.size(), model.bones.size(), list));
+  }
+  if (names.other_misfit < 1.5 * names.misfit) {
+    names.notes.push_back(fmt::format(
+        "the bones fit a {} hand little better than the other one ({:.1f} against {:.1f}): check "
+        "the side",
+        name_of(names.side), names.misfit, names.other_misfit));
+  }
+  return names;
+}
+
+}  // namespace palmar
