@@ -21,7 +21,8 @@ namespace {
                    allowed);
 }
 
-/// Where the field is looked for: means over blocks of voxels that are mostly tissue.
+/// Where the field is looked for: medians over blocks of voxels that are mostly tissue. A mean would
+/// mix tissues, more of them in the fingers than in the palm, which would pass for a field.
 struct Samples {
   std::vector<Vec3> place;  ///< in [0, 1] along i, j, k of the image
   std::vector<double> log_value;
@@ -44,8 +45,7 @@ Samples samples_of(const Volume& image, const std::vector<std::uint8_t>& mask, d
   for (int bk = 0; bk < blocks[2]; ++bk) {
     for (int bj = 0; bj < blocks[1]; ++bj) {
       for (int bi = 0; bi < blocks[0]; ++bi) {
-        double sum = 0.0;
-        int count = 0;
+        std::vector<float> values;
         int all = 0;
         Vec3 place = Vec3::Zero();
         const std::array<int, 3> start = {bi * block[0], bj * block[1], bk * block[2]};
@@ -56,19 +56,21 @@ Samples samples_of(const Volume& image, const std::vector<std::uint8_t>& mask, d
               ++all;
               const bool is_in = mask.empty() ? image.value[v] > air : mask[v] != 0;
               if (!is_in) continue;
-              sum += image.value[v];
+              values.push_back(image.value[v]);
               place += Vec3(i, j, k);
-              ++count;
             }
           }
         }
-        if (2 * count < all || !(sum > 0.0)) continue;
-        place /= count;
+        if (2 * static_cast<int>(values.size()) < all) continue;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        if (!(*middle > 0.0F)) continue;
+        place /= static_cast<double>(values.size());
         for (int a = 0; a < 3; ++a) {
           place[a] = share_of(place[a], grid.size[static_cast<std::size_t>(a)]);
         }
         samples.place.push_back(place);
-        samples.log_value.push_back(std::log(sum / count));
+        samples.log_value.push_back(std::log(static_cast<double>(*middle)));
       }
     }
   }

@@ -12,7 +12,7 @@ namespace palmar {
 
 /// How a receive coil's uneven sensitivity is taken out of an MR image.
 struct BiasFieldOptions {
-  double shrunk_spacing = 3.0;  ///< mm between voxels of the image that the field is found on
+  double shrunk_spacing = 2.0;  ///< mm between voxels of the image that the field is found on
   int levels = 3;               ///< of the B-spline; each doubles the number of its patches
   int iterations = 50;          ///< at most, per level
   double tolerance = 1e-3;      ///< change of the field, as a share of it, that ends a level
