@@ -147,6 +147,7 @@ TEST(FitTwoAxes, FindsTwoSkewAxesFromFourLimitPostures) {
   prior.first = (kAxis + Vec3(0.1, 0.1, 0.0)).normalized();
   prior.second = (second + Vec3(0.0, -0.1, 0.1)).normalized();
   prior.point_sd = 0.01;  // exact motions
+  prior.square_sd = 0.3;
   const TwoAxisFit fit = fit_two_axes(motions, main, points, prior);
   EXPECT_LT(angle_between(fit.first_axis, kAxis), 0.5);
   EXPECT_LT(angle_between(fit.second_axis, second), 0.5);

@@ -59,6 +59,23 @@ JointDof moved_dof(const ReferenceHand& hand, const Hand& model, Finger finger, 
   return result;
 }
 
+/// Columns: a unit direction, the part of another one square to it, and their cross product.
+Eigen::Matrix3d frame_of(const Vec3& along, const Vec3& other) {
+  const Vec3 across = (other - other.dot(along) * along).normalized();
+  Eigen::Matrix3d frame;
+  frame << along, across, along.cross(across);
+  return frame;
+}
+
+/// The model's abduction axis with the proximal phalanx and its flexion axis as they were found.
+Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, Dof flexion,
+                  const Vec3& flexion_axis, Dof abduction) {
+  const Vec3 drawn = hand.model_ray[static_cast<std::size_t>(finger)].direction(1);
+  const Eigen::Matrix3d from = frame_of(drawn, model.skeleton.dof(flexion).axis);
+  const Eigen::Matrix3d to = frame_of(hand.nodes(finger).direction(1), flexion_axis);
+  return to * from.transpose() * model.skeleton.dof(abduction).axis;
+}
+
 void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::size_t link,
                    JointId id, Dof dof, const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
@@ -119,23 +136,30 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
       spreads.source = source_of(turns);
       if (!fit.is_first_observed) node = fit.second_point;
       measures.measured(abduction) = true;
+    } else if (fit.is_first_observed) {
+      // As it lies in the model to flexion axis and phalanx.
+      spreads.axis = carried_axis(hand, model, finger, flexion, bends.axis, abduction);
+      spreads.centre = node;
     }
   }
   measures.skeleton.joints[static_cast<std::size_t>(id)] = {id, node, {spreads, bends}};
 }
 
-/// Angles of the reference posture, from the directions of the bones.
-void set_reference_angles(const ReferenceHand& hand, Finger finger, JointId id, std::size_t link,
-                          JointMeasures& measures) {
+/// Angles of the reference posture, from the directions of the bones. The model's own angle tells
+/// where zero is: measured on the model's bones, the same way gives its reference posture.
+void set_reference_angles(const ReferenceHand& hand, const Hand& model, Finger finger, JointId id,
+                          std::size_t link, JointMeasures& measures) {
   const RayNodes& ray = hand.nodes(finger);
+  const RayNodes& drawn = hand.model_ray[static_cast<std::size_t>(finger)];
   for (JointDof& dof : measures.skeleton.joints[static_cast<std::size_t>(id)].dofs) {
-    const double from_model = dof.reference;
-    dof.reference = angle_about(dof.axis, ray.direction(link - 1), ray.direction(link));
-    const std::string_view name = name_of(dof.dof);
-    if (name.ends_with("abduction")) {
+    const JointDof& of_model = model.skeleton.dof(dof.dof);
+    const double zero = of_model.reference - angle_about(of_model.axis, drawn.direction(link - 1),
+                                                         drawn.direction(link));
+    dof.reference = zero + angle_about(dof.axis, ray.direction(link - 1), ray.direction(link));
+    if (name_of(dof.dof).ends_with("abduction")) {
       // The model's range counts from its own posture.
-      dof.lower += dof.reference - from_model;
-      dof.upper += dof.reference - from_model;
+      dof.lower += dof.reference - of_model.reference;
+      dof.upper += dof.reference - of_model.reference;
     }
     dof.lower = std::min(dof.lower, dof.reference);
     dof.upper = std::max(dof.upper, dof.reference);
@@ -166,8 +190,8 @@ void measure_finger_joints(ReferenceHand& hand, const Hand& model, const Motions
                 measures);
   measure_hinge(hand, model, Finger::kThumb, 2, JointId::kThumbIp, Dof::kThumbIpFlexion, motions,
                 measures);
-  set_reference_angles(hand, Finger::kThumb, JointId::kThumbMp, 1, measures);
-  set_reference_angles(hand, Finger::kThumb, JointId::kThumbIp, 2, measures);
+  set_reference_angles(hand, model, Finger::kThumb, JointId::kThumbMp, 1, measures);
+  set_reference_angles(hand, model, Finger::kThumb, JointId::kThumbIp, 2, measures);
   for (const Finger finger : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
     const int f = static_cast<int>(finger) - 1;
     const int joint = static_cast<int>(JointId::kIndexMcp) + 3 * f;
@@ -180,7 +204,7 @@ void measure_finger_joints(ReferenceHand& hand, const Hand& model, const Motions
                     measures);
     }
     for (int k = 0; k < 3; ++k) {
-      set_reference_angles(hand, finger, static_cast<JointId>(joint + k),
+      set_reference_angles(hand, model, finger, static_cast<JointId>(joint + k),
                            static_cast<std::size_t>(k + 1), measures);
     }
   }

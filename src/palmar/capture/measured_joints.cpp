@@ -47,12 +47,12 @@ void add_wrist(const Hand& model, double scale, Skeleton& skeleton) {
   skeleton.joints[static_cast<std::size_t>(JointId::kWrist)] = std::move(wrist);
 }
 
-/// The most distal skin of a finger by its last bone: 3.8 mm of soft tissue beyond it, 5.7 mm at
-/// the thumb (Buryanov & Kotiuk 2010, Table I).
-void add_fingertips(const ReferenceHand& hand, Skeleton& skeleton) {
+/// The most distal skin of each finger; without skin 3.8 mm of soft tissue beyond the last
+/// bone, 5.7 mm at the thumb (Buryanov & Kotiuk 2010, Table I).
+void add_fingertips(const ReferenceHand& hand, bool has_skin, Skeleton& skeleton) {
   for (int f = 0; f < kFingerCount; ++f) {
     const RayNodes& ray = hand.ray[static_cast<std::size_t>(f)];
-    const double tissue = f == 0 ? 5.7 : 3.8;
+    const double tissue = has_skin && ray.is_seen.back() ? 0.0 : f == 0 ? 5.7 : 3.8;
     skeleton.fingertips[static_cast<std::size_t>(f)] =
         ray.node.back() + tissue * ray.direction(ray.node.size() - 2);
   }
@@ -249,7 +249,7 @@ MeasuredJoints measure_joints(const std::map<ScanPosture, ScanSurfaces>& scans,
   add_wrist(sided, hand.scale, measures.skeleton);
   measure_cmc(hand, sided, motions, measures);
   measure_finger_joints(hand, sided, motions, measures);
-  add_fingertips(hand, measures.skeleton);
+  add_fingertips(hand, !reference->second.skin.vertices.empty(), measures.skeleton);
   set_ranges(without_limits(measures.skeleton), hand, motions, measures);
 
   MeasuredJoints result;

@@ -65,8 +65,23 @@ Vec3 beyond(const Meshes& meshes, const std::vector<std::string>& ray, std::size
   return count > 0 ? (2.0 * here - carpus / count).eval() : here;
 }
 
+/// The skin farthest out along the last bone of a finger, as fingertip() of hand_frame.h has it;
+/// the bone's own end without skin.
+Vec3 skin_tip(const TriangleMesh& skin, const std::array<Vec3, 2>& ends) {
+  constexpr double kFingerRadius = 12.0, kTissue = 10.0;  // mm; more than a fingertip has
+  const Vec3 along = (ends[1] - ends[0]).normalized();
+  Vec3 best = ends[1];
+  for (const Vec3& v : skin.vertices) {
+    const double y = along.dot(v - ends[1]);
+    if (y <= along.dot(best - ends[1]) || y > kTissue) continue;
+    if ((v - ends[1] - y * along).norm() < kFingerRadius) best = v;
+  }
+  return best;
+}
+
 /// What is seen of a ray's nodes; the rest is left out.
-std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, Finger finger) {
+std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, const TriangleMesh& skin,
+                                            Finger finger) {
   const std::vector<std::string> ray = ray_of(finger);
   std::vector<std::optional<Vec3>> nodes(ray.size() + 1);
   for (std::size_t k = 0; k < ray.size(); ++k) {
@@ -75,7 +90,7 @@ std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, Finger finger)
     const std::array<Vec3, 2> ends = ends_of(*bone, beyond(meshes, ray, k));
     if (!nodes[k]) nodes[k] = ends[0];
     if (k + 1 == ray.size()) {
-      nodes[k + 1] = ends[1];
+      nodes[k + 1] = skin_tip(skin, ends);
     } else if (const TriangleMesh* next = find(meshes, ray[k + 1])) {
       nodes[k + 1] = head_centre(*bone, *next);
     } else {
@@ -85,7 +100,9 @@ std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, Finger finger)
   return nodes;
 }
 
-std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger finger) {
+/// `has_skin`: the finger ends at its skin, else at its last bone.
+std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger finger,
+                              bool has_skin) {
   const std::vector<std::optional<Segment>> chain = [&] {
     std::vector<std::optional<Segment>> list;
     for (const auto& s : segments_of(finger)) {
@@ -105,9 +122,12 @@ std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger fi
   }
   for (const auto& segment : chain)
     nodes.push_back(model.skeleton.joint(joint_of(*segment)).centre);
-  const TriangleMesh* last = find(meshes, ray_of(finger).back());
   const Vec3& skin_tip = model.skeleton.fingertips[at(finger)];
-  nodes.push_back(last != nullptr ? ends_of(*last, skin_tip)[1] : skin_tip);
+  nodes.push_back(skin_tip);
+  if (has_skin) return nodes;
+  if (const TriangleMesh* last = find(meshes, ray_of(finger).back())) {
+    nodes.back() = ends_of(*last, skin_tip)[1];
+  }
   return nodes;
 }
 
@@ -272,7 +292,7 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
   hand.scale = patient_from_model.scale;
 
   std::array<std::vector<std::optional<Vec3>>, kFingerCount> seen;
-  for (const Finger finger : kFingers) seen[at(finger)] = seen_nodes(scan, finger);
+  for (const Finger finger : kFingers) seen[at(finger)] = seen_nodes(scan, reference.skin, finger);
   const auto mcp = [&](Finger finger) -> Vec3 {
     const std::optional<Vec3>& node = seen[at(finger)][1];
     return node ? *node
@@ -304,7 +324,8 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
     for (std::optional<Vec3>& node : seen[at(finger)]) {
       if (node) node = hand_from_patient * *node;
     }
-    const std::vector<Vec3> nodes = model_nodes(model, drawn, finger);
+    const std::vector<Vec3> nodes =
+        model_nodes(model, drawn, finger, !reference.skin.vertices.empty());
     hand.model_ray[at(finger)] = {nodes, std::vector<bool>(nodes.size(), true)};
     hand.ray[at(finger)] = completed(seen[at(finger)], nodes, hand_from_model);
   }

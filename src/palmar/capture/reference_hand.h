@@ -15,7 +15,8 @@
 namespace palmar {
 
 /// Points along a finger: base of its metacarpal (the thumb's CMC joint), centres of its joints
-/// from proximal to distal, tip of its last bone. Five for a finger, four for the thumb; mm.
+/// from proximal to distal, its tip (of the skin; without skin, of the last bone). Five for a
+/// finger, four for the thumb; mm.
 struct RayNodes {
   std::vector<Vec3> node;
   std::vector<bool> is_seen;  ///< in the scan; else put where the model's proportions have it

@@ -69,8 +69,8 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
       const MainAxis m = main[static_cast<std::size_t>(k)];
       // Free angles are held by next to nothing, so that none is left undetermined.
       constexpr double kFree = 10.0;  // rad
-      r[p + 9 + 2 * k] = x[8 + 2 * k] / (m == MainAxis::kSecond ? prior.angle_sd : kFree);
-      r[p + 10 + 2 * k] = x[9 + 2 * k] / (m == MainAxis::kFirst ? prior.angle_sd : kFree);
+      r[p + 9 + 2 * k] = x[8 + 2 * k] / (m == MainAxis::kSecond ? prior.by_second_sd : kFree);
+      r[p + 10 + 2 * k] = x[9 + 2 * k] / (m == MainAxis::kFirst ? prior.by_first_sd : kFree);
     }
   };
   LeastSquaresProblem problem;

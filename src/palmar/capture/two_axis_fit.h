@@ -28,9 +28,11 @@ struct TwoAxisPrior {
   double place_sd = 3.0;                               ///< of each axis about there, across it, mm
   Vec3 first = Vec3::UnitX(), second = Vec3::UnitZ();  ///< unit
   double first_sd = 0.35, second_sd = 0.35;            ///< rad
-  double square_sd = 0.15;  ///< of the angle between the axes about 90 degrees, rad
+  double square_sd = 0.06;  ///< of the angle between the axes about 90 degrees, rad
   double point_sd = 0.15;   ///< of the motions, mm: what registration leaves
-  double angle_sd = 0.05;   ///< of the angle that a limit posture of the other axis keeps, rad
+  /// Of the angle about the other axis that a limit posture of the first, or of the second axis
+  /// changes by the way, rad.
+  double by_first_sd = 0.05, by_second_sd = 0.03;
 };
 /// What a motion is meant to be: a posture at the limit of one of the two axes.
 enum class MainAxis { kFirst, kSecond, kEither };
