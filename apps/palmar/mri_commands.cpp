@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mri_commands.h"
+#include "mri_step_commands.h"
 #include "palmar/capture/scan_posture.h"
 #include "palmar/imaging/air_threshold.h"
 #include "palmar/imaging/denoise.h"
@@ -127,6 +128,7 @@ void add_mri_commands(CLI::App& app, Context& context) {
   info->add_option("--series", o->number, "Number of the series, if there are several");
   info->add_option("--description", o->description, "Or a part of its description");
   info->callback([&context, o] { context.run = [&context, o] { return run_info(*o, context); }; });
+  add_mri_steps(*mri, context);
   mri->footer("Example: palmar mri series subject3/mri");
 }
 

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -18,8 +19,6 @@ std::string hex_of(const std::array<float, 3>& colour) {
   const auto byte = [](float share) { return static_cast<int>(std::lround(255.0F * share)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour[0]), byte(colour[1]), byte(colour[2]));
 }
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }  // namespace
 

@@ -1,0 +1,138 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "hand_from_mri_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "mri_pipeline.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/io/bone_label_file.h"
+#include "palmar/io/hand_file.h"
+#include "palmar/io/scan_record_json.h"
+#include "palmar/report/scan_report.h"
+#include "scan_selection.h"
+#include "surface_arguments.h"
+
+namespace palmar::cli {
+namespace {
+
+struct FromMriArguments {
+  std::vector<std::string> paths, series, skip;
+  std::string out, work, labels, model = "template", name;
+  SurfaceArguments surfaces;
+  bool no_report = false;
+};
+
+constexpr std::string_view kEnding = ".hand.glb";
+
+bool ends_as_hand(const std::string& path) {
+  return path.size() > kEnding.size() &&
+         path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+}
+
+/// Folder beside the hand: "anna.hand.glb" -> "anna.mri".
+std::string work_folder(const FromMriArguments& arguments) {
+  if (!arguments.work.empty()) return arguments.work;
+  return arguments.out.substr(0, arguments.out.size() - kEnding.size()) + ".mri";
+}
+
+std::string text_of(const ScanRecord& record) {
+  const HandDimensions& d = record.made.hand.dimensions;
+  std::string text = fmt::format(
+      "{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm\n"
+      "skin: {:.2f} mm from the scan in the mean, 95 % within {:.2f} mm\n",
+      name_of(record.made.hand.side), d.hand_length, d.hand_circumference, d.hand_width,
+      record.made.registration_mean, record.made.registration_p95);
+  const std::vector<ErrorRow> rows = error_rows(record.joints.errors);
+  if (!rows.empty()) {
+    text += fmt::format("bones, mean distance, mm\n  {:<17} {:<24} {:>6} {:>11} {:>16}\n",
+                        "posture", "bones", "ICP", "fixed axes", "CMC interpolated");
+  }
+  for (const ErrorRow& row : rows) {
+    text += fmt::format("  {:<17} {:<24} {:>6.2f} {:>11.2f} {:>16}\n", name_of(row.posture),
+                        row.bones, row.icp, row.single_axis,
+                        row.interpolated_cmc ? fmt::format("{:.2f}", *row.interpolated_cmc) : "-");
+  }
+  if (!record.made.skin_errors.empty()) {
+    text += "skin round the thumb ball, mean distance, mm\n";
+    text += fmt::format("  {:<17} {:>15} {:>10}\n", "posture", "skinning alone", "corrected");
+  }
+  for (const SkinError& error : record.made.skin_errors) {
+    text += fmt::format("  {:<17} {:>15.2f} {:>10}\n", name_of(error.posture), error.skinning_only,
+                        error.corrected ? fmt::format("{:.2f}", *error.corrected) : "-");
+  }
+  return text;
+}
+
+int run(const FromMriArguments& arguments, const Context& context) {
+  if (!ends_as_hand(arguments.out)) {
+    throw UsageError("--out: \"" + arguments.out + "\" must end in .hand.glb");
+  }
+  const Progress progress = make_progress(context.common);
+  const auto model = load_hand(arguments.model);
+  MriPipelineOptions options;
+  options.surfaces = arguments.surfaces.options();
+  options.side = arguments.surfaces.chosen_side();
+  options.work = work_folder(arguments);
+  if (!arguments.labels.empty()) options.labels = read_bone_labels(arguments.labels);
+  progress.update(0.0, "looking for series");
+  const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
+  ScanRecord record =
+      run_mri_pipeline(selection.scans, *model, options, part_of(progress, 0.0, 0.93));
+  record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
+  record.made.hand.name = arguments.name.empty()
+                              ? std::filesystem::path(arguments.out).filename().string()
+                              : arguments.name;
+  if (arguments.name.empty()) {
+    record.made.hand.name.resize(record.made.hand.name.size() - kEnding.size());
+  }
+  write_hand(arguments.out, record.made.hand);
+  if (!arguments.no_report) {
+    write_scan_report(options.work, record, part_of(progress, 0.93, 1.0));
+  }
+  finish_progress();
+  for (const std::string& text : record.notes) note(context.common, text);
+  print(context.common.json ? scan_record_json(record) + "\n" : text_of(record));
+  note(context.common, arguments.no_report
+                           ? "wrote " + arguments.out
+                           : "wrote " + arguments.out + "; report: " + options.work +
+                                 "/report.html; what each step made stays in " + options.work);
+  return 0;
+}
+
+}  // namespace
+
+void add_from_mri(CLI::App& hand, Context& context) {
+  const auto a = std::make_shared<FromMriArguments>();
+  CLI::App* verb = add_verb(hand, "from-mri", "A person's hand from MR series of several postures",
+                            "palmar hand from-mri scans/ --out anna.hand.glb");
+  verb->add_option("IMAGE", a->paths,
+                   "Folders of DICOM series, NIfTI or NRRD files, or folders that palmar mri "
+                   "surfaces made. The description of a series "
+                   "(or the name of its folder) tells the posture: reference, thumb_flexion, "
+                   "thumb_extension, thumb_abduction, thumb_adduction, finger_flexion, "
+                   "finger_abduction, grasp; the reference is needed")
+      ->required();
+  verb->add_option("--out", a->out, "File to write, *.hand.glb")->required();
+  verb->add_option("--series", a->series,
+                   "What a series shows: NUMBER=POSTURE, or TEXT=POSTURE for part of its "
+                   "description; again for others");
+  verb->add_option("--skip", a->skip, "Posture to leave out, for a spoilt series");
+  verb->add_option(
+      "--work", a->work,
+      "Folder for the report and for what each step makes, which another run takes up; "
+      "default: beside the hand, *.mri");
+  verb->add_option("--labels", a->labels,
+                   "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
+  verb->add_option("--model", a->model, "Hand to start from: \"template\" or a .hand.glb file")
+      ->capture_default_str();
+  verb->add_option("--name", a->name, "Name of the hand; default: that of the file");
+  a->surfaces.add_to(*verb);
+  verb->add_flag("--no-report", a->no_report, "Only the hand");
+  verb->callback([&context, a] { context.run = [&context, a] { return run(*a, context); }; });
+}
+
+}  // namespace palmar::cli

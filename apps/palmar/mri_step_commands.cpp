@@ -1,0 +1,157 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "mri_step_commands.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "palmar/capture/measured_joints.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/io/bone_label_file.h"
+#include "palmar/io/dicom.h"
+#include "palmar/io/json_values.h"
+#include "palmar/io/scan_surfaces_file.h"
+#include "surface_arguments.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct SurfacesArguments {
+  std::string image, out, labels, model = "template", description;
+  std::optional<int> number;
+  SurfaceArguments surfaces;
+};
+
+std::string name_or_dash(const ScannedBone& bone) { return bone.name.empty() ? "-" : bone.name; }
+
+std::string text_of(const ScanSurfaces& surfaces) {
+  std::string text = fmt::format(
+      "{} hand; thresholds: air {:.1f}, bone {:.1f}; noise {:.1f}; expected error of a "
+      "bone's surface {:.2f} mm; {} markers\n  {:<26} {:>11}  {}\n",
+      name_of(surfaces.side), surfaces.air_threshold, surfaces.bone_threshold, surfaces.noise,
+      surfaces.bone_error_estimate, surfaces.markers.size(), "bone", "volume, mm3", "at, mm");
+  for (const ScannedBone& bone : surfaces.bones) {
+    const Vec3 centre = centre_of_volume(bone.mesh);
+    text += fmt::format("  {:<26} {:>11.0f}  {:.1f}, {:.1f}, {:.1f}{}\n", name_or_dash(bone),
+                        signed_volume(bone.mesh), centre.x(), centre.y(), centre.z(),
+                        bone.is_cut ? "  (cut by the image)" : "");
+  }
+  return text;
+}
+
+Json json_of(const ScanSurfaces& surfaces) {
+  Json bones = Json::array();
+  for (const ScannedBone& bone : surfaces.bones) {
+    const Vec3 centre = centre_of_volume(bone.mesh);
+    bones.push_back({{"name", bone.name},
+                     {"volume_mm3", signed_volume(bone.mesh)},
+                     {"centre_mm", vector3(centre)},
+                     {"triangles", bone.mesh.triangle_count()},
+                     {"is_cut", bone.is_cut}});
+  }
+  Json markers = Json::array();
+  for (const Vec3& marker : surfaces.markers) markers.push_back(vector3(marker));
+  return {{"side", std::string(name_of(surfaces.side))},
+          {"air_threshold", surfaces.air_threshold},
+          {"bone_threshold", surfaces.bone_threshold},
+          {"noise", surfaces.noise},
+          {"bone_error_estimate_mm", surfaces.bone_error_estimate},
+          {"bones", std::move(bones)},
+          {"markers_mm", std::move(markers)},
+          {"notes", surfaces.notes}};
+}
+
+int run_surfaces(const SurfacesArguments& a, const Context& context) {
+  const Progress progress = make_progress(context.common);
+  const auto model = load_hand(a.model);
+  const SurfaceOptions options = a.surfaces.options();
+  const ImageFile file =
+      read_image(a.image, {a.number, a.description}, part_of(progress, 0.0, 0.1));
+  ScanSurfaces surfaces =
+      find_surfaces(file.image, a.image, *model, options, part_of(progress, 0.1, 1.0));
+  if (const auto side = a.surfaces.chosen_side()) surfaces.side = *side;
+  if (!a.labels.empty()) apply_bone_labels(surfaces, read_bone_labels(a.labels), *model);
+  write_scan_surfaces(a.out, surfaces, "");
+  finish_progress();
+  for (const std::string& text : file.notes) note(context.common, text);
+  for (const std::string& text : surfaces.notes) note(context.common, text);
+  print(context.common.json ? json_of(surfaces).dump(2) + "\n" : text_of(surfaces));
+  note(context.common, "wrote " + a.out);
+  return 0;
+}
+
+void add_surfaces(CLI::App& mri, Context& context) {
+  const auto a = std::make_shared<SurfacesArguments>();
+  CLI::App* verb = add_verb(mri, "surfaces", "Skin, bones and markers of one MR image as meshes",
+                            "palmar mri surfaces scans/reference --out reference");
+  verb->add_option("IMAGE", a->image, "Folder of DICOM files, NIfTI or NRRD file")->required();
+  verb->add_option("--out", a->out, "Folder to write: skin.ply, bones/*.ply, scan.json")
+      ->required();
+  verb->add_option("--series", a->number, "Number of the series, if the folder has several");
+  verb->add_option("--description", a->description, "Part of the series' description, likewise");
+  verb->add_option("--labels", a->labels, "Names for bones: CSV with name, x_mm, y_mm, z_mm");
+  verb->add_option("--model", a->model, "Hand that tells what bones there are")
+      ->capture_default_str();
+  a->surfaces.add_to(*verb);
+  verb->callback(
+      [&context, a] { context.run = [&context, a] { return run_surfaces(*a, context); }; });
+}
+
+struct MotionArguments {
+  std::string reference, posture;
+};
+
+int run_motion(const MotionArguments& a, const Context& context) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const Progress progress = make_progress(context.common);
+  const std::vector<BoneMotion> motions =
+      track_bones(read_scan_surfaces(a.reference), read_scan_surfaces(a.posture), progress);
+  finish_progress();
+  if (!context.common.json) {
+    std::string text =
+        fmt::format("{:<26} {:>10} {:>11} {:>9}\n", "bone", "turn, deg", "distance, mm", "overlap");
+    for (const BoneMotion& motion : motions) {
+      const Eigen::AngleAxisd turn(motion.posture_from_reference.rotation);
+      text += fmt::format("{:<26} {:>10.1f} {:>11.2f} {:>9.2f}\n", motion.bone,
+                          turn.angle() * kDegrees, motion.fit.mean, motion.fit.overlap);
+    }
+    print(text);
+    return 0;
+  }
+  Json list = Json::array();
+  for (const BoneMotion& motion : motions) {
+    const Quat& q = motion.posture_from_reference.rotation;
+    list.push_back({{"bone", motion.bone},
+                    {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+                    {"translation_mm", vector3(motion.posture_from_reference.translation)},
+                    {"mean_distance_mm", motion.fit.mean},
+                    {"overlap", motion.fit.overlap},
+                    {"conditioning", motion.fit.conditioning}});
+  }
+  print(Json{{"motions", std::move(list)}}.dump(2) + "\n");
+  return 0;
+}
+
+void add_motion(CLI::App& mri, Context& context) {
+  const auto a = std::make_shared<MotionArguments>();
+  CLI::App* verb = add_verb(mri, "motion", "How bones moved from one scan to another",
+                            "palmar mri motion reference thumb_flexion");
+  verb->add_option("REFERENCE", a->reference, "Folder that palmar mri surfaces made")->required();
+  verb->add_option("POSTURE", a->posture, "Another one, of another posture")->required();
+  verb->callback(
+      [&context, a] { context.run = [&context, a] { return run_motion(*a, context); }; });
+}
+
+}  // namespace
+
+void add_mri_steps(CLI::App& mri, Context& context) {
+  add_surfaces(mri, context);
+  add_motion(mri, context);
+}
+
+}  // namespace palmar::cli
