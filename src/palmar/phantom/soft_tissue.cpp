@@ -343,12 +343,12 @@ struct SoftTissue::Impl {
         return std::exp(-(v - place).squaredNorm() / (2.0 * w * w));
       };
       const double out =
-          size * (4.8 * rising(f) * near(ball, 13.0) - 3.2 * rising(-f) * near(ball, 14.0) +
-                  3.8 * rising(a) * near(ball_radial, 12.0) - 1.8 * rising(a) * near(web, 11.0) +
-                  4.0 * rising(-a) * near(web, 12.0) + 1.2 * rising(-a) * near(ball, 12.0));
+          size * (7.6 * rising(f) * near(ball, 15.0) - 5.6 * rising(-f) * near(ball, 16.0) +
+                  8.2 * rising(a) * near(ball_radial, 15.0) - 1.5 * rising(a) * near(web, 13.0) +
+                  2.4 * rising(-a) * near(web, 14.0) + 5.6 * rising(-a) * near(ball, 15.0));
       const double along =
-          size * (1.6 * rising(f) * near(ball, 14.0) - 1.0 * rising(-f) * near(ball, 14.0) +
-                  1.0 * rising(a) * near(ball, 14.0));
+          size * (2.2 * rising(f) * near(ball, 15.0) - 1.6 * rising(-f) * near(ball, 15.0) +
+                  1.6 * rising(a) * near(ball, 15.0) - 1.0 * rising(-a) * near(ball, 15.0));
       skin[i] += out * normal[i] + along * slide;
     }
   }
@@ -393,8 +393,13 @@ struct SoftTissue::Impl {
     }
   }
 
-  // Thick tissue gives way more than that over a knuckle.
-  double softness(std::size_t i) const { return std::clamp(depth[i] / 8.0, 0.4, 1.6); }
+  // Thick tissue gives way more than that over a knuckle; the thumb ball keeps its swelling.
+  double softness(std::size_t i) const {
+    const double width = 16.0 * size;
+    const double on_ball =
+        std::exp(-(person->skin.vertices[i] - ball).squaredNorm() / (2.0 * width * width));
+    return std::clamp(depth[i] / 8.0, 0.4, 1.6) * (1.0 - 0.8 * on_ball);
+  }
 
   // Skin that bends onto skin is pressed flat: both sides give way by half.
   void part_touching_skin(std::vector<Vec3>& skin) const {

@@ -130,7 +130,7 @@ void BoneMaker::place(Draft draft) {
     skin_.sample({&p, 1}, kLeastSkinCover + 0.5, {&sample, 1});
     return sample.distance <= -kLeastSkinCover;
   });
-  Box3 box = bounding_box(draft.bone.bone.mesh);
+  const Box3 box = bounding_box(draft.bone.bone.mesh);
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     const int mine = draft.bone.body, other = placed_[i].bone.body;
     std::vector<Rigid3> relative{Rigid3{}};
@@ -140,14 +140,17 @@ void BoneMaker::place(Draft draft) {
     const Box3 placed_box = distance_[i]->bounding_box();
     std::vector<Rigid3> near;
     for (const Rigid3& r : relative) {
-      Box3 moved;
-      for (const Vec3& v : draft.bone.bone.mesh.vertices) moved.extend(r * v);
+      // The box's image in a box of its own, which is somewhat too large.
+      const Vec3 half = r.rotation.toRotationMatrix().cwiseAbs() * (0.5 * box.sizes());
+      const Vec3 middle = r * Vec3(box.center());
+      const Box3 moved(middle - half, middle + half);
       if (moved.exteriorDistance(placed_box) < kLeastBoneGap) near.push_back(r);
     }
     if (near.empty()) continue;
     draw_in(draft, [&](const Vec3& p) {
       for (const Rigid3& r : near) {
         const Vec3 q = r * p;
+        if (placed_box.exteriorDistance(q) > kLeastBoneGap) continue;
         DistanceSample sample;
         distance_[i]->sample({&q, 1}, kLeastBoneGap + 0.5, {&sample, 1});
         if (sample.distance < kLeastBoneGap) return false;
@@ -308,7 +311,7 @@ void BoneMaker::make_carpals() {
   };
   std::vector<Carpal> carpals{
       {"trapezium", person_.joints.cmc.centre + 7.0 * scale_ * away, {7.5, 7.5, 7.5}},
-      {"trapezoid", below(1, -0.5, 7.5), {6.0, 7.5, 7.5}},
+      {"trapezoid", below(1, -1.0, 7.0), {8.5, 9.0, 9.0}},
       {"capitate", below(2, -0.5, 10.0), {6.5, 12.0, 9.0}},
       {"hamate", below(3, -3.0, 9.0), {8.0, 10.0, 8.5}},
       {"scaphoid", row(12.0, 0.30, 1.5), {8.0, 10.0, 7.5}},
@@ -413,8 +416,8 @@ void BoneMaker::make_forearm() {
     draft.thickness = 2.0;
     place(std::move(draft));
   };
-  make("radius", 7.0, 2.0, 12.5, 7.0, 7.0);
-  make("ulna", -14.0, 4.0, 6.5, 5.5, 5.5);
+  make("radius", 7.0, -1.5, 12.5, 7.0, 7.0);
+  make("ulna", -14.0, 2.0, 6.5, 5.5, 5.5);
 }
 
 }  // namespace
