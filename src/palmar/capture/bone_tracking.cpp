@@ -13,6 +13,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/smooth.h"
 
 namespace palmar {
 namespace {
@@ -37,6 +38,7 @@ bool has_size_of(const Vec3& a, const Vec3& b) {
 /// A bone of the posture's scan that may be the one looked for.
 struct Target {
   const ScannedBone* bone = nullptr;
+  TriangleMesh mesh;  ///< without the roughness of noise, which registration would lock into
   Vec3 centre = Vec3::Zero();
   Vec3 extents = Vec3::Zero();
 };
@@ -52,9 +54,12 @@ class BoneTracker {
  public:
   BoneTracker(const ScanSurfaces& reference, const ScanSurfaces& posture, const Progress& progress)
       : reference_(reference), progress_(progress) {
+    for (ScannedBone& bone : reference_.bones) bone.mesh = smooth_taubin(bone.mesh);
     for (const ScannedBone& bone : posture.bones) {
       if (!(surface_area(bone.mesh) > 0.0)) continue;
-      targets_.push_back({&bone, centre_of_volume(bone.mesh), extents_of(bone.mesh)});
+      TriangleMesh mesh = smooth_taubin(bone.mesh);
+      const Vec3 centre = centre_of_volume(mesh), extents = extents_of(mesh);
+      targets_.push_back({&bone, std::move(mesh), centre, extents});
     }
   }
 
@@ -115,7 +120,7 @@ class BoneTracker {
   std::optional<Found> find_distal(const ScannedBone& bone, const ScannedBone* proximal,
                                    const Rigid3& motion, bool is_next) const;
 
-  const ScanSurfaces& reference_;
+  ScanSurfaces reference_;  ///< smoothed likewise
   const Progress& progress_;
   std::vector<Target> targets_;
   Rigid3 palm_;
@@ -146,7 +151,7 @@ void BoneTracker::place_palm() {
     }
   }
   for (const Target& target : targets_) {
-    if (is_palm_bone(target.bone->name)) fixed.push_back(&target.bone->mesh);
+    if (is_palm_bone(target.bone->name)) fixed.push_back(&target.mesh);
   }
   const bool is_placed = from.size() >= 4;
   if (from.size() < 3) {
@@ -184,7 +189,7 @@ std::optional<Found> BoneTracker::find_in_palm(const ScannedBone& bone) const {
     options.trim = bone.is_cut || target.bone->is_cut ? 0.4 : 0.2;
     Found found;
     found.target = &target;
-    found.fit = register_rigidly(bone.mesh, target.bone->mesh, palm_, options, progress_);
+    found.fit = register_rigidly(bone.mesh, target.mesh, palm_, options, progress_);
     const Rigid3& motion = found.fit.fixed_from_moving;
     found.gap = is_forearm ? 0.0 : (motion * centre - palm_ * centre).norm();
     const double turn = motion.rotation.angularDistance(palm_.rotation);
@@ -261,9 +266,11 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
     for (const double turn : {0.5, 1.05}) {
       IcpOptions options;
       options.start_turn = turn;
+      options.samples = 2000;
+      options.tolerance = 1e-3;
       Found found;
       found.target = &target;
-      found.fit = register_rigidly(bone.mesh, target.bone->mesh, start, options, progress_);
+      found.fit = register_rigidly(bone.mesh, target.mesh, start, options, progress_);
       found.gap = has_joint && is_next ? (found.fit.fixed_from_moving * joint - seat).norm() : 0.0;
       found.is_plausible =
           found.fit.overlap > 0.3 && found.fit.mean < kPoorMean && found.gap < kLargestGap;
@@ -282,7 +289,7 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
     if (target.bone->name == bone.name || !has_size_of(extents, target.extents)) continue;
     if (!has_joint || (target.centre - seat).norm() > reach) continue;
     const std::optional<ClosestPoint> near =
-        ClosestPointQuery(target.bone->mesh).closest(seat, kLargestGap);
+        ClosestPointQuery(target.mesh).closest(seat, kLargestGap);
     if (near) attempt(target);
   }
   return best;
