@@ -30,7 +30,7 @@ struct NonrigidFitOptions {
   double last_reach = 4.0;     ///< at the end, mm
   double normals_agree = 0.5;  ///< least cosine between partners' normals
   double stiffness = 30.0;     ///< at the beginning; against one vertex' pull
-  double last_stiffness = 1.0;
+  double last_stiffness = 0.3;
   int levels = 9;           ///< of stiffness
   int rounds = 4;           ///< of partners at each level
   double pin_weight = 8.0;  ///< of a pin, against one vertex' pull
