@@ -9,6 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/io/bytes.h"
+#include "palmar/io/dicom_compressed.h"
 #include "palmar/io/dicom_slice.h"
 #include "palmar/io/file.h"
 #include "palmar/io/image_formats.h"
@@ -143,15 +144,15 @@ std::vector<float> read_dicom_pixels(const DicomSlice& slice) {
   const std::size_t count =
       static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
   const std::size_t size = count * static_cast<std::size_t>(slice.bits_allocated / 8);
-  if (slice.is_encapsulated) {
-    throw InputError(
-        fmt::format("{}: is compressed ({}), which isn't read", slice.path, slice.transfer_syntax));
-  }
   const std::string file = read_file(slice.path, kMaxImageBytes);
-  if (slice.pixel_offset > file.size() || file.size() - slice.pixel_offset < size) {
+  std::string unpacked;
+  if (slice.is_encapsulated) unpacked = decompressed_pixels(slice, file);
+  const std::uint64_t offset = slice.is_encapsulated ? 0 : slice.pixel_offset;
+  const std::string& source = slice.is_encapsulated ? unpacked : file;
+  if (offset > source.size() || source.size() - offset < size) {
     throw InputError(slice.path + ": changed while it was read");
   }
-  const auto bytes = std::string_view(file).substr(static_cast<std::size_t>(slice.pixel_offset));
+  const auto bytes = std::string_view(source).substr(static_cast<std::size_t>(offset));
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
     values[i] = static_cast<float>(stored_value(slice, bytes, i) * slice.slope + slice.intercept);

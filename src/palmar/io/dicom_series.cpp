@@ -9,6 +9,7 @@
 #include <set>
 
 #include "palmar/core/error.h"
+#include "palmar/io/dicom_compressed.h"
 #include "palmar/io/dicom_slice.h"
 
 namespace palmar {
@@ -44,6 +45,11 @@ std::string mixture_problem(const std::vector<DicomSlice>& slices) {
         slice.photometric.starts_with("PALETTE") || slice.photometric.starts_with("YBR")) {
       return fmt::format("{}: is a colour image ({}); grey values are required", slice.path,
                          slice.photometric);
+    }
+    const std::string unread =
+        slice.is_encapsulated ? unread_compression(slice.transfer_syntax) : std::string();
+    if (!unread.empty()) {
+      return fmt::format("{}: is compressed ({}), which isn't read", slice.path, unread);
     }
     if (slice.frames > 1) {
       return fmt::format(
