@@ -17,7 +17,9 @@
 namespace palmar {
 namespace {
 
-constexpr double kAlone = 16.0;  // 4 standard deviations
+constexpr double kAlone = 16.0;      // 4 standard deviations
+constexpr double kWidestGap = 10.0;  // mm
+constexpr double kShell = 0.8;       // mm of cortical bone round marrow
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -52,17 +54,16 @@ std::vector<std::array<int, 2>> chain_links(const Hand& model) {
 }
 
 struct Pairing {
-  std::vector<int> found;  ///< per bone of the model
-  double cost = 0.0;       ///< mean over the model's bones
-  bool has_fit = false;
+  std::vector<MarrowRegion> candidates;  ///< some joined, those that went into another empty
+  std::vector<int> found;                ///< per bone of the model
+  double cost = 0.0;                     ///< mean over the model's bones
 };
 
-Pairing pair_bones(const std::vector<BoneOutline>& outlines, const std::vector<ScannedBone>& bones,
-                   const TriangleMesh& skin, const Hand& model, const Progress& progress) {
+std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& model,
+                                        const Progress& progress) {
   const MeshFit fit = fit_posture_to_mesh(model, skin, {.fits_scale = true}, progress);
-  const std::vector<TriangleMesh> posed = pose_bones(model, fit.posture);
   std::vector<BoneOutline> expected;
-  for (const TriangleMesh& mesh : posed) {
+  for (const TriangleMesh& mesh : pose_bones(model, fit.posture)) {
     BoneOutline outline = outline_of(mesh);
     outline.centre = fit.mesh_from_hand * (fit.scale * outline.centre);
     outline.axis = fit.mesh_from_hand.rotation * outline.axis;
@@ -70,20 +71,60 @@ Pairing pair_bones(const std::vector<BoneOutline>& outlines, const std::vector<S
     outline.width *= fit.scale;
     expected.push_back(outline);
   }
-  const std::vector<std::array<int, 2>> links = chain_links(model);
+  return expected;
+}
+
+Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const TriangleMesh& skin,
+                   const Hand& model, const Progress& progress) {
   Pairing pairing;
+  pairing.candidates = candidates;
+  const std::vector<BoneOutline> expected = expected_bones(skin, model, progress);
+  const std::vector<std::array<int, 2>> links = chain_links(model);
   std::vector<Vec3> shift(expected.size(), Vec3::Zero());
-  for (int round = 0; round < 4; ++round) {
+  std::vector<BoneOutline> outlines;
+  for (const MarrowRegion& candidate : pairing.candidates)
+    outlines.push_back(outline_of(candidate));
+  const auto cost_of = [&](std::size_t e, const BoneOutline& outline, bool is_cut) {
+    BoneOutline moved = expected[e];
+    moved.centre += shift[e];
+    return pair_cost(outline, moved, is_cut);
+  };
+  for (int round = 0; round < 6; ++round) {
     std::vector<std::vector<double>> cost(expected.size(),
                                           std::vector<double>(outlines.size(), 0.0));
     for (std::size_t e = 0; e < expected.size(); ++e) {
-      BoneOutline moved = expected[e];
-      moved.centre += shift[e];
       for (std::size_t f = 0; f < outlines.size(); ++f) {
-        cost[e][f] = pair_cost(outlines[f], moved, bones[f].is_cut);
+        cost[e][f] = cost_of(e, outlines[f], pairing.candidates[f].is_cut);
       }
     }
     pairing.found = least_cost_pairs(cost, kAlone);
+    if (round >= 1 && round < 5) {
+      // Parts that nobody wants may belong to a neighbour.
+      std::vector<char> is_taken(outlines.size(), 0);
+      for (const int f : pairing.found) {
+        if (f >= 0) is_taken[at(f)] = 1;
+      }
+      for (std::size_t e = 0; e < expected.size(); ++e) {
+        const int f = pairing.found[e];
+        if (f < 0) continue;
+        double now = cost[e][at(f)];
+        for (std::size_t g = 0; g < outlines.size(); ++g) {
+          const MarrowRegion& other = pairing.candidates[g];
+          if (is_taken[g] != 0 || other.voxels.empty()) continue;
+          if ((outlines[g].centre - outlines[at(f)].centre).norm() > expected[e].length) continue;
+          if (gap_between(pairing.candidates[at(f)], other) > kWidestGap) continue;
+          const MarrowRegion both = joined(pairing.candidates[at(f)], other);
+          const BoneOutline outline = outline_of(both);
+          const double then = cost_of(e, outline, both.is_cut);
+          if (then > now - 1.0) continue;
+          pairing.candidates[at(f)] = both;
+          outlines[at(f)] = outline;
+          now = then;
+          pairing.candidates[g].voxels.clear();
+          outlines[g].centre = Vec3::Constant(1e6);
+        }
+      }
+    }
     pairing.cost = 0.0;
     for (std::size_t e = 0; e < expected.size(); ++e) {
       const int f = pairing.found[e];
@@ -109,24 +150,16 @@ Pairing pair_bones(const std::vector<BoneOutline>& outlines, const std::vector<S
   return pairing;
 }
 
-}  // namespace
-
-BoneOutline outline_of(const TriangleMesh& mesh) {
+BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
+                          const Eigen::Matrix3d& spread) {
   BoneOutline outline;
-  if (mesh.vertices.empty()) return outline;
-  outline.centre = centre_of_volume(mesh);
-  const std::vector<double> area = vertex_areas(mesh);
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3 d = mesh.vertices[v] - outline.centre;
-    spread += area[v] * d * d.transpose();
-  }
+  outline.centre = centre;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   std::array<double, 3> extents{};
   for (int a = 0; a < 3; ++a) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& v : mesh.vertices) {
-      const double d = axes.eigenvectors().col(a).dot(v);
+    for (const Vec3& p : points) {
+      const double d = axes.eigenvectors().col(a).dot(p);
       low = std::min(low, d);
       high = std::max(high, d);
     }
@@ -135,6 +168,33 @@ BoneOutline outline_of(const TriangleMesh& mesh) {
   outline.axis = axes.eigenvectors().col(2);
   outline.length = extents[2];
   outline.width = 0.5 * (extents[0] + extents[1]);
+  return outline;
+}
+
+}  // namespace
+
+BoneOutline outline_of(const TriangleMesh& mesh) {
+  if (mesh.vertices.empty()) return {};
+  const Vec3 centre = centre_of_volume(mesh);
+  const std::vector<double> area = vertex_areas(mesh);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 d = mesh.vertices[v] - centre;
+    spread += area[v] * d * d.transpose();
+  }
+  return outline_along(mesh.vertices, centre, spread);
+}
+
+BoneOutline outline_of(const MarrowRegion& marrow) {
+  if (marrow.voxels.empty()) return {};
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : marrow.voxels) centre += p;
+  centre /= static_cast<double>(marrow.voxels.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : marrow.voxels) spread += (p - centre) * (p - centre).transpose();
+  BoneOutline outline = outline_along(marrow.voxels, centre, spread);
+  outline.length += 2.0 * kShell;
+  outline.width += 2.0 * kShell;
   return outline;
 }
 
@@ -195,29 +255,36 @@ std::vector<int> least_cost_pairs(const std::vector<std::vector<double>>& cost, 
   return pair;
 }
 
-BoneNames name_bones(const std::vector<ScannedBone>& bones, const TriangleMesh& skin,
-                     const Hand& model, const Progress& progress) {
-  std::vector<BoneOutline> outlines;
-  for (const ScannedBone& bone : bones) outlines.push_back(outline_of(bone.mesh));
+BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& levels,
+                     const TriangleMesh& skin, const Hand& model, const Progress& progress) {
   const Hand other = mirrored(model);
-  const Pairing own = pair_bones(outlines, bones, skin, model, progress);
-  const Pairing opposite = pair_bones(outlines, bones, skin, other, progress);
+  Pairing own = pair_bones(candidates, skin, model, progress);
+  Pairing opposite = pair_bones(candidates, skin, other, progress);
   const bool is_own = own.cost <= opposite.cost;
-  const Pairing& best = is_own ? own : opposite;
+  Pairing& best = is_own ? own : opposite;
 
   BoneNames names;
-  names.name.resize(bones.size());
   names.side = is_own ? model.side : other.side;
   names.misfit = best.cost;
   names.other_misfit = is_own ? opposite.cost : own.cost;
   std::vector<std::string> missing;
+  std::vector<char> is_named(best.candidates.size(), 0);
   for (std::size_t e = 0; e < best.found.size(); ++e) {
     const int f = best.found[e];
     if (f >= 0) {
-      names.name[at(f)] = model.bones[e].name;
+      names.bones.push_back(best.candidates[at(f)]);
+      names.name.push_back(model.bones[e].name);
+      is_named[at(f)] = 1;
     } else {
       missing.push_back(model.bones[e].name);
     }
+  }
+  for (std::size_t f = 0; f < best.candidates.size(); ++f) {
+    const MarrowRegion& left = best.candidates[f];
+    if (is_named[f] != 0 || left.voxels.empty() || left.volume < 150.0) continue;
+    if (left.shell > levels.dark + 0.3 * (left.level - levels.dark)) continue;
+    names.bones.push_back(left);
+    names.name.emplace_back();
   }
   if (!missing.empty()) {
     std::string list;

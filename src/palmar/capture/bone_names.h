@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/capture/scan_surfaces.h"
+#include "palmar/capture/bone_regions.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {
@@ -18,10 +18,12 @@ struct BoneOutline {
   double width = 0.0;          ///< mean extent across, mm
 };
 BoneOutline outline_of(const TriangleMesh& mesh);
+BoneOutline outline_of(const MarrowRegion& marrow);
 
 /// Which bone is which.
 struct BoneNames {
-  std::vector<std::string> name;  ///< per bone; "" for none
+  std::vector<MarrowRegion> bones;  ///< those with a name, in the model's order, then the others
+  std::vector<std::string> name;    ///< per bone; "" for none
   Side side = Side::kRight;
   double misfit = 0.0;        ///< mean cost of a bone of the model; 1 is that of a good guess
   double other_misfit = 0.0;  ///< the same as the other hand
@@ -38,9 +40,15 @@ struct BoneNames {
 ///    that stays alone costs 16.
 /// 3. The bones know better than the skin where their neighbours are: the model's bones are moved
 ///    by what their pairs and the pairs of those next in the chain were off, and 2 is repeated.
-/// 4. The side is that with the lower cost.
-BoneNames name_bones(const std::vector<ScannedBone>& bones, const TriangleMesh& skin,
-                     const Hand& model, const Progress& progress = {});
+/// 4. Where a shaft's marrow is too thin to be seen, a bone comes in two parts: parts without a
+/// name
+///    are joined to one within 10 mm that has a name, if that lowers its cost by 1 at least.
+/// 5. The side is that with the lower cost.
+///
+/// Regions that no bone of the model wants are left out unless they are larger than 150 mm^3 and
+/// darkly enclosed.
+BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& levels,
+                     const TriangleMesh& skin, const Hand& model, const Progress& progress = {});
 
 /// Least-cost pairing: column of each row, -1 for rows that stay alone at `alone` each. `cost` is
 /// rows x columns.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "palmar/capture/surface_markers.h"
 #include "palmar/core/error.h"
 #include "palmar/imaging/air_threshold.h"
 #include "palmar/imaging/bias_field.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr double kMargin = 8.0;          // mm of air kept round the hand
 constexpr double kLeastVolume = 60.0e3;  // mm^3: a child's hand has 100 cm^3
 constexpr double kSmoothing = 0.45;      // mm
+constexpr double kRoughly = 0.8;         // mm
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -32,14 +34,24 @@ double median(Values values) {
   return static_cast<double>(*middle);
 }
 
-/// Voxels of `mask` and everything that it encloses.
-VoxelMask filled(const VolumeGrid& grid, const VoxelMask& mask) {
-  VoxelMask outside(mask.size());
-  for (std::size_t v = 0; v < mask.size(); ++v) outside[v] = mask[v] == 0 ? 1 : 0;
-  const ConnectedParts parts = connected_parts(grid, outside);
-  const int air = parts.largest();
-  VoxelMask whole(mask.size());
-  for (std::size_t v = 0; v < mask.size(); ++v) whole[v] = parts.part[v] == air ? 0 : 1;
+/// Air round the tissue: what reaches the outside through openings wider than 3 mm, and 4 mm into
+/// narrower ones. Dark tissue (tendons, cortical bone) that comes close to the skin is none.
+VoxelMask air_round(const VolumeGrid& grid, const VoxelMask& tissue) {
+  VoxelMask dark(tissue.size());
+  for (std::size_t v = 0; v < tissue.size(); ++v) dark[v] = tissue[v] == 0 ? 1 : 0;
+  const ConnectedParts wide = connected_parts(grid, opened(grid, dark, 1.5));
+  VoxelMask air = mask_of(wide, wide.largest());
+  const std::vector<float> from_air = distance_transform(grid, air);
+  for (std::size_t v = 0; v < air.size(); ++v) air[v] = dark[v] != 0 && from_air[v] <= 4.0F ? 1 : 0;
+  // What lies behind a wall isn't reached.
+  const ConnectedParts reached = connected_parts(grid, air);
+  return mask_of(reached, reached.largest());
+}
+
+/// Tissue and everything that it encloses.
+VoxelMask filled(const VolumeGrid& grid, const VoxelMask& tissue) {
+  VoxelMask whole = air_round(grid, tissue);
+  for (std::uint8_t& v : whole) v = v == 0 ? 1 : 0;
   return whole;
 }
 
@@ -131,7 +143,7 @@ std::array<double, 2> three_classes(const std::vector<float>& values) {
 
 void find_bone_levels(ScanImage& scan, double given) {
   std::vector<float> inner;
-  for (std::size_t v = 0; v < scan.body.size(); ++v) {
+  for (std::size_t v = 0; v < scan.depth.size(); ++v) {
     if (scan.depth[v] > 2.5F) inner.push_back(scan.smooth.value[v]);
   }
   const auto [low, high] = three_classes(inner);
@@ -144,8 +156,74 @@ void find_bone_levels(ScanImage& scan, double given) {
   levels.bright = median(bright);
   // Thin shells never reach their own signal; thick ones are the darkest of the tissue.
   std::sort(dark.begin(), dark.end());
-  levels.dark = dark.empty() ? levels.air : static_cast<double>(dark[dark.size() / 20]);
+  levels.dark = dark.empty() ? levels.air : static_cast<double>(dark[dark.size() / 50]);
   levels.bone_threshold = given > 0.0 ? given : 0.5 * (levels.dark + levels.bright);
+}
+
+/// Pieces of tissue that may be a hand: large enough, and bright in parts.
+std::vector<int> hands_among(const ConnectedParts& parts, const Volume& rough, double threshold) {
+  const double voxel = rough.grid.spacing.prod();
+  std::vector<float> values;
+  for (std::size_t v = 0; v < rough.value.size(); ++v) {
+    if (parts.part[v] >= 0) values.push_back(rough.value[v]);
+  }
+  const double bright = three_classes(values)[1];
+  std::vector<double> share(parts.voxels.size(), 0.0);
+  for (std::size_t v = 0; v < rough.value.size(); ++v) {
+    if (parts.part[v] >= 0 && static_cast<double>(rough.value[v]) > std::max(bright, threshold)) {
+      share[at(parts.part[v])] += 1.0 / static_cast<double>(parts.voxels[at(parts.part[v])]);
+    }
+  }
+  std::vector<int> hands;
+  for (int p = 0; p < parts.count(); ++p) {
+    if (static_cast<double>(parts.voxels[at(p)]) * voxel > kLeastVolume && share[at(p)] > 0.08) {
+      hands.push_back(p);
+    }
+  }
+  std::sort(hands.begin(), hands.end(),
+            [&](int a, int b) { return parts.voxels[at(a)] > parts.voxels[at(b)]; });
+  return hands;
+}
+
+Vec3 middle_of(const VolumeGrid& grid, const ConnectedParts& parts, int part) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i) {
+        if (parts.part[grid.at(i, j, k)] == part) sum += Vec3(i, j, k);
+      }
+    }
+  }
+  return grid.to_patient(sum / static_cast<double>(parts.voxels[at(part)]));
+}
+
+/// The piece of tissue that is the hand. Throws InputError for none and for two.
+VoxelMask the_hand(const Volume& rough, double threshold, const std::string& name) {
+  VoxelMask tissue(rough.value.size());
+  for (std::size_t v = 0; v < tissue.size(); ++v) {
+    tissue[v] = static_cast<double>(rough.value[v]) > threshold ? 1 : 0;
+  }
+  const ConnectedParts parts = connected_parts(rough.grid, tissue);
+  const std::vector<int> hands = hands_among(parts, rough, threshold);
+  const double voxel = rough.grid.spacing.prod() / 1e3;
+  const auto volume = [&](int part) { return static_cast<double>(parts.voxels[at(part)]) * voxel; };
+  if (hands.empty()) {
+    const int largest = parts.largest();
+    throw InputError(fmt::format(
+        "{}: no hand in the image: the largest piece of tissue has {:.0f} cm^3; a hand has more "
+        "than {:.0f} cm^3 with bright fat and marrow in it (T1-weighted)",
+        name, largest < 0 ? 0.0 : volume(largest), kLeastVolume / 1e3));
+  }
+  if (hands.size() > 1 && volume(hands[1]) > 0.4 * volume(hands[0])) {
+    const Vec3 a = middle_of(rough.grid, parts, hands[0]),
+               b = middle_of(rough.grid, parts, hands[1]);
+    throw InputError(fmt::format(
+        "{}: two hands in the image, of {:.0f} cm^3 round ({:.0f}, {:.0f}, {:.0f}) mm and {:.0f} "
+        "cm^3 round ({:.0f}, {:.0f}, {:.0f}) mm (patient axes); one is allowed: cut the series to "
+        "the one that is wanted",
+        name, volume(hands[0]), a.x(), a.y(), a.z(), volume(hands[1]), b.x(), b.y(), b.z()));
+  }
+  return mask_of(parts, hands.front());
 }
 
 }  // namespace
@@ -153,68 +231,82 @@ void find_bone_levels(ScanImage& scan, double given) {
 ScanImage prepare_scan(const Volume& image, const std::string& name, const SurfaceOptions& options,
                        const Progress& progress) {
   progress.update(0.0, "finding the hand in the image");
-  // The air is what the first threshold leaves; its median is that of Rayleigh's distribution.
-  Volume rough = gaussian_filtered(image, 0.8);
-  const double first = air_threshold(rough);
-  VoxelMask tissue(rough.value.size());
-  for (std::size_t v = 0; v < tissue.size(); ++v) {
-    tissue[v] = static_cast<double>(rough.value[v]) > 0.7 * first ? 1 : 0;
-  }
-  ConnectedParts parts = connected_parts(image.grid, tissue);
-  const double voxel = image.grid.spacing.prod();
-  const int largest = parts.largest();
-  if (largest < 0 || static_cast<double>(parts.voxels[at(largest)]) * voxel < kLeastVolume) {
-    throw InputError(fmt::format(
-        "{}: no hand in the image: the largest piece of tissue has {:.0f} cm^3, a hand has more "
-        "than {:.0f}",
-        name, largest < 0 ? 0.0 : static_cast<double>(parts.voxels[at(largest)]) * voxel / 1e3,
-        kLeastVolume / 1e3));
-  }
-  const VoxelBox box = box_of(image.grid, mask_of(parts, largest), kMargin);
+  Volume rough = gaussian_filtered(image, kRoughly);
+  const VoxelMask whole = the_hand(rough, 0.7 * air_threshold(rough), name);
+  const VoxelBox box = box_of(image.grid, whole, kMargin);
 
   ScanImage scan;
   scan.image = cut_out(image, box);
-  VoxelMask body = cut_out(image.grid, mask_of(parts, largest), box);
+  const VolumeGrid& grid = scan.image.grid;
+  VoxelMask tissue = cut_out(image.grid, whole, box);
   if (options.corrects_bias) {
     progress.update(0.05, "taking the coil's field out");
-    scan.image = corrected_for_bias(scan.image, body, {}, progress);
+    scan.image = corrected_for_bias(scan.image, tissue, {}, progress);
   }
   progress.update(0.5, "measuring the tissues' signals");
   scan.smooth = gaussian_filtered(scan.image, kSmoothing);
-  rough = gaussian_filtered(scan.image, 0.8);
+  rough = gaussian_filtered(scan.image, kRoughly);
   ScanLevels& levels = scan.levels;
-  const VolumeGrid& grid = scan.image.grid;
-  scan.depth = distance_transform(grid, body);
   std::vector<float> air;
-  for (std::size_t v = 0; v < body.size(); ++v) {
-    if (scan.depth[v] > 3.0F) air.push_back(scan.image.value[v]);
+  const std::vector<float> from_tissue = distance_transform(grid, tissue);
+  for (std::size_t v = 0; v < tissue.size(); ++v) {
+    if (from_tissue[v] > 3.0F) air.push_back(scan.image.value[v]);
   }
+  // The median of Rayleigh's distribution.
   levels.noise = median(air) / std::sqrt(2.0 * std::log(2.0));
   levels.air = levels.noise * std::sqrt(std::acos(-1.0) / 2.0);
 
-  const auto depth_of = [&](const VoxelMask& mask) {
+  const auto inside_of = [&](const VoxelMask& mask) {
     VoxelMask outside(mask.size());
     for (std::size_t v = 0; v < mask.size(); ++v) outside[v] = mask[v] == 0 ? 1 : 0;
     return distance_transform(grid, outside);
   };
-  const auto body_above = [&](double threshold) {
-    VoxelMask mask(rough.value.size());
+  const auto median_at_depth = [&](const VoxelMask& mask) {
+    const std::vector<float> depth = inside_of(mask);
+    std::vector<float> values;
     for (std::size_t v = 0; v < mask.size(); ++v) {
-      mask[v] = static_cast<double>(rough.value[v]) > threshold ? 1 : 0;
+      if (depth[v] > 1.0F && depth[v] < 1.8F) values.push_back(scan.image.value[v]);
     }
-    const ConnectedParts pieces = connected_parts(grid, mask);
-    return filled(grid, mask_of(pieces, pieces.largest()));
+    return median(values);
   };
-  body = filled(grid, body);
-  scan.depth = depth_of(body);
-  std::vector<float> skin;
-  for (std::size_t v = 0; v < body.size(); ++v) {
-    if (scan.depth[v] > 1.2F && scan.depth[v] < 2.0F) skin.push_back(scan.image.value[v]);
-  }
+  tissue = filled(grid, tissue);
+  scan.depth = inside_of(tissue);
+  find_bone_levels(scan, options.bone_threshold);
+  levels.skin = median_at_depth(tissue);
   levels.air_threshold =
-      options.air_threshold > 0.0 ? options.air_threshold : 0.5 * (levels.air + median(skin));
-  scan.body = body_above(levels.air_threshold);
-  scan.depth = depth_of(scan.body);
+      options.air_threshold > 0.0 ? options.air_threshold : 0.5 * (levels.air + levels.skin);
+  for (std::size_t v = 0; v < tissue.size(); ++v) {
+    tissue[v] = static_cast<double>(rough.value[v]) > 0.9 * levels.air_threshold ? 1 : 0;
+  }
+
+  progress.update(0.6, "markers and fixture");
+  VoxelMask taken(tissue.size(), 0);
+  if (options.marker_diameter > 0.0) {
+    SurfaceMarkers markers = find_surface_markers(scan.image, filled(grid, tissue),
+                                                  0.7 * levels.bright, options.marker_diameter);
+    scan.markers = std::move(markers.centre);
+    taken = std::move(markers.mask);
+  }
+  for (std::size_t v = 0; v < tissue.size(); ++v) {
+    if (taken[v] != 0) tissue[v] = 0;
+  }
+  scan.fixture = find_fixture(rough, tissue, air_round(grid, tissue), levels.bright, levels.skin,
+                              levels.noise);
+  if (!scan.fixture.mask.empty()) {
+    scan.notes.push_back(
+        fmt::format("a fixture of {:.0f} cm^3 was taken off the hand", scan.fixture.volume / 1e3));
+    for (std::size_t v = 0; v < tissue.size(); ++v) {
+      if (scan.fixture.mask[v] != 0) taken[v] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < tissue.size(); ++v) {
+    const bool is_tissue =
+        static_cast<double>(rough.value[v]) > levels.air_threshold && taken[v] == 0;
+    tissue[v] = is_tissue ? 1 : 0;
+  }
+  const ConnectedParts pieces = connected_parts(grid, tissue);
+  scan.body = filled(grid, mask_of(pieces, pieces.largest()));
+  scan.depth = inside_of(scan.body);
   find_bone_levels(scan, options.bone_threshold);
   return scan;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/capture/fixture.h"
 #include "palmar/capture/scan_surfaces.h"
 #include "palmar/imaging/distance_transform.h"
 #include "palmar/imaging/volume.h"
@@ -13,10 +14,11 @@ namespace palmar {
 
 /// Signals of a T1-weighted image, after bias correction.
 struct ScanLevels {
-  double noise = 0.0;           ///< standard deviation in tissue
-  double air = 0.0;             ///< mean of the air: Rician noise, 1.25 times its deviation
-  double dark = 0.0;            ///< cortical bone
-  double bright = 0.0;          ///< marrow and fat
+  double noise = 0.0;   ///< standard deviation in tissue
+  double air = 0.0;     ///< mean of the air: Rician noise, 1.25 times its deviation
+  double dark = 0.0;    ///< cortical bone
+  double bright = 0.0;  ///< marrow and fat
+  double skin = 0.0;
   double air_threshold = 0.0;   ///< skin from air
   double bone_threshold = 0.0;  ///< marrow from cortical bone
 };
@@ -28,6 +30,7 @@ struct ScanImage {
   VoxelMask body;            ///< the hand: without markers and fixture, what is inside filled
   std::vector<float> depth;  ///< below the body's surface, mm; 0 outside
   std::vector<Vec3> markers;
+  Fixture fixture;
   ScanLevels levels;
   std::vector<std::string> notes;
 };

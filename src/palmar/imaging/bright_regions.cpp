@@ -3,6 +3,7 @@
 #include "palmar/imaging/bright_regions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -15,57 +16,113 @@
 namespace palmar {
 namespace {
 
+constexpr int kBins = 32;  // of a film's histogram, floor to the brightest voxel
+
 struct Film {
-  double sum = 0.0;
-  double pairs = 0.0;
+  std::array<std::int32_t, kBins> pairs{};
+  void operator+=(const Film& other) {
+    for (std::size_t b = 0; b < pairs.size(); ++b) pairs[b] += other.pairs[b];
+  }
+  /// Bin position (0 to kBins) that a share of the pairs exceeds.
+  double exceeded_by(double share) const {
+    std::int64_t all = 0;
+    for (const std::int32_t n : pairs) all += n;
+    double left = share * static_cast<double>(all);
+    for (int b = kBins - 1; b >= 0; --b) {
+      const double here = pairs[static_cast<std::size_t>(b)];
+      if (here > 0.0 && left <= here) return b + 1.0 - left / here;
+      left -= here;
+    }
+    return 0.0;
+  }
 };
 
 struct Basin {
   double sum = 0.0;
-  double voxels = 0.0;
+  double voxels = 0.0;       ///< above the core level; their mean is the basin's
   std::map<int, Film> film;  ///< to the neighbours
-  double level() const { return sum / voxels; }
+  double level() const { return voxels > 0.0 ? sum / voxels : 0.0; }
 };
 
-std::vector<std::int32_t> watershed(const Volume& image, const VoxelMask& mask, double floor,
-                                    int& basins) {
+struct Flooded {
+  std::vector<std::int32_t> basin;
+  int count = 0;
+};
+
+Flooded flood(const Volume& image, const VoxelMask& mask, const BrightRegionOptions& options) {
   const VolumeGrid& grid = image.grid;
-  std::vector<std::size_t> order;
-  for (std::size_t v = 0; v < mask.size(); ++v) {
-    if (mask[v] != 0 && static_cast<double>(image.value[v]) >= floor) order.push_back(v);
-  }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return image.value[a] != image.value[b] ? image.value[a] > image.value[b] : a < b;
-  });
-  std::vector<std::int32_t> basin(mask.size(), -1);
-  basins = 0;
+  Flooded flooded;
+  flooded.basin.assign(mask.size(), -1);
+  std::vector<std::int32_t>& basin = flooded.basin;
+  const auto may_flood = [&](std::size_t v) {
+    return mask[v] != 0 && static_cast<double>(image.value[v]) >= options.floor;
+  };
   const auto nx = static_cast<std::size_t>(grid.size[0]),
              ny = static_cast<std::size_t>(grid.size[1]);
-  for (const std::size_t v : order) {
+  const auto each_neighbour = [&](std::size_t v, const auto& visit) {
     const int i = static_cast<int>(v % nx), j = static_cast<int>(v / nx % ny),
               k = static_cast<int>(v / nx / ny);
-    std::size_t best = v;
     for (int z = std::max(0, k - 1); z <= std::min(grid.size[2] - 1, k + 1); ++z) {
       for (int y = std::max(0, j - 1); y <= std::min(grid.size[1] - 1, j + 1); ++y) {
         for (int x = std::max(0, i - 1); x <= std::min(grid.size[0] - 1, i + 1); ++x) {
-          const std::size_t other = grid.at(x, y, z);
-          if (basin[other] < 0) continue;
-          if (best == v || image.value[other] > image.value[best]) best = other;
+          const std::size_t w = grid.at(x, y, z);
+          if (w != v) visit(w);
         }
       }
     }
-    basin[v] = best == v ? basins++ : basin[best];
+  };
+  // Brightest first, of equally bright ones the first voxel.
+  const auto comes_later = [&](std::size_t a, std::size_t b) {
+    return image.value[a] != image.value[b] ? image.value[a] < image.value[b] : a > b;
+  };
+  std::vector<std::size_t> cores;
+  for (std::size_t v = 0; v < mask.size(); ++v) {
+    if (may_flood(v) && static_cast<double>(image.value[v]) >= options.core) cores.push_back(v);
   }
-  return basin;
+  std::sort(cores.begin(), cores.end(),
+            [&](std::size_t a, std::size_t b) { return comes_later(b, a); });
+  std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(comes_later)> shore(
+      comes_later);
+  VoxelMask is_on_shore(mask.size(), 0);
+  const auto join = [&](std::size_t v, bool may_begin) {
+    std::size_t best = v;
+    each_neighbour(v, [&](std::size_t w) {
+      if (basin[w] < 0) return;
+      if (best == v || image.value[w] > image.value[best]) best = w;
+    });
+    if (best == v && !may_begin) return;
+    basin[v] = best == v ? flooded.count++ : basin[best];
+  };
+  for (const std::size_t v : cores) join(v, true);
+  const auto look_round = [&](std::size_t v) {
+    each_neighbour(v, [&](std::size_t w) {
+      if (basin[w] >= 0 || is_on_shore[w] != 0 || !may_flood(w)) return;
+      is_on_shore[w] = 1;
+      shore.push(w);
+    });
+  };
+  for (const std::size_t v : cores) look_round(v);
+  while (!shore.empty()) {
+    const std::size_t v = shore.top();
+    shore.pop();
+    join(v, false);
+    look_round(v);
+  }
+  return flooded;
 }
 
 }  // namespace
 
 void BrightRegionOptions::check() const {
-  if (!std::isfinite(floor)) throw UsageError("BrightRegionOptions: floor must be a number");
-  if (!(depth >= 0.0) || !std::isfinite(depth)) {
-    throw UsageError("BrightRegionOptions: depth must be 0 or more");
-  }
+  const auto require = [](bool is_good, const char* field, double value, const char* allowed) {
+    if (is_good) return;
+    throw UsageError(std::string("BrightRegionOptions: ") + field + " is " + std::to_string(value) +
+                     "; " + allowed + " is allowed");
+  };
+  require(std::isfinite(floor), "floor", floor, "any intensity");
+  require(std::isfinite(core) && core >= floor, "core", core, "floor or more");
+  require(std::isfinite(depth) && depth >= 0.0, "depth", depth, "0 or more");
+  require(leak > 0.0 && leak < 1.0, "leak", leak, "more than 0 and less than 1");
 }
 
 BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
@@ -76,10 +133,16 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
     throw UsageError("bright_regions: mask and image need one value for each of the grid's " +
                      std::to_string(grid.count()) + " voxels");
   }
-  int count = 0;
+  Flooded flooded = flood(image, mask, options);
   BrightRegions regions;
-  regions.region = watershed(image, mask, options.floor, count);
+  regions.region = std::move(flooded.basin);
+  const int count = flooded.count;
 
+  double highest = options.floor;
+  for (std::size_t v = 0; v < mask.size(); ++v) {
+    if (regions.region[v] >= 0) highest = std::max(highest, static_cast<double>(image.value[v]));
+  }
+  const double bin = std::max((highest - options.floor) / kBins, 1e-12);
   std::vector<Basin> basins(static_cast<std::size_t>(count));
   const std::array<std::size_t, 3> stride = {
       1, static_cast<std::size_t>(grid.size[0]),
@@ -91,8 +154,10 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
         const std::int32_t own = regions.region[v];
         if (own < 0) continue;
         Basin& basin = basins[static_cast<std::size_t>(own)];
-        basin.sum += static_cast<double>(image.value[v]);
-        basin.voxels += 1.0;
+        if (static_cast<double>(image.value[v]) >= options.core) {
+          basin.sum += static_cast<double>(image.value[v]);
+          basin.voxels += 1.0;
+        }
         const std::array<int, 3> at = {i, j, k};
         for (std::size_t axis = 0; axis < 3; ++axis) {
           if (at[axis] + 1 >= grid.size[axis]) continue;
@@ -100,18 +165,17 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
           const std::int32_t other = regions.region[w];
           if (other < 0 || other == own) continue;
           const double darker = static_cast<double>(std::min(image.value[v], image.value[w]));
-          for (const auto& [a, b] : {std::pair(own, other), std::pair(other, own)}) {
-            Film& film = basins[static_cast<std::size_t>(a)].film[b];
-            film.sum += darker;
-            film.pairs += 1.0;
-          }
+          const auto b = static_cast<std::size_t>(
+              std::clamp(static_cast<int>((darker - options.floor) / bin), 0, kBins - 1));
+          ++basin.film[other].pairs[b];
+          ++basins[static_cast<std::size_t>(other)].film[own].pairs[b];
         }
       }
     }
   }
 
   const auto depth_between = [&](const Basin& a, const Basin& b, const Film& film) {
-    return std::min(a.level(), b.level()) - film.sum / film.pairs;
+    return std::min(a.level(), b.level()) - options.floor - bin * film.exceeded_by(options.leak);
   };
   // Shallowest film first. A merger changes the depths of all films of the merged basin a little;
   // an entry is brought up to date when its turn comes.
@@ -156,10 +220,8 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
     for (const auto& [c, film] : gone.film) {
       Basin& third = basins[static_cast<std::size_t>(c)];
       third.film.erase(b);
-      for (Film* sum : {&kept.film[c], &third.film[a]}) {
-        sum->sum += film.sum;
-        sum->pairs += film.pairs;
-      }
+      kept.film[c] += film;
+      third.film[a] += film;
       offer(a, c);
     }
     gone.film.clear();

@@ -19,22 +19,29 @@ struct BrightRegions {
 
 struct BrightRegionOptions {
   double floor = 0.0;  ///< intensity: darker voxels belong to no region
-  double depth = 0.0;  ///< intensity: films shallower than this, in the mean, part nothing
-  void check() const;  ///< throws UsageError: not finite, depth below 0
+  double core = 0.0;   ///< intensity that a region must have somewhere; at least `floor`
+  double depth = 0.0;  ///< intensity: films shallower than this part nothing
+  /// Largest part of a film that may leak: 0.3 lies between the 0.1 to 0.2 that partial volume
+  /// opens in a shell of half a voxel's thickness and the half of its section that the marrow of a
+  /// slender bone fills.
+  double leak = 0.3;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 /// Parts the brighter voxels of `mask` into regions, even where a film is so thin that partial
 /// volume lets single voxels through: a threshold would join the two sides through one such leak.
 ///
-/// 1. Watershed: voxels from bright to dark; each joins the neighbour (of 26) that is brightest, or
-///    begins a basin of its own if none is there yet (Vincent, Soille 1991, on the negative image).
-/// 2. Two basins A, B that touch are parted by the mean over all pairs of touching voxels (6
-///    neighbours) of the darker of the two, m. With L the mean brightness of a basin, the film
-///    between them has depth min(L_A, L_B) - m. The pair with the shallowest film is made one as
-///    long as that is less than `depth`. The mean, and not the pass as in a hierarchy by dynamics,
-///    is what makes a leak of a few voxels harmless.
+/// 1. Watershed: voxels from bright to dark; each joins the brightest neighbour (of 26) that has a
+///    basin. A voxel without such a neighbour begins a basin if it is brighter than `core`, else it
+///    waits until a basin reaches it (flooding; Vincent, Soille 1991, on the negative image). So
+///    two basins meet along the whole of a film, darkest in its middle.
+/// 2. Where two basins A, B meet, the darker voxel of each pair of touching voxels (6 neighbours)
+///    goes into a histogram; m is the value that a share `leak` of them exceeds. With L the mean
+///    brightness of a basin's voxels above `core`, the film has depth min(L_A, L_B) - m. The pair
+///    with the shallowest film is made one as long as that is less than `depth`. A hierarchy by the
+///    pass (dynamics) would join two sides at the first leak.
 ///
-/// Smooth the image first: noise makes basins. Deterministic.
+/// Smooth the image first: noise makes basins. Deterministic. Throws UsageError.
 BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
                              const BrightRegionOptions& options);
 
