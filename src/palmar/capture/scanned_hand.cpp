@@ -111,16 +111,22 @@ void correct_thumb_ball(const std::array<std::optional<ThumbLimitScan>, 4>& limi
       fmt::format("The thumb ball is corrected by {} markers and {} points of the scanned skin.",
                   fit.markers, fit.skin_points));
   const std::vector<int> round_ball = thumb_ball_skin(hand);
+  const auto errors_with = [&](ThumbBallCorrection correction) {
+    hand.thumb_ball = std::move(correction);
+    std::array<std::optional<double>, 4> errors;
+    for (std::size_t l = 0; l < limits.size(); ++l) {
+      if (!limits[l]) continue;
+      errors[l] = mean_skin_error(hand, limits[l]->posture, round_ball, limits[l]->skin);
+    }
+    return errors;
+  };
+  const auto without = errors_with({});
+  const auto markers_alone =
+      fit.by_markers ? errors_with(*fit.by_markers) : std::array<std::optional<double>, 4>{};
+  const auto with = errors_with(std::move(fit.correction));
   for (std::size_t l = 0; l < limits.size(); ++l) {
-    if (!limits[l]) continue;
-    const auto error = mean_skin_error(hand, limits[l]->posture, round_ball, limits[l]->skin);
-    if (error) result.skin_errors.push_back({kThumbLimits[l], *error, std::nullopt});
-  }
-  hand.thumb_ball = std::move(fit.correction);
-  for (SkinError& error : result.skin_errors) {
-    const auto l = static_cast<std::size_t>(
-        std::find(kThumbLimits.begin(), kThumbLimits.end(), error.posture) - kThumbLimits.begin());
-    error.corrected = mean_skin_error(hand, limits[l]->posture, round_ball, limits[l]->skin);
+    if (!without[l]) continue;
+    result.skin_errors.push_back({kThumbLimits[l], *without[l], with[l], markers_alone[l]});
   }
 }
 

@@ -20,7 +20,8 @@ namespace palmar {
 struct SkinError {
   ScanPosture posture{};
   double skinning_only = 0.0;
-  std::optional<double> corrected;  ///< with the thumb-ball correction
+  std::optional<double> corrected;   ///< with the hand's thumb-ball correction
+  std::optional<double> by_markers;  ///< were it by the markers alone, as in the thesis
 };
 
 /// A person's hand, made from scans.

@@ -183,23 +183,20 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
       known.missing[l].push_back(missing);
     }
   }
-  if (options.uses_skin || kept.empty()) {
-    const std::vector<int> more =
-        spread_points(hand.skin.vertices, thumb_ball_skin(hand), known.reference, options.spacing);
-    fit.skin_points = static_cast<int>(more.size());
-    for (const int v : more) {
-      known.reference.push_back(hand.skin.vertices[at(v)]);
-      for (std::size_t l = 0; l < 4; ++l) {
-        known.missing[l].push_back(limits[l] ? bent[l][at(v)] - posed[l][at(v)]
-                                             : Vec3(Vec3::Zero()));
-      }
+  if (!kept.empty()) fit.by_markers = fit_thumb_ball(hand.skin, known);
+  const std::vector<int> more =
+      spread_points(hand.skin.vertices, thumb_ball_skin(hand), known.reference, options.spacing);
+  fit.skin_points = static_cast<int>(more.size());
+  for (const int v : more) {
+    known.reference.push_back(hand.skin.vertices[at(v)]);
+    for (std::size_t l = 0; l < 4; ++l) {
+      known.missing[l].push_back(limits[l] ? Vec3(bent[l][at(v)] - posed[l][at(v)])
+                                           : Vec3(Vec3::Zero()));
     }
   }
   // phi = 1/2 at the points' spacing.
   ThumbBallOptions kernel;
-  if (fit.skin_points > 0) {
-    kernel.beta = std::numbers::ln2 / (options.spacing * options.spacing);
-  }
+  kernel.beta = std::numbers::ln2 / (options.spacing * options.spacing);
   fit.correction = fit_thumb_ball(hand.skin, known, kernel);
   return fit;
 }

@@ -20,14 +20,14 @@ struct ThumbLimitScan {
 };
 
 struct ThumbBallScanOptions {
-  bool uses_skin = true;  ///< also the scanned skin between the markers, not these alone
-  double spacing = 9.0;   ///< of the points taken from the skin, mm
-  void check() const;     ///< throws UsageError: field, value, allowed range
+  double spacing = 9.0;  ///< of the points taken from the skin, mm
+  void check() const;    ///< throws UsageError: field, value, allowed range
 };
 
 /// A correction and what it stands on.
 struct ThumbBallFit {
   ThumbBallCorrection correction;
+  std::optional<ThumbBallCorrection> by_markers;  ///< by these alone, as in the thesis
   int markers = 0;      ///< found in the reference and most limit postures
   int skin_points = 0;  ///< taken from the scanned skin besides
   std::vector<std::string> notes;
