@@ -104,18 +104,22 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
   if (start.angle == 0.0) {  // nothing turns: any axis does
     fit.point = near;
     fit.angle.assign(motions.size(), 0.0);
+    fit.slide.assign(motions.size(), 0.0);
     return fit;
   }
   HingeFrame frame{start.axis, start.point, start.axis.unitOrthogonal(), Vec3::Zero()};
   frame.e2 = frame.axis.cross(frame.e1);
 
   const auto count = static_cast<Eigen::Index>(motions.size());
-  const Eigen::Index n = 4 + count;
+  const Eigen::Index n = 4 + 2 * count;  // tilt, shift; angles; slides
   const auto rows = static_cast<Eigen::Index>(points.size()) * 3;
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
-    r.resize(rows * count);
+    constexpr double kSlideWeight = 0.05;  // registration errs by 0.15 mm, bones slide by 3 mm
+    r.resize((rows + 1) * count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Rigid3 turn = Rigid3::about_axis(frame.axis_at(x), frame.point_at(x), x[4 + k]);
+      Rigid3 turn = Rigid3::about_axis(frame.axis_at(x), frame.point_at(x), x[4 + k]);
+      turn.translation += x[4 + count + k] * frame.axis_at(x);
+      r[rows * count + k] = kSlideWeight * x[4 + count + k];
       const Rigid3& motion = motions[static_cast<std::size_t>(k)];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(rows * k + 3 * static_cast<Eigen::Index>(i)) =
@@ -125,7 +129,9 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < count; ++k) {
-    x[4 + k] = twist_about(motions[static_cast<std::size_t>(k)].rotation, frame.axis);
+    const Rigid3& motion = motions[static_cast<std::size_t>(k)];
+    x[4 + k] = twist_about(motion.rotation, frame.axis);
+    x[4 + count + k] = (motion * near - near).dot(frame.axis);
   }
   if (count > 1) {
     LeastSquaresProblem problem;
@@ -148,15 +154,21 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
     problem.upper = -problem.lower;
     problem.lower.segment<2>(2).setConstant(-100.0);  // mm
     problem.upper.segment<2>(2).setConstant(100.0);
+    problem.lower.tail(count).setConstant(-100.0);
+    problem.upper.tail(count).setConstant(100.0);
     x = solve_least_squares(problem, x).x;
   }
-  Eigen::VectorXd r;
-  residual(x, r);
-  fit.rms = std::sqrt(3.0 * r.squaredNorm() / static_cast<double>(r.size()));
   fit.axis = frame.axis_at(x);
   fit.point = frame.point_at(x);
   fit.point += (near - fit.point).dot(fit.axis) * fit.axis;
-  for (Eigen::Index k = 0; k < count; ++k) fit.angle.push_back(x[4 + k]);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    fit.angle.push_back(x[4 + k]);
+    fit.slide.push_back(x[4 + count + k]);
+  }
+  x.tail(count).setZero();
+  Eigen::VectorXd r;
+  residual(x, r);
+  fit.rms = std::sqrt(3.0 * r.squaredNorm() / static_cast<double>(rows * count));
   fit.is_observed = start.is_observed;
   return fit;
 }

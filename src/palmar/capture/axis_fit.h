@@ -22,12 +22,16 @@ struct HingeFit {
   Vec3 axis = Vec3::UnitX();  ///< unit; the motion that turns most turns positively about it
   Vec3 point = Vec3::Zero();  ///< on the axis, nearest to where it was looked for, mm
   std::vector<double> angle;  ///< of each motion, rad
-  double rms = 0.0;           ///< of the points' distances from where the motions put them, mm
+  std::vector<double> slide;  ///< of each motion along the axis, mm
+  double rms =
+      0.0;  ///< of the points' distances from where the motions put them, mm, slides dropped
   bool is_observed = false;
 };
-/// The axis (u, p) and angles that make sum_k sum_i |Rot(u, p, theta_k) x_i - M_k x_i|^2 least over
-/// the points x_i of the bone that moves; a single motion gives fit_axis(). Throws UsageError
-/// without motions.
+/// The axis (u, p), angles and slides that make
+///   sum_k sum_i |Rot(u, p, theta_k) x_i + s_k u - M_k x_i|^2 + sum_k (s_k / 20)^2
+/// least over the points x_i of the bone that moves. The slides, which a fixed axis doesn't have,
+/// are found and dropped as in fit_axis(): an axis without them would tilt to make up for them. A
+/// single motion gives fit_axis(). Throws UsageError without motions.
 HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points, const Vec3& near);
 
 /// Turn from which an axis can be told in the presence of what registration leaves (about half a

@@ -122,6 +122,7 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
     prior.near = node;
     prior.first = bends.axis;
     prior.second = spreads.axis;
+    prior.slide_sd = 0.4;  // collateral ligaments hold the phalanx
     const TwoAxisFit fit = fit_two_axes(turns.motion, main, bone->second.points, prior);
     if (fit.is_first_observed) {
       bends.axis = fit.first_axis;

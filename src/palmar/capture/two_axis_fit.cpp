@@ -45,14 +45,21 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   }
   const AxisFrame first(prior.first, prior.near), second(prior.second, prior.near);
   const auto count = static_cast<Eigen::Index>(motions.size());
-  const Eigen::Index n = 8 + 2 * count;
+  const Eigen::Index slides = 8 + 2 * count;
+  const Eigen::Index n = slides + 2 * count;  // the axes; angles of each motion; its slides
   const auto per_motion = static_cast<Eigen::Index>(points.size()) * 3;
+  const auto screw = [](const Vec3& axis, const Vec3& point, double angle, double slide) {
+    Rigid3 motion = Rigid3::about_axis(axis, point, angle);
+    motion.translation += slide * axis;
+    return motion;
+  };
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
-    r.resize(per_motion * count + 9 + 2 * count);
+    r.resize(per_motion * count + 9 + 4 * count);
     const Eigen::Vector4d a = x.head<4>(), b = x.segment<4>(4);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Rigid3 turn = Rigid3::about_axis(first.axis_at(a), first.point_at(a), x[8 + 2 * k]) *
-                          Rigid3::about_axis(second.axis_at(b), second.point_at(b), x[9 + 2 * k]);
+      const Rigid3 turn =
+          screw(first.axis_at(a), first.point_at(a), x[8 + 2 * k], x[slides + 2 * k]) *
+          screw(second.axis_at(b), second.point_at(b), x[9 + 2 * k], x[slides + 1 + 2 * k]);
       const Rigid3& motion = motions[static_cast<std::size_t>(k)];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(per_motion * k + 3 * static_cast<Eigen::Index>(i)) =
@@ -64,6 +71,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     r.segment<2>(p + 2) = a.tail<2>() / prior.place_sd;
     r.segment<2>(p + 4) = b.head<2>() / prior.second_sd;
     r.segment<2>(p + 6) = b.tail<2>() / prior.place_sd;
+    r.tail(2 * count) = x.tail(2 * count) / prior.slide_sd;
     r[p + 8] = first.axis_at(a).dot(second.axis_at(b)) / prior.square_sd;
     for (Eigen::Index k = 0; k < count; ++k) {
       const MainAxis m = main[static_cast<std::size_t>(k)];
@@ -95,6 +103,8 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     problem.lower.segment<2>(j).setConstant(-50.0);  // mm
     problem.upper.segment<2>(j).setConstant(50.0);
   }
+  problem.lower.tail(2 * count).setConstant(-50.0);
+  problem.upper.tail(2 * count).setConstant(50.0);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < count; ++k) {
     x.segment<2>(8 + 2 * k) =
@@ -113,6 +123,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     fit.is_first_observed = fit.is_first_observed || std::abs(x[8 + 2 * k]) >= kLeastTurn;
     fit.is_second_observed = fit.is_second_observed || std::abs(x[9 + 2 * k]) >= kLeastTurn;
   }
+  x.tail(2 * count).setZero();
   Eigen::VectorXd r;
   residual(x, r);
   const Eigen::Index m = per_motion * count;

@@ -12,12 +12,13 @@
 namespace palmar {
 
 /// Two axes of a joint: the bone turns about `second` (fixed to it), then about `first` (fixed to
-/// the proximal bone); they may be skew.
+/// the proximal bone); they may be skew. What slides along either is found and dropped, as in
+/// fit_hinge().
 struct TwoAxisFit {
   Vec3 first_axis = Vec3::UnitX(), first_point = Vec3::Zero();
   Vec3 second_axis = Vec3::UnitZ(), second_point = Vec3::Zero();
   std::vector<std::array<double, 2>> angle;  ///< first, second; of each motion, rad
-  double rms = 0.0;                          ///< mm
+  double rms = 0.0;                          ///< mm; slides dropped
   bool is_first_observed = false, is_second_observed = false;
 };
 
@@ -28,11 +29,12 @@ struct TwoAxisPrior {
   double place_sd = 3.0;                               ///< of each axis about there, across it, mm
   Vec3 first = Vec3::UnitX(), second = Vec3::UnitZ();  ///< unit
   double first_sd = 0.35, second_sd = 0.35;            ///< rad
-  double square_sd = 0.06;  ///< of the angle between the axes about 90 degrees, rad
+  double square_sd = 0.05;  ///< of the angle between the axes about 90 degrees, rad
   double point_sd = 0.15;   ///< of the motions, mm: what registration leaves
+  double slide_sd = 3.0;    ///< of what slides along each axis, mm
   /// Of the angle about the other axis that a limit posture of the first, or of the second axis
   /// changes by the way, rad.
-  double by_first_sd = 0.05, by_second_sd = 0.03;
+  double by_first_sd = 0.25, by_second_sd = 0.03;
 };
 /// What a motion is meant to be: a posture at the limit of one of the two axes.
 enum class MainAxis { kFirst, kSecond, kEither };

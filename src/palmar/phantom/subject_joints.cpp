@@ -35,8 +35,13 @@ Rigid3 joint_motion(const SaddleJoint& joint, const Posture& posture) {
   const double f = posture[Dof::kThumbCmcFlexion] - joint.flexion_reference;
   const double a = posture[Dof::kThumbCmcAbduction] - joint.abduction_reference;
   const double pronation = joint.by_flexion * f + joint.by_abduction * a + joint.by_both * f * a;
-  return about(joint.flexion_axis, joint.centre, f) * about(joint.along, joint.centre, pronation) *
-         about(joint.abduction_axis, joint.abduction_point, a);
+  const auto screw = [&](const Vec3& axis, const Vec3& point, double angle) {
+    Rigid3 turn = about(axis, point, angle);
+    turn.translation += joint.glide * angle * axis;
+    return turn;
+  };
+  return screw(joint.flexion_axis, joint.centre, f) * about(joint.along, joint.centre, pronation) *
+         screw(joint.abduction_axis, joint.abduction_point, a);
 }
 
 std::optional<int> parent_of(int body) {

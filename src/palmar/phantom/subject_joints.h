@@ -42,13 +42,15 @@ struct RollingJoint {
 /// Saddle joint: flexion about an axis of the trapezium, abduction about one of the metacarpal,
 /// some millimetres apart and not square (Hollister et al. 1992), and between them a turn of the
 /// metacarpal about its own length that both bring about: pronation = by_flexion f + by_abduction a
-/// + by_both f a, angles from the reference posture.
+/// + by_both f a, angles from the reference posture. Each turn is a screw: the metacarpal glides by
+/// glide f and glide a along the axes (turns come with translation: Crisco et al. 2015).
 struct SaddleJoint {
   Vec3 centre = Vec3::Zero();
   Vec3 flexion_axis = Vec3::UnitZ(), abduction_axis = Vec3::UnitX();
   Vec3 abduction_point = Vec3::Zero();
   Vec3 along = Vec3::UnitY();  ///< of the metacarpal
   double by_flexion = 0.0, by_abduction = 0.0, by_both = 0.0;
+  double glide = 0.0;  ///< mm per rad
   double flexion_reference = 0.0, abduction_reference = 0.0;
 };
 
