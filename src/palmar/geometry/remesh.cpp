@@ -153,10 +153,18 @@ class Remesher {
       if (edit_.twin(h) > h && squared_length(edit_.twin(h)) > limit) continue;
       const int a = edit_.start(h);
       const bool is_border = edit_.twin(h) < 0;
-      const Vec3 middle = 0.5 * (at(a) + at(edit_.end(h)));
+      const Vec3 begin = at(a), end = at(edit_.end(h)), middle = 0.5 * (begin + end);
       const int v = edit_.split(h, middle);
       foot_.push_back(foot_[static_cast<size_t>(a)]);
-      if (!is_border) settle(v, middle, foot_[static_cast<size_t>(a)]);
+      if (!is_border) {
+        settle(v, middle, foot_[static_cast<size_t>(a)]);
+        // A foot beside one end (on a crumpled surface the walk can stop there) would leave the
+        // edge as long as it was, for ever; relax() brings the vertex down later.
+        const double reach = 0.64 * (end - begin).squaredNorm();
+        if ((at(v) - begin).squaredNorm() > reach || (at(v) - end).squaredNorm() > reach) {
+          edit_.set_position(v, middle);
+        }
+      }
       --h;  // the rest of the edge may still be long
     }
   }
