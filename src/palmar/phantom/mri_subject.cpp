@@ -14,6 +14,7 @@
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/template_hand.h"
+#include "palmar/phantom/held_bar.h"
 #include "palmar/phantom/soft_tissue.h"
 #include "palmar/phantom/subject_bones.h"
 #include "palmar/phantom/subject_person.h"
@@ -139,13 +140,17 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
     const auto motion = body_motions(person.joints, posture);
     PosedTissue posed = tissue.pose(posture);
     if (name == ScanPosture::kReference) posed.skin = person.skin.vertices;
+    SubjectPosture& result = subject.postures.at(name);
+    if (name == ScanPosture::kGrasp) {
+      flatten_on(person.bar, posed.skin);
+      result.product = to.mesh(bar_mesh(person.bar));
+    }
     const std::vector<Vec3>& skin = posed.skin;
     std::vector<Vec3> markers;
     if (shows_markers(name)) {
       const std::vector<Vec3> normal = vertex_normals(skin, person.skin.triangles);
       for (const int v : marked) markers.push_back(skin[at(v)] + kMarkerRadius * normal[at(v)]);
     }
-    SubjectPosture& result = subject.postures.at(name);
     result.skin = to.mesh({skin, person.skin.triangles});
     for (const SubjectBone& b : bones) {
       result.bone[b.bone.name] = to.patient_from_hand * to.motion(motion[at(b.body)]) *

@@ -21,6 +21,7 @@ struct SubjectPosture {
   std::map<std::string, Rigid3> bone;  ///< patient_from_reference of each bone's mesh
   std::vector<Vec3> markers;           ///< centres; empty where none were stuck on
   std::vector<ImagedPart> parts;       ///< for image_of()
+  TriangleMesh product;  ///< what the hand holds in kGrasp, else empty; gives no signal
 };
 
 /// A person that doesn't exist. Moves by a model of its own, not by Hand's: see

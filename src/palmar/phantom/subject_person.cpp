@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "palmar/capture/skin_registration.h"
@@ -253,6 +254,9 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
   cmc.by_flexion = 0.20 + spread(random, 0.04);
   cmc.by_abduction = -0.12 + spread(random, 0.03);
   cmc.by_both = 0.25 + spread(random, 0.08);
+  // About 1.2 mm at the limits: the joint's contact moves by 1 to 4 mm (PMC3940763), single axes
+  // missed the metacarpal by up to 0.87 mm more than free motions (Xie 2014, section 2.3).
+  cmc.glide = 3.0;
   cmc.flexion_reference = person.reference[Dof::kThumbCmcFlexion];
   cmc.abduction_reference = person.reference[Dof::kThumbCmcAbduction];
   model.centre = cmc.centre;
@@ -262,43 +266,112 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
   model.dofs.at(0).centre = cmc.abduction_point;
 }
 
+// Middles and ends of a finger's phalanges, where they are in a posture.
+std::vector<Vec3> chain(const SubjectPerson& person, int f, const Posture& posture) {
+  const auto motion = body_motions(person.joints, posture);
+  const auto segments = segments_of(static_cast<Finger>(f));
+  const int count = f == 0 ? 2 : 3;
+  std::vector<Vec3> point;
+  for (int k = 0; k < count; ++k) {
+    const auto body = static_cast<std::size_t>(*segments[at(k)]);
+    const RollingJoint& joint = person.joints.phalanx[body];
+    const Vec3 end = k + 1 < count ? person.joints.phalanx[body + 1].centre
+                                   : Vec3(person.skeleton.fingertips[at(f)] - 6.0 * joint.along);
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      point.push_back(motion[body] * (joint.centre + share * (end - joint.centre)));
+    }
+  }
+  return point;
+}
+
+// Least distance of two fingers' axes over the mean of their widths.
+double nearness(const SubjectPerson& person, int f, int g, const Posture& posture) {
+  double nearest = std::numeric_limits<double>::max();
+  const std::vector<Vec3> mine = chain(person, f, posture), other = chain(person, g, posture);
+  for (const Vec3& p : mine) {
+    for (const Vec3& q : other) nearest = std::min(nearest, (p - q).norm());
+  }
+  return nearest / (0.5 * (person.finger_width[at(f)] + person.finger_width[at(g)]));
+}
+
+// Whether the thumb touches no finger and isn't pressed hard on the bar.
+bool is_clear(const SubjectPerson& person, const Posture& posture) {
+  for (const Vec3& p : chain(person, 0, posture)) {
+    if (person.bar.distance(p) < person.bar.radius + 0.45 * person.finger_width[0]) return false;
+  }
+  for (int f = 1; f < kFingerCount; ++f) {
+    if (nearness(person, 0, f, posture) < 1.0) return false;
+  }
+  return true;
+}
+
 // Bent fingers push each other aside until they lie side by side.
 void make_room(const SubjectPerson& person, Posture& posture) {
   const auto abduction = [](int f) {
     return static_cast<Dof>(static_cast<int>(Dof::kIndexMcpAbduction) + 4 * (f - 1));
   };
-  // Joints and tip of a finger, where it is.
-  const auto chain = [&](int f) {
-    const auto motion = body_motions(person.joints, posture);
-    std::vector<Vec3> point;
-    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
-      const auto body = static_cast<std::size_t>(*segment);
-      const RollingJoint& joint = person.joints.phalanx[body];
-      for (const double share : {0.5, 1.0}) {
-        const bool is_last = segment == segments_of(static_cast<Finger>(f))[2];
-        const Vec3 end = is_last ? person.skeleton.fingertips[at(f)] - 6.0 * joint.along
-                                 : person.joints.phalanx[body + 1].centre;
-        point.push_back(motion[body] * (joint.centre + share * (end - joint.centre)));
-      }
-    }
-    return point;
-  };
   for (int round = 0; round < 40; ++round) {
     bool is_free = true;
     for (int f = 1; f + 1 < kFingerCount; ++f) {
-      const std::vector<Vec3> mine = chain(f), next = chain(f + 1);
-      const double touching = 0.47 * (person.finger_width[at(f)] + person.finger_width[at(f + 1)]);
-      double nearest = touching;
-      for (const Vec3& p : mine) {
-        for (const Vec3& q : next) nearest = std::min(nearest, (p - q).norm());
-      }
-      if (nearest >= touching) continue;
+      if (nearness(person, f, f + 1, posture) >= 0.94) continue;
       is_free = false;
       // The outer of the two gives way.
       (f == 1 ? posture[abduction(1)] : posture[abduction(f + 1)]) +=
           (f == 1 ? 1.0 : -1.0) * 0.6 * kDeg;
     }
     if (is_free) return;
+  }
+}
+
+// A bar across the palm below the knuckles, a little into the skin.
+HeldBar laid_in_palm(const SubjectPerson& person, double radius) {
+  const auto mcp = [&](Segment s) -> const Vec3& {
+    return person.joints.phalanx[static_cast<std::size_t>(s)].centre;
+  };
+  const Vec3 &index = mcp(Segment::kIndexProximal), &little = mcp(Segment::kLittleProximal);
+  HeldBar bar;
+  bar.radius = radius;
+  bar.axis = (index - little).normalized();
+  bar.point = 0.5 * (index + little);
+  bar.axis.z() = 0.0;
+  bar.axis.normalize();
+  double palm = bar.point.z();
+  for (const Vec3& v : person.skin.vertices) {
+    const Vec3 arm = v - bar.point;
+    const double along = arm.dot(bar.axis);
+    const double across = arm.y() - along * bar.axis.y();
+    if (std::abs(along) < 30.0 && std::abs(across) < 8.0) palm = std::max(palm, v.z());
+  }
+  bar.point.z() = palm + radius - 2.0;
+  return bar;
+}
+
+// Bends a finger joint by joint until each phalanx lies on the bar.
+void close_on(const SubjectPerson& person, int f, Posture& posture) {
+  constexpr double kStep = 0.5 * kDeg;
+  const auto segments = segments_of(static_cast<Finger>(f));
+  const int count = f == 0 ? 2 : 3;
+  const std::array<double, 3> most{f == 0 ? 40.0 * kDeg : 80.0 * kDeg,
+                                   f == 0 ? 50.0 * kDeg : 95.0 * kDeg, 55.0 * kDeg};
+  for (int k = 0; k < count; ++k) {
+    const auto body = static_cast<std::size_t>(*segments[at(k)]);
+    const RollingJoint& joint = person.joints.phalanx[body];
+    const Vec3 end =
+        k + 1 < count ? person.joints.phalanx[body + 1].centre : person.skeleton.fingertips[at(f)];
+    // From the axis of the bone to its palmar skin; the last phalanx is thinner.
+    const double flesh = (k + 1 < count ? 0.50 : 0.46) * person.finger_width[at(f)] - 0.6;
+    const auto is_free = [&] {
+      const Rigid3 motion = body_motions(person.joints, posture)[body];
+      for (const double share : {0.5, 0.7, 0.9}) {
+        const Vec3 p = motion * (joint.centre + share * (end - joint.centre));
+        if (person.bar.distance(p) < person.bar.radius + flesh) return false;
+      }
+      return true;
+    };
+    double& angle = posture[joint.flexion];
+    while (angle < most[at(k)] && is_free() && (f > 0 || is_clear(person, posture))) {
+      angle += kStep;
+    }
   }
 }
 
@@ -342,13 +415,16 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   finger(fan, 2, {0, -9, -6, -3});
   finger(fan, 3, {0, -17, -6, -3});
   all[ScanPosture::kFingerAbduction] = fan;
-  // Round a brake lever and its bar.
-  Posture grasp = thumb(11.0, 12.0, 10.0, 12.0);
-  finger(grasp, 0, {26, 1, 24, 17});
-  finger(grasp, 1, {29, 0, 27, 19});
-  finger(grasp, 2, {30, 1, 27, 18});
-  finger(grasp, 3, {31, 1, 26, 16});
+  Posture grasp = thumb(9.0, 15.0, 0.0, 0.0);
+  person.bar = laid_in_palm(person, 18.5 + spread(random, 1.0));
+  for (int f = 1; f < kFingerCount; ++f) close_on(person, f, grasp);
   make_room(person, grasp);
+  // The thumb gives way to the fingers, then closes.
+  const double least = grasp[Dof::kThumbCmcFlexion] - 30.0 * kDeg;
+  while (!is_clear(person, grasp) && grasp[Dof::kThumbCmcFlexion] > least) {
+    grasp[Dof::kThumbCmcFlexion] -= kDeg;
+  }
+  close_on(person, 0, grasp);
   all[ScanPosture::kGrasp] = grasp;
 }
 

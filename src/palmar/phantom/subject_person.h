@@ -7,6 +7,7 @@
 
 #include "palmar/capture/scan_posture.h"
 #include "palmar/hand/hand.h"
+#include "palmar/phantom/held_bar.h"
 #include "palmar/phantom/subject_joints.h"
 
 namespace palmar {
@@ -19,6 +20,7 @@ struct SubjectPerson {
   SubjectJoints joints;
   std::array<double, kFingerCount> finger_width{};  ///< at the interphalangeal joint, mm
   std::map<ScanPosture, Posture> postures;          ///< what the person does in each scan
+  HeldBar bar;                                      ///< that fingers are closed on in kGrasp
 };
 
 /// `base`: a right hand. Hand length and circumference follow the survey of ANSUR II (Gordon et al.
