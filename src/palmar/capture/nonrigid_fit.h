@@ -32,7 +32,7 @@ struct NonrigidFitOptions {
   double stiffness = 30.0;     ///< at the beginning; against one vertex' pull
   double last_stiffness = 0.3;
   int levels = 9;           ///< of stiffness
-  int rounds = 4;           ///< of partners at each level
+  int rounds = 3;           ///< of partners at each level
   double pin_weight = 8.0;  ///< of a pin, against one vertex' pull
   void check() const;       ///< throws UsageError: field, value, allowed range
 };

@@ -37,8 +37,9 @@ struct ScannedHand {
 /// Registers the skin of `model` to that of the reference scan (segments, regions, creases and
 /// skinning come along), puts the scan's bones and joints in, and corrects the thumb ball by the
 /// markers of the limit postures. Works without markers and limit postures, and says what is lost.
-/// `scans` holds kReference at least. Also used for scans that show skin only: without bones, the
-/// joints of `joints.skeleton` are those that the registration finds.
+/// `scans` holds kReference at least. A model of the other side is mirrored. Scans that show skin
+/// only work as well, given joints.skeleton from elsewhere; bones are the model's then. Throws
+/// InputError without a reference scan, or if skin and joints don't belong together; Cancelled.
 ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& scans,
                               const MeasuredJoints& joints, const Progress& progress = {});
 

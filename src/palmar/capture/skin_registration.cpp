@@ -228,7 +228,7 @@ std::vector<Vec3> bend_posed_skin(const Hand& hand, const Posture& posture, cons
       {pose_skin(hand, posture), hand.skin.triangles}, parts_of(hand.segment), cut_of(hand)};
   // The posed skin is near already; the scan shows how far muscle and folds differ.
   const NonrigidFitOptions options{
-      .stiffness = 20.0, .last_stiffness = 1.0, .levels = 4, .rounds = 4};
+      .stiffness = 20.0, .last_stiffness = 1.0, .levels = 4, .rounds = 3};
   return fit_nonrigidly(moving, scanned_surface(scan, posed_centres(hand.skeleton, posture)), pins,
                         options, progress);
 }
