@@ -32,7 +32,8 @@ class MriSubjectTest : public TemplateTest {
     return made;
   }
   static const MriSubject& left() {
-    static const MriSubject made = make_mri_subject(hand(), {.seed = 3, .side = Side::kLeft});
+    static const MriSubject made =
+        make_mri_subject(hand(), {.seed = 3, .side = Side::kLeft, .markers = 0});
     return made;
   }
   static const SubjectPosture& at(ScanPosture posture) { return subject().postures.at(posture); }
@@ -112,21 +113,16 @@ TEST_F(MriSubjectTest, BonesAreApartAndCoveredInEveryPosture) {
   }
 }
 
-TEST_F(MriSubjectTest, OtherPeopleDifferAndTheirBonesAreApartToo) {
-  const MriSubject second = make_mri_subject(hand(), {.seed = 2, .markers = 0});
-  EXPECT_TRUE(second.postures.at(ScanPosture::kReference).markers.empty());
-  for (const MriSubject* other : std::array<const MriSubject*, 2>{&second, &left()}) {
-    SCOPED_TRACE(other->name);
-    for (const ScanPosture posture : {ScanPosture::kFingerFlexion, ScanPosture::kThumbFlexion}) {
-      std::vector<TriangleMesh> bones;
-      for (const Bone& bone : other->bones) bones.push_back(posed(*other, bone, posture));
-      EXPECT_GT(least_gap(bones), 0.5) << name_of(posture);
-    }
-    EXPECT_GT(std::abs(other->dimensions.hand_length - subject().dimensions.hand_length), 0.5);
-    EXPECT_GT(
-        std::abs(signed_volume(other->bones[5].mesh) - signed_volume(subject().bones[5].mesh)),
-        1.0);
+TEST_F(MriSubjectTest, AnotherPersonDiffersAndItsBonesAreApartToo) {
+  for (const ScanPosture posture : {ScanPosture::kFingerFlexion, ScanPosture::kThumbFlexion}) {
+    std::vector<TriangleMesh> bones;
+    for (const Bone& bone : left().bones) bones.push_back(posed(left(), bone, posture));
+    EXPECT_GT(least_gap(bones), 0.5) << name_of(posture);
   }
+  EXPECT_TRUE(left().postures.at(ScanPosture::kReference).markers.empty());
+  EXPECT_GT(std::abs(left().dimensions.hand_length - subject().dimensions.hand_length), 0.5);
+  EXPECT_GT(std::abs(signed_volume(left().bones[5].mesh) - signed_volume(subject().bones[5].mesh)),
+            1.0);
 }
 
 TEST_F(MriSubjectTest, MarkersSitOnTheSkinOfTheThumbBall) {

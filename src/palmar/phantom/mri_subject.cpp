@@ -113,7 +113,7 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
   Eigen::Matrix3d axes;
   axes << 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0;
   RandomStream random(options.seed, kPlacementStream);
-  Rigid3 lying = placement(random, 3.0, 8.0);
+  Rigid3 lying = placement(random, 1.6, 8.0);
   const Vec3 middle = 0.9 * person.skeleton.joint(JointId::kMiddleMcp).centre;
   lying = lying * Rigid3{Quat(axes), Vec3::Zero()};
   lying.translation -= lying.rotation * middle;
@@ -121,7 +121,7 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
   std::vector<std::pair<ScanPosture, ToPatient>> scans;
   for (const auto& [posture, angles] : person.postures) {
     const Rigid3 shift =
-        posture == ScanPosture::kReference ? Rigid3{} : placement(random, 2.0, 2.5);
+        posture == ScanPosture::kReference ? Rigid3{} : placement(random, 1.4, 2.5);
     scans.push_back({posture, {options.side == Side::kLeft, shift * lying}});
     subject.angles[posture] = angles.angle;
     subject.postures[posture] = {};

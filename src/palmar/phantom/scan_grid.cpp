@@ -62,7 +62,17 @@ VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& optio
   const int rows = std::clamp(static_cast<int>(height / options.pixel), 2, most);
   grid.size = {most, rows, options.slices};
 
-  const Vec3 middle = 0.5 * (low + high);
+  // The middle of what is seen: the forearm goes on, perhaps aslant.
+  const double edge = low[1] - kTipMargin + options.pixel * rows;
+  Vec3 first_seen = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 last_seen = -first_seen;
+  for (const Vec3& vertex : skin) {
+    const Vec3 along = grid.axes.transpose() * vertex;
+    if (along[1] > edge) continue;
+    first_seen = first_seen.cwiseMin(along);
+    last_seen = last_seen.cwiseMax(along);
+  }
+  const Vec3 middle = 0.5 * (first_seen + last_seen);
   const Vec3 extent(options.pixel * (most - 1), 0.0, options.slice * (options.slices - 1));
   Vec3 first = middle - 0.5 * extent;
   first[1] = low[1] - kTipMargin;
