@@ -20,8 +20,10 @@ namespace {
 
 // A bone that is the right one fits within a few tenths of a millimetre and stays in its joint.
 constexpr double kGoodMean = 0.8;      // mm
+constexpr double kAliasMean = 0.55;    // mm
 constexpr double kPoorMean = 1.6;      // mm; beyond, it isn't this bone
 constexpr double kLargestGap = 7.0;    // mm that a joint may come apart between two postures
+constexpr double kLargestHead = 10.0;  // mm; radius of a metacarpal's head
 constexpr double kLargestShift = 7.0;  // mm that a bone of the palm may shift against the others
 constexpr double kLargestTurn = 0.6;   // rad; likewise
 
@@ -29,6 +31,12 @@ constexpr double kLargestTurn = 0.6;   // rad; likewise
 Vec3 extents_of(const TriangleMesh& mesh) {
   const std::array<Vec3, 6> p = moment_points(mesh);
   return 0.5 * Vec3((p[0] - p[1]).norm(), (p[2] - p[3]).norm(), (p[4] - p[5]).norm());
+}
+
+/// Direction of a bone's greatest extent, either way.
+Vec3 long_axis(const TriangleMesh& mesh) {
+  const std::array<Vec3, 6> p = moment_points(mesh);
+  return (p[4] - p[5]).normalized();
 }
 
 bool has_size_of(const Vec3& a, const Vec3& b) {
@@ -216,7 +224,8 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
   std::vector<std::pair<std::string, std::optional<Found>>> ray;
   const std::vector<std::string> names = ray_of(finger);
   Rigid3 motion = palm_;
-  const ScannedBone* proximal = bone_named(reference_, finger == Finger::kThumb ? "trapezium" : "");
+  const ScannedBone* proximal =
+      finger == Finger::kThumb ? bone_named(reference_, "trapezium") : nullptr;
   bool is_next = true;  // the bone before this one has been found
   for (const std::string& name : names) {
     const ScannedBone* bone = bone_named(reference_, name);
@@ -254,16 +263,27 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
   const Vec3 seat = motion * joint;
   std::optional<Found> best;
   const auto attempt = [&](const Target& target) {
-    // The joint stays where the proximal bone carries it, and the bone points to where the other
-    // scan has it.
-    Rigid3 start = motion;
-    if (has_joint) {
+    std::vector<std::pair<Rigid3, double>> starts;  // and turns about them
+    if (has_joint && is_next) {
+      // The joint stays where the proximal bone carries it, and the bone points to where the other
+      // scan has it.
+      Rigid3 start = motion;
       start.rotation =
           Quat::FromTwoVectors(motion.rotation * (centre - joint), target.centre - seat) *
           motion.rotation;
+      start.translation = seat - start.rotation * joint;
+      starts = {{start, 0.5}, {start, 1.05}};
+    } else {
+      // Behind a gap in the chain the bone may lie any way: along the other one, up or down.
+      const Vec3 mine = motion.rotation * long_axis(bone.mesh), other = long_axis(target.mesh);
+      for (const double sense : {1.0, -1.0}) {
+        Rigid3 start = motion;
+        start.rotation = Quat::FromTwoVectors(mine, sense * other) * motion.rotation;
+        start.translation = target.centre - start.rotation * centre;
+        starts.emplace_back(start, 1.05);
+      }
     }
-    start.translation = seat - start.rotation * joint;
-    for (const double turn : {0.5, 1.05}) {
+    for (const auto& [start, turn] : starts) {
       IcpOptions options;
       options.start_turn = turn;
       options.samples = 2000;
@@ -272,13 +292,15 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
       found.target = &target;
       found.fit = register_rigidly(bone.mesh, target.mesh, start, options, progress_);
       found.gap = has_joint && is_next ? (found.fit.fixed_from_moving * joint - seat).norm() : 0.0;
+      // One of another name must fit well: neighbours are nearly alike.
+      const double limit = target.bone->name == bone.name ? kPoorMean : kAliasMean;
       found.is_plausible =
-          found.fit.overlap > 0.3 && found.fit.mean < kPoorMean && found.gap < kLargestGap;
+          found.fit.overlap > 0.3 && found.fit.mean < limit && found.gap < kLargestGap;
       if (found.is_plausible &&
           (!best || found.fit.mean + 0.1 * found.gap < best->fit.mean + 0.1 * best->gap)) {
         best = found;
       }
-      if (found.fit.mean < kGoodMean) return;
+      if (is_next && found.fit.mean < kGoodMean) return;
     }
   };
   if (const Target* target = target_named(bone.name)) attempt(*target);
@@ -289,8 +311,8 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
     if (target.bone->name == bone.name || !has_size_of(extents, target.extents)) continue;
     if (!has_joint || (target.centre - seat).norm() > reach) continue;
     const std::optional<ClosestPoint> near =
-        ClosestPointQuery(target.mesh).closest(seat, kLargestGap);
-    if (near) attempt(target);
+        ClosestPointQuery(target.mesh).closest(seat, kLargestGap + kLargestHead);
+    if (near || !is_next) attempt(target);
   }
   return best;
 }
