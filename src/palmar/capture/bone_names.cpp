@@ -17,9 +17,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kAlone = 16.0;      // 4 standard deviations
-constexpr double kWidestGap = 10.0;  // mm
-constexpr double kShell = 0.8;       // mm of cortical bone round marrow
+constexpr double kLargestUnnamed = 5.0e3;  // mm^3
+constexpr double kAlone = 16.0;            // 4 standard deviations
+constexpr double kWidestGap = 10.0;        // mm
+constexpr double kShell = 0.8;             // mm of cortical bone round marrow
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -56,8 +57,18 @@ std::vector<std::array<int, 2>> chain_links(const Hand& model) {
 struct Pairing {
   std::vector<MarrowRegion> candidates;  ///< some joined, those that went into another empty
   std::vector<int> found;                ///< per bone of the model
+  std::vector<BoneOutline> expected;     ///< the same
   double cost = 0.0;                     ///< mean over the model's bones
 };
+
+/// Whether two regions may be parts of one bone: as bright, and both darkly enclosed.
+bool is_alike(const MarrowRegion& a, const MarrowRegion& b, const ScanLevels& levels) {
+  const auto shell = [&](const MarrowRegion& m) {
+    return (m.shell - levels.dark) / std::max(1e-9, m.level - levels.dark);
+  };
+  return std::abs(a.level - b.level) < 0.15 * (levels.bright - levels.dark) &&
+         std::abs(shell(a) - shell(b)) < 0.15 && shell(b) < 0.45;
+}
 
 std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& model,
                                         const Progress& progress) {
@@ -74,11 +85,12 @@ std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& mo
   return expected;
 }
 
-Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const TriangleMesh& skin,
-                   const Hand& model, const Progress& progress) {
+Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels& levels,
+                   const TriangleMesh& skin, const Hand& model, const Progress& progress) {
   Pairing pairing;
   pairing.candidates = candidates;
   const std::vector<BoneOutline> expected = expected_bones(skin, model, progress);
+  pairing.expected = expected;
   const std::vector<std::array<int, 2>> links = chain_links(model);
   std::vector<Vec3> shift(expected.size(), Vec3::Zero());
   std::vector<BoneOutline> outlines;
@@ -107,22 +119,28 @@ Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const TriangleMe
       for (std::size_t e = 0; e < expected.size(); ++e) {
         const int f = pairing.found[e];
         if (f < 0) continue;
-        double now = cost[e][at(f)];
+        // The best one first; another round may join another.
+        double least = cost[e][at(f)] - 1.0;
+        int best = -1;
+        const MarrowRegion& own = pairing.candidates[at(f)];
         for (std::size_t g = 0; g < outlines.size(); ++g) {
-          const MarrowRegion& other = pairing.candidates[g];
-          if (is_taken[g] != 0 || other.voxels.empty()) continue;
+          const MarrowRegion& part = pairing.candidates[g];
+          if (is_taken[g] != 0 || part.voxels.empty() || !is_alike(own, part, levels)) continue;
           if ((outlines[g].centre - outlines[at(f)].centre).norm() > expected[e].length) continue;
-          if (gap_between(pairing.candidates[at(f)], other) > kWidestGap) continue;
-          const MarrowRegion both = joined(pairing.candidates[at(f)], other);
-          const BoneOutline outline = outline_of(both);
-          const double then = cost_of(e, outline, both.is_cut);
-          if (then > now - 1.0) continue;
-          pairing.candidates[at(f)] = both;
-          outlines[at(f)] = outline;
-          now = then;
-          pairing.candidates[g].voxels.clear();
-          outlines[g].centre = Vec3::Constant(1e6);
+          if (gap_between(own, part) > kWidestGap) continue;
+          const MarrowRegion both = joined(own, part);
+          const double then = cost_of(e, outline_of(both), both.is_cut);
+          if (then > least) continue;
+          least = then;
+          best = static_cast<int>(g);
         }
+        if (best < 0) continue;
+        is_taken[at(best)] = 1;
+        pairing.candidates[at(f)] = joined(own, pairing.candidates[at(best)]);
+        outlines[at(f)] = outline_of(pairing.candidates[at(f)]);
+        pairing.candidates[at(best)].voxels.clear();
+        outlines[at(best)].centre = Vec3::Constant(1e6);
+        cost[e][at(f)] = least;
       }
     }
     pairing.cost = 0.0;
@@ -258,8 +276,8 @@ std::vector<int> least_cost_pairs(const std::vector<std::vector<double>>& cost, 
 BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& levels,
                      const TriangleMesh& skin, const Hand& model, const Progress& progress) {
   const Hand other = mirrored(model);
-  Pairing own = pair_bones(candidates, skin, model, progress);
-  Pairing opposite = pair_bones(candidates, skin, other, progress);
+  Pairing own = pair_bones(candidates, levels, skin, model, progress);
+  Pairing opposite = pair_bones(candidates, levels, skin, other, progress);
   const bool is_own = own.cost <= opposite.cost;
   Pairing& best = is_own ? own : opposite;
 
@@ -268,21 +286,28 @@ BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& lev
   names.misfit = best.cost;
   names.other_misfit = is_own ? opposite.cost : own.cost;
   std::vector<std::string> missing;
+  double level = 0.0;
   std::vector<char> is_named(best.candidates.size(), 0);
   for (std::size_t e = 0; e < best.found.size(); ++e) {
     const int f = best.found[e];
     if (f >= 0) {
+      const BoneOutline outline = outline_of(best.candidates[at(f)]);
       names.bones.push_back(best.candidates[at(f)]);
+      names.bones.back().is_leaky = outline.length > 1.25 * best.expected[e].length ||
+                                    outline.width > 1.4 * best.expected[e].width;
+      level += best.candidates[at(f)].level;
       names.name.push_back(model.bones[e].name);
       is_named[at(f)] = 1;
     } else {
       missing.push_back(model.bones[e].name);
     }
   }
+  level /= static_cast<double>(std::max<std::size_t>(1, names.bones.size()));
   for (std::size_t f = 0; f < best.candidates.size(); ++f) {
     const MarrowRegion& left = best.candidates[f];
     if (is_named[f] != 0 || left.voxels.empty() || left.volume < 150.0) continue;
     if (left.shell > levels.dark + 0.3 * (left.level - levels.dark)) continue;
+    if (left.level < 0.9 * level || left.volume > kLargestUnnamed) continue;
     names.bones.push_back(left);
     names.name.emplace_back();
   }

@@ -15,10 +15,11 @@
 namespace palmar {
 namespace {
 
+constexpr double kUsualShell = 0.8;     // mm
 constexpr double kLeastMarrow = 8.0;    // mm^3
 constexpr double kMostMarrow = 60.0e3;  // mm^3: that of the radius with much of its shaft
-constexpr double kLeastDepth = 1.8;     // mm below the skin
-constexpr double kMostShallow = 0.1;    // share of voxels nearer to it
+constexpr double kLeastDepth = 1.4;     // mm below the skin
+constexpr double kMostShallow = 0.2;    // share of voxels nearer to it
 constexpr double kDarkestShell = 0.52;  // share of the way from dark to the region's own level
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -38,6 +39,17 @@ Nearest nearest_voxels(const MarrowRegion& a, const MarrowRegion& b) {
     }
   }
   return nearest;
+}
+
+/// Leaks through a shell are thinner than the bone.
+VoxelMask without_leaks(const VolumeGrid& grid, const VoxelMask& mask) {
+  const VoxelMask thick = opened(grid, mask, 2.0);
+  const auto count = [](const VoxelMask& m) { return std::count(m.begin(), m.end(), 1); };
+  if (count(thick) < 6 * count(mask) / 10) return mask;
+  const std::vector<float> away = distance_transform(grid, thick);
+  VoxelMask kept(mask.size());
+  for (std::size_t v = 0; v < mask.size(); ++v) kept[v] = mask[v] != 0 && away[v] < 2.5F ? 1 : 0;
+  return kept;
 }
 
 }  // namespace
@@ -177,6 +189,7 @@ TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, d
     const std::array<int, 3> here = voxel_of(v);
     own[part.grid.at(here[0] - low[0], here[1] - low[1], here[2] - low[2])] = 1;
   }
+  if (marrow.is_leaky) own = without_leaks(part.grid, own);
   for (const auto& [from, to] : marrow.bridges) {
     for (int k = 0; k < part.grid.size[2]; ++k) {
       for (int j = 0; j < part.grid.size[1]; ++j) {
@@ -190,7 +203,8 @@ TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, d
       }
     }
   }
-  own = closed(part.grid, own, 1.6);
+  // Out to where the shell's outside may be expected.
+  own = dilated(part.grid, closed(part.grid, own, 1.6), kUsualShell);
   part.value.resize(own.size());
   for (std::size_t v = 0; v < own.size(); ++v) part.value[v] = own[v] != 0 ? 1.0F : 0.0F;
   part = gaussian_filtered(part, 0.6);

@@ -19,8 +19,9 @@ struct MarrowRegion {
   std::vector<std::size_t> index;  ///< of the same voxels in the image
   double level = 0.0;              ///< mean signal
   double shell = 0.0;  ///< mean of the darkest signal within three voxels outwards: that of a shell
-  double volume = 0.0;  ///< of the voxels, mm^3
-  bool is_cut = false;  ///< touches the border of the image
+  double volume = 0.0;    ///< of the voxels, mm^3
+  bool is_cut = false;    ///< touches the border of the image
+  bool is_leaky = false;  ///< larger than the bone it stands for: its thin parts are leaks
 };
 
 /// Bright regions inside the body that are enclosed like marrow: not near the skin, nor as large as
@@ -33,7 +34,7 @@ MarrowRegion joined(const MarrowRegion& a, const MarrowRegion& b);
 /// Least distance between the voxels of two regions, mm.
 double gap_between(const MarrowRegion& a, const MarrowRegion& b);
 
-/// Smooth closed surface round the marrow, mean edge `edge_length` [mm].
+/// Smooth closed surface 0.8 mm round the marrow, mean edge `edge_length` [mm].
 TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, double edge_length);
 
 /// The piece of a surface that encloses most.

@@ -103,6 +103,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   std::vector<std::int32_t> bone(regions.region.size());
   for (std::size_t v = 0; v < bone.size(); ++v) {
     bone[v] = regions.region[v] < 0 ? -1 : bone_of[at(regions.region[v])];
+    if (scan.depth[v] < 0.7F) bone[v] = -2;
   }
   const ShellImage shell{scan.image, bone, scan.levels.dark, scan.levels.bright, scan.levels.noise};
   surfaces.bones.resize(names.bones.size());
@@ -113,8 +114,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     TriangleMesh mesh = marrow_surface(scan, names.bones[at(b)], options.edge_length);
     for (int round = 0; round < 2; ++round) {
       mesh = fit_shell(mesh, b, shell).mesh;
-      mesh = smooth_taubin(mesh, {.rounds = 4});
-      mesh = remesh(mesh, {.edge_length = options.edge_length, .rounds = 4}).mesh;
+      mesh = smooth_tangentially(smooth_taubin(mesh, {.rounds = 4}), {.rounds = 4});
     }
     found.mesh = std::move(mesh);
   });

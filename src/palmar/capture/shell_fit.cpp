@@ -20,7 +20,12 @@ constexpr int kSamples = 26;  // to +3.9
 constexpr double kOuterFirst = -1.6, kOuterStep = 0.2;
 constexpr int kOuters = 19;  // to +2.0
 constexpr double kThicknessFirst = 0.3, kThicknessStep = 0.25;
-constexpr int kThicknesses = 11;  // to 2.8
+constexpr int kThicknesses = 11;                    // to 2.8
+constexpr double kUsualThickness = 0.9;             // mm
+constexpr double kLooseTie = 1.0, kTightTie = 0.3;  // mm
+constexpr double kSurroundings = 6.0;               // mm
+constexpr double kFarthestInner = 0.5;  // mm outwards: the next dark thing is another one
+constexpr float kForbidden = 1e6F;
 constexpr int kCosts = kOuters * kThicknesses;
 
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
@@ -46,7 +51,7 @@ Profile profile_at(const Vec3& vertex, const Vec3& normal, std::int32_t own,
     }
     profile.value[static_cast<std::size_t>(s)] = static_cast<double>(value_at(shell.image, voxel));
     const std::int32_t region = shell.region[grid.at(at[0], at[1], at[2])];
-    return region < 0 || region == own;
+    return region == -1 || region == own;
   };
   // Outwards and inwards from the vertex, to where another region or the image's border stops it.
   const int middle = static_cast<int>(std::lround(-kFirst / kStep));
@@ -84,6 +89,10 @@ ShellFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage&
       }
       for (int w = 0; w < kThicknesses; ++w) {
         const double a = b - thickness_at(w);
+        if (a > kFarthestInner) {
+          cost[v][static_cast<std::size_t>(o * kThicknesses + w)] = kForbidden;
+          continue;
+        }
         // Least squares for I_m and I_o above I_c; weak ties to the global levels keep both known
         // where the profile is short.
         double mm = 0.02, mo = 0.0, oo = 0.02, mr = 0.02 * contrast, orr = 0.02 * 0.5 * contrast,
@@ -108,40 +117,63 @@ ShellFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage&
         }
         const double misfit = rr - 2.0 * (marrow * mr + outside * orr) + marrow * marrow * mm +
                               2.0 * marrow * outside * mo + outside * outside * oo;
-        const double unlikely = (thickness_at(w) - 1.0) / 1.0;
         cost[v][static_cast<std::size_t>(o * kThicknesses + w)] =
-            static_cast<float>(misfit / (scale * scale) + 0.3 * unlikely * unlikely);
+            static_cast<float>(misfit / (scale * scale));
       }
     }
   });
 
-  // Neighbours within two edges speak along, with less weight.
+  // Where a tendon lies on the bone, or another bone close by, the outer side can't be seen. So the
+  // thickness is found twice: first nearly free, then near that of the surroundings' median.
   ShellFit fit;
   fit.mesh = near;
-  fit.thickness.resize(count);
-  std::vector<double> shift(count), misfit(count);
-  parallel_for(static_cast<int>(count), [&](int index) {
-    const auto v = static_cast<std::size_t>(index);
-    std::array<double, kCosts> sum{};
-    const auto add = [&](std::size_t u, double weight) {
-      for (std::size_t c = 0; c < kCosts; ++c) sum[c] += weight * static_cast<double>(cost[u][c]);
-    };
-    add(v, 1.0);
-    for (const int u : neighbours[v]) add(static_cast<std::size_t>(u), 0.6);
-    const auto best = static_cast<int>(std::min_element(sum.begin(), sum.end()) - sum.begin());
-    const int o = best / kThicknesses, w = best % kThicknesses;
-    const auto refine = [&](int position, int size, int stride) {
-      if (position == 0 || position + 1 == size) return 0.0;
-      const double before = sum[static_cast<std::size_t>(best - stride)],
-                   at = sum[static_cast<std::size_t>(best)],
-                   after = sum[static_cast<std::size_t>(best + stride)];
-      const double bend = before - 2.0 * at + after;
-      return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-    };
-    shift[v] = outer_at(o) + kOuterStep * refine(o, kOuters, kThicknesses);
-    fit.thickness[v] = thickness_at(w) + kThicknessStep * refine(w, kThicknesses, 1);
-    misfit[v] = static_cast<double>(cost[v][static_cast<std::size_t>(best)]);
-  });
+  fit.thickness.assign(count, kUsualThickness);
+  std::vector<double> shift(count), misfit(count), usual(count, kUsualThickness);
+  for (int pass = 0; pass < 2; ++pass) {
+    const double tie = pass == 0 ? kLooseTie : kTightTie;
+    parallel_for(static_cast<int>(count), [&](int index) {
+      const auto v = static_cast<std::size_t>(index);
+      std::array<double, kCosts> sum{};
+      const auto add = [&](std::size_t u, double weight) {
+        for (std::size_t c = 0; c < kCosts; ++c) sum[c] += weight * static_cast<double>(cost[u][c]);
+      };
+      add(v, 1.0);
+      for (const int u : neighbours[v]) add(static_cast<std::size_t>(u), 0.6);
+      for (int o = 0; o < kOuters; ++o) {
+        for (int w = 0; w < kThicknesses; ++w) {
+          const double off = (thickness_at(w) - usual[v]) / tie;
+          sum[static_cast<std::size_t>(o * kThicknesses + w)] += off * off;
+        }
+      }
+      const auto best = static_cast<int>(std::min_element(sum.begin(), sum.end()) - sum.begin());
+      const int o = best / kThicknesses, w = best % kThicknesses;
+      const auto refine = [&](int position, int size, int stride) {
+        if (position == 0 || position + 1 == size) return 0.0;
+        const double before = sum[static_cast<std::size_t>(best - stride)],
+                     middle = sum[static_cast<std::size_t>(best)],
+                     after = sum[static_cast<std::size_t>(best + stride)];
+        const double bend = before - 2.0 * middle + after;
+        return bend > 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+      };
+      shift[v] = outer_at(o) + kOuterStep * refine(o, kOuters, kThicknesses);
+      fit.thickness[v] = thickness_at(w) + kThicknessStep * refine(w, kThicknesses, 1);
+      misfit[v] = static_cast<double>(cost[v][static_cast<std::size_t>(best)]);
+    });
+    if (pass > 0) break;
+    parallel_for(static_cast<int>(count), [&](int index) {
+      const auto v = static_cast<std::size_t>(index);
+      std::vector<double> around;
+      for (std::size_t u = 0; u < count; ++u) {
+        if ((near.vertices[u] - near.vertices[v]).squaredNorm() < kSurroundings * kSurroundings) {
+          around.push_back(fit.thickness[u]);
+        }
+      }
+      const auto lower =
+          around.begin() + static_cast<long>(0.5 * static_cast<double>(around.size()));
+      std::nth_element(around.begin(), lower, around.end());
+      usual[v] = *lower;
+    });
+  }
   // A shell is smooth: the shift is a median of the neighbours' and then a mean.
   std::vector<double> even(count);
   for (int round = 0; round < 3; ++round) {

@@ -12,12 +12,13 @@ namespace palmar {
 
 /// What a bone's surface is found in.
 struct ShellImage {
-  const Volume& image;                      ///< free of bias
-  const std::vector<std::int32_t>& region;  ///< per voxel: the bone (or other bright region) it
-                                            ///< belongs to, -1 for none
-  double dark = 0.0;                        ///< signal of cortical bone
-  double bright = 0.0;                      ///< of marrow
-  double noise = 0.0;                       ///< standard deviation of the image's noise
+  const Volume& image;  ///< free of bias
+  const std::vector<std::int32_t>&
+      region;           ///< per voxel: the bone (or other bright region) it
+                        ///< belongs to, -1 for none; -2 where no bone can be (air)
+  double dark = 0.0;    ///< signal of cortical bone
+  double bright = 0.0;  ///< of marrow
+  double noise = 0.0;   ///< standard deviation of the image's noise
 };
 
 /// Where the outside of the cortical shell lies, for a surface near it.
