@@ -398,7 +398,7 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   // In the limits of flexion MP and IP bend and stretch as well, in those of abduction hardly.
   all[ScanPosture::kThumbFlexion] = thumb(22.0, 0.0, 32.0, 42.0);
   all[ScanPosture::kThumbExtension] = thumb(-22.0, 0.0, -12.0, -16.0);
-  all[ScanPosture::kThumbAbduction] = thumb(0.0, 20.0, 0.0, 0.0);
+  all[ScanPosture::kThumbAbduction] = thumb(0.0, 18.0, 0.0, 0.0);
   all[ScanPosture::kThumbAdduction] = thumb(0.0, -22.0, -1.0, 2.0);
 
   // Degrees from the reference posture: MCP flexion, abduction, PIP, DIP.
