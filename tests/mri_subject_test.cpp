@@ -20,6 +20,7 @@
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/self_intersection.h"
+#include "subject_fixture.h"
 #include "template_fixture.h"
 
 namespace palmar {
@@ -27,10 +28,7 @@ namespace {
 
 class MriSubjectTest : public TemplateTest {
  protected:
-  static const MriSubject& subject() {
-    static const MriSubject made = make_mri_subject(hand(), {.seed = 1, .has_fixture = false});
-    return made;
-  }
+  static const MriSubject& subject() { return test_subject(hand()); }
   static const MriSubject& left() {
     static const MriSubject made =
         make_mri_subject(hand(), {.seed = 3, .side = Side::kLeft, .markers = 0});
