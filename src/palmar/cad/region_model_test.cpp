@@ -144,6 +144,27 @@ RidgeRelief corner(double radius) {
   return relief;
 }
 
+// Colours hang on shapes by their address, which is another one every time.
+TEST(RegionModel, TheSameRegionGivesTheSameBytesWhereverItsShapesLie) {
+  const TempFolder folder;
+  std::vector<NamedCurve> curves;
+  for (int i = 0; i < 6; ++i) {
+    curves.push_back(circle());
+    curves.back().name = "outline " + std::to_string(i + 1);
+    curves.back().colour[0] = 0.1F * static_cast<float>(i);
+    for (Vec3& x : curves.back().points) x.z() += 5.0 * i;
+  }
+  std::vector<RegionModel> kept;
+  for (const char* const name : {"one.step", "two.step", "three.step"}) {
+    kept.push_back(make_region_model(prism(), curves, {patch(false), patch(true)}));
+    write_step(folder.file(name), kept.back().model);
+  }
+  const std::string one = read_file(folder.file("one.step"));
+  EXPECT_EQ(occurrences(one, "STYLED_ITEM("), 8);
+  EXPECT_TRUE(one == read_file(folder.file("two.step")));
+  EXPECT_TRUE(one == read_file(folder.file("three.step")));
+}
+
 TEST(CutReliefs, AllAlongAnEdgeEqualsALargerFillet) {
   RidgeRelief relief = corner(14.0);
   relief.is_open_start = relief.is_open_end = true;

@@ -5,6 +5,9 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
+#include <StepVisual_StyledItem.hxx>
 #include <TCollection_ExtendedString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
@@ -12,7 +15,10 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "palmar/cad/cad_file.h"
 #include "palmar/cad/occt_model.h"
@@ -83,6 +89,39 @@ void set_header(const Handle(StepData_StepModel) & model) {
   header.SetDescriptionValue(1, text("Palmar model"));
 }
 
+/// Where the shape that a presentation gives its colour to stands in the model; 0: nowhere.
+int place_of_shape(const Handle(StepRepr_Representation) & presentation,
+                   const Handle(StepData_StepModel) & model) {
+  if (presentation->Items().IsNull() || presentation->NbItems() == 0) return 0;
+  const auto item = Handle(StepVisual_StyledItem)::DownCast(presentation->ItemsValue(1));
+  return item.IsNull() || item->Item().IsNull() ? 0 : model->Number(item->Item());
+}
+
+/// The kernel keeps the colours of bodies in a map by address and writes them in its order, another
+/// one in every run. Shapes come first, in the order of the bodies: colours follow that order.
+void settle_order(const Handle(StepData_StepModel) & model) {
+  using Presentation = StepVisual_MechanicalDesignGeometricPresentationRepresentation;
+  std::vector<Handle(Standard_Transient)> shapes, rest;
+  std::vector<std::pair<int, Handle(Standard_Transient)>> colours;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) one = model->Value(i);
+    if (const auto colour = Handle(Presentation)::DownCast(one); !colour.IsNull()) {
+      colours.emplace_back(place_of_shape(colour, model), colour);
+    } else {
+      (colours.empty() ? shapes : rest).push_back(one);
+    }
+  }
+  if (colours.size() < 2) return;
+  std::stable_sort(colours.begin(), colours.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  model->ClearEntities();
+  for (const auto& one : shapes) model->AddEntity(one);
+  for (const auto& [place, colour] : colours) model->AddWithRefs(colour);
+  for (const auto& one : rest) {
+    if (!model->Contains(one)) model->AddEntity(one);
+  }
+}
+
 }  // namespace
 
 void write_step(const std::filesystem::path& path, const CadModel& model) {
@@ -103,6 +142,7 @@ void write_step(const std::filesystem::path& path, const CadModel& model) {
   if (!writer.Transfer(document_of(model), STEPControl_AsIs)) {
     throw OutputError(path.string() + ": the CAD kernel can't turn the model into STEP");
   }
+  settle_order(writer.ChangeWriter().Model());
   set_header(writer.ChangeWriter().Model());
   std::filesystem::path temporary = path;
   temporary += ".part";
