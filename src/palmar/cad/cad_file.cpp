@@ -139,6 +139,21 @@ std::string broken_entities(const Handle(StepData_StepModel) & model) {
          " broken, the first is #" + std::to_string(model->IdentLabel(model->Value(first)));
 }
 
+/// Shapes that stand for something the kernel couldn't read, as an entity whose type it doesn't
+/// know: it would crash on them. "" if there are none.
+std::string unreadable_shape(const Handle(StepData_StepModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto shape = Handle(StepShape_ShapeRepresentation)::DownCast(model->Value(i));
+    if (shape.IsNull() || shape->Items().IsNull()) continue;
+    for (int k = 1; k <= shape->NbItems(); ++k) {
+      if (!shape->ItemsValue(k).IsNull()) continue;
+      return "item " + std::to_string(k) + " of the shape #" +
+             std::to_string(model->IdentLabel(shape)) + " is no shape that can be read";
+    }
+  }
+  return "";
+}
+
 std::string schema_of(const std::string& head) {
   const std::size_t begin = head.find("FILE_SCHEMA");
   if (begin == head.npos) return "";
@@ -190,6 +205,10 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
   }
   const Handle(StepData_StepModel) model = reader.ChangeReader().StepModel();
   const std::string broken = broken_entities(model);
+  if (const std::string unreadable = unreadable_shape(model); !unreadable.empty()) {
+    throw InputError(object + ": " + unreadable + (broken.empty() ? "" : " (" + broken + ")") +
+                     "; the file is damaged or its entities are misspelt, export it again");
+  }
   const std::string activity =
       "translating " + path.filename().string() + (broken.empty() ? "" : " (" + broken + ")");
   if (!broken.empty()) file.notes.push_back(broken);
