@@ -15,10 +15,10 @@
 #include <TopTools_ListIteratorOfListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "palmar/cad/face_relations.h"
 #include "palmar/cad/occt_model.h"
 #include "palmar/cad/tessellation.h"
 
@@ -102,30 +102,6 @@ bool is_concave(const TopoDS_Face& face, const BRepAdaptor_Surface& surface) {
       return false;
   }
   return gp_Vec(at, centre).Dot(normal_at(face, surface, u, v)) > 0.0;
-}
-
-/// Whether two neighbours lie on one and the same surface, cut by a seam.
-bool is_same_surface(const BRepAdaptor_Surface& a, const BRepAdaptor_Surface& b) {
-  if (a.GetType() != b.GetType()) return false;
-  constexpr double kSame = 1e-6;  // mm, rad
-  switch (a.GetType()) {
-    case GeomAbs_Plane:
-      return a.Plane().Axis().IsParallel(b.Plane().Axis(), kSame);
-    case GeomAbs_Cylinder:
-      return std::abs(a.Cylinder().Radius() - b.Cylinder().Radius()) < kSame &&
-             a.Cylinder().Axis().IsCoaxial(b.Cylinder().Axis(), kSame, kSame);
-    case GeomAbs_Cone:
-      return std::abs(a.Cone().SemiAngle() - b.Cone().SemiAngle()) < kSame &&
-             a.Cone().Apex().Distance(b.Cone().Apex()) < kSame;
-    case GeomAbs_Sphere:
-      return std::abs(a.Sphere().Radius() - b.Sphere().Radius()) < kSame &&
-             a.Sphere().Location().Distance(b.Sphere().Location()) < kSame;
-    case GeomAbs_Torus:
-      return std::abs(a.Torus().MinorRadius() - b.Torus().MinorRadius()) < kSame &&
-             a.Torus().Location().Distance(b.Torus().Location()) < kSame;
-    default:
-      return false;
-  }
 }
 
 struct Describer {
@@ -235,109 +211,11 @@ struct Describer {
     return TopAbs_FORWARD;
   }
 
-  /// Blends: round across, smooth to other faces on both long sides.
+  /// Faces that round an edge, as changes of features know them.
   void find_fillets() {
-    std::vector<std::vector<int>> edges_of(result.face.size());
-    for (int e = 0; e < static_cast<int>(result.edge.size()); ++e) {
-      const ProductEdge& edge = result.edge[e];
-      for (int side = 0; side < 2; ++side) {
-        if (edge.faces[side] >= 0 && (side == 0 || edge.faces[1] != edge.faces[0])) {
-          edges_of[edge.faces[side]].push_back(e);
-        }
-      }
+    for (const Blend& blend : blends_of(impl, edge_relations(impl))) {
+      result.face[static_cast<std::size_t>(blend.face) - 1].is_fillet = true;
     }
-    for (int f = 0; f < static_cast<int>(result.face.size()); ++f) {
-      result.face[f].is_fillet = is_fillet(f, edges_of[f]);
-    }
-  }
-
-  int other_side(const ProductEdge& edge, int f) const {
-    return edge.faces[0] == f ? edge.faces[1] : edge.faces[0];
-  }
-
-  bool meets_smoothly(const ProductEdge& edge, int f) const {
-    const int other = other_side(edge, f);
-    return edge.is_smooth && other >= 0 && other != f &&
-           !is_same_surface(surfaces[f], surfaces[other]);
-  }
-
-  /// Whether an edge runs along the blend (not around its section).
-  bool runs_along(const ProductEdge& edge, const BRepAdaptor_Surface& surface) const {
-    BRepAdaptor_Curve curve;
-    try {
-      curve.Initialize(TopoDS::Edge(impl.edges(edge.number)));
-    } catch (const Standard_Failure&) {
-      return false;
-    }
-    const double middle = 0.5 * (curve.FirstParameter() + curve.LastParameter());
-    gp_Pnt point;
-    gp_Vec tangent;
-    curve.D1(middle, point, tangent);
-    if (tangent.Magnitude() < 1e-12) return false;
-    tangent.Normalize();
-    constexpr double kAlong = 0.7;  // cosine of 45 degrees: nearer along than around
-    if (surface.GetType() == GeomAbs_Cylinder) {
-      return std::abs(tangent.Dot(gp_Vec(surface.Cylinder().Axis().Direction()))) > kAlong;
-    }
-    // Around the axis of the torus.
-    const gp_Torus torus = surface.Torus();
-    const gp_Vec axis(torus.Axis().Direction());
-    gp_Vec around = axis.Crossed(gp_Vec(torus.Location(), point));
-    if (around.Magnitude() < 1e-12) return false;
-    return std::abs(tangent.Dot(around.Normalized())) > kAlong;
-  }
-
-  bool is_fillet(int f, const std::vector<int>& edges) const {
-    const BRepAdaptor_Surface& surface = surfaces[f];
-    if (surface.GetType() == GeomAbs_Sphere) {
-      // A corner between three fillets or more: smooth all around, to different faces.
-      std::vector<int> neighbours;
-      for (const int e : edges) {
-        const ProductEdge& edge = result.edge[e];
-        if (edge.length == 0.0 || other_side(edge, f) == f) continue;
-        if (!meets_smoothly(edge, f)) return false;
-        neighbours.push_back(other_side(edge, f));
-      }
-      std::sort(neighbours.begin(), neighbours.end());
-      const auto end = std::unique(neighbours.begin(), neighbours.end());
-      return end - neighbours.begin() >= 3;
-    }
-    if (surface.GetType() != GeomAbs_Cylinder && surface.GetType() != GeomAbs_Torus) {
-      return surface.GetType() != GeomAbs_Plane && surface.GetType() != GeomAbs_Cone &&
-             is_freeform_fillet(f, edges);
-    }
-    // More than half a turn rounds nothing off: it is a rod or a ring.
-    const bool is_cylinder = surface.GetType() == GeomAbs_Cylinder;
-    const double turn = is_cylinder ? surface.LastUParameter() - surface.FirstUParameter()
-                                    : surface.LastVParameter() - surface.FirstVParameter();
-    if (turn > std::numbers::pi + 1e-6) return false;
-    double smooth = 0.0, along = 0.0;  // mm
-    std::vector<int> smooth_edges;
-    for (const int e : edges) {
-      const ProductEdge& edge = result.edge[e];
-      if (other_side(edge, f) == f || !runs_along(edge, surface)) continue;
-      along += edge.length;
-      if (!meets_smoothly(edge, f)) continue;
-      smooth += edge.length;
-      smooth_edges.push_back(e);
-    }
-    // Both sides, each of one edge or more.
-    constexpr double kNearlyAll = 0.95;
-    return smooth_edges.size() >= 2 && smooth > kNearlyAll * along;
-  }
-
-  /// A strip whose two longest edges, much longer than the others, are both smooth.
-  bool is_freeform_fillet(int f, const std::vector<int>& edges) const {
-    std::vector<const ProductEdge*> outline;
-    for (const int e : edges) {
-      if (result.edge[e].length > 0.0) outline.push_back(&result.edge[e]);
-    }
-    if (outline.size() < 3) return false;
-    std::sort(outline.begin(), outline.end(),
-              [](const ProductEdge* a, const ProductEdge* b) { return a->length > b->length; });
-    constexpr double kStrip = 2.0;  // times longer than wide
-    return meets_smoothly(*outline[0], f) && meets_smoothly(*outline[1], f) &&
-           outline[1]->length > kStrip * outline[2]->length;
   }
 };
 
