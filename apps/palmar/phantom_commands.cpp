@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "phantom_commands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/io/dicom.h"
@@ -15,6 +15,7 @@
 #include "palmar/io/mri_subject_file.h"
 #include "palmar/phantom/mri_subject.h"
 #include "palmar/phantom/scan_grid.h"
+#include "phantom_commands.h"
 
 namespace palmar::cli {
 namespace {
@@ -29,8 +30,38 @@ struct PhantomArguments {
   ScannerOptions scanner;
   double oblique_deg = 0.0;
   int markers = MriSubjectOptions{}.markers;
-  bool no_fixture = false, no_markers = false;
+  bool no_fixture = false, no_markers = false, both_hands = false;
 };
+
+/// The other hand beside a hand: its mirror image, 15 mm away on the patient's left.
+void add_other_hand(SubjectPosture& state) {
+  double edge = -std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : state.skin.vertices) edge = std::max(edge, vertex.x());
+  constexpr double kGap = 15.0;  // mm
+  const double sum = 2.0 * edge + kGap;
+  const std::size_t parts = state.parts.size();
+  for (std::size_t p = 0; p < parts; ++p) {
+    ImagedPart other = state.parts[p];
+    for (Vec3& vertex : other.mesh.vertices) vertex.x() = sum - vertex.x();
+    for (Triangle& triangle : other.mesh.triangles) std::swap(triangle[1], triangle[2]);
+    state.parts.push_back(std::move(other));
+  }
+}
+
+/// Says where the image doesn't show the whole hand; the forearm is always cut.
+void note_cut(const std::string& name, const std::vector<Vec3>& skin, const VolumeGrid& grid,
+              const Context& context) {
+  std::size_t outside = 0;
+  for (const Vec3& vertex : skin) {
+    const Vec3 at = grid.to_voxel(vertex);
+    const bool is_in = at[0] >= 0.0 && at[0] <= grid.size[0] - 1.0 && at[1] >= 0.0 &&
+                       at[2] >= 0.0 && at[2] <= grid.size[2] - 1.0;
+    outside += is_in ? 0 : 1;
+  }
+  if (outside == 0) return;
+  note(context.common, fmt::format("{}: {} of {} vertices of the skin lie outside of the image",
+                                   name, outside, skin.size()));
+}
 
 std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) {
   std::vector<std::string> all;
@@ -86,7 +117,7 @@ int run_mri(PhantomArguments arguments, const Context& context) {
 
   const Progress progress = make_progress(context.common);
   progress.update(0.0, "making the person");
-  const MriSubject subject = make_mri_subject(*load_hand(arguments.base), person);
+  MriSubject subject = make_mri_subject(*load_hand(arguments.base), person);
   const fs::path out(arguments.out);
   std::map<ScanPosture, std::string> series;
   Json scans = Json::array();
@@ -94,8 +125,10 @@ int run_mri(PhantomArguments arguments, const Context& context) {
   for (std::size_t p = 0; p < postures.size(); ++p) {
     const std::string name(name_of(postures[p]));
     const double length = 0.95 / static_cast<double>(postures.size());
-    const SubjectPosture& state = subject.postures.at(postures[p]);
+    SubjectPosture& state = subject.postures.at(postures[p]);
     const VolumeGrid grid = scan_grid(state.skin.vertices, arguments.grid);
+    note_cut(name, state.skin.vertices, grid, context);
+    if (arguments.both_hands) add_other_hand(state);
     ScannerOptions scanner = arguments.scanner;
     scanner.seed = person.seed * kScanPostureCount + static_cast<std::uint64_t>(postures[p]);
     const Volume image =
@@ -175,6 +208,8 @@ void add_phantom_commands(CLI::App& app, Context& context) {
       ->capture_default_str();
   verb->add_flag("--no-markers", o->no_markers, "None");
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
+  verb->add_flag("--both-hands", o->both_hands,
+                 "The other hand lies beside it, on the patient's left");
   verb->add_option("--base", o->base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
