@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
@@ -18,19 +19,27 @@
 #include "palmar/hand/hand_instance.h"
 #include "palmar/hand/skinning.h"
 #include "palmar/io/hand_file.h"
-#include "palmar/phantom/mri_subject.h"
+#include "subject_fixture.h"
 #include "template_fixture.h"
 
 namespace palmar {
 namespace {
 
+Vec3 in_mirror(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+
+TriangleMesh in_mirror(TriangleMesh mesh) {
+  for (Vec3& v : mesh.vertices) v = in_mirror(v);
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 /// What a scanner without error would show of a subject, with the noise of a good surface. Its
-/// skin moves by rules that no Hand knows.
+/// skin moves by rules that no Hand knows. All is seen in a mirror: a left hand's.
 ScanSurfaces perfect_scan(const MriSubject& subject, ScanPosture posture) {
   const SubjectPosture& truth = subject.postures.at(posture);
   ScanSurfaces scan;
-  scan.side = subject.side;
-  scan.skin = truth.skin;
+  scan.side = Side::kLeft;
+  scan.skin = in_mirror(truth.skin);
   RandomStream random(5, static_cast<std::uint64_t>(posture));
   const std::vector<Vec3> normal = vertex_normals(scan.skin);
   for (std::size_t v = 0; v < normal.size(); ++v) {
@@ -39,16 +48,17 @@ ScanSurfaces perfect_scan(const MriSubject& subject, ScanPosture posture) {
   for (const Bone& bone : subject.bones) {
     ScannedBone scanned{bone.name, bone.mesh, false};
     for (Vec3& v : scanned.mesh.vertices) v = truth.bone.at(bone.name) * v;
+    scanned.mesh = in_mirror(scanned.mesh);
     scan.bones.push_back(std::move(scanned));
   }
-  scan.markers.assign(truth.markers.rbegin(), truth.markers.rend());
+  for (const Vec3& marker : truth.markers) scan.markers.push_back(in_mirror(marker));
+  std::reverse(scan.markers.begin(), scan.markers.end());
   return scan;
 }
 
 class ScannedHandTest : public TemplateTest {
  protected:
   struct Made {
-    MriSubject subject;
     std::map<ScanPosture, ScanSurfaces> scans;
     MeasuredJoints joints;
     ScannedHand scanned;
@@ -57,9 +67,8 @@ class ScannedHandTest : public TemplateTest {
   static const Made& made() {
     static const Made result = [] {
       Made m;
-      m.subject = make_mri_subject(hand(), {.seed = 4, .side = Side::kLeft});
       for (const ScanPosture p : {ScanPosture::kReference, ScanPosture::kThumbFlexion}) {
-        m.scans[p] = perfect_scan(m.subject, p);
+        m.scans[p] = perfect_scan(test_subject(hand()), p);
       }
       // One of them fell off, and something is taken for a marker.
       m.scans[ScanPosture::kThumbFlexion].markers.pop_back();
@@ -81,7 +90,8 @@ TEST_F(ScannedHandTest, SkinLiesOnTheTrueOne) {
   const ScannedHand& scanned = made().scanned;
   EXPECT_LT(scanned.registration_mean, 0.2);
   EXPECT_LT(scanned.registration_p95, 0.6);
-  const ClosestPointQuery truth(made().subject.postures.at(ScanPosture::kReference).skin);
+  const ClosestPointQuery truth(
+      in_mirror(test_subject(hand()).postures.at(ScanPosture::kReference).skin));
   double sum = 0.0, worst = 0.0;
   int count = 0;
   for (const Vec3& v : scanned.hand.skin.vertices) {
@@ -109,7 +119,7 @@ TEST_F(ScannedHandTest, DimensionsAreThePersons) {
   double sum = 0.0;
   for (const HandDimension d : all_hand_dimensions()) {
     const double error =
-        value_of(made().scanned.hand.dimensions, d) - value_of(made().subject.dimensions, d);
+        value_of(made().scanned.hand.dimensions, d) - value_of(test_subject(hand()).dimensions, d);
     // Joint centres differ by half a millimetre, webs and flat fingertips add to that.
     EXPECT_LT(std::abs(error), 0.9) << name_of(d);
     sum += std::abs(error);
@@ -136,13 +146,15 @@ TEST_F(ScannedHandTest, BonesAreTheScans) {
   for (std::size_t b = 0; b < result.bones.size(); ++b) {
     const Bone& bone = result.bones[b];
     EXPECT_EQ(bone.segment, hand().bones[b].segment) << bone.name;
-    const auto truth = std::find_if(made().subject.bones.begin(), made().subject.bones.end(),
-                                    [&](const Bone& other) { return other.name == bone.name; });
-    if (truth == made().subject.bones.end()) continue;
-    EXPECT_EQ(bone.mesh.triangles, truth->mesh.triangles) << bone.name;
-    EXPECT_NEAR(
-        (made().scanned.patient_from_hand * bone.mesh.vertices[0] - truth->mesh.vertices[0]).norm(),
-        0.0, 1e-9)
+    const auto truth =
+        std::find_if(test_subject(hand()).bones.begin(), test_subject(hand()).bones.end(),
+                     [&](const Bone& other) { return other.name == bone.name; });
+    if (truth == test_subject(hand()).bones.end()) continue;
+    EXPECT_EQ(bone.mesh.triangles, in_mirror(truth->mesh).triangles) << bone.name;
+    EXPECT_NEAR((made().scanned.patient_from_hand * bone.mesh.vertices[0] -
+                 in_mirror(truth->mesh.vertices[0]))
+                    .norm(),
+                0.0, 1e-9)
         << bone.name;
   }
 }

@@ -172,6 +172,20 @@ void measure(const FitSurface& moving, const SkinScan& scan, const Skeleton& ske
   result.percentile_95 = partnered[static_cast<std::size_t>(k)];
 }
 
+/// Throws InputError unless half of the skin has scanned skin near.
+void require_near(const TriangleMesh& skin, const SkinScan& scan, const Skeleton& skeleton) {
+  constexpr double kNear = 12.0;  // mm
+  const std::vector<double> distance =
+      distances_to_scan(skin.vertices, vertex_normals(skin), scan, skeleton, kNear);
+  const auto near =
+      std::count_if(distance.begin(), distance.end(), [](double d) { return d >= 0; });
+  if (2 * near >= static_cast<std::ptrdiff_t>(distance.size())) return;
+  throw InputError(fmt::format(
+      "scanned skin: {:.0f} % of the model's skin, posed by the joints, has it within {:g} mm; 50 "
+      "% are needed: skin and joints don't belong together",
+      100.0 * static_cast<double>(near) / static_cast<double>(distance.size()), kNear));
+}
+
 /// Fingers of the segments: 1 thumb ... 5 little, 0 palm.
 std::vector<int> parts_of(const std::vector<Segment>& segments) {
   std::vector<int> part;
@@ -263,16 +277,10 @@ RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skel
   moving.is_silent = cut_of(model);
   moving.part = parts_of(model.segment);
   const FitSurface fixed = scanned_surface(scan, skeleton);
+  require_near(moving.mesh, scan, skeleton);
   moving.mesh.vertices = fit_nonrigidly(moving, fixed, {}, {}, progress);
   part_crossings(moving.mesh);
   measure(moving, scan, skeleton, result);
-  constexpr double kLeastShare = 0.5;
-  if (result.partner_share < kLeastShare) {
-    throw InputError(
-        fmt::format("scanned skin: it lies near {:.0f} % of the model's only; {:.0f} % are needed: "
-                    "skin and joints don't belong together",
-                    100.0 * result.partner_share, 100.0 * kLeastShare));
-  }
   result.skin = std::move(moving.mesh.vertices);
   return result;
 }
