@@ -157,6 +157,14 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
                     100.0 * (1.0 - registered.partner_share)));
   }
 
+  constexpr double kLeftOver = 0.01;
+  if (registered.left_over > kLeftOver) {
+    result.notes.push_back(
+        fmt::format("{:.0f} % of the scanned skin lies more than 2 mm from the hand's: joints or "
+                    "surfaces are wrong somewhere.",
+                    100.0 * registered.left_over));
+  }
+
   Hand& hand = result.hand;
   hand.name = "scanned";
   hand.side = scan.side;

@@ -186,6 +186,23 @@ void require_near(const TriangleMesh& skin, const SkinScan& scan, const Skeleton
       100.0 * static_cast<double>(near) / static_cast<double>(distance.size()), kNear));
 }
 
+/// Share of the scanned skin distal of the wrist that the registered one doesn't cover.
+double left_over_share(const TriangleMesh& skin, const FitSurface& fixed,
+                       const Skeleton& skeleton) {
+  constexpr double kFar = 2.0;  // mm
+  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  const ClosestPointQuery query(skin);
+  const std::vector<double> area = vertex_areas(fixed.mesh);
+  double all = 0.0, over = 0.0;
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    const Vec3& p = fixed.mesh.vertices[v];
+    if (fixed.is_silent[v] || p.y() < wrist) continue;
+    all += area[v];
+    if (!query.closest(p, kFar)) over += area[v];
+  }
+  return all > 0.0 ? over / all : 0.0;
+}
+
 /// Fingers of the segments: 1 thumb ... 5 little, 0 palm.
 std::vector<int> parts_of(const std::vector<Segment>& segments) {
   std::vector<int> part;
@@ -281,6 +298,7 @@ RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skel
   moving.mesh.vertices = fit_nonrigidly(moving, fixed, {}, {}, progress);
   part_crossings(moving.mesh);
   measure(moving, scan, skeleton, result);
+  result.left_over = left_over_share(moving.mesh, fixed, skeleton);
   result.skin = std::move(moving.mesh.vertices);
   return result;
 }

@@ -26,6 +26,7 @@ struct RegisteredSkin {
   PosedModel start;                        ///< what it was bent from
   double mean = 0.0, percentile_95 = 0.0;  ///< distance to the scan where there are partners, mm
   double partner_share = 0.0;              ///< of the area, forearm left out
+  double left_over = 0.0;  ///< share of the scanned skin that lies more than 2 mm from this one
 };
 
 /// Lays the skin of `model` on a scan. `skeleton`: the person's joints in the scan's frame, which
