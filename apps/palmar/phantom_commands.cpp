@@ -33,12 +33,16 @@ struct PhantomArguments {
   bool no_fixture = false, no_markers = false, both_hands = false;
 };
 
-/// The other hand beside a hand: its mirror image, 15 mm away on the patient's left.
-void add_other_hand(SubjectPosture& state) {
+/// The other hand beside a hand: its mirror image, 15 mm away on the patient's left. Its skin is
+/// added to `skin`.
+void add_other_hand(SubjectPosture& state, std::vector<Vec3>& skin) {
   double edge = -std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : state.skin.vertices) edge = std::max(edge, vertex.x());
   constexpr double kGap = 15.0;  // mm
   const double sum = 2.0 * edge + kGap;
+  for (const Vec3& vertex : state.skin.vertices) {
+    skin.emplace_back(sum - vertex.x(), vertex.y(), vertex.z());
+  }
   const std::size_t parts = state.parts.size();
   for (std::size_t p = 0; p < parts; ++p) {
     ImagedPart other = state.parts[p];
@@ -126,9 +130,10 @@ int run_mri(PhantomArguments arguments, const Context& context) {
     const std::string name(name_of(postures[p]));
     const double length = 0.95 / static_cast<double>(postures.size());
     SubjectPosture& state = subject.postures.at(postures[p]);
-    const VolumeGrid grid = scan_grid(state.skin.vertices, arguments.grid);
-    note_cut(name, state.skin.vertices, grid, context);
-    if (arguments.both_hands) add_other_hand(state);
+    std::vector<Vec3> skin = state.skin.vertices;
+    if (arguments.both_hands) add_other_hand(state, skin);
+    const VolumeGrid grid = scan_grid(skin, arguments.grid);
+    note_cut(name, skin, grid, context);
     ScannerOptions scanner = arguments.scanner;
     scanner.seed = person.seed * kScanPostureCount + static_cast<std::uint64_t>(postures[p]);
     const Volume image =
