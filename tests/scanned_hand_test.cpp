@@ -90,6 +90,8 @@ TEST_F(ScannedHandTest, SkinLiesOnTheTrueOne) {
   const ScannedHand& scanned = made().scanned;
   EXPECT_LT(scanned.registration_mean, 0.2);
   EXPECT_LT(scanned.registration_p95, 0.6);
+  EXPECT_THAT(scanned.notes,
+              testing::Not(testing::Contains(testing::HasSubstr("lies more than 2 mm"))));
   const ClosestPointQuery truth(
       in_mirror(test_subject(hand()).postures.at(ScanPosture::kReference).skin));
   double sum = 0.0, worst = 0.0;
