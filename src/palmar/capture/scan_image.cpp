@@ -305,7 +305,12 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
     tissue[v] = is_tissue ? 1 : 0;
   }
   const ConnectedParts pieces = connected_parts(grid, tissue);
-  scan.body = filled(grid, mask_of(pieces, pieces.largest()));
+  // Closed over what is narrower than 3 mm (dark tendons below the skin), opened where the fixture
+  // leaves scraps.
+  scan.body = filled(grid, closed(grid, mask_of(pieces, pieces.largest()), 1.5));
+  scan.body = opened(grid, scan.body, 1.2);
+  const ConnectedParts whole_parts = connected_parts(grid, scan.body);
+  scan.body = mask_of(whole_parts, whole_parts.largest());
   scan.depth = inside_of(scan.body);
   find_bone_levels(scan, options.bone_threshold);
   return scan;
