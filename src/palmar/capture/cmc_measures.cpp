@@ -124,6 +124,7 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
     prior.first = flexion.axis;
     prior.second = abduction.axis;
     prior.square_sd = 0.5;
+    prior.slide_sd = 10.0;  // the saddle is a screw: free
     prior.by_first_sd = prior.by_second_sd = 0.05;
     const TwoAxisFit fit = fit_two_axes(known, main, bone->second.points, prior);
     std::string source = "axis: measured between scans (reference";
