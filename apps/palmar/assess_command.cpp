@@ -120,6 +120,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
     const double start = 0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(products.size());
     const Progress part = part_of(
         progress, start, start + 0.6 / static_cast<double>(products.size()), products[i].name);
+    options.grasp = arguments.grasp.options_for(products[i]);
     options.friction = friction[i];
     options.balance.load = options.friction.load;
     try {

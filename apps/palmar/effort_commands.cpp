@@ -292,6 +292,7 @@ void add_grasp(CLI::App& effort, Context& context) {
       asked.check();
       const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
       for (const std::string& text : product.notes) note(context.common, text);
+      options.grasp = o->grasp.options_for(product);
       options.friction = o->friction.options_for(product);
       options.balance = o->balance.options(o->friction, options.grasp.grip);
       options.balance.load = options.friction.load;

@@ -32,8 +32,9 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& told) {
   verb->add_option("--out", o->out, told.out);
   verb->callback([&context, o, told] {
     context.run = [&context, o, told] {
-      const GraspOptions options = o->grasp.options();
+      o->grasp.options();  // refuses what can't be before a file is read
       const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
+      const GraspOptions options = o->grasp.options_for(product);
       for (const std::string& text : product.notes) note(context.common, text);
       const auto hand = load_hand(o->grasp.hand);
       const Grasp found = find_grasp(*hand, product, options, make_progress(context.common));

@@ -6,6 +6,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/io/made_product.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -118,6 +119,15 @@ GraspOptions GraspArguments::options() const {
                      " takes fingertips to points; --at or --fingertip says where");
   }
   result.check();
+  return result;
+}
+
+GraspOptions GraspArguments::options_for(const Product& product) const {
+  GraspOptions result = options();
+  PlacementRequest& placement = result.power.placement;
+  if (!placement.at && !placement.axis && !placement.region && is_made(product.source)) {
+    placement.axis = thumb_side_of(made_from(product.source));
+  }
   return result;
 }
 

@@ -25,6 +25,8 @@ struct GraspArguments {
   void add_to(CLI::App& verb);
   /// The values for the grasp module. Throws UsageError.
   GraspOptions options() const;
+  /// The same for a product that may tell by itself which side the thumb is on.
+  GraspOptions options_for(const Product& product) const;
 };
 
 /// The options of the contact solver, as typed.

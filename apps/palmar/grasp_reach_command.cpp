@@ -67,8 +67,9 @@ int run_reach(const ReachArguments& o, const Context& context) {
   }
   std::vector<Button> buttons;
   for (const std::string& text : o.buttons) buttons.push_back(parse_button(text));
-  const GraspOptions options = o.grasp.options();
+  o.grasp.options();  // refuses what can't be before a file is read
   const Product product = load_product(o.product, {.unit = parse_unit(o.grasp.unit)});
+  const GraspOptions options = o.grasp.options_for(product);
   for (const std::string& text : product.notes) note(context.common, text);
   const auto hand = load_hand(o.grasp.hand);
   const Progress progress = make_progress(context.common);

@@ -118,6 +118,12 @@ std::string title_of(const MadeProduct& product) {
   return title;
 }
 
+std::optional<Vec3> thumb_side_of(const MadeProduct& product) {
+  const ParametricKind& kind = parametric_kind(product.kind);
+  if (!kind.thumb_side) return std::nullopt;
+  return kind.thumb_side(complete_values(kind, product.given));
+}
+
 bool is_analytic(const MadeProduct& product) {
   if (product.kind == "sphere" || product.kind == "ellipsoid") return true;
   if (product.kind != "cylinder" && product.kind != "prism") return false;

@@ -29,6 +29,10 @@ MadeProduct made_from(const std::string& words);
 /// "cylinder diameter 35 mm": the kind and what was given, for people.
 std::string title_of(const MadeProduct& product);
 
+/// Along the grip to the thumb's side if the kind tells it (ParametricKind::thumb_side): how it is
+/// held unless something else is asked for. Product frame, unit.
+std::optional<Vec3> thumb_side_of(const MadeProduct& product);
+
 /// Whether the solid has an exact distance (product/primitives.h): sphere, ellipsoid, and cylinder
 /// and prism with sharp ends. The others are made by the CAD program (run_cad()).
 bool is_analytic(const MadeProduct& product);

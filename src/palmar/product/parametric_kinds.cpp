@@ -210,28 +210,34 @@ ParametricKind phone() {
 }
 
 ParametricKind pistol_grip() {
-  return {"pistol_grip",
-          "Raked grip as of a pistol, a drill or a spray gun, from its foot to the frame above",
-          {{"width_mm", 32, 15, 70, "from side to side, along x"},
-           {"depth_mm", 46, 20, 90, "from the fingers to the palm, along y"},
-           {"height_mm", 105, 50, 250, "from the foot to the frame, along z"},
-           {"rake_deg", 18, 0, 40, "by which the foot lies behind"},
-           {"palm_swell_mm", 4, 0, 15, "by which the back bulges into the palm"},
-           {"tang_mm", 9, 0, 25, "by which the back runs out over the web of the thumb"},
-           {"flare_mm", 5, 0, 20, "by which the foot runs out under the little finger"},
-           {"squareness", 0.3, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
-           {"end_fillet_mm", 2.5, 0, 10, "radius of the edges of foot and frame; 0: sharp"}},
-          {at_most("palm_swell_mm", "a quarter of depth_mm",
-                   [](const KindValues& v) { return 0.25 * v.at("depth_mm"); }),
-           at_most("tang_mm", "0.4 of depth_mm",
-                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
-           at_most("flare_mm", "0.4 of depth_mm",
-                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
-           at_most("depth_mm", "2.5 times width_mm",
-                   [](const KindValues& v) { return 2.5 * v.at("width_mm"); }),
-           at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
-           at_most("end_fillet_mm", "a tenth of width_mm",
-                   [](const KindValues& v) { return 0.1 * v.at("width_mm"); })}};
+  return {
+      "pistol_grip",
+      "Raked grip as of a pistol, a drill or a spray gun, from its foot to the frame above; held "
+      "with the web of the thumb under the tang",
+      {{"width_mm", 32, 15, 70, "from side to side, along x"},
+       {"depth_mm", 46, 20, 90, "from the fingers to the palm, along y"},
+       {"height_mm", 105, 50, 250, "from the foot to the frame, along z"},
+       {"rake_deg", 18, 0, 40, "by which the foot lies behind"},
+       {"palm_swell_mm", 4, 0, 15, "by which the back bulges into the palm"},
+       {"tang_mm", 9, 0, 25, "by which the back runs out over the web of the thumb"},
+       {"flare_mm", 5, 0, 20, "by which the foot runs out under the little finger"},
+       {"squareness", 0.3, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
+       {"end_fillet_mm", 2.5, 0, 10, "radius of the edges of foot and frame; 0: sharp"}},
+      {at_most("palm_swell_mm", "a quarter of depth_mm",
+               [](const KindValues& v) { return 0.25 * v.at("depth_mm"); }),
+       at_most("tang_mm", "0.4 of depth_mm",
+               [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
+       at_most("flare_mm", "0.4 of depth_mm",
+               [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
+       at_most("depth_mm", "2.5 times width_mm",
+               [](const KindValues& v) { return 2.5 * v.at("width_mm"); }),
+       at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
+       at_most("end_fillet_mm", "a tenth of width_mm",
+               [](const KindValues& v) { return 0.1 * v.at("width_mm"); })},
+      [](const KindValues& v) {
+        const double rake = v.at("rake_deg") * kDeg;
+        return Vec3(0.0, -std::sin(rake), std::cos(rake));
+      }};
 }
 
 ParametricKind knife_handle() {

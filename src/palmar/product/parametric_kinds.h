@@ -4,9 +4,12 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "palmar/geometry/types.h"
 
 namespace palmar {
 
@@ -39,6 +42,10 @@ struct ParametricKind {
   std::string description;
   std::vector<KindParameter> parameters;
   std::vector<KindRelation> relations;
+  /// Along the grip to the side of thumb and index finger, unit; empty where the shape alone tells.
+  /// A pistol grip without its frame doesn't: what stands on it, not its own mass, says which end
+  /// is up.
+  std::function<Vec3(const KindValues&)> thumb_side = {};
 };
 
 /// In the order in which people are told of them.

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <set>
 
 #include "palmar/core/error.h"
@@ -43,6 +44,14 @@ TEST(ParametricKinds, DefaultsLieInsideTheirRangesAndNamesAreUnique) {
       EXPECT_EQ(names.count(one.parameter), 1U) << kind.name << " " << one.parameter;
     }
   }
+}
+
+// The centre line of the grip goes from its foot, which lies behind (+y), up to the frame.
+TEST(ParametricKinds, ThePistolGripTellsThatTheThumbIsAtItsFrame) {
+  const ParametricKind& kind = parametric_kind("pistol_grip");
+  const Vec3 side = kind.thumb_side(complete_values(kind, {{"rake_deg", 30.0}}));
+  EXPECT_LT((side - Vec3(0.0, -0.5, std::sqrt(0.75))).norm(), 1e-12);
+  EXPECT_FALSE(parametric_kind("bottle").thumb_side);
 }
 
 TEST(ParametricKinds, GivenValuesTakeTheDefaultsPlace) {
