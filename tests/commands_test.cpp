@@ -186,6 +186,27 @@ TEST(ProductCommand, RepairClosesASmallHoleAndLeavesTheOriginal) {
   EXPECT_EQ(run_palmar("product check whole.obj --unit mm", folder).exit_code, 0);
 }
 
+TEST(ProductCommand, ConvertRefusesItsInputAndWhatItCantWriteBeforeReading) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("product make sphere --out ball.obj", folder).exit_code, 0);
+  fs::create_symlink("ball.obj", fs::path(folder) / "link.obj");
+  const std::string text = read_text(folder + "/ball.obj");
+  const struct {
+    std::string out, said;
+  } cases[] = {{"./ball.obj", "is the product itself"},
+               {"link.obj", "is the product itself"},
+               {"ball.iges", "or .step if the product is CAD"},
+               {".", "is a folder; a file is required"}};
+  for (const auto& one : cases) {
+    const ProgramRun run =
+        run_palmar("product convert ball.obj --unit mm --out " + one.out, folder);
+    EXPECT_EQ(run.exit_code, 2) << one.out;
+    EXPECT_THAT(run.err, HasSubstr(one.said)) << one.out;
+  }
+  EXPECT_EQ(run_palmar("product convert none.obj --out a.iges", folder).exit_code, 2);
+  EXPECT_EQ(read_text(folder + "/ball.obj"), text);
+}
+
 TEST(ProductCommand, RepairRefusesItsInputAndAbsurdLengths) {
   const std::string folder = temporary_folder();
   ASSERT_EQ(run_palmar("product make sphere --out ball.obj", folder).exit_code, 0);

@@ -63,6 +63,16 @@ TEST(ProductMake, TheSameWordsGiveTheSameBytes) {
   EXPECT_EQ(read_text(folder() + "/a.step"), read_text(folder() + "/b.step"));
 }
 
+// A pistol grip's shape doesn't tell which end is up; the kind does, with its rake of 30 degrees.
+TEST(ProductMake, TheStudyTellsWhichEndOfAPistolGripIsUpAndTheCommandThatMadeIt) {
+  ASSERT_EQ(make("pistol_grip --rake-deg 30 --out 'my grips/'").exit_code, 0);
+  EXPECT_THAT(read_text(folder() + "/my grips/study.toml"),
+              AllOf(HasSubstr("axis = [0, -0.5, 0.866025]"),
+                    HasSubstr("pistol_grip --rake-deg 30 --out 'my grips/'\n")));
+  ASSERT_EQ(make("plane --out p.stl --out p.obj").exit_code, 0);
+  EXPECT_TRUE(is_there("p.stl") && is_there("p.obj"));
+}
+
 TEST(ProductMake, ASweepWritesFilesAndAStudyThatRunsThem) {
   const ProgramRun run =
       make("tapered_handle --diameter-mm 30:40:5 --taper-deg 1,2.5 --format stl --out handles/");
@@ -88,6 +98,7 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
   } cases[] = {
       {"", "a kind of product is required: cylinder, elliptic_handle"},
       {"botle --out none.step", "did you mean bottle?"},
+      {"pram --out none.step", "pram is no kind; did you mean prism? Known are cylinder, "},
       {"bottle --diametre-mm 70 --out none.step", "did you mean --diameter-mm?"},
       {"bottle --diameter-mm 700 --out none.step", "bottle: diameter_mm is 700 mm; 20 to 200 mm"},
       {"bottle --param diametr_mm=70 --out none.step", "did you mean \"diameter_mm\"?"},

@@ -9,11 +9,12 @@
 
 #include "cli.h"
 #include "mri_commands.h"
-#include "phantom_commands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
+#include "phantom_commands.h"
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -35,6 +36,23 @@ std::string full_name(const CLI::App* app) {
   return parent.empty() ? app->get_name() : parent + " " + app->get_name();
 }
 
+/// "pram is no kind; did you mean prism? Known are cylinder, ..."
+std::string explain_verb(const CLI::App& where, const std::string& wrong) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const CLI::App* verb : where.get_subcommands(nullptr)) {
+    names.push_back(verb->get_name());
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  std::string nearest = nearest_name(wrong, names);
+  for (std::size_t i = 0; i < names.size() && nearest.empty(); ++i) {
+    if (wrong.size() > 2 && names[i].starts_with(wrong.substr(0, 2))) nearest = names[i];
+  }
+  const char* const what = full_name(&where) == "palmar product make" ? "kind" : "command";
+  return wrong + " is no " + what + (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") +
+         "Known are " + list + "\nTry: " + full_name(&where) + " --help";
+}
+
 /// What was wrong with the command line, and the nearest thing that would have been right.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* where = deepest_parsed(&app);
@@ -50,6 +68,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     }
     for (const CLI::App* sub : where->get_subcommands(nullptr)) known.push_back(sub->get_name());
     text = (wrong.rfind('-', 0) == 0 ? "unknown option " : "unexpected argument ") + wrong;
+    const std::vector<const CLI::App*> verbs = where->get_subcommands(nullptr);
+    if (!verbs.empty() && wrong.rfind('-', 0) != 0) return explain_verb(*where, wrong);
     const std::string nearest = nearest_name(wrong, known);
     if (!nearest.empty()) text += "; did you mean " + nearest + "?";
   }
@@ -59,7 +79,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   Context context;
   for (int i = 0; i < argc; ++i) {
-    context.command_line += (i > 0 ? " " : "") + std::string(i == 0 ? "palmar" : argv[i]);
+    context.command_line += i == 0 ? "palmar" : " " + shell_word(argv[i]);
   }
 
   CLI::App app("Palmar tells how a handheld product will feel in people's hands before it exists.",

@@ -22,14 +22,17 @@ std::string hex_of(const std::array<float, 3>& colour) {
 
 }  // namespace
 
-std::string cad_text(const ImportedCad& cad) {
+std::string cad_text(const ImportedCad& cad, const std::string& told_unit) {
+  const std::string in_file = cad.unit.empty() ? "not told" : cad.unit;
+  const std::string unit = told_unit.empty()
+                               ? fmt::format("{} ({:.6g} mm)", in_file, cad.millimetres_per_unit)
+                               : fmt::format("{} as told (file: {})", told_unit, in_file);
   std::string text = fmt::format(
-      "{}, unit {} ({:.6g} mm): {} bod{}, {} solid{}, {} faces, {} edges, volume {:.1f} mm3\n"
+      "{}, unit {}: {} bod{}, {} solid{}, {} faces, {} edges, volume {}\n"
       "chordal error {:.4g} mm: {}\n",
-      cad.format, cad.unit.empty() ? "not told" : cad.unit, cad.millimetres_per_unit,
-      cad.bodies.size(), cad.bodies.size() == 1 ? "y" : "ies", cad.solids,
+      cad.format, unit, cad.bodies.size(), cad.bodies.size() == 1 ? "y" : "ies", cad.solids,
       cad.solids == 1 ? "" : "s", cad.mesh.faces.face.size(), cad.mesh.faces.edge.size(),
-      cad.volume, cad.chordal_error, cad.chordal_reason);
+      volume_text(cad.volume, 1), cad.chordal_error, cad.chordal_reason);
   for (const std::string& name : cad.bodies) text += "body     " + name + "\n";
   std::size_t lines = 0;
   for (const ProductFace& face : cad.mesh.faces.face) {
@@ -96,9 +99,9 @@ Json cad_json(const ImportedCad& cad) {
 
 std::string verdict_text(const CadVerdict& verdict) {
   std::string text =
-      fmt::format("CAD kernel: {}, {}, {} solid{}, volume {:.1f} mm3\n",
+      fmt::format("CAD kernel: {}, {}, {} solid{}, volume {}\n",
                   verdict.is_valid ? "valid" : "not valid", verdict.is_closed ? "closed" : "open",
-                  verdict.solids, verdict.solids == 1 ? "" : "s", verdict.volume);
+                  verdict.solids, verdict.solids == 1 ? "" : "s", volume_text(verdict.volume, 1));
   for (const std::string& finding : verdict.findings) text += "CAD      " + finding + "\n";
   return text;
 }

@@ -6,6 +6,7 @@
 
 #include "cad_arguments.h"
 #include "cli.h"
+#include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/io/cad_format.h"
 #include "palmar/io/mesh_file.h"
@@ -15,6 +16,7 @@
 #include "product_cad_text.h"
 #include "product_make_command.h"
 #include "product_repair_command.h"
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -54,9 +56,10 @@ Json check_json(const Product& product, const ProductCheck& check) {
 std::string check_text(const Product& product, const ProductCheck& check) {
   std::string text = fmt::format(
       "{}: {} triangles, {} vertices, {} part{}\n"
-      "size {:.1f} x {:.1f} x {:.1f} mm, area {:.0f} mm2, volume {:.0f} mm3, Euler number {}\n",
+      "size {:.1f} x {:.1f} x {:.1f} mm, area {:.0f} mm2, volume {}, Euler number {}\n",
       product.source, check.triangles, check.vertices, check.parts, check.parts == 1 ? "" : "s",
-      check.size.x(), check.size.y(), check.size.z(), check.area, check.volume, check.euler_number);
+      check.size.x(), check.size.y(), check.size.z(), check.area, volume_text(check.volume),
+      check.euler_number);
   for (const Finding& finding : check.findings) {
     text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
   }
@@ -96,7 +99,7 @@ int inspect(const FileArguments& o, const Context& context, bool fails_on_error)
     CadProduct read = load_cad_product(o.product, options);
     product = std::move(read.product);
     check = check_mesh(product.mesh);
-    text = cad_text(read.cad);
+    text = cad_text(read.cad, o.unit);
     cad = cad_json(read.cad);
     if (fails_on_error) {
       const CadVerdict verdict = check_cad_file(o.product, read.cad.millimetres_per_unit,
@@ -139,6 +142,8 @@ void add_inspection(CLI::App& noun, Context& context, const std::string& name,
 }
 
 int convert(const FileArguments& o, const Context& context) {
+  check_shape_output(o.out, true);
+  refuse_same_file(o.product, o.out);
   const LoadProductOptions options = o.cad.options(o.unit, make_progress(context.common));
   if (cad_format_of_name(o.out) == CadFormat::kStep) {
     if (!is_cad_file(o.product)) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
 #include "palmar/io/mesh_file.h"
@@ -211,7 +212,7 @@ void add_kind(CLI::App& make, Context& context, const ParametricKind& kind) {
 
 void add_plane(CLI::App& make, Context& context) {
   const auto options = std::make_shared<PlaneProductOptions>();
-  const auto out = std::make_shared<std::string>();
+  const auto out = std::make_shared<std::vector<std::string>>();
   CLI::App* verb = add_verb(make, "plane", "Flat slab whose upper face is the plane z = 0",
                             "palmar product make plane --width-mm 200 --depth-mm 100 --out p.stl");
   const auto length = [&](const char* name, double& value) {
@@ -221,13 +222,18 @@ void add_plane(CLI::App& make, Context& context) {
   length("--depth-mm", options->depth);
   length("--thickness-mm", options->thickness);
   length("--chordal-error-mm", options->fineness.chordal_error);
-  verb->add_option("--out", *out, "File to write: .stl, .obj or .ply")->required();
+  verb->add_option("--out", *out, "File to write, may be given several times: .stl, .obj or .ply")
+      ->allow_extra_args(false)
+      ->required();
   verb->callback([&context, options, out] {
     context.run = [&context, options, out] {
+      for (const std::string& file : *out) check_shape_output(file, false);
       const Product product = make_plane_product(*options);
-      write_mesh(*out, product.mesh);
-      note(context.common,
-           fmt::format("wrote {} ({} triangles, unit: mm)", *out, product.mesh.triangle_count()));
+      for (const std::string& file : *out) {
+        write_mesh(file, product.mesh);
+        note(context.common,
+             fmt::format("wrote {} ({} triangles, unit: mm)", file, product.mesh.triangle_count()));
+      }
       return 0;
     };
   });

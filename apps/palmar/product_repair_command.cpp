@@ -4,14 +4,15 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/io/mesh_file.h"
 #include "palmar/product/check.h"
 #include "palmar/product/repair.h"
 #include "palmar/product/unit_guard.h"
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -51,18 +52,9 @@ Json verdict_json(const ProductCheck& check) {
 }
 
 std::string verdict_text(const char* when, const ProductCheck& check) {
-  return fmt::format("{}: {}, {} ({} triangles, Euler number {}, volume {:.0f} mm3)\n", when,
+  return fmt::format("{}: {}, {} ({} triangles, Euler number {}, volume {})\n", when,
                      name_of(check.verdict), check.is_closed ? "closed" : "open", check.triangles,
-                     check.euler_number, check.volume);
-}
-
-void refuse_same_file(const std::string& product, const std::string& out) {
-  std::error_code ignored;
-  if (product == out || std::filesystem::equivalent(product, out, ignored)) {
-    throw UsageError("--out " + out +
-                     ": is the product itself; the original stays as it is, name "
-                     "another file");
-  }
+                     check.euler_number, volume_text(check.volume));
 }
 
 TriangleMesh in_millimetres(const MeshFile& file, LengthUnit unit) {
@@ -75,6 +67,7 @@ TriangleMesh in_millimetres(const MeshFile& file, LengthUnit unit) {
 }
 
 int repair(const RepairArguments& o, const Context& context) {
+  check_shape_output(o.out, false);
   refuse_same_file(o.product, o.out);
   o.options.check();
   const MeshFile file = read_mesh(o.product);

@@ -15,6 +15,7 @@
 #include "palmar/io/file.h"
 #include "palmar/io/mesh_file.h"
 #include "palmar/io/toml_section.h"
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -76,6 +77,9 @@ std::string study_text(const VariantFiles& files) {
     text += fmt::format("\n[[product]]\nname = {}\nfile = {}\n", toml_string(entry.name),
                         toml_string(file));
     if (!is_step(file)) text += "unit = \"mm\"\n";
+    if (const auto side = thumb_side_of(entry.product)) {
+      text += fmt::format("axis = [{:.6g}, {:.6g}, {:.6g}]\n", side->x(), side->y(), side->z());
+    }
     if (!entry.family.empty()) text += "family = " + toml_string(entry.family) + "\n";
   }
   return text;
@@ -112,7 +116,8 @@ Json write_one(const VariantFiles::Entry& entry, double chordal_error, const Con
   for (const std::string& path : entry.files) {
     if (is_step(path)) {
       write_file(path, cad->step);
-      note(context.common, fmt::format("wrote {} (STEP, {:.0f} mm3, unit: mm)", path, cad->volume));
+      note(context.common,
+           fmt::format("wrote {} (STEP, {}, unit: mm)", path, volume_text(cad->volume)));
     } else {
       write_mesh(path, *triangles);
       note(context.common,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 
+#include "palmar/core/error.h"
 #include "palmar/io/cad_format.h"
 #include "palmar/io/made_product.h"
 #include "palmar/io/mesh_file.h"
@@ -42,6 +43,19 @@ UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
   return decide_unit(box, from_file, options.unit, object);
 }
 
+/// read_mesh() for a place that takes CAD as well, which its messages tell.
+MeshFile read_shape(const std::filesystem::path& path) {
+  try {
+    return read_mesh(path);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string meshes = "glTF and GLB are read";
+    if (!text.ends_with(meshes)) throw;
+    text.replace(text.size() - meshes.size(), meshes.size(), "glTF, GLB, STEP and IGES are read");
+    throw InputError(text);
+  }
+}
+
 }  // namespace
 
 CadProduct load_cad_product(const std::filesystem::path& path, const LoadProductOptions& options) {
@@ -64,9 +78,11 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   Product& product = result.product;
   product = make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
   product.unit = unit;
-  product.notes.push_back(cad.format + ", unit " + (cad.unit.empty() ? "not told" : cad.unit) +
-                          "; chordal error " + number(cad.chordal_error) + " mm (" +
-                          cad.chordal_reason + ")");
+  const std::string in_file = cad.unit.empty() ? "not told" : cad.unit;
+  product.notes.push_back(
+      cad.format + ", unit " +
+      (options.unit ? name_of(*options.unit) + " as told (file: " + in_file + ")" : in_file) +
+      "; chordal error " + number(cad.chordal_error) + " mm (" + cad.chordal_reason + ")");
   product.notes.insert(product.notes.end(), cad.notes.begin(), cad.notes.end());
   return result;
 }
@@ -74,7 +90,7 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
 Product load_product(const std::filesystem::path& path, const LoadProductOptions& options) {
   if (is_made(path.string())) return make_solid(made_from(path.string()));
   if (is_cad_file(path)) return load_cad_product(path, options).product;
-  const MeshFile file = read_mesh(path);
+  const MeshFile file = read_shape(path);
   Box3 box;
   for (const Vec3& v : file.mesh.vertices) box.extend(v);
   const UnitDecision unit = decide_unit(box, file.unit, options.unit, path.string());
