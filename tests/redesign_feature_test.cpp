@@ -16,6 +16,7 @@ namespace palmar::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
@@ -79,6 +80,17 @@ TEST(RedesignFeatures, WhatThereIsNotIsToldBeforeHandsAreMade) {
     EXPECT_THAT(run.err, HasSubstr(one.message)) << one.arguments;
     EXPECT_FALSE(fs::exists(fs::path(folder()) / "none"));
   }
+}
+
+TEST(RedesignFeatures, WhatChangesNothingIsTheOriginalAndIsntCompared) {
+  const ProgramRun run = run_palmar(
+      "redesign features " + kPrism + " --vary groove:at=0=0 --hands 1 --seed 2014 --out none",
+      folder());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("no change within the limits is better than the original"),
+                             HasSubstr("nothing changes")));
+  EXPECT_THAT(run.out, HasSubstr("+0.0 %"));
+  EXPECT_FALSE(fs::exists(fs::path(folder()) / "none" / "redesign.step"));
 }
 
 TEST(RedesignFeatures, AMeshHasNoFeatures) {

@@ -191,8 +191,9 @@ std::string proposals_text(const std::vector<TriedProposal>& tried, const Featur
       text += fmt::format("  {:<28} {}\n", one.words, one.outcome.failure);
       continue;
     }
-    text += fmt::format("  {:<28} {:+6.1f} % better{}, grip force {:.0f} %; {}\n", one.words,
-                        100 * one.gain, one.is_feasible ? "" : ", beyond the constraints",
+    text += fmt::format("  {:<28} {:6.1f} % {}{}, grip force {:.0f} %; {}\n", one.words,
+                        100 * std::abs(one.gain), one.gain < 0.0 ? "worse" : "better",
+                        one.is_feasible ? "" : ", beyond the constraints",
                         100 * one.grip_force_ratio, one.reason);
   }
   return text + "--vary takes these words; give a range instead of the value to search it\n";

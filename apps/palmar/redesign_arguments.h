@@ -40,7 +40,7 @@ struct HeldOriginal {
   const Product& product() const { return study.inputs.products.front(); }
   RecordSource source() const;  ///< of `records`, which must outlive it
 };
-/// Loads, draws and grasps. Throws UsageError if no hand holds the product.
+/// Loads, draws and grasps. Throws NumericalError if no hand holds the product: no answer.
 HeldOriginal grasp_original(const RedesignArguments& arguments, const Context& context,
                             const Progress& progress);
 

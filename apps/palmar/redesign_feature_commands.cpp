@@ -95,8 +95,14 @@ void write_story(const fs::path& folder, const SearchStory& story, const Feature
   json["product"] = a.redesign.product;
   json["command"] = context.command_line;
   json["seed"] = context.common.seed;
+  json["population"] = a.redesign.populations;
   json["posture"] = a.redesign.posture;
   write_file(folder / "search.json", json.dump(2) + "\n");
+}
+
+bool is_better_than_original(const SearchStory& story) {
+  const double best = story.result.history[static_cast<size_t>(*story.result.best)].outcome.goal;
+  return story.goal.is_lower_better ? best < story.original.value : best > story.original.value;
 }
 
 int run_features(const FeatureArguments& a, const Context& context) {
@@ -145,6 +151,17 @@ int run_features(const FeatureArguments& a, const Context& context) {
       story.result.history[static_cast<size_t>(*story.result.best)].values;
   const std::string name = words_of(run.settings, run.all_values(values));
   const ChangedCad made = run.make(values, true, true, progress);
+  Json json = history_json(story);
+  if (!is_better_than_original(story)) {
+    note(context.common,
+         a.redesign.product + ": no change within the limits is better than the original");
+  }
+  if (made.largest_change < kUnchanged) {
+    note(context.common, "nothing changes: there is no redesign to write or compare");
+    json["redesign"] = nullptr;
+    if (context.common.json) print(json.dump(2) + "\n");
+    return 0;
+  }
   const fs::path step = folder / "redesign.step";
   write_file(step, made.step);
   const Product product = run.product_of(made, name, step.string());
@@ -154,7 +171,6 @@ int run_features(const FeatureArguments& a, const Context& context) {
        fmt::format("{}: a valid closed solid of {:.0f} mm3 (before: {:.0f} mm3), "
                    "read back; largest change {:.2f} mm",
                    step.string(), made.volume, made.volume_before, made.largest_change));
-  Json json = history_json(story);
   json["redesign"] = {{"name", name},
                       {"step", step.string()},
                       {"volume_mm3", made.volume},

@@ -127,16 +127,32 @@ std::vector<SearchConstraint> FeatureRun::constraints() const {
   return all;
 }
 
+JudgedShape FeatureRun::judge(const ChangedCad& made, const Progress& progress) const {
+  const StudyResults results =
+      assess_candidate(arguments, *original, product_of(made, "candidate", "candidate"),
+                       needs_indices(goal), silent(progress));
+  return {.figure = goal_of(results, goal, 1),
+          .grip_force_ratio = mean_ratio(results, "grip_force_n", 1)};
+}
+
+const JudgedShape& FeatureRun::as_it_is(const Progress& progress) const {
+  if (!kept_as_it_is) {
+    FeatureRun unchanged = *this;
+    unchanged.settings.clear();
+    kept_as_it_is = judge(unchanged.make({}, true, false, progress), progress);
+  }
+  return *kept_as_it_is;
+}
+
 SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory::Beside& beside,
                                  const Progress& progress) const {
   const ChangedCad made = make(varying, true, false, progress);
-  const Product product = product_of(made, "candidate", "candidate");
-  const StudyResults results =
-      assess_candidate(arguments, *original, product, needs_indices(goal), silent(progress));
-  const GoalFigure figure = goal_of(results, goal, 1);
+  const JudgedShape judged =
+      made.largest_change < kUnchanged ? as_it_is(progress) : judge(made, progress);
+  const GoalFigure& figure = judged.figure;
   beside.hands = figure.hands;
   beside.lost = figure.lost;
-  beside.grip_force_ratio = mean_ratio(results, "grip_force_n", 1);
+  beside.grip_force_ratio = judged.grip_force_ratio;
   beside.volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
   SearchOutcome outcome{
       .failure = "", .goal = figure.value, .goal_error = figure.error, .constraint = {}};
@@ -169,7 +185,6 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
                                const Progress& progress) const {
   SearchStory story{
       .settings = {}, .problem = {}, .goal = goal, .result = {}, .original = {}, .beside = {}};
-  story.original = goal_of({.plan = original->study.plan, .records = original->records}, goal, 0);
   for (size_t i = 0; i < settings.size(); ++i) {
     if (!settings[i].varies()) continue;
     story.settings.push_back(settings[i]);
@@ -187,6 +202,7 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   };
   if (!story.problem.variables.empty()) {
     story.result = search_features(story.problem, options, progress);
+    story.original = as_it_is(progress).figure;
     return story;
   }
   SearchTrial only;
@@ -201,6 +217,7 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   story.result.best = only.is_feasible ? std::optional(0) : std::nullopt;
   story.result.method = "as told";
   story.result.ending = "one candidate";
+  story.original = as_it_is(progress).figure;
   return story;
 }
 

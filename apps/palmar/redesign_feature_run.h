@@ -24,6 +24,15 @@ struct FeatureLimits {
   void check() const;       ///< throws UsageError: option, value, allowed range
 };
 
+/// What hands say of one shape.
+struct JudgedShape {
+  GoalFigure figure;
+  double grip_force_ratio = 0.0;  ///< by the original's
+};
+
+/// Surfaces that lie nearer to each other are one, mm.
+inline constexpr double kUnchanged = 0.005;
+
 /// Making and assessing candidates: what a search and proposals share.
 struct FeatureRun {
   const RedesignArguments& arguments;
@@ -34,6 +43,7 @@ struct FeatureRun {
   FeatureGoal goal;
   const HeldOriginal* original = nullptr;
   std::vector<double> start;  ///< by setting: what the original has, within the range
+  mutable std::optional<JudgedShape> kept_as_it_is = {};  ///< of as_it_is()
 
   /// Asks the CAD program which edges and faces are meant and what they are now. Throws UsageError
   /// on unknown ones.
@@ -46,7 +56,11 @@ struct FeatureRun {
   Product product_of(const ChangedCad& made, const std::string& name,
                      const std::string& source_name) const;
   std::vector<SearchConstraint> constraints() const;
-  /// Made, held by all hands, judged.
+  JudgedShape judge(const ChangedCad& made, const Progress& progress) const;
+  /// The original, made and meshed like a candidate, so that differences come from the shape alone;
+  /// judged once.
+  const JudgedShape& as_it_is(const Progress& progress) const;
+  /// Made, held by all hands, judged. A candidate that changes nothing is the original.
   SearchOutcome assess(const std::vector<double>& varying, SearchStory::Beside& beside,
                        const Progress& progress) const;
   /// Made only: constraints that hands decide are NaN.

@@ -215,6 +215,9 @@ int run_press(PressArguments a, const Context& context) {
   Json json{{"product", product.name},
             {"source", product.source},
             {"command", context.command_line},
+            {"seed", context.common.seed},
+            {"population", a.redesign.populations},
+            {"posture", a.redesign.posture},
             {"settings", settings_json(a)},
             {"figures", figures_json(shape, product)}};
   write_file(folder / "pressed.json", json.dump(2) + "\n");

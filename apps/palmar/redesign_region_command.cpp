@@ -272,8 +272,12 @@ int run_region(RegionArguments a, const Context& context) {
              " is a mesh: region.step has outlines and surfaces but no solid, and the "
              "redesign is a mesh, too");
   }
-  Json json = {
-      {"product", product.name}, {"source", product.source}, {"command", context.command_line}};
+  Json json = {{"product", product.name},
+               {"source", product.source},
+               {"command", context.command_line},
+               {"seed", context.common.seed},
+               {"population", a.redesign.populations},
+               {"posture", a.redesign.posture}};
   json.update(region_json(findings, product));
   json["cad"] = cad;
   write_file(out / "region.json", json.dump(2) + "\n");

@@ -148,10 +148,11 @@ HeldOriginal grasp_original(const RedesignArguments& arguments, const Context& c
   const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
   if (!is_held) {
     const std::string& reason = original.records.front().reason;
-    throw UsageError(arguments.product + ": none of " + std::to_string(plan.hands.size()) +
-                     " hands holds it" + (reason.empty() ? "" : " (" + reason + ")") +
-                     "; a redesign starts from hands that do (--at, --axis and --grip say where "
-                     "and how it is held)");
+    throw NumericalError(
+        arguments.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
+        (reason.empty() ? "" : " (" + reason + ")") +
+        "; a redesign starts from hands that do (--at, --axis and --grip say where "
+        "and how it is held)");
   }
   return original;
 }
