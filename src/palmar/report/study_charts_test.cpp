@@ -97,6 +97,10 @@ TEST(PairWords, SayWhatIsShownAndWhatIsNot) {
   EXPECT_EQ(left_out_words(plan, pair), "new handle: 2 slips out");
   pair.verdict = DifferenceVerdict::kNotShown;
   EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("No difference"));
+  EXPECT_THAT(pair_words(plan, peak, pair), Not(HasSubstr("So few hands")));
+  pair.pairs = 5;
+  EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("So few hands prove nothing; 6 or more"));
+  pair.pairs = 28;
   pair.verdict = DifferenceVerdict::kNone;
   EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("don't differ"));
   pair.verdict = DifferenceVerdict::kTooFewPairs;

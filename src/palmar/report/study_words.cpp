@@ -175,12 +175,16 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
                            with_unit(short_number(std::max(ends[0], ends[1])), quantity) + "; " +
                            hands + "; t-test " + p_words(pair.t_p_holm) + ", Wilcoxon " +
                            p_words(pair.wilcoxon_p_holm);
+  // Of fewer pairs no rank can reach 0.05: 2 / 2^5 = 0.06 (Wilcoxon 1945, both sides).
+  constexpr int kFewest = 6;
+  const std::string few =
+      pair.pairs < kFewest ? " So few hands prove nothing; 6 or more are needed." : "";
   if (pair.verdict == DifferenceVerdict::kNotShown) {
     return "No difference in " + quantity.name + " is shown between " + low + " and " + high +
-           ": " + values + " (" + test + ").";
+           ": " + values + " (" + test + ")." + few;
   }
   return low + " has a lower " + quantity.name + " than " + high + ": " + values + share + " (" +
-         test + ").";
+         test + ")." + few;
 }
 
 }  // namespace palmar
