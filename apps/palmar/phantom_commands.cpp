@@ -10,6 +10,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/io/dicom.h"
 #include "palmar/io/file.h"
 #include "palmar/io/mri_subject_file.h"
@@ -89,18 +90,6 @@ std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) 
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
-}
-
-/// The part of `whole` from share `from` on, `length` long.
-Progress part_of(const Progress& whole, double from, double length, const std::string& what) {
-  Progress part;
-  part.cancel = whole.cancel;
-  if (whole.report) {
-    part.report = [=](double share, const std::string& activity) {
-      whole.report(from + length * share, what + ": " + activity);
-    };
-  }
-  return part;
 }
 
 int run_mri(PhantomArguments arguments, const Context& context) {
