@@ -125,9 +125,9 @@ int run_mri(PhantomArguments arguments, const Context& context) {
     note_cut(name, skin, grid, context);
     ScannerOptions scanner = arguments.scanner;
     scanner.seed = person.seed * kScanPostureCount + static_cast<std::uint64_t>(postures[p]);
-    const Volume image =
-        image_of(state.parts, grid, scanner,
-                 part_of(progress, 0.05 + length * static_cast<double>(p), length, name));
+    const Volume image = image_of(state.parts, grid, scanner,
+                                  part_of(progress, 0.05 + length * static_cast<double>(p),
+                                          0.05 + length * static_cast<double>(p + 1), name));
     const fs::path folder = out / "mri" / name;
     // What an earlier run left would be a second series.
     std::error_code ignored;
