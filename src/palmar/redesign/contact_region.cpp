@@ -23,6 +23,13 @@ void check_number(const char* name, double value, double low, double high, const
                                name, value, unit, low, high, unit));
 }
 
+/// Of so few hands a share says less than their number: half of 2 is one.
+constexpr int kFewHands = 6;
+
+int least_hands(int hands, double share) {
+  return std::max(1, static_cast<int>(std::ceil(share * hands - 1e-9)));
+}
+
 std::string title(const ContactCount& count, std::optional<HandPart> part, double share) {
   std::string text = part ? name_of(*part) + ", " : "";
   if (count.hands == 1) {
@@ -35,6 +42,9 @@ std::string title(const ContactCount& count, std::optional<HandPart> part, doubl
     text += fmt::format("all of {} hands", count.hands);
   } else {
     text += fmt::format("{:.4g} % of {} hands", 100.0 * share, count.hands);
+  }
+  if (count.hands > 1 && count.hands < kFewHands && share > 0.0 && share < 1.0) {
+    text += fmt::format(" ({} or more)", least_hands(count.hands, share));
   }
   if (count.threshold > 0.0) text += fmt::format(", above {:.4g} MPa", count.threshold);
   return text;
@@ -233,7 +243,7 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
   ContactRegion region;
   region.title = title(count, part, options.share);
   region.part = part;
-  region.least_hands = std::max(1, static_cast<int>(std::ceil(options.share * count.hands - 1e-9)));
+  region.least_hands = least_hands(count.hands, options.share);
   find_field(map, touching, count.hands, options, region);
   region.area_of = areas_above(map, region.field, 0.0);
   const IsoParts parts = iso_parts(map, region.field, 0.0);
