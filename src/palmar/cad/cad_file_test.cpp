@@ -32,6 +32,7 @@
 namespace palmar {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -246,6 +247,18 @@ TEST(ReadStep, FewBytesThatStandForABillionBodiesAreRefusedByNumber) {
   EXPECT_THAT(message, HasSubstr("1e+09 bodies; up to 2000 are read"));
   write_text(folder / "ring.step", nested(text_of(folder / "one.step"), 2, true));
   EXPECT_THAT(message_of(folder / "ring.step"), HasSubstr("contains itself"));
+}
+
+TEST(ReadStep, AShapeOfAnUnknownTypeIsRefusedByItsNumber) {
+  const TestFolder folder;
+  write_step(folder / "box.step", named_box());
+  std::string text = text_of(folder / "box.step");
+  const std::string solid = "MANIFOLD_SOLID_BREP";
+  text.insert(text.find(solid) + solid.size(), "P");  // on which the kernel crashes
+  write_text(folder / "misspelt.step", text);
+  EXPECT_THAT(message_of(folder / "misspelt.step"),
+              AllOf(HasSubstr("misspelt.step: item "), HasSubstr(" of the shape #"),
+                    HasSubstr("is no shape that can be read")));
 }
 
 TEST(ReadStep, WireframePointsAndNothingAreToldApart) {
