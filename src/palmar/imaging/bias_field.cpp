@@ -21,8 +21,8 @@ namespace {
                    allowed);
 }
 
-/// Where the field is looked for: medians over blocks of voxels that are mostly tissue. A mean would
-/// mix tissues, more of them in the fingers than in the palm, which would pass for a field.
+/// Where the field is looked for: medians over blocks of voxels that are mostly tissue. A mean
+/// would mix tissues, more of them in the fingers than in the palm, which would pass for a field.
 struct Samples {
   std::vector<Vec3> place;  ///< in [0, 1] along i, j, k of the image
   std::vector<double> log_value;
