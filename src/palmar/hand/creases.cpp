@@ -20,7 +20,6 @@ constexpr double kDipShare = 0.31;      // of the middle phalanx: 7.5 of about 2
 constexpr double kThumbIpShare = 0.13;  // of the thumb's proximal phalanx: 4 of about 32 mm
 constexpr double kTransverse = 9.0;     // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
 constexpr double kAboveWeb = 1.5;       // mm; keeps the base crease a loop around one finger
-constexpr int kBisections = 10;         // to 5 um on an edge of 5 mm
 constexpr double kHighestWeb = 0.7;     // of the proximal phalanx; webs reach 0.35 to 0.5
 constexpr double kBehindWeb = 6.0;      // mm; where palmar skin ends on the first web
 constexpr double kWebWeight = 0.3;      // against the rays; small: the border bends gently
@@ -45,18 +44,6 @@ constexpr std::array<std::array<Dof, 3>, kFingerCount> kFlexion{{
 }};
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Distance of a point from a ray.
-double ray_distance(const std::array<Vec3, 5>& node, const Vec3& point) {
-  double best = std::numeric_limits<double>::max();
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec3 along = node[k + 1] - node[k];
-    const Vec3 arm = point - node[k];
-    const double t = std::clamp(arm.dot(along) / along.squaredNorm(), 0.0, 1.0);
-    best = std::min(best, (arm - t * along).squaredNorm());
-  }
-  return std::sqrt(best);
-}
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -116,7 +103,15 @@ class HandCreases::RayDistances {
   double of(int ray, std::size_t vertex) {
     double& result = distance_[at(ray)][vertex];
     if (result >= 0.0) return result;
-    return result = ray_distance(creases_.ray_[at(ray)].node, skin_.vertices[vertex]);
+    const auto& node = creases_.ray_[at(ray)].node;
+    double best = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 along = node[k + 1] - node[k];
+      const Vec3 arm = skin_.vertices[vertex] - node[k];
+      const double t = std::clamp(arm.dot(along) / along.squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (arm - t * along).squaredNorm());
+    }
+    return result = std::sqrt(best);
   }
 
  private:
@@ -249,15 +244,7 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
         if (std::max(level[i], level[j]) < std::max(best, least)) continue;
         const double a_nearer = nearer(i), b_nearer = nearer(j);
         if ((a_nearer < 0.0) == (b_nearer < 0.0)) continue;
-        // Half way is no straight matter along an edge on a web's steep flank.
-        double low = 0.0, high = 1.0;
-        for (int round = 0; round < kBisections; ++round) {
-          const double middle = 0.5 * (low + high);
-          const Vec3 m = (1.0 - middle) * skin.vertices[i] + middle * skin.vertices[j];
-          const bool is_a = ray_distance(a.node, m) < ray_distance(b.node, m);
-          (is_a == (a_nearer < 0.0) ? low : high) = middle;
-        }
-        const double s = 0.5 * (low + high);
+        const double s = a_nearer / (a_nearer - b_nearer);
         const Vec3 p = (1.0 - s) * skin.vertices[i] + s * skin.vertices[j];
         const double height = distal.dot(p - foot);
         if (height <= best || height > highest_web) continue;

@@ -125,8 +125,8 @@ bool has_cavity(const Surroundings& surroundings, const TriangleMesh& mesh,
   return std::find(is_in_one.begin(), is_in_one.end(), 1) != is_in_one.end();
 }
 
-/// Grows `is_dropped` over neighbours that see little, too.
-void spread(const MeshTopology& topology, const std::vector<char>& sees_little,
+/// Grows `is_dropped` over neighbours that may belong to the cavity, too.
+void spread(const MeshTopology& topology, const std::vector<char>& may_belong,
             std::vector<char>& is_dropped) {
   std::vector<int> waiting;
   for (std::size_t t = 0; t < is_dropped.size(); ++t) {
@@ -139,7 +139,7 @@ void spread(const MeshTopology& topology, const std::vector<char>& sees_little,
       const int twin = topology.twin[static_cast<std::size_t>(3 * t + k)];
       if (twin < 0) continue;
       const auto other = static_cast<std::size_t>(twin / 3);
-      if (is_dropped[other] != 0 || sees_little[other] == 0) continue;
+      if (is_dropped[other] != 0 || may_belong[other] == 0) continue;
       is_dropped[other] = 1;
       waiting.push_back(static_cast<int>(other));
     }
@@ -236,6 +236,10 @@ void ContactBodyOptions::check() const {
   if (!(cavity_sky >= 0.0 && cavity_sky < 1.0)) {
     throw UsageError("cavity_sky is " + std::to_string(cavity_sky) + "; allowed is [0, 1)");
   }
+  if (!(mouth_sky >= cavity_sky && mouth_sky <= 1.0)) {
+    throw UsageError("mouth_sky is " + std::to_string(mouth_sky) +
+                     "; allowed is from cavity_sky to 1");
+  }
   if (!(outer_sky > 0.0 && outer_sky <= 1.0)) {
     throw UsageError("outer_sky is " + std::to_string(outer_sky) + "; allowed is (0, 1]");
   }
@@ -253,19 +257,20 @@ ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& opt
     return body;
   }
   const auto count = mesh.triangles.size();
-  std::vector<char> sees_little(count, 0), is_dropped(count, 0);
+  std::vector<char> may_belong(count, 0), is_dropped(count, 0);
   std::vector<double> wall(count, std::numeric_limits<double>::infinity());
   parallel_for(static_cast<int>(count), [&](int t) {
     const auto i = static_cast<std::size_t>(t);
-    if (surroundings.sky(t) >= options.cavity_sky) return;
-    sees_little[i] = 1;
-    if (const auto thickness = surroundings.wall(t)) {
-      is_dropped[i] = 1;
-      wall[i] = *thickness;
-    }
+    const double sky = surroundings.sky(t);
+    if (sky >= options.mouth_sky) return;
+    const auto thickness = surroundings.wall(t);
+    if (thickness) wall[i] = *thickness;
+    const bool sees_little = sky < options.cavity_sky;
+    may_belong[i] = sees_little || thickness ? 1 : 0;
+    is_dropped[i] = sees_little && thickness ? 1 : 0;
   });
   const MeshTopology topology = build_topology(mesh);
-  spread(topology, sees_little, is_dropped);
+  spread(topology, may_belong, is_dropped);
   even_out(topology, is_dropped);
   absorb_specks(mesh, topology, 1, is_dropped);
   absorb_specks(mesh, topology, 0, is_dropped);

@@ -11,6 +11,9 @@ struct ContactBodyOptions {
   /// cosine to its normal): a bore from 0.35 diameters below its mouth on, whereas the inside of a
   /// ring or of a handle's loop sees more than twice as much. [0, 1)
   double cavity_sky = 0.25;
+  /// Thin walls that hang together with a cavity belong to it up to its mouth, where half the sky
+  /// is seen. [cavity_sky, 1]
+  double mouth_sky = 0.6;
   double outer_sky = 0.5;   ///< from an outer face at least this share of the sky is seen, (0, 1]
   double thin_wall = 30.0;  ///< mm; walls thicker than twice what skin reaches need no filling
   void check() const;       ///< throws UsageError: field, value, allowed range
@@ -28,10 +31,10 @@ struct ContactBody {
 /// contact, and within a wall it is nearest to the inner surface.
 ///
 /// A triangle belongs to a cavity if it sees little sky and a thin wall parts it from an outer
-/// face, or if it sees little and hangs together with such triangles by others that see little. It
-/// is dropped, and the mouths are closed by fans. Cavities of less than 200 mm^2 stay. Slots and
-/// grooves in a solid stay: what lies behind their bottom sees little sky, too. Cups stay open near
-/// the rim, bowls altogether.
+/// face; so does what hangs together with such triangles and sees little sky or lies on a thin
+/// wall, up to the mouth. It is dropped, and the mouths are closed by fans. Cavities of less than
+/// 200 mm^2 stay. Slots and grooves in a solid stay: what lies behind their bottom sees little sky,
+/// too. Bowls stay: one sees much sky from inside.
 ///
 /// `mesh`: closed, oriented outwards, mm. Deterministic. Throws as RayQuery does.
 ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& options = {});

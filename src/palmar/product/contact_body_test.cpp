@@ -127,10 +127,11 @@ TEST(ContactBody, OfAHiddenCavityIsTheOuterShell) {
   EXPECT_NEAR(signed_volume(body.mesh), volume, 1e-6 * volume);
 }
 
-TEST(ContactBody, OfACupIsFilledBelowAndOpenAtTheRim) {
+TEST(ContactBody, OfACupIsFilledToTheRim) {
   const Product product = product_of(cup(40.0, 3.0, 95.0));
   EXPECT_NEAR(depth_at(product, {36.0, 0.0, 30.0}), 4.0, 0.05);  // beyond the wall
-  EXPECT_LT(depth_at(product, {30.0, 0.0, 90.0}), 0.0);          // within the mouth
+  EXPECT_NEAR(depth_at(product, {33.0, 0.0, 85.0}), 7.0, 0.1);   // beyond it near the rim
+  EXPECT_LT(depth_at(product, {30.0, 0.0, 97.0}), 0.0);          // above the mouth
   EXPECT_NEAR(depth_at(product, {38.5, 0.0, 85.0}), 1.5, 0.05);  // in the rim
 }
 
