@@ -73,13 +73,12 @@ Skeleton without_limits(const Skeleton& skeleton) {
 }
 
 /// Ranges of the fingers and of the thumb's MP and IP joint from the limit postures: the scanned
-/// limit is the limit; the other end is the model's, widened to what was seen.
+/// limit is the limit, or what another posture goes beyond it (a hand bends farther round a bar
+/// than by itself); the other end is the model's, widened to what was seen.
 void set_ranges(const Skeleton& free, const ReferenceHand& hand, const MotionsByPosture& motions,
                 JointMeasures& measures) {
   std::map<ScanPosture, Posture> seen;
-  for (const auto& [posture, moved] : motions) {
-    if (posture != ScanPosture::kGrasp) seen[posture] = fit_angles(free, hand, moved);
-  }
+  for (const auto& [posture, moved] : motions) seen[posture] = fit_angles(free, hand, moved);
   for (int k = 0; k < kDofCount; ++k) {
     const auto d = static_cast<Dof>(k);
     if (!is_hinge_or_mcp(d)) continue;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/geometry/mesh_distance.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/primitive_meshes.h"
 #include "palmar/phantom/tube.h"
@@ -54,7 +55,7 @@ TriangleMesh muscle(const PosedSubject& subject, const TriangleMesh& skin) {
 // Tendons run through points that are fixed to bones.
 class Tendons {
  public:
-  explicit Tendons(const PosedSubject& subject) : subject_(subject) {}
+  Tendons(const PosedSubject& subject, const TriangleMesh& skin) : subject_(subject), skin_(skin) {}
 
   void draw(std::vector<ImagedPart>& sheaths, std::vector<ImagedPart>& tendons) const {
     const SubjectPerson& person = *subject_.person;
@@ -96,8 +97,8 @@ class Tendons {
               body, joint[at(k)]->centre + share * length * joint[at(k)]->along + off * palmar(k)));
         }
       }
-      tendons.push_back({tube_mesh(flexor, 0.115 * w), kTendon});
-      sheaths.push_back({tube_mesh(sheath, 0.115 * w + 1.0), kFat});
+      tendons.push_back({tube_mesh(below_skin(flexor, 0.115 * w), 0.115 * w), kTendon});
+      sheaths.push_back({tube_mesh(below_skin(sheath, 0.115 * w + 0.6), 0.115 * w + 0.6), kFat});
       // Extensor: flat on the back of the bones.
       std::vector<Vec3> extensor;
       if (f > 0) {
@@ -113,15 +114,36 @@ class Tendons {
         extensor.push_back(at_body(body, 0.5 * (here + next) - (0.19 * w + 1.9) * palmar(k)));
         extensor.push_back(at_body(body, next - (joint[at(k + 1)]->radius + 1.0) * palmar(k)));
       }
-      tendons.push_back({tube_mesh(extensor, 0.9), kTendon});
+      tendons.push_back({tube_mesh(below_skin(extensor, 0.9), 0.9), kTendon});
     }
   }
 
  private:
+  /// A tendon of that radius lies below skin and some fat everywhere: where the posed skin comes
+  /// nearer it is pressed towards the bone, which covers it in the image where the two meet. Points
+  /// half way hold the curve between.
+  std::vector<Vec3> below_skin(const std::vector<Vec3>& through, double radius) const {
+    std::vector<Vec3> path;
+    for (std::size_t i = 0; i < through.size(); ++i) {
+      if (i > 0) path.push_back(0.5 * (through[i - 1] + through[i]));
+      path.push_back(through[i]);
+    }
+    const double least = radius + kSkinThickness + 0.7;
+    std::vector<DistanceSample> sample(path.size());
+    for (int round = 0; round < 3; ++round) {  // the nearest skin changes with the point
+      skin_.sample(path, std::numeric_limits<double>::infinity(), sample);
+      for (std::size_t i = 0; i < path.size(); ++i) {
+        const double short_by = least + sample[i].distance;
+        if (short_by > 0.0) path[i] -= short_by * sample[i].normal;
+      }
+    }
+    return path;
+  }
   Vec3 at_body(int body, const Vec3& reference) const {
     return subject_.motion[at(body)] * reference;
   }
   const PosedSubject& subject_;
+  MeshDistance skin_;
 };
 
 // Cartilage and capsule of a joint: what shows of an ellipsoid between two bones.
@@ -179,7 +201,7 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
   parts.push_back({skin, kSkin});
   parts.push_back({skin_drawn_in(skin, kSkinThickness), kFat});
   parts.push_back({muscle(subject, skin), kMuscle});
-  Tendons(subject).draw(parts, tendons);
+  Tendons(subject, skin).draw(parts, tendons);
   // Ligaments and cartilage between the carpals, then the joints of the fingers.
   const SaddleJoint& cmc = person.joints.cmc;
   parts.push_back({joint_filling(wrist + Vec3(-1.0, 15.0, 0.0) * size, Vec3::UnitY(), Vec3::UnitX(),
