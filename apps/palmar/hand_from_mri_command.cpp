@@ -39,6 +39,10 @@ std::string work_folder(const FromMriArguments& arguments) {
   return arguments.out.substr(0, arguments.out.size() - kEnding.size()) + ".mri";
 }
 
+std::string millimetres(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
 std::string text_of(const ScanRecord& record) {
   const HandDimensions& d = record.made.hand.dimensions;
   std::string text = fmt::format(
@@ -53,16 +57,17 @@ std::string text_of(const ScanRecord& record) {
   }
   for (const ErrorRow& row : rows) {
     text += fmt::format("  {:<17} {:<24} {:>6.2f} {:>11.2f} {:>16}\n", name_of(row.posture),
-                        row.bones, row.icp, row.single_axis,
-                        row.interpolated_cmc ? fmt::format("{:.2f}", *row.interpolated_cmc) : "-");
+                        row.bones, row.icp, row.single_axis, millimetres(row.interpolated_cmc));
   }
   if (!record.made.skin_errors.empty()) {
     text += "skin round the thumb ball, mean distance, mm\n";
-    text += fmt::format("  {:<17} {:>15} {:>10}\n", "posture", "skinning alone", "corrected");
+    text += fmt::format("  {:<17} {:>15} {:>14} {:>10}\n", "posture", "skinning alone",
+                        "markers alone", "corrected");
   }
   for (const SkinError& error : record.made.skin_errors) {
-    text += fmt::format("  {:<17} {:>15.2f} {:>10}\n", name_of(error.posture), error.skinning_only,
-                        error.corrected ? fmt::format("{:.2f}", *error.corrected) : "-");
+    text += fmt::format("  {:<17} {:>15.2f} {:>14} {:>10}\n", name_of(error.posture),
+                        error.skinning_only, millimetres(error.by_markers),
+                        millimetres(error.corrected));
   }
   return text;
 }

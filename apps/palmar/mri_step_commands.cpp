@@ -13,6 +13,7 @@
 #include "palmar/io/bone_label_file.h"
 #include "palmar/io/dicom.h"
 #include "palmar/io/json_values.h"
+#include "palmar/io/scan_record_json.h"
 #include "palmar/io/scan_surfaces_file.h"
 #include "surface_arguments.h"
 
@@ -123,17 +124,7 @@ int run_motion(const MotionArguments& a, const Context& context) {
     print(text);
     return 0;
   }
-  Json list = Json::array();
-  for (const BoneMotion& motion : motions) {
-    const Quat& q = motion.posture_from_reference.rotation;
-    list.push_back({{"bone", motion.bone},
-                    {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-                    {"translation_mm", vector3(motion.posture_from_reference.translation)},
-                    {"mean_distance_mm", motion.fit.mean},
-                    {"overlap", motion.fit.overlap},
-                    {"conditioning", motion.fit.conditioning}});
-  }
-  print(Json{{"motions", std::move(list)}}.dump(2) + "\n");
+  print(bone_motions_json(motions) + "\n");
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "palmar/capture/axis_fit.h"
+#include "palmar/capture/numeric_jacobian.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
 
@@ -83,19 +84,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   };
   LeastSquaresProblem problem;
   problem.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    residual(at, r);
-    if (J == nullptr) return;
-    J->resize(r.size(), n);
-    Eigen::VectorXd ahead, behind;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      constexpr double kStep = 1e-5;  // rad or mm
-      Eigen::VectorXd y = at;
-      y[j] += kStep;
-      residual(y, ahead);
-      y[j] -= 2.0 * kStep;
-      residual(y, behind);
-      J->col(j) = (ahead - behind) / (2.0 * kStep);
-    }
+    residual_and_jacobian(residual, at, r, J);
   };
   problem.lower = Eigen::VectorXd::Constant(n, -std::numbers::pi);
   problem.upper = -problem.lower;

@@ -25,12 +25,13 @@ BoneStation station_at(const std::vector<BoneStation>& stations, double share) {
           .half_depth = (1.0 - t) * previous->half_depth + t * next->half_depth};
 }
 
-// Rings of `around` vertices between two poles, from the first pole to the last.
-TriangleMesh close_rings(std::vector<Vec3> vertices, int rings, int around) {
+}  // namespace
+
+TriangleMesh close_rings(std::vector<Vec3> vertices, int around) {
   TriangleMesh mesh;
   mesh.vertices = std::move(vertices);
   const auto corner = [&](int ring, int k) { return 1 + ring * around + k % around; };
-  const int last = mesh.vertex_count() - 1;
+  const int last = mesh.vertex_count() - 1, rings = (last - 1) / around;
   for (int k = 0; k < around; ++k) {
     mesh.triangles.push_back({0, corner(0, k + 1), corner(0, k)});
     for (int ring = 0; ring + 1 < rings; ++ring) {
@@ -44,8 +45,6 @@ TriangleMesh close_rings(std::vector<Vec3> vertices, int rings, int around) {
   }
   return mesh;
 }
-
-}  // namespace
 
 TriangleMesh bone_mesh(const BoneShape& shape) {
   const double length = (shape.to - shape.from).norm();
@@ -85,7 +84,7 @@ TriangleMesh bone_mesh(const BoneShape& shape) {
     }
   }
   vertices.push_back(shape.to - shape.groove * along);
-  return close_rings(std::move(vertices), shape.rings, shape.around);
+  return close_rings(std::move(vertices), shape.around);
 }
 
 TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half_axes,
@@ -103,7 +102,7 @@ TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, con
     }
   }
   vertices.push_back(place(0.0, 1.0, 0.0));
-  return close_rings(std::move(vertices), rings, around);
+  return close_rings(std::move(vertices), around);
 }
 
 }  // namespace palmar

@@ -33,4 +33,8 @@ TriangleMesh bone_mesh(const BoneShape& shape);
 TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half_axes,
                             int rings, int around);
 
+/// Closed mesh of rings of `around` vertices between two poles, `vertices` from the first pole to
+/// the last; triangles outward.
+TriangleMesh close_rings(std::vector<Vec3> vertices, int around);
+
 }  // namespace palmar

@@ -120,7 +120,23 @@ Json skin_errors_json(const ScanRecord& record) {
   for (const SkinError& e : record.made.skin_errors) {
     list.push_back({{"posture", name_json(name_of(e.posture))},
                     {"skinning_only_mm", e.skinning_only},
+                    {"markers_alone_mm", or_null(e.by_markers)},
                     {"corrected_mm", or_null(e.corrected)}});
+  }
+  return list;
+}
+
+Json motion_list(const std::vector<BoneMotion>& motions) {
+  Json list = Json::array();
+  for (const BoneMotion& motion : motions) {
+    const Quat& q = motion.posture_from_reference.rotation;
+    list.push_back({{"bone", motion.bone},
+                    {"counterpart", motion.counterpart},
+                    {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+                    {"translation_mm", vector3(motion.posture_from_reference.translation)},
+                    {"mean_distance_mm", motion.fit.mean},
+                    {"overlap", motion.fit.overlap},
+                    {"conditioning", motion.fit.conditioning}});
   }
   return list;
 }
@@ -128,17 +144,7 @@ Json skin_errors_json(const ScanRecord& record) {
 Json motions_json(const ScanRecord& record) {
   Json all = Json::object();
   for (const auto& [posture, motions] : record.motions) {
-    Json list = Json::array();
-    for (const BoneMotion& motion : motions) {
-      const Quat& q = motion.posture_from_reference.rotation;
-      list.push_back({{"bone", motion.bone},
-                      {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-                      {"translation_mm", vector3(motion.posture_from_reference.translation)},
-                      {"mean_distance_mm", motion.fit.mean},
-                      {"overlap", motion.fit.overlap},
-                      {"conditioning", motion.fit.conditioning}});
-    }
-    all[std::string(name_of(posture))] = std::move(list);
+    all[std::string(name_of(posture))] = motion_list(motions);
   }
   return all;
 }
@@ -172,6 +178,11 @@ std::string scan_record_json(const ScanRecord& record) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string bone_motions_json(const std::vector<BoneMotion>& motions) {
+  return Json{{"motions", motion_list(motions)}}.dump(2, ' ', false,
+                                                      Json::error_handler_t::replace);
+}
+
 CsvTable bone_error_table(const ScanRecord& record) {
   CsvTable table{{"posture", "bone", "icp_mm", "single_axis_mm", "interpolated_cmc_mm"}, {}};
   for (const BoneError& e : record.joints.errors) {
@@ -182,10 +193,10 @@ CsvTable bone_error_table(const ScanRecord& record) {
 }
 
 CsvTable skin_error_table(const ScanRecord& record) {
-  CsvTable table{{"posture", "skinning_only_mm", "corrected_mm"}, {}};
+  CsvTable table{{"posture", "skinning_only_mm", "markers_alone_mm", "corrected_mm"}, {}};
   for (const SkinError& e : record.made.skin_errors) {
-    table.rows.push_back(
-        {std::string(name_of(e.posture)), cell(e.skinning_only), cell(e.corrected)});
+    table.rows.push_back({std::string(name_of(e.posture)), cell(e.skinning_only),
+                          cell(e.by_markers), cell(e.corrected)});
   }
   return table;
 }

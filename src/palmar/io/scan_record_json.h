@@ -13,11 +13,16 @@ namespace palmar {
 /// in the hand frame and in the patient frame of the reference scan.
 std::string scan_record_json(const ScanRecord& record);
 
+/// {"motions": [...]}: turn, shift and fit of each bone from one scan to another; patient frames,
+/// mm.
+std::string bone_motions_json(const std::vector<BoneMotion>& motions);
+
 /// One row per posture and bone: mean distance of free registration, of joints with a fixed axis,
 /// of the interpolated CMC joint, mm (Xie 2014, tables 2-2 to 2-4, before averaging).
 CsvTable bone_error_table(const ScanRecord& record);
 
-/// One row per limit posture of the thumb: skinning alone, corrected, mm (table 2-5).
+/// One row per limit posture of the thumb: skinning alone, corrected by markers alone, corrected as
+/// the hand is, mm (table 2-5).
 CsvTable skin_error_table(const ScanRecord& record);
 
 }  // namespace palmar

@@ -10,6 +10,7 @@
 
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/smooth.h"
+#include "palmar/hand/bone_shape.h"
 
 namespace palmar {
 namespace {
@@ -98,25 +99,6 @@ double JointSurface::at(double w) const {
   return (radius - groove * std::exp(-valley * valley)) * std::cbrt(1.0 - std::pow(share, 5.0));
 }
 
-TriangleMesh mesh_of_rings(std::vector<Vec3> vertices, int around) {
-  TriangleMesh mesh;
-  mesh.vertices = std::move(vertices);
-  const int last = mesh.vertex_count() - 1, rings = (last - 1) / around;
-  const auto corner = [&](int ring, int k) { return 1 + ring * around + k % around; };
-  for (int k = 0; k < around; ++k) {
-    mesh.triangles.push_back({0, corner(0, k + 1), corner(0, k)});
-    for (int ring = 0; ring + 1 < rings; ++ring) {
-      mesh.triangles.push_back({corner(ring, k), corner(ring, k + 1), corner(ring + 1, k)});
-      mesh.triangles.push_back({corner(ring, k + 1), corner(ring + 1, k + 1), corner(ring + 1, k)});
-    }
-    mesh.triangles.push_back({last, corner(rings - 1, k), corner(rings - 1, k + 1)});
-  }
-  if (signed_volume(mesh) < 0.0) {
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  }
-  return mesh;
-}
-
 TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
   const double length = (shape.head - shape.base).norm();
   const Vec3 along = (shape.head - shape.base) / length;
@@ -144,7 +126,7 @@ TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
   }
   vertices.push_back(place(end, 0.0, 0.0));
   // Takes the corners off where base, shaft and head meet.
-  return smooth_taubin(mesh_of_rings(std::move(vertices), kAround), {.rounds = 6});
+  return smooth_taubin(close_rings(std::move(vertices), kAround), {.rounds = 6});
 }
 
 }  // namespace palmar

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "palmar/geometry/types.h"
+#include "palmar/hand/bone_shape.h"
 
 namespace palmar {
 
@@ -33,8 +34,5 @@ struct LongBoneShape {
 
 /// Closed mesh, triangles outward, of about 0.8 mm edges.
 TriangleMesh long_bone_mesh(const LongBoneShape& shape);
-
-/// Closed mesh from rings of `around` vertices between a first and a last vertex, outward.
-TriangleMesh mesh_of_rings(std::vector<Vec3> vertices, int around);
 
 }  // namespace palmar

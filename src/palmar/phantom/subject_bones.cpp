@@ -15,6 +15,7 @@
 #include "palmar/geometry/mesh_distance.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/smooth.h"
+#include "palmar/hand/bone_shape.h"
 #include "palmar/phantom/long_bone.h"
 
 namespace palmar {
@@ -374,8 +375,7 @@ void BoneMaker::make_carpals() {
     Draft draft;
     draft.bone.bone.name = c.name;
     draft.bone.bone.segment = Segment::kPalm;
-    draft.bone.bone.mesh =
-        smooth_taubin(mesh_of_rings(std::move(vertices), kAround), {.rounds = 8});
+    draft.bone.bone.mesh = smooth_taubin(close_rings(std::move(vertices), kAround), {.rounds = 8});
     draft.core.assign(draft.bone.bone.mesh.vertices.size(), c.centre);
     draft.from = c.centre - Vec3(0.0, c.half.y(), 0.0);
     draft.to = c.centre + Vec3(0.0, c.half.y(), 0.0);

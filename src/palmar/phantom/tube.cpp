@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/phantom/long_bone.h"
+#include "palmar/hand/bone_shape.h"
 
 namespace palmar {
 namespace {
@@ -49,7 +49,7 @@ TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius) {
     }
   }
   vertices.push_back(curve.back());
-  return mesh_of_rings(std::move(vertices), kAround);
+  return close_rings(std::move(vertices), kAround);
 }
 
 }  // namespace palmar

@@ -116,7 +116,7 @@ std::string skin_section(const ScanRecord& record) {
   std::string rows;
   for (const SkinError& error : record.made.skin_errors) {
     rows += "<tr>" + row_head(words_of(error.posture)) + number_cell(error.skinning_only) +
-            number_cell(error.corrected) + "</tr>";
+            number_cell(error.by_markers) + number_cell(error.corrected) + "</tr>";
   }
   std::string html = fmt::format(
       "<h2>Skin</h2>\n<p>The hand's skin lies {:.2f} mm from the reference scan's in the mean, 95 "
@@ -128,7 +128,9 @@ std::string skin_section(const ScanRecord& record) {
          " Around the thumb ball, Xie 2014 (table 2-5) found 3.7 mm with skinning alone and 0.6 mm "
          "after the correction.</p>\n" +
          table("Mean distance of the posed skin round the thumb ball from the scanned one, mm",
-               {"Posture", "Skinning alone", "Corrected by radial basis functions"}, rows);
+               {"Posture", "Skinning alone", "Corrected by the markers alone",
+                "Corrected by markers and scanned skin"},
+               rows);
 }
 
 std::string dimensions_section(const Hand& hand) {
