@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "palmar/core/error.h"
 #include "palmar/io/file.h"
 #include "palmar/io/glb.h"
 #include "palmar/io/mesh_build.h"
 #include "palmar/io/text_scan.h"
+#include "palmar/io/texture_file.h"
 
 namespace palmar {
 namespace {
@@ -92,7 +94,26 @@ class Loader {
     check_asset();
     join_buffers(bytes.starts_with("glTF"));
   }
-  Glb take() { return std::move(glb_); }
+  const Glb& glb() const { return glb_; }
+
+  /// The bytes of image `index`, as they are coded.
+  std::string image_bytes(std::int64_t index) const {
+    const std::string what = name_ + ": image " + std::to_string(index);
+    const Json* image = element(glb_.json, "images", index);
+    if (image == nullptr || !image->is_object()) throw InputError(what + " does not exist");
+    if (image->contains("uri")) return load(image->at("uri").get<std::string>(), what);
+    const Json* view =
+        element(glb_.json, "bufferViews", image->value("bufferView", std::int64_t{-1}));
+    if (view == nullptr) throw InputError(what + " has neither \"uri\" nor \"bufferView\"");
+    // join_buffers() has looked whether it lies inside.
+    const auto offset = view->value("byteOffset", std::uint64_t{0});
+    const auto size = view->value("byteLength", std::uint64_t{0});
+    if (offset > glb_.buffer.size() || size > glb_.buffer.size() - offset) {
+      throw InputError(what + " lies outside its buffer");
+    }
+    const auto* start = reinterpret_cast<const char*>(glb_.buffer.data()) + offset;
+    return {start, size};
+  }
 
  private:
   void check_asset() const {
@@ -115,8 +136,7 @@ class Loader {
     }
   }
 
-  std::string load(const std::string& uri, std::size_t index) const {
-    const std::string what = name_ + ": buffer " + std::to_string(index);
+  std::string load(const std::string& uri, const std::string& what) const {
     if (uri.starts_with("data:")) {
       const std::size_t comma = uri.find(',');
       if (comma == uri.npos || uri.find(";base64") > comma) {
@@ -153,7 +173,8 @@ class Loader {
         place.emplace_back(0, glb_.buffer.size());
         continue;
       }
-      const std::string bytes = load(buffer.at("uri").get<std::string>(), i);
+      const std::string bytes =
+          load(buffer.at("uri").get<std::string>(), name_ + ": buffer " + std::to_string(i));
       place.emplace_back(glb_.buffer.size(), bytes.size());
       glb_.buffer.insert(glb_.buffer.end(), bytes.begin(), bytes.end());
     }
@@ -188,7 +209,9 @@ class Loader {
 
 class SceneReader {
  public:
-  SceneReader(const Glb& glb, const std::string& name) : glb_(glb), name_(name), welder_(1024) {}
+  /// `colours`: null if only the shape is wanted.
+  SceneReader(const Loader& loader, const std::string& name, SurfaceColours* colours)
+      : loader_(loader), glb_(loader.glb()), name_(name), colours_(colours), welder_(1024) {}
 
   MeshFile read() {
     file_.unit = LengthUnit::kMetre;
@@ -196,11 +219,103 @@ class SceneReader {
     note(skin_count_, "skinned meshes read in their rest pose");
     note(morph_count_, "morph targets skipped");
     note(line_count_, "primitives of points or lines skipped");
-    finish_mesh(file_, name_);
+    if (colours_ != nullptr) finish_colours();
+    finish_mesh(file_, name_, colours_);
     return std::move(file_);
   }
 
  private:
+  /// Colours of a primitive's vertices and where in which texture they lie.
+  struct PrimitiveColours {
+    std::vector<Eigen::Vector2f> place;
+    int texture = -1;
+  };
+
+  static float srgb_of_linear(double x) {
+    const double c = std::clamp(x, 0.0, 1.0);
+    return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055);
+  }
+
+  /// Numbers of an accessor; whole ones stand for fractions.
+  AccessorData fractions(int index, const std::string& what) const {
+    AccessorData data = read_accessor(glb_, index, what);
+    const Json* accessor = element(glb_.json, "accessors", index);
+    const int type = accessor->value("componentType", 5126);
+    const double whole = type == 5121 ? 255.0 : type == 5123 ? 65535.0 : 1.0;
+    for (double& x : data.value) x /= whole;
+    return data;
+  }
+
+  /// Index in colours_->textures of the base colour texture of a primitive; -1 without.
+  int texture_of(const Json& primitive, int& coordinates) {
+    const Json* material =
+        element(glb_.json, "materials", primitive.value("material", std::int64_t{-1}));
+    if (material == nullptr || !material->contains("pbrMetallicRoughness")) return -1;
+    const Json& base = material->at("pbrMetallicRoughness");
+    if (!base.contains("baseColorTexture")) return -1;
+    const Json& use = base.at("baseColorTexture");
+    coordinates = use.value("texCoord", 0);
+    if (use.contains("extensions")) ++transformed_count_;
+    const Json* texture = element(glb_.json, "textures", use.value("index", std::int64_t{-1}));
+    if (texture == nullptr) throw InputError(name_ + ": a material names a missing texture");
+    const auto source = texture->value("source", std::int64_t{-1});
+    if (source < 0) {
+      ++unread_count_;
+      return -1;
+    }
+    const auto found = std::find(image_.begin(), image_.end(), source);
+    if (found == image_.end()) {
+      image_.push_back(source);
+      colours_->textures.push_back(
+          read_texture(loader_.image_bytes(source), name_ + ": image " + std::to_string(source)));
+      return static_cast<int>(image_.size()) - 1;
+    }
+    return static_cast<int>(found - image_.begin());
+  }
+
+  PrimitiveColours read_colours(const Json& primitive, const std::vector<int>& vertex,
+                                const std::string& what) {
+    PrimitiveColours result;
+    const Json& attributes = primitive.at("attributes");
+    colour_sum_.resize(file_.mesh.vertices.size(), Eigen::Vector4f::Zero());
+    if (attributes.contains("COLOR_0")) {
+      const AccessorData colour = fractions(attributes.at("COLOR_0").get<int>(), what);
+      if (colour.components < 3 || static_cast<std::size_t>(colour.count) != vertex.size()) {
+        throw InputError(what + ": COLOR_0 isn't one colour per vertex");
+      }
+      for (std::size_t i = 0; i < vertex.size(); ++i) {
+        const double* c = colour.value.data() + i * static_cast<std::size_t>(colour.components);
+        colour_sum_[static_cast<std::size_t>(vertex[i])] +=
+            Eigen::Vector4f(srgb_of_linear(c[0]), srgb_of_linear(c[1]), srgb_of_linear(c[2]), 1.0F);
+      }
+    }
+    int coordinates = 0;
+    result.texture = texture_of(primitive, coordinates);
+    const std::string name = "TEXCOORD_" + std::to_string(coordinates);
+    if (result.texture < 0 || !attributes.contains(name)) {
+      result.texture = -1;
+      return result;
+    }
+    const AccessorData place = fractions(attributes.at(name).get<int>(), what);
+    if (place.components != 2 || static_cast<std::size_t>(place.count) != vertex.size()) {
+      throw InputError(what + ": " + name + " isn't one place per vertex");
+    }
+    for (std::size_t i = 0; i < vertex.size(); ++i) {
+      result.place.emplace_back(static_cast<float>(place.value[2 * i]),
+                                static_cast<float>(place.value[2 * i + 1]));
+    }
+    return result;
+  }
+
+  void finish_colours() {
+    note(transformed_count_, "texture transforms ignored");
+    note(unread_count_, "textures in a format that isn't read (PNG and JPEG are)");
+    colour_sum_.resize(file_.mesh.vertices.size(), Eigen::Vector4f::Zero());
+    const auto has_colour = [](const Eigen::Vector4f& c) { return c.w() > 0.0F; };
+    if (!std::all_of(colour_sum_.begin(), colour_sum_.end(), has_colour)) return;
+    for (const Eigen::Vector4f& c : colour_sum_) colours_->vertex.push_back(c.head<3>() / c.w());
+  }
+
   void note(int count, const std::string& what) {
     if (count > 0) file_.notes.push_back(std::to_string(count) + " " + what);
   }
@@ -303,7 +418,9 @@ class SceneReader {
       }
       vertex.push_back(welder_.add(placed, file_.mesh.vertices));
     }
-    std::vector<int> corners;
+    PrimitiveColours colour;
+    if (colours_ != nullptr) colour = read_colours(primitive, vertex, what);
+    std::vector<int> corners;  // of this primitive
     if (primitive.contains("indices")) {
       const AccessorData indices = read_accessor(glb_, primitive.at("indices").get<int>(), what);
       if (indices.components != 1) throw InputError(what + ": indices are no scalars");
@@ -313,16 +430,29 @@ class SceneReader {
           throw InputError(what + ": a triangle names vertex " + shortest(value) + "; there are " +
                            std::to_string(positions.count) + " (from 0)");
         }
-        corners.push_back(vertex[static_cast<std::size_t>(value)]);
+        corners.push_back(static_cast<int>(value));
       }
     } else {
-      corners = vertex;
+      corners.resize(vertex.size());
+      std::iota(corners.begin(), corners.end(), 0);
     }
     check_triangle_count(name_, file_.mesh.triangles.size() +
                                     corners.size() / (mode == 4 ? std::size_t{3} : std::size_t{1}));
     const bool is_mirrored = scene_from_node.linear().determinant() < 0.0;
     const auto add = [&](int a, int b, int c) {
-      file_.mesh.triangles.push_back(is_mirrored ? Triangle{a, c, b} : Triangle{a, b, c});
+      if (is_mirrored) std::swap(b, c);
+      const std::array<std::size_t, 3> own{static_cast<std::size_t>(a), static_cast<std::size_t>(b),
+                                           static_cast<std::size_t>(c)};
+      file_.mesh.triangles.push_back({vertex[own[0]], vertex[own[1]], vertex[own[2]]});
+      if (colours_ == nullptr) return;
+      colours_->texture.push_back(colour.texture);
+      if (colour.texture < 0) {
+        colours_->place.emplace_back();
+        colours_->place.back().fill(Eigen::Vector2f::Zero());
+      } else {
+        colours_->place.push_back(
+            {colour.place[own[0]], colour.place[own[1]], colour.place[own[2]]});
+      }
     };
     if (mode == 4) {
       for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
@@ -337,8 +467,14 @@ class SceneReader {
     }
   }
 
+  const Loader& loader_;
   const Glb& glb_;
   const std::string& name_;
+  SurfaceColours* colours_;
+  std::vector<std::int64_t> image_;          ///< behind each of colours_->textures
+  std::vector<Eigen::Vector4f> colour_sum_;  ///< per vertex: colours met there, their number
+  int transformed_count_ = 0;
+  int unread_count_ = 0;
   ExactWelder welder_;
   std::vector<bool> visited_;
   std::uint64_t vertices_seen_ = 0;
@@ -348,18 +484,27 @@ class SceneReader {
   MeshFile file_;
 };
 
-}  // namespace
-
-MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path) {
+MeshFile parse(std::string_view bytes, const std::filesystem::path& path, SurfaceColours* colours) {
   const std::string name = path.string();
   try {
-    const Glb glb = Loader(bytes, path).take();
-    MeshFile file = SceneReader(glb, name).read();
+    const Loader loader(bytes, path);
+    MeshFile file = SceneReader(loader, name, colours).read();
     file.format = bytes.starts_with("glTF") ? "binary glTF" : "glTF";
     return file;
   } catch (const Json::exception& error) {
     throw InputError(name + ": is no valid glTF: " + error.what());
   }
+}
+
+}  // namespace
+
+MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path) {
+  return parse(bytes, path, nullptr);
+}
+
+MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path,
+                    SurfaceColours& colours) {
+  return parse(bytes, path, &colours);
 }
 
 }  // namespace palmar

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "palmar/geometry/textured_mesh.h"
 #include "palmar/io/mesh_file.h"
 
 namespace palmar {
@@ -18,5 +19,10 @@ namespace palmar {
 ///
 /// Source: Khronos, glTF 2.0 specification, sections 3.5 to 3.7 and 4.4.
 MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path);
+
+/// The same with its colours: base colour textures (images as they are coded in the file, read by
+/// read_texture()), and COLOR_0, which glTF stores linear, as sRGB.
+MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path,
+                    SurfaceColours& colours);
 
 }  // namespace palmar

@@ -170,7 +170,7 @@ void check_triangle_count(const std::string& name, std::uint64_t count) {
   }
 }
 
-void finish_mesh(MeshFile& file, const std::string& name) {
+void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colours) {
   TriangleMesh& mesh = file.mesh;
   if (mesh.triangles.empty()) {
     throw InputError(name + ": holds " +
@@ -182,8 +182,20 @@ void finish_mesh(MeshFile& file, const std::string& name) {
   check_triangle_count(name, mesh.triangles.size());
 
   const std::size_t before = mesh.triangles.size();
-  std::erase_if(mesh.triangles,
-                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  const auto is_collapsed = [](const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  };
+  if (colours != nullptr && !colours->texture.empty()) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < before; ++t) {
+      if (is_collapsed(mesh.triangles[t])) continue;
+      colours->texture[kept] = colours->texture[t];
+      colours->place[kept++] = colours->place[t];
+    }
+    colours->texture.resize(kept);
+    colours->place.resize(kept);
+  }
+  std::erase_if(mesh.triangles, is_collapsed);
   const std::size_t dropped = before - mesh.triangles.size();
   if (mesh.triangles.empty()) {
     throw InputError(name + ": all " + std::to_string(dropped) +
@@ -201,12 +213,14 @@ void finish_mesh(MeshFile& file, const std::string& name) {
   for (std::size_t v = 0; v < renumbered.size(); ++v) {
     if (renumbered[v] < 0) continue;
     renumbered[v] = static_cast<int>(used);
+    if (colours != nullptr && !colours->vertex.empty()) colours->vertex[used] = colours->vertex[v];
     mesh.vertices[used++] = mesh.vertices[v];
   }
   if (used == mesh.vertices.size()) return;
   file.notes.push_back(std::to_string(mesh.vertices.size() - used) +
                        " vertices that belong to no triangle dropped");
   mesh.vertices.resize(used);
+  if (colours != nullptr && !colours->vertex.empty()) colours->vertex.resize(used);
   for (Triangle& t : mesh.triangles) {
     for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
   }

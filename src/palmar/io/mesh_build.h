@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "palmar/geometry/textured_mesh.h"
 #include "palmar/io/mesh_file.h"
 
 namespace palmar {
@@ -53,7 +54,8 @@ void check_position(const Vec3& position, const std::string& where);
 void check_triangle_count(const std::string& name, std::uint64_t count);
 
 /// Makes the promises of MeshFile true: drops triangles that name a vertex twice and vertices
-/// without triangle, with notes. Throws InputError "`name`: ..." if no triangle is left.
-void finish_mesh(MeshFile& file, const std::string& name);
+/// without triangle, with notes; `colours`, if there are any, go along. Throws InputError
+/// "`name`: ..." if no triangle is left.
+void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colours = nullptr);
 
 }  // namespace palmar

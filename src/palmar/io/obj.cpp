@@ -28,7 +28,8 @@ bool contains(const std::array<std::string_view, N>& list, std::string_view word
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& name) : scan_(text), name_(name) {}
+  ObjReader(std::string_view text, const std::string& name, ObjColours* colours)
+      : scan_(text), name_(name), colours_(colours) {}
 
   MeshFile read() {
     file_.format = "OBJ";
@@ -38,7 +39,8 @@ class ObjReader {
                        in_quotes(first_));
     }
     add_notes();
-    finish_mesh(file_, name_);
+    if (colours_ != nullptr) finish_colours();
+    finish_mesh(file_, name_, colours_ == nullptr ? nullptr : &colours_->surface);
     return std::move(file_);
   }
 
@@ -90,7 +92,7 @@ class ObjReader {
       read_face();
       has_known_ = true;
     } else if (contains(kSkipped, keyword)) {
-      return;
+      if (colours_ != nullptr) read_colour_statement(keyword);
     } else if (contains(kFreeForm, keyword)) {
       ++free_form_count_;
     } else if (!has_known_) {
@@ -123,6 +125,87 @@ class ObjReader {
       fail("more than " + std::to_string(3 * kMaxTriangles) + " vertices");
     }
     file_.mesh.vertices.push_back(p);
+    if (colours_ != nullptr) read_vertex_colour();
+  }
+
+  void read_vertex_colour() {
+    Srgb colour = Srgb::Zero();
+    for (int c = 0; c < 3; ++c) {
+      const auto value = parse_double(next_word());
+      if (!value || !(*value >= 0.0 && *value <= 255.0)) {
+        all_have_colour_ = false;
+        break;
+      }
+      colour[c] = static_cast<float>(*value);
+    }
+    colours_->surface.vertex.push_back(colour);
+  }
+
+  void read_colour_statement(std::string_view keyword) {
+    if (keyword == "vt") {
+      // From the lower left; Palmar counts from the upper left.
+      const double u = parse_double(next_word()).value_or(0.0);
+      const double v = parse_double(next_word()).value_or(0.0);
+      places_.emplace_back(static_cast<float>(u), static_cast<float>(1.0 - v));
+    } else if (keyword == "mtllib") {
+      colours_->library.push_back(rest_of_line());
+    } else if (keyword == "usemtl") {
+      const std::string material = rest_of_line();
+      auto& all = colours_->material;
+      const auto found = std::find(all.begin(), all.end(), material);
+      material_ = static_cast<int>(found - all.begin());
+      if (found == all.end()) all.push_back(material);
+    }
+  }
+
+  /// Names of files and materials may hold blanks.
+  std::string rest_of_line() {
+    const auto from = statement_.find_first_not_of(" \t");
+    if (from == statement_.npos) return {};
+    return std::string(statement_.substr(from, statement_.find_last_not_of(" \t\r") - from + 1));
+  }
+
+  /// Index of the texture place of a corner "v/vt/vn", -1 for none.
+  int place_index(std::string_view word) const {
+    const auto slash = word.find('/');
+    if (slash == word.npos) return -1;
+    const std::string_view rest = word.substr(slash + 1);
+    const auto index = parse_integer(rest.substr(0, rest.find('/')));
+    if (!index) return -1;
+    const auto count = static_cast<long long>(places_.size());
+    const long long resolved = *index > 0 ? *index - 1 : count + *index;
+    if (*index == 0 || resolved < 0 || resolved >= count) {
+      fail("face names texture place " + std::to_string(*index) + "; " + std::to_string(count) +
+           " stand above it");
+    }
+    return static_cast<int>(resolved);
+  }
+
+  /// Places of the triangles that the last face was split into.
+  void place_triangles(std::size_t first) {
+    for (std::size_t t = first; t < file_.mesh.triangles.size(); ++t) {
+      std::array<Eigen::Vector2f, 3> place;
+      bool is_placed = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto corner = std::find(corners_.begin(), corners_.end(), file_.mesh.triangles[t][k]);
+        const int index = corner_places_[static_cast<std::size_t>(corner - corners_.begin())];
+        is_placed = is_placed && index >= 0;
+        place[k] =
+            index < 0 ? Eigen::Vector2f::Zero().eval() : places_[static_cast<std::size_t>(index)];
+      }
+      colours_->surface.place.push_back(place);
+      colours_->surface.texture.push_back(is_placed ? material_ : -1);
+    }
+  }
+
+  void finish_colours() {
+    SurfaceColours& surface = colours_->surface;
+    if (!all_have_colour_) surface.vertex.clear();
+    float largest = 0.0F;
+    for (const Srgb& c : surface.vertex) largest = std::max(largest, c.maxCoeff());
+    if (largest > 1.0F) {
+      for (Srgb& c : surface.vertex) c /= 255.0F;
+    }
   }
 
   int vertex_index(std::string_view word) const {
@@ -140,15 +223,19 @@ class ObjReader {
 
   void read_face() {
     corners_.clear();
+    corner_places_.clear();
     for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
       corners_.push_back(vertex_index(word));
+      if (colours_ != nullptr) corner_places_.push_back(place_index(word));
     }
     if (corners_.size() < 3) {
       ++small_face_count_;
       return;
     }
     check_triangle_count(name_, file_.mesh.triangles.size() + corners_.size() - 2);
+    const std::size_t first = file_.mesh.triangles.size();
     splitter_.split(file_.mesh.vertices, corners_, file_.mesh.triangles);
+    if (colours_ != nullptr) place_triangles(first);
   }
 
   void add_notes() {
@@ -176,7 +263,19 @@ class ObjReader {
   std::vector<int> corners_;
   PolygonSplitter splitter_;
   MeshFile file_;
+  ObjColours* colours_;  ///< null: only the shape is wanted
+  bool all_have_colour_ = true;
+  std::vector<Eigen::Vector2f> places_;
+  std::vector<int> corner_places_;
+  int material_ = -1;
 };
+
+MeshFile parse(std::string_view bytes, const std::string& name, ObjColours* colours) {
+  if (!looks_like_text(bytes)) {
+    throw InputError(name + ": is no OBJ: its first 1024 bytes are not text");
+  }
+  return ObjReader(bytes, name, colours).read();
+}
 
 }  // namespace
 
@@ -197,10 +296,11 @@ bool is_obj(std::string_view bytes) {
 }
 
 MeshFile parse_obj(std::string_view bytes, const std::string& name) {
-  if (!looks_like_text(bytes)) {
-    throw InputError(name + ": is no OBJ: its first 1024 bytes are not text");
-  }
-  return ObjReader(bytes, name).read();
+  return parse(bytes, name, nullptr);
+}
+
+MeshFile parse_obj(std::string_view bytes, const std::string& name, ObjColours& colours) {
+  return parse(bytes, name, &colours);
 }
 
 std::string format_obj(const TriangleMesh& mesh) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "palmar/geometry/textured_mesh.h"
 #include "palmar/io/mesh_file.h"
 
 namespace palmar {
@@ -21,6 +22,17 @@ bool is_obj(std::string_view bytes);
 ///
 /// Source: Wavefront Technologies, Object Files (.obj), version 3.0 of the format.
 MeshFile parse_obj(std::string_view bytes, const std::string& name);
+
+/// What an OBJ says of its surface's colours.
+struct ObjColours {
+  /// Vertex colours ("v x y z r g b", 0 to 1 or to 255, an extension) and places of textures;
+  /// `texture` counts `material`; no images.
+  SurfaceColours surface;
+  std::vector<std::string> material;  ///< names, in order of first use
+  std::vector<std::string> library;   ///< files that describe them (mtllib)
+};
+/// The same with colours.
+MeshFile parse_obj(std::string_view bytes, const std::string& name, ObjColours& colours);
 
 /// OBJ text whose numbers read back to the same doubles.
 std::string format_obj(const TriangleMesh& mesh);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/ply.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -229,8 +230,9 @@ class BinarySource {
 template <typename Source>
 class BodyReader {
  public:
-  BodyReader(Source source, std::size_t body_bytes, const std::string& name)
-      : source_(std::move(source)), body_bytes_(body_bytes), name_(name) {}
+  BodyReader(Source source, std::size_t body_bytes, const std::string& name,
+             SurfaceColours* colours)
+      : source_(std::move(source)), body_bytes_(body_bytes), name_(name), colours_(colours) {}
 
   MeshFile read(const std::vector<Element>& elements) {
     for (const Element& element : elements) {
@@ -262,7 +264,7 @@ class BodyReader {
       file_.notes.push_back(std::to_string(splitter_.doubtful_count()) +
                             " polygons cross themselves; split as fans");
     }
-    finish_mesh(file_, name_);
+    finish_mesh(file_, name_, colours_);
     return std::move(file_);
   }
 
@@ -300,6 +302,27 @@ class BodyReader {
     }
   }
 
+  /// Which of red, green and blue each property is, -1 for others; empty unless all are there.
+  static std::vector<int> channels(const Element& element) {
+    constexpr std::array<std::array<std::string_view, 3>, 3> kNames{
+        {{"red", "green", "blue"},
+         {"r", "g", "b"},
+         {"diffuse_red", "diffuse_green", "diffuse_blue"}}};
+    for (const auto& names : kNames) {
+      std::vector<int> result(element.properties.size(), -1);
+      int found = 0;
+      for (std::size_t k = 0; k < result.size(); ++k) {
+        const Property& property = element.properties[k];
+        const auto name = std::find(names.begin(), names.end(), property.name);
+        if (property.count_type || name == names.end()) continue;
+        result[k] = static_cast<int>(name - names.begin());
+        ++found;
+      }
+      if (found == 3) return result;
+    }
+    return {};
+  }
+
   void read_vertices(const Element& element) {
     std::array<bool, 3> has{};
     std::vector<int> axis;
@@ -320,12 +343,19 @@ class BodyReader {
       }
     }
     check_triangle_count(name_, element.count / 3);
+    const std::vector<int> channel = colours_ == nullptr ? std::vector<int>() : channels(element);
     file_.mesh.vertices.reserve(file_.mesh.vertices.size() + element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       Vec3 p = Vec3::Zero();
+      Srgb colour = Srgb::Zero();
       for (std::size_t k = 0; k < axis.size(); ++k) {
         if (axis[k] >= 0) {
           p[axis[k]] = value(element.properties[k].type, element, row);
+        } else if (!channel.empty() && channel[k] >= 0) {
+          const Type type = element.properties[k].type;
+          const bool is_fraction = type == Type::kFloat || type == Type::kDouble;
+          colour[channel[k]] =
+              static_cast<float>(value(type, element, row) / (is_fraction ? 1.0 : 255.0));
         } else {
           skip_property(element.properties[k], element, row);
         }
@@ -334,6 +364,9 @@ class BodyReader {
         check_position(p, name_ + ": vertex " + std::to_string(row) + " (" + source_.place() + ")");
       }
       file_.mesh.vertices.push_back(p);
+      if (!channel.empty()) {
+        colours_->vertex.push_back(colour.cwiseMax(0.0F).cwiseMin(1.0F));
+      }
     }
     vertices_read_ = true;
     for (auto& [element_row, corners] : waiting_) {
@@ -402,15 +435,10 @@ class BodyReader {
   std::vector<std::pair<std::uint64_t, std::vector<int>>> waiting_;  ///< faces before vertices
   PolygonSplitter splitter_;
   MeshFile file_;
+  SurfaceColours* colours_;  ///< null: only the shape is wanted
 };
 
-}  // namespace
-
-bool is_ply(std::string_view bytes) {
-  return bytes.size() > 4 && bytes.substr(0, 3) == "ply" && (bytes[3] == '\n' || bytes[3] == '\r');
-}
-
-MeshFile parse_ply(std::string_view bytes, const std::string& name) {
+MeshFile parse(std::string_view bytes, const std::string& name, SurfaceColours* colours) {
   if (!is_ply(bytes)) {
     throw InputError(name + ": is no PLY: starts with " + in_quotes(bytes.substr(0, 8)) +
                      "; a line \"ply\" is required");
@@ -420,29 +448,34 @@ MeshFile parse_ply(std::string_view bytes, const std::string& name) {
   MeshFile file;
   if (header.encoding == Encoding::kAscii) {
     AsciiSource source(bytes.substr(header.size), header.lines);
-    file = BodyReader(std::move(source), body, name).read(header.elements);
+    file = BodyReader(std::move(source), body, name, colours).read(header.elements);
     file.format = "ascii PLY";
   } else {
     const auto order =
         header.encoding == Encoding::kLittle ? std::endian::little : std::endian::big;
-    file = BodyReader(BinarySource(bytes, header.size, order), body, name).read(header.elements);
+    BinarySource source(bytes, header.size, order);
+    file = BodyReader(source, body, name, colours).read(header.elements);
     file.format = "binary PLY";
   }
   return file;
 }
 
-std::string format_ply(const TriangleMesh& mesh) {
+std::string format(const TriangleMesh& mesh, const std::vector<Srgb>& colour) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\ncomment Palmar; millimetre\n"
       "element vertex " +
       std::to_string(mesh.vertices.size()) +
-      "\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face " +
-      std::to_string(mesh.triangles.size()) +
+      "\nproperty double x\nproperty double y\nproperty double z\n" +
+      (colour.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
+      "element face " + std::to_string(mesh.triangles.size()) +
       "\nproperty list uchar int vertex_indices\nend_header\n";
-  bytes.reserve(bytes.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
-  for (const Vec3& v : mesh.vertices) {
-    for (int c = 0; c < 3; ++c) append_value(bytes, v[c]);
+  bytes.reserve(bytes.size() + 27 * mesh.vertices.size() + 13 * mesh.triangles.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (int c = 0; c < 3; ++c) append_value(bytes, mesh.vertices[v][c]);
+    for (int c = 0; c < 3 && !colour.empty(); ++c) {
+      const float value = std::clamp(colour[v][c], 0.0F, 1.0F);
+      append_value(bytes, static_cast<std::uint8_t>(std::lround(255.0F * value)));
+    }
   }
   for (const Triangle& t : mesh.triangles) {
     append_value(bytes, std::uint8_t{3});
@@ -450,5 +483,23 @@ std::string format_ply(const TriangleMesh& mesh) {
   }
   return bytes;
 }
+
+}  // namespace
+
+bool is_ply(std::string_view bytes) {
+  return bytes.size() > 4 && bytes.substr(0, 3) == "ply" && (bytes[3] == '\n' || bytes[3] == '\r');
+}
+
+MeshFile parse_ply(std::string_view bytes, const std::string& name) {
+  return parse(bytes, name, nullptr);
+}
+
+MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours) {
+  return parse(bytes, name, &colours);
+}
+
+std::string format_ply(const TriangleMesh& mesh) { return format(mesh, {}); }
+
+std::string format_ply(const ColouredMesh& mesh) { return format(mesh.mesh, mesh.colour); }
 
 }  // namespace palmar

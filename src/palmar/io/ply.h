@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "palmar/geometry/textured_mesh.h"
 #include "palmar/io/mesh_file.h"
 
 namespace palmar {
@@ -20,8 +21,13 @@ bool is_ply(std::string_view bytes);
 ///
 /// Source: Turk, The PLY Polygon File Format, Stanford, 1994.
 MeshFile parse_ply(std::string_view bytes, const std::string& name);
+/// The same with the colours of the vertices (red, green, blue; whole numbers to 255 or fractions
+/// to 1), if it has any.
+MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours);
 
 /// Binary little-endian PLY in double precision.
 std::string format_ply(const TriangleMesh& mesh);
+/// The same with a colour of every vertex in bytes, as other programs read it.
+std::string format_ply(const ColouredMesh& mesh);
 
 }  // namespace palmar
