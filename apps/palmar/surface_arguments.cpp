@@ -13,7 +13,7 @@ void SurfaceArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_flag("--keep-bias", keeps_bias_, "Don't correct the brightness across the image");
   verb.add_option("--bone-edge-mm", options_.edge_length,
-                  "Mean edge of the bones' meshes; the skin's are twice as long")
+                  "Mean edge of the meshes")
       ->capture_default_str();
   verb.add_option("--marker-mm", options_.marker_diameter,
                   "Diameter of markers stuck on the skin; 0: there are none")

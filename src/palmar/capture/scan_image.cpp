@@ -15,6 +15,7 @@
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/denoise.h"
 #include "palmar/imaging/gaussian_filter.h"
+#include "palmar/imaging/noise_floor.h"
 
 namespace palmar {
 namespace {
@@ -156,7 +157,7 @@ void find_bone_levels(ScanImage& scan, double given) {
   levels.bright = median(bright);
   // Thin shells never reach their own signal; thick ones are the darkest of the tissue.
   std::sort(dark.begin(), dark.end());
-  levels.dark = dark.empty() ? levels.air : static_cast<double>(dark[dark.size() / 50]);
+  levels.dark = dark.empty() ? 0.0 : static_cast<double>(dark[dark.size() / 50]);
   levels.bone_threshold = given > 0.0 ? given : 0.5 * (levels.dark + levels.bright);
 }
 
@@ -244,8 +245,6 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
     scan.image = corrected_for_bias(scan.image, tissue, {}, progress);
   }
   progress.update(0.5, "measuring the tissues' signals");
-  scan.smooth = gaussian_filtered(scan.image, kSmoothing);
-  rough = gaussian_filtered(scan.image, kRoughly);
   ScanLevels& levels = scan.levels;
   std::vector<float> air;
   const std::vector<float> from_tissue = distance_transform(grid, tissue);
@@ -254,7 +253,12 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   }
   // The median of Rayleigh's distribution.
   levels.noise = median(air) / std::sqrt(2.0 * std::log(2.0));
-  levels.air = levels.noise * std::sqrt(std::acos(-1.0) / 2.0);
+  scan.image = without_noise_floor(std::move(scan.image), levels.noise);
+  const auto given = [&](double threshold) {
+    return threshold > 0.0 ? without_noise_floor(threshold, levels.noise) : 0.0;
+  };
+  scan.smooth = gaussian_filtered(scan.image, kSmoothing);
+  rough = gaussian_filtered(scan.image, kRoughly);
 
   const auto inside_of = [&](const VoxelMask& mask) {
     VoxelMask outside(mask.size());
@@ -271,10 +275,10 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   };
   tissue = filled(grid, tissue);
   scan.depth = inside_of(tissue);
-  find_bone_levels(scan, options.bone_threshold);
+  find_bone_levels(scan, given(options.bone_threshold));
   levels.skin = median_at_depth(tissue);
   levels.air_threshold =
-      options.air_threshold > 0.0 ? options.air_threshold : 0.5 * (levels.air + levels.skin);
+      options.air_threshold > 0.0 ? given(options.air_threshold) : 0.5 * levels.skin;
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     tissue[v] = static_cast<double>(rough.value[v]) > 0.9 * levels.air_threshold ? 1 : 0;
   }
@@ -304,6 +308,7 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
         static_cast<double>(rough.value[v]) > levels.air_threshold && taken[v] == 0;
     tissue[v] = is_tissue ? 1 : 0;
   }
+  scan.covered = std::move(taken);
   const ConnectedParts pieces = connected_parts(grid, tissue);
   // Closed over what is narrower than 3 mm (dark tendons below the skin), opened where the fixture
   // leaves scraps.
@@ -312,7 +317,7 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   const ConnectedParts whole_parts = connected_parts(grid, scan.body);
   scan.body = mask_of(whole_parts, whole_parts.largest());
   scan.depth = inside_of(scan.body);
-  find_bone_levels(scan, options.bone_threshold);
+  find_bone_levels(scan, given(options.bone_threshold));
   return scan;
 }
 

@@ -12,10 +12,9 @@
 
 namespace palmar {
 
-/// Signals of a T1-weighted image, after bias correction.
+/// Signals of a T1-weighted image without bias and noise floor; air has 0.
 struct ScanLevels {
   double noise = 0.0;   ///< standard deviation in tissue
-  double air = 0.0;     ///< mean of the air: Rician noise, 1.25 times its deviation
   double dark = 0.0;    ///< cortical bone
   double bright = 0.0;  ///< marrow and fat
   double skin = 0.0;
@@ -25,10 +24,11 @@ struct ScanLevels {
 
 /// The part of an image that shows the hand, made ready for finding surfaces.
 struct ScanImage {
-  Volume image;              ///< free of bias, cut to the hand's surroundings
+  Volume image;              ///< free of bias and noise floor, cut to the hand's surroundings
   Volume smooth;             ///< the same with less noise
   VoxelMask body;            ///< the hand: without markers and fixture, what is inside filled
   std::vector<float> depth;  ///< below the body's surface, mm; 0 outside
+  VoxelMask covered;         ///< markers and fixture
   std::vector<Vec3> markers;
   Fixture fixture;
   ScanLevels levels;
@@ -36,9 +36,10 @@ struct ScanImage {
 };
 
 /// Cuts out, cleans and measures. Thresholds, unless they are given:
-/// - air from tissue: half way between the mean of the air and the median signal 0.5 to 1.3 mm
-///   below the surface, so that a surface lies where half a voxel is skin (the surface that Otsu's
-///   threshold gives tells where that is);
+/// - air from tissue: half of the median signal 0.5 to 1.3 mm below the surface, so that a surface
+///   lies where half a voxel is skin (the surface that Otsu's threshold gives tells where that is).
+///   Half way to the air's mean would be too high: noise has no sign in a magnitude image
+///   (noise_floor.h);
 /// - marrow from cortical bone: half way between the medians of the dark and of the bright class
 ///   of the inner tissue (three classes, Otsu 1979).
 /// Throws InputError, naming `name`: no hand, two hands.

@@ -19,7 +19,8 @@
 #include "palmar/geometry/smooth.h"
 #include "palmar/imaging/bright_regions.h"
 #include "palmar/imaging/gaussian_filter.h"
-#include "palmar/imaging/iso_surface.h"
+#include "palmar/imaging/noise_floor.h"
+#include "palmar/imaging/simple_body.h"
 
 namespace palmar {
 namespace {
@@ -30,17 +31,23 @@ constexpr double kErrorPerVoxel = 0.35;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-TriangleMesh skin_surface(const ScanImage& scan, double edge_length) {
+TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
+                          std::vector<std::string>& notes) {
   Volume field = gaussian_filtered(scan.image, 0.4);
   const std::vector<float> outside = distance_transform(field.grid, scan.body);
-  const auto air = static_cast<float>(scan.levels.air);
   const auto inside = static_cast<float>(scan.levels.bright);
   for (std::size_t v = 0; v < field.value.size(); ++v) {
     if (scan.depth[v] > 1.2F) field.value[v] = inside;
-    if (outside[v] > 1.2F) field.value[v] = std::min(field.value[v], air);
+    if (outside[v] > 1.2F || scan.covered[v] != 0) field.value[v] = std::min(field.value[v], 0.0F);
   }
-  TriangleMesh mesh = largest_piece(iso_surface(field, scan.levels.air_threshold));
-  mesh = smooth_taubin(mesh, {.rounds = 8});
+  SimpleSurface surface =
+      simple_surface(std::move(field), scan.levels.air_threshold, scan.levels.skin);
+  if (surface.handles > 0) {
+    notes.push_back(
+        fmt::format("skin touches skin, or is too thin to be seen, in {} {}: it was parted there",
+                    surface.handles, surface.handles == 1 ? "place" : "places"));
+  }
+  const TriangleMesh mesh = smooth_taubin(surface.mesh, {.rounds = 8});
   return remesh(mesh, {.edge_length = edge_length, .rounds = 8}).mesh;
 }
 
@@ -83,12 +90,12 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   ScanSurfaces surfaces;
   surfaces.markers = scan.markers;
   surfaces.notes = scan.notes;
-  surfaces.air_threshold = scan.levels.air_threshold;
-  surfaces.bone_threshold = scan.levels.bone_threshold;
+  surfaces.air_threshold = with_noise_floor(scan.levels.air_threshold, scan.levels.noise);
+  surfaces.bone_threshold = with_noise_floor(scan.levels.bone_threshold, scan.levels.noise);
   surfaces.noise = scan.levels.noise;
 
   progress.update(0.4, "skin");
-  surfaces.skin = skin_surface(scan, 2.0 * options.edge_length);
+  surfaces.skin = skin_surface(scan, options.edge_length, surfaces.notes);
 
   progress.update(0.5, "marrow");
   VoxelMask inner(scan.body.size());

@@ -37,7 +37,7 @@ struct SurfaceOptions {
   double air_threshold = 0.0;   ///< intensity of the file; 0: found from the histogram
   double bone_threshold = 0.0;  ///< likewise
   bool corrects_bias = true;
-  double edge_length = 1.2;      ///< mean edge of the bones' meshes, mm; the skin's twice as long
+  double edge_length = 1.2;      ///< mean edge of the meshes, mm
   double marker_diameter = 5.0;  ///< mm; 0: no markers are looked for
   void check() const;            ///< throws UsageError: field, value, allowed range
 };
