@@ -329,14 +329,24 @@ void HandCreases::lay_palm_creases() {
   between_pads_ = PlaneCurve({between + 2.0 * down, web});
 }
 
-const CreasePlane& HandCreases::proximal_crease(Segment phalanx) const {
+std::array<std::size_t, 2> HandCreases::place_of(Segment phalanx) {
   const auto finger = finger_of(phalanx);
   if (!finger) throw UsageError("segment \"palm\": a phalanx is required");
   const auto chain = segments_of(*finger);
-  for (int k = 0; k < 3; ++k) {
-    if (chain[at(k)] == phalanx) return crease_[at(static_cast<int>(*finger))][at(k)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (chain[k] == phalanx) return {static_cast<std::size_t>(*finger), k};
   }
   throw UsageError("segment: not a phalanx");
+}
+
+const CreasePlane& HandCreases::proximal_crease(Segment phalanx) const {
+  const auto [finger, k] = place_of(phalanx);
+  return crease_[finger][k];
+}
+
+void HandCreases::set_proximal_crease(Segment phalanx, const CreasePlane& crease) {
+  const auto [finger, k] = place_of(phalanx);
+  crease_[finger][k] = crease;
 }
 
 const Vec3& HandCreases::palmar_direction(Finger finger, int node) const {

@@ -70,6 +70,8 @@ class HandCreases {
   const CreasePlane& wrist() const { return wrist_; }
   /// Proximal crease of a phalanx. Throws UsageError for the palm.
   const CreasePlane& proximal_crease(Segment phalanx) const;
+  /// Puts a crease where this person's is seen. Throws UsageError for the palm.
+  void set_proximal_crease(Segment phalanx, const CreasePlane& crease);
   /// Deepest point of the web between finger k and k + 1 (0: thumb and index).
   const Vec3& web(int k) const { return web_[static_cast<std::size_t>(k)]; }
   /// Height above the joint axes towards the palm, mm; 0 where palmar skin ends.
@@ -92,6 +94,8 @@ class HandCreases {
   };
   OnRay project(const Ray& ray, const Vec3& point) const;
   int nearest_ray(const Vec3& point) const;
+  /// Finger and place of a phalanx's proximal crease in crease_.
+  static std::array<std::size_t, 2> place_of(Segment phalanx);
   /// Distances of the skin's vertices from the rays, mm; only those asked for are computed.
   class RayDistances;
   Vec3 find_web(const TriangleMesh& skin, int k, RayDistances& distance) const;

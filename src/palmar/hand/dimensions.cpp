@@ -9,7 +9,6 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/section.h"
-#include "palmar/hand/creases.h"
 
 namespace palmar {
 namespace {
@@ -77,7 +76,11 @@ double in_palm_plane(const Vec3& a, const Vec3& b) { return (a - b).head<2>().no
 }  // namespace
 
 HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton) {
-  const HandCreases creases(skin, skeleton);
+  return measure_hand(skin, skeleton, HandCreases(skin, skeleton));
+}
+
+HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton,
+                            const HandCreases& creases) {
   HandDimensions d;
 
   const CreasePlane& wrist = creases.wrist();

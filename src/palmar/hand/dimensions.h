@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "palmar/hand/creases.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {
@@ -30,5 +31,8 @@ HandDimensions measure_hand(const Hand& hand);
 
 /// The same for a skin that is not yet part of a hand.
 HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton);
+/// The same from creases that were seen on the skin.
+HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton,
+                            const HandCreases& creases);
 
 }  // namespace palmar
