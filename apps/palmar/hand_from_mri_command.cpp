@@ -8,9 +8,9 @@
 
 #include "mri_pipeline.h"
 #include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
 #include "palmar/io/bone_label_file.h"
 #include "palmar/io/hand_file.h"
+#include "palmar/io/product_file.h"
 #include "palmar/io/scan_record_json.h"
 #include "palmar/report/scan_report.h"
 #include "scan_selection.h"
@@ -21,7 +21,7 @@ namespace {
 
 struct FromMriArguments {
   std::vector<std::string> paths, series, skip;
-  std::string out, work, labels, model = "template", name;
+  std::string out, work, labels, model = "template", name, product, unit;
   SurfaceArguments surfaces;
   bool no_report = false;
 };
@@ -69,6 +69,14 @@ std::string text_of(const ScanRecord& record) {
                         error.skinning_only, millimetres(error.by_markers),
                         millimetres(error.corrected));
   }
+  if (record.contact) {
+    const ContactOverlap& c = record.contact->overlap;
+    text += fmt::format(
+        "contact with {}, skin within {:g} mm: hand {:.0f} mm^2, scan {:.0f} mm^2; of the product, "
+        "{:.0f} % of what the scan touches is touched by the hand, {:.0f} % the other way round\n",
+        record.contact->product, record.contact->range, c.hand_area, c.scanned_area,
+        100.0 * c.share_of_scan, 100.0 * c.share_of_hand);
+  }
   return text;
 }
 
@@ -83,23 +91,27 @@ int run(const FromMriArguments& arguments, const Context& context) {
   options.side = arguments.surfaces.chosen_side();
   options.work = work_folder(arguments);
   if (!arguments.labels.empty()) options.labels = read_bone_labels(arguments.labels);
+  if (!arguments.product.empty()) {
+    options.product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
+    for (const std::string& text : options.product->notes) note(context.common, text);
+  }
+  options.tell = [&context](const std::string& text) { note(context.common, text); };
   progress.update(0.0, "looking for series");
   const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
-  ScanRecord record =
-      run_mri_pipeline(selection.scans, *model, options, part_of(progress, 0.0, 0.93));
-  record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
-  record.made.hand.name = arguments.name.empty()
-                              ? std::filesystem::path(arguments.out).filename().string()
-                              : arguments.name;
-  if (arguments.name.empty()) {
-    record.made.hand.name.resize(record.made.hand.name.size() - kEnding.size());
-  }
-  write_hand(arguments.out, record.made.hand);
-  if (!arguments.no_report) {
-    write_scan_report(options.work, record, part_of(progress, 0.93, 1.0));
-  }
+  for (const std::string& text : selection.notes) note(context.common, text);
+  options.write = [&](ScanRecord& record, const Progress& part) {
+    record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
+    Hand& hand = record.made.hand;
+    hand.name = arguments.name;
+    if (hand.name.empty()) {
+      hand.name = std::filesystem::path(arguments.out).filename().string();
+      hand.name.resize(hand.name.size() - kEnding.size());
+    }
+    write_hand(arguments.out, hand);
+    if (!arguments.no_report) write_scan_report(options.work, record, part);
+  };
+  const ScanRecord record = run_mri_pipeline(selection.scans, *model, options, progress);
   finish_progress();
-  for (const std::string& text : record.notes) note(context.common, text);
   print(context.common.json ? scan_record_json(record) + "\n" : text_of(record));
   note(context.common, arguments.no_report
                            ? "wrote " + arguments.out
@@ -132,6 +144,11 @@ void add_from_mri(CLI::App& hand, Context& context) {
       "default: beside the hand, *.mri");
   verb->add_option("--labels", a->labels,
                    "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
+  verb->add_option(
+      "--product", a->product,
+      "What the grasp holds, where it was in the scanner (patient frame): contact areas "
+      "of scan and hand are compared");
+  verb->add_option("--unit", a->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--model", a->model, "Hand to start from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->add_option("--name", a->name, "Name of the hand; default: that of the file");

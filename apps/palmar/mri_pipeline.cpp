@@ -4,14 +4,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
+#include "palmar/capture/grasp_contact.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/core/version.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/dicom.h"
 #include "palmar/io/file.h"
+#include "palmar/io/hand_file.h"
+#include "palmar/io/kept_scan_results.h"
 #include "palmar/io/scan_surfaces_file.h"
 #include "palmar/io/sha256.h"
 
@@ -56,74 +61,177 @@ RecordedScan finished(RecordedScan scan, const Hand& model, const MriPipelineOpt
   return scan;
 }
 
-}  // namespace
+/// Surfaces that an earlier run left, or that the user gave, maybe mended.
+ScanSurfaces read_kept(const std::string& folder, bool is_users) {
+  try {
+    return read_scan_surfaces(folder);
+  } catch (const InputError& error) {
+    if (is_users) throw;
+    throw InputError(std::string(error.what()) + "; without the folder " + folder +
+                     " they are found in the image again");
+  }
+}
 
-RecordedScan surfaces_of(const SelectedScan& selected, const Hand& model,
+struct PlannedScan {
+  const SelectedScan* selected = nullptr;
+  std::string key;       ///< of the image and the options
+  bool is_kept = false;  ///< surfaces are there already
+};
+
+RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model,
                          const MriPipelineOptions& options, const Progress& progress) {
+  const SelectedScan& selected = *plan.selected;
   RecordedScan scan;
   scan.posture = selected.posture;
   scan.title = selected.title;
-  if (selected.has_surfaces) {
-    scan.surfaces = read_scan_surfaces(selected.path);
-    scan.was_kept = true;
+  scan.was_kept = plan.is_kept;
+  const std::string folder = folder_of(selected.posture, options.work);
+  if (plan.is_kept) {
+    progress.update(0.0, "taking up what is there");
+    scan.surfaces =
+        read_kept(selected.has_surfaces ? selected.path : folder, selected.has_surfaces);
     return finished(std::move(scan), model, options);
   }
-  const std::string folder = folder_of(selected.posture, options.work);
-  progress.update(0.0, "looking for what is there");
-  const std::string key = key_of(selected, options.surfaces);
-  if (key_of_scan_surfaces(folder) == key) {
-    scan.surfaces = read_scan_surfaces(folder);
-    scan.was_kept = true;
-  } else {
-    const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
-    scan.laterality = file.laterality;
-    scan.surfaces = find_surfaces(file.image, selected.title, model, options.surfaces,
-                                  part_of(progress, 0.1, 0.95));
-    scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
-    check_laterality(scan, scan.surfaces.notes);
-    write_scan_surfaces(folder, scan.surfaces, key);
-  }
+  const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
+  scan.laterality = file.laterality;
+  scan.surfaces = find_surfaces(file.image, selected.title, model, options.surfaces,
+                                part_of(progress, 0.1, 1.0));
+  scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
+  check_laterality(scan, scan.surfaces.notes);
+  progress.throw_if_cancelled();
+  write_scan_surfaces(folder, scan.surfaces, plan.key);
   return finished(std::move(scan), model, options);
 }
 
+/// Refuses scans that no hand can be made of, before the long work on the others.
+void require_bones(const RecordedScan& scan, const Hand& model) {
+  constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring",
+                                                        "little"};
+  constexpr int kLeastPerFinger = 2;
+  constexpr std::size_t kMostMissing = 5;  // of the 19 of fingers and palm
+  std::vector<std::string> missing;
+  std::string poor;
+  for (const std::string_view finger : kFingers) {
+    int seen = 0;
+    for (const Bone& bone : model.bones) {
+      if (!bone.name.starts_with(finger)) continue;
+      const bool is_seen = std::any_of(scan.surfaces.bones.begin(), scan.surfaces.bones.end(),
+                                       [&](const auto& one) { return one.name == bone.name; });
+      seen += is_seen ? 1 : 0;
+      if (!is_seen) missing.push_back(bone.name);
+    }
+    if (seen < kLeastPerFinger) poor += (poor.empty() ? "" : ", ") + std::string(finger);
+  }
+  if (poor.empty() && missing.size() <= kMostMissing) return;
+  throw InputError(fmt::format(
+      "{}: too few bones were found to make a hand of: {} of the 19 of fingers and palm are "
+      "missing ({}); up to {} may be, and each finger needs {}. Look at skin.ply and bones/ of "
+      "this "
+      "scan: finer images with less noise (pixels of 0.8 mm, slices of 1 mm) help, so do "
+      "--bone-threshold, or --labels for bones that were found without a name",
+      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger));
+}
+
+void require_same_side(const RecordedScan& scan, Side reference) {
+  if (scan.surfaces.side == reference) return;
+  throw InputError(scan.title + ": shows a " + std::string(name_of(scan.surfaces.side)) +
+                   " hand, but the reference is a " + std::string(name_of(reference)) +
+                   " one; leave it out with --skip " + std::string(name_of(scan.posture)) +
+                   ", or say --side if one of them is wrong");
+}
+
+/// Shares of the whole time by what the steps take, in seconds of a usual scan on two cores.
+class Shares {
+ public:
+  void plan(double seconds) { total_ += seconds; }
+  /// The next step's part.
+  Progress next(const Progress& progress, double seconds, const std::string& what) {
+    const double begin = done_ / total_;
+    done_ += seconds;
+    return part_of(progress, begin, std::min(1.0, done_ / total_), what);
+  }
+
+ private:
+  double total_ = 0.0, done_ = 0.0;
+};
+constexpr double kFound = 25.0, kKept = 0.1, kTracked = 1.5, kMade = 15.0, kWritten = 12.0;
+
+}  // namespace
+
 ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
                             const MriPipelineOptions& options, const Progress& progress) {
-  constexpr double kSurfaces = 0.8, kMotions = 0.9;  // shares of the time
   ScanRecord result;
-  const double step = kSurfaces / static_cast<double>(scans.size());
-  for (std::size_t k = 0; k < scans.size(); ++k) {
-    const double begin = step * static_cast<double>(k);
-    result.scans.push_back(surfaces_of(
-        scans[k], model, options,
-        part_of(progress, begin, begin + step, std::string(name_of(scans[k].posture)))));
+  const auto tell = [&](const std::string& text) {
+    result.notes.push_back(text);
+    if (options.tell) options.tell(text);
+  };
+  if (options.product && scans.back().posture != ScanPosture::kGrasp) {
+    throw UsageError("--product " + options.product->source +
+                     ": none of the scans shows the posture grasp, in which it was held");
   }
+  progress.update(0.0, "looking for what is there");
+  std::vector<PlannedScan> plans;
+  Shares shares;
+  for (const SelectedScan& selected : scans) {
+    progress.throw_if_cancelled();
+    PlannedScan plan{&selected, "", selected.has_surfaces};
+    if (!selected.has_surfaces) {
+      plan.key = key_of(selected, options.surfaces);
+      plan.is_kept = key_of_scan_surfaces(folder_of(selected.posture, options.work)) == plan.key;
+    }
+    shares.plan(plan.is_kept ? kKept : kFound);
+    plans.push_back(std::move(plan));
+  }
+  shares.plan(kTracked * static_cast<double>(scans.size() - 1) + kMade + kWritten);
+
+  std::vector<std::string> digests;
+  for (const PlannedScan& plan : plans) {
+    const std::string name(name_of(plan.selected->posture));
+    result.scans.push_back(surfaces_of(plan, model, options,
+                                       shares.next(progress, plan.is_kept ? kKept : kFound, name)));
+    const RecordedScan& scan = result.scans.back();
+    for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);
+    if (result.scans.size() == 1) require_bones(scan, model);
+    require_same_side(scan, result.scans.front().surfaces.side);
+    digests.push_back(digest_of(scan.surfaces));
+  }
+
   const ScanSurfaces& reference = result.scans.front().surfaces;
+  std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
     const RecordedScan& scan = result.scans[k];
-    if (scan.surfaces.side != reference.side) {
-      throw InputError(scan.title + ": shows a " + std::string(name_of(scan.surfaces.side)) +
-                       " hand, but the reference is a " + std::string(name_of(reference.side)) +
-                       " one; leave it out with --skip, or say --side if one of them is wrong");
+    const std::string name(name_of(scan.posture));
+    const Progress part = shares.next(progress, kTracked, name);
+    const std::string folder = folder_of(scan.posture, options.work);
+    const std::string key = sha256_hex(build_description() + digests.front() + digests[k]);
+    std::optional<std::vector<BoneMotion>> motions = kept_bone_motions(folder, key);
+    if (!motions) {
+      motions = track_bones(reference, scan.surfaces, part);
+      keep_bone_motions(folder, key, *motions);
     }
-    const double width = (kMotions - kSurfaces) / static_cast<double>(result.scans.size());
-    const double begin = kSurfaces + width * static_cast<double>(k);
-    result.motions[scan.posture] =
-        track_bones(reference, scan.surfaces,
-                    part_of(progress, begin, begin + width, std::string(name_of(scan.posture))));
+    result.motions[scan.posture] = std::move(*motions);
+    all += name + key;
   }
-  progress.update(kMotions, "joints");
+
+  const Progress part = shares.next(progress, kMade, "");
+  part.update(0.0, "joints");
   const Hand sided = reference.side == model.side ? model : mirrored(model);
   std::map<ScanPosture, ScanSurfaces> surfaces;
   for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
   result.joints = measure_joints(surfaces, result.motions, sided);
-  result.made = make_scanned_hand(sided, surfaces, result.joints, part_of(progress, kMotions, 1.0));
-  for (const RecordedScan& scan : result.scans) {
-    for (const std::string& note : scan.surfaces.notes) {
-      result.notes.push_back(std::string(name_of(scan.posture)) + ": " + note);
-    }
+  for (const std::string& note : result.joints.notes) tell(note);
+  const std::string key = sha256_hex(all);
+  if (auto kept = kept_scanned_hand(options.work, key)) {
+    result.made = std::move(*kept);
+  } else {
+    result.made = make_scanned_hand(sided, surfaces, result.joints, part_of(part, 0.1, 1.0));
+    keep_scanned_hand(options.work, key, result.made);
   }
-  result.notes.insert(result.notes.end(), result.joints.notes.begin(), result.joints.notes.end());
-  result.notes.insert(result.notes.end(), result.made.notes.begin(), result.made.notes.end());
+  for (const std::string& note : result.made.notes) tell(note);
+  if (options.product) {
+    result.contact = grasp_contact(result, options.product->mesh, options.product->source);
+  }
+  if (options.write) options.write(result, shares.next(progress, kWritten, ""));
   return result;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,24 +11,27 @@
 #include "palmar/capture/bone_labels.h"
 #include "palmar/capture/scan_record.h"
 #include "palmar/core/progress.h"
+#include "palmar/product/product.h"
 #include "scan_selection.h"
 
 namespace palmar::cli {
 
 struct MriPipelineOptions {
   SurfaceOptions surfaces;
-  std::vector<BoneLabel> labels;  ///< of the reference scan
-  std::optional<Side> side;       ///< else from the anatomy
-  std::string work;               ///< folder of what each step made
+  std::vector<BoneLabel> labels;   ///< of the reference scan
+  std::optional<Side> side;        ///< else from the anatomy
+  std::string work;                ///< folder of what each step made
+  std::optional<Product> product;  ///< what the grasp held, in the patient frame of its scan
+  /// Called with each note as soon as it is known; may be empty.
+  std::function<void(const std::string&)> tell;
+  /// The last step, which writes hand and report.
+  std::function<void(ScanRecord&, const Progress&)> write;
 };
 
-/// Surfaces of one scan: from the work folder if image, options and program are those of an earlier
-/// run, else from the image, and kept. Throws InputError, Cancelled.
-RecordedScan surfaces_of(const SelectedScan& selected, const Hand& model,
-                         const MriPipelineOptions& options, const Progress& progress);
-
 /// Images to a hand: surfaces of every scan (one after the other, each on all threads), bones from
-/// posture to posture, joints, skin. What was finished when the user cancelled is kept.
+/// posture to posture, joints, skin, contact with the product. What an earlier run kept in the work
+/// folder is taken up where all that goes into it is the same. Throws InputError, also when a scan
+/// shows too few bones to make a hand of; Cancelled (what was finished is kept).
 ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
                             const MriPipelineOptions& options, const Progress& progress);
 

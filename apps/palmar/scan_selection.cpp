@@ -64,20 +64,17 @@ struct Candidate {
   SelectedScan scan;
   std::optional<int> number;
   std::string description, folder;  ///< name of the folder that its files are in
+  std::string refusal;              ///< why it can't be used; empty if it can
 };
 
 std::string title_of(const DicomSeries& series, const std::string& path) {
   return fmt::format("series {} \"{}\" of {}", series.number, series.description, path);
 }
 
-void add_folder(const std::string& path, std::vector<Candidate>& candidates,
-                std::vector<std::string>& notes) {
+void add_folder(const std::string& path, std::vector<Candidate>& candidates) {
   for (const DicomSeries& series : find_dicom_series(path)) {
-    if (!series.refusal.empty()) {
-      notes.push_back(title_of(series, path) + " is passed over: " + series.refusal);
-      continue;
-    }
     Candidate one;
+    one.refusal = series.refusal;
     one.scan.files = series.files;
     one.scan.title = title_of(series, path);
     one.number = series.number;
@@ -150,6 +147,32 @@ std::string listed(const std::vector<Candidate>& candidates) {
   return text;
 }
 
+/// Series that can't be used: one that should show a posture is an error, as the hand would lack
+/// what it tells; a localiser, or a second series of a posture that there is, is passed over.
+void pass_over(const std::string& path, const std::vector<Candidate>& refused,
+               const std::map<ScanPosture, Candidate>& found, bool has_others,
+               std::vector<Assignment>& assignments, std::vector<std::string>& notes) {
+  std::string damaged;
+  for (const Candidate& one : refused) {
+    const auto posture = posture_of(one, assignments);
+    if (!posture || found.contains(*posture)) {
+      notes.push_back(one.scan.title + " is passed over: " + one.refusal);
+      continue;
+    }
+    damaged += (damaged.empty() ? "" : "\n") + one.scan.title + " can't be used: " + one.refusal +
+               (*posture == ScanPosture::kReference
+                    ? "; the reference is needed"
+                    : "; restore it, or make the hand without it by --skip " +
+                          std::string(name_of(*posture)));
+  }
+  if (!damaged.empty()) throw InputError(damaged);
+  if (found.empty() && !has_others) {
+    std::string why;
+    for (const std::string& note : notes) why += "\n  " + note;
+    throw InputError(path + ": holds no image that can be used" + why);
+  }
+}
+
 }  // namespace
 
 ScanSelection select_scans(const std::vector<std::string>& paths,
@@ -170,23 +193,23 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
     }
     const std::vector<fs::path> surfaces = surface_folders(path);
     for (const fs::path& folder : surfaces) candidates.push_back(surfaces_candidate(folder));
-    if (surfaces.empty()) add_folder(path, candidates, selection.notes);
+    if (surfaces.empty()) add_folder(path, candidates);
   }
-  if (candidates.empty()) {
-    std::string why;
-    for (const std::string& note : selection.notes) why += "\n  " + note;
-    throw InputError(paths.front() + ": holds no image that can be used" + why);
-  }
-
   std::map<ScanPosture, Candidate> found;
-  std::vector<Candidate> unnamed;
+  std::vector<Candidate> unnamed, refused;
   for (const Candidate& candidate : candidates) {
     const auto posture = posture_of(candidate, assignments);
+    if (posture && std::find(left_out.begin(), left_out.end(), *posture) != left_out.end()) {
+      continue;
+    }
+    if (!candidate.refusal.empty()) {
+      refused.push_back(candidate);
+      continue;
+    }
     if (!posture) {
       unnamed.push_back(candidate);
       continue;
     }
-    if (std::find(left_out.begin(), left_out.end(), *posture) != left_out.end()) continue;
     const auto [at, is_new] = found.emplace(*posture, candidate);
     if (!is_new) {
       throw UsageError(at->second.scan.title + " and " + candidate.scan.title + " both show " +
@@ -200,8 +223,9 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
     throw UsageError("--series " + assignment.text + " fits no series; there are" +
                      listed(candidates));
   }
+  pass_over(paths.front(), refused, found, !unnamed.empty(), assignments, selection.notes);
   if (found.count(ScanPosture::kReference) == 0) {
-    if (candidates.size() != 1 || unnamed.size() != 1) {
+    if (!found.empty() || unnamed.size() != 1) {
       throw UsageError(
           "none of the series is the reference posture; say which with --series "
           "NUMBER=reference. There are" +

@@ -9,6 +9,7 @@
 
 #include "palmar/capture/measured_joints.h"
 #include "palmar/capture/scanned_hand.h"
+#include "palmar/capture/skin_errors.h"
 
 namespace palmar {
 
@@ -21,13 +22,21 @@ struct RecordedScan {
   bool was_kept = false;  ///< taken over from an earlier run
 };
 
+/// The new hand beside the scanned one on what both hold (grasp_contact.h).
+struct ScanContact {
+  std::string product;  ///< where it is from, for people
+  double range = 0.0;   ///< within which skin counts as touching, mm
+  ContactOverlap overlap;
+};
+
 /// All that became of a person's scans, for tables and report.
 struct ScanRecord {
   std::vector<RecordedScan> scans;  ///< the reference first
   std::map<ScanPosture, std::vector<BoneMotion>> motions;
   MeasuredJoints joints;
   ScannedHand made;
-  std::vector<std::string> notes;  ///< of every step: sentences
+  std::optional<ScanContact> contact;  ///< if a product was given
+  std::vector<std::string> notes;      ///< of every step: sentences
 };
 
 /// Mean of the bones' errors in one posture, as a row of Xie 2014, tables 2-2 to 2-4, has it.

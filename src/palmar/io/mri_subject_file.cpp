@@ -70,6 +70,9 @@ void write_mri_subject(const std::string& folder, const MriSubject& subject,
 
     create_folder(root / name / "bones");
     write_mesh(root / name / "skin.ply", state.skin);
+    if (state.product.triangle_count() > 0) {
+      write_mesh(root / name / "product.ply", state.product);
+    }
     for (const Bone& bone : subject.bones) {
       const auto pose = state.bone.find(bone.name);
       if (pose == state.bone.end()) continue;

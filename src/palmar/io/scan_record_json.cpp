@@ -126,6 +126,16 @@ Json skin_errors_json(const ScanRecord& record) {
   return list;
 }
 
+Json contact_json(const std::optional<ScanContact>& contact) {
+  if (!contact) return nullptr;
+  const ContactOverlap& c = contact->overlap;
+  return {
+      {"product", contact->product},      {"range_mm", contact->range},
+      {"hand_area_mm2", c.hand_area},     {"scanned_area_mm2", c.scanned_area},
+      {"shared_area_mm2", c.shared_area}, {"intersection_over_union", c.intersection_over_union},
+      {"share_of_hand", c.share_of_hand}, {"share_of_scan", c.share_of_scan}};
+}
+
 Json motion_list(const std::vector<BoneMotion>& motions) {
   Json list = Json::array();
   for (const BoneMotion& motion : motions) {
@@ -172,6 +182,7 @@ std::string scan_record_json(const ScanRecord& record) {
       {"bone_errors", bone_errors_json(record)},
       {"bone_error_rows", rows_json(record)},
       {"skin_errors", skin_errors_json(record)},
+      {"grasp_contact", contact_json(record.contact)},
       {"skin_registration",
        {{"mean_mm", record.made.registration_mean}, {"p95_mm", record.made.registration_p95}}},
       {"notes", record.notes}};
@@ -199,6 +210,15 @@ CsvTable skin_error_table(const ScanRecord& record) {
                           cell(e.by_markers), cell(e.corrected)});
   }
   return table;
+}
+
+CsvTable grasp_contact_table(const ScanContact& contact) {
+  const ContactOverlap& c = contact.overlap;
+  return {{"product", "range_mm", "hand_area_mm2", "scanned_area_mm2", "shared_area_mm2",
+           "intersection_over_union", "share_of_hand", "share_of_scan"},
+          {{contact.product, cell(contact.range), cell(c.hand_area), cell(c.scanned_area),
+            cell(c.shared_area), cell(c.intersection_over_union), cell(c.share_of_hand),
+            cell(c.share_of_scan)}}};
 }
 
 }  // namespace palmar

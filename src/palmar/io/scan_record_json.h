@@ -25,4 +25,7 @@ CsvTable bone_error_table(const ScanRecord& record);
 /// the hand is, mm (table 2-5).
 CsvTable skin_error_table(const ScanRecord& record);
 
+/// One row: contact areas of hand and scan with what the grasp holds.
+CsvTable grasp_contact_table(const ScanContact& contact);
+
 }  // namespace palmar

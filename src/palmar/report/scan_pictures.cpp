@@ -4,6 +4,7 @@
 #include <string>
 
 #include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/hand/bone_shape.h"
 #include "palmar/report/colormap.h"
 #include "palmar/report/render.h"
@@ -90,15 +91,22 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
   const auto direction_of = [&](const View& view) {
     return Vec3(sign * view.direction.x(), view.direction.y(), view.direction.z());
   };
+  const double step = 1.0 / static_cast<double>(kViews.size() * (record.scans.size() + 1));
+  // Told before each picture: how far the work is.
+  const auto next = [&] {
+    const double done = step * static_cast<double>(pictures.size());
+    progress.update(done, "pictures");
+    return part_of(progress, done, done + step, "pictures");
+  };
   try {
     const Scene hand = hand_scene(record.made.hand);
     for (const View& view : kViews) {
-      progress.throw_if_cancelled();
+      const Progress part = next();
       pictures.push_back({"hand_" + std::string(view.name),
                           "The new hand, " + std::string(view.words),
                           "Skin, see-through, with the bones of the scan inside, seen from the " +
                               std::string(view.words) + ".",
-                          picture_of(hand, direction_of(view), Vec3::UnitY(), options, progress)});
+                          picture_of(hand, direction_of(view), Vec3::UnitY(), options, part)});
     }
     for (const RecordedScan& scan : record.scans) {
       const Scene scene = scan_scene(scan.surfaces, hand_from_scan(record, scan.posture));
@@ -106,13 +114,12 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
       std::string words(name_of(scan.posture));
       for (char& c : words) c = c == '_' ? ' ' : c;
       for (const View& view : kViews) {
-        progress.throw_if_cancelled();
-        pictures.push_back(
-            {std::string(name_of(scan.posture)) + "_" + view.name,
-             "Scan of the posture " + words + ", " + view.words,
-             "What was found in the scan: skin, bones, markers; seen from the " +
-                 std::string(view.words) + ".",
-             picture_of(scene, direction_of(view), Vec3::UnitY(), options, progress)});
+        const Progress part = next();
+        pictures.push_back({std::string(name_of(scan.posture)) + "_" + view.name,
+                            "Scan of the posture " + words + ", " + view.words,
+                            "What was found in the scan: skin, bones, markers; seen from the " +
+                                std::string(view.words) + ".",
+                            picture_of(scene, direction_of(view), Vec3::UnitY(), options, part)});
       }
     }
   } catch (const Cancelled&) {
