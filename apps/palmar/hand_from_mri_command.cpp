@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "mri_pipeline.h"
@@ -23,7 +24,7 @@ struct FromMriArguments {
   std::vector<std::string> paths, series, skip;
   std::string out, work, labels, model = "template", name, product, unit;
   SurfaceArguments surfaces;
-  bool no_report = false;
+  bool no_report = false, accepts_odd_slices = false;
 };
 
 constexpr std::string_view kEnding = ".hand.glb";
@@ -80,6 +81,20 @@ std::string text_of(const ScanRecord& record) {
   return text;
 }
 
+/// Which postures there are, and which not.
+std::string text_of(const std::vector<SelectedScan>& scans) {
+  std::string seen, missing;
+  for (int k = 0; k < kScanPostureCount; ++k) {
+    const auto posture = static_cast<ScanPosture>(k);
+    const bool is_seen = std::any_of(scans.begin(), scans.end(), [&](const SelectedScan& scan) {
+      return scan.posture == posture;
+    });
+    std::string& list = is_seen ? seen : missing;
+    list += (list.empty() ? "" : ", ") + std::string(name_of(posture));
+  }
+  return "scans of " + seen + (missing.empty() ? "" : "; none of " + missing);
+}
+
 int run(const FromMriArguments& arguments, const Context& context) {
   if (!ends_as_hand(arguments.out)) {
     throw UsageError("--out: \"" + arguments.out + "\" must end in .hand.glb");
@@ -89,6 +104,7 @@ int run(const FromMriArguments& arguments, const Context& context) {
   MriPipelineOptions options;
   options.surfaces = arguments.surfaces.options();
   options.side = arguments.surfaces.chosen_side();
+  options.accepts_odd_slices = arguments.accepts_odd_slices;
   options.work = work_folder(arguments);
   if (!arguments.labels.empty()) options.labels = read_bone_labels(arguments.labels);
   if (!arguments.product.empty()) {
@@ -99,6 +115,7 @@ int run(const FromMriArguments& arguments, const Context& context) {
   progress.update(0.0, "looking for series");
   const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
   for (const std::string& text : selection.notes) note(context.common, text);
+  note(context.common, text_of(selection.scans));
   options.write = [&](ScanRecord& record, const Progress& part) {
     record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
     Hand& hand = record.made.hand;
@@ -153,6 +170,8 @@ void add_from_mri(CLI::App& hand, Context& context) {
       ->capture_default_str();
   verb->add_option("--name", a->name, "Name of the hand; default: that of the file");
   a->surfaces.add_to(*verb);
+  verb->add_flag("--accept-odd-slices", a->accepts_odd_slices,
+                 "Go on though a slice doesn't belong between its neighbours");
   verb->add_flag("--no-report", a->no_report, "Only the hand");
   verb->callback([&context, a] { context.run = [&context, a] { return run(*a, context); }; });
 }

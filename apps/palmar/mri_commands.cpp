@@ -60,6 +60,7 @@ int run_info(const InfoArguments& arguments, const Context& context) {
                                     make_progress(context.common));
   finish_progress();
   for (const std::string& text : file.notes) note(context.common, text);
+  for (const std::string& text : file.odd_slices) note(context.common, text);
   const VolumeGrid& grid = file.image.grid;
   const auto [least, most] = std::minmax_element(file.image.value.begin(), file.image.value.end());
   const double air = air_threshold(file.image);
@@ -81,7 +82,8 @@ int run_info(const InfoArguments& arguments, const Context& context) {
                {"intensity_most", *most},
                {"air_threshold", air},
                {"noise_deviation", noise},
-               {"notes", file.notes}}
+               {"notes", file.notes},
+               {"odd_slices", file.odd_slices}}
               .dump(2) +
           "\n");
     return 0;

@@ -140,20 +140,46 @@ void require_same_side(const RecordedScan& scan, Side reference) {
                    ", or say --side if one of them is wrong");
 }
 
+/// Looks at every image before the long work begins: a slice that is damaged in one of them would
+/// cost the time of all.
+void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_odd_slices,
+                          const Progress& progress,
+                          const std::function<void(const std::string&)>& tell) {
+  std::string damaged;
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    if (plans[k].is_kept) continue;
+    const SelectedScan& selected = *plans[k].selected;
+    const double size = static_cast<double>(plans.size());
+    const Progress part =
+        part_of(progress, static_cast<double>(k) / size, static_cast<double>(k + 1) / size);
+    for (const std::string& odd : read_image(selected.path, selected.choice, part).odd_slices) {
+      if (accepts_odd_slices) tell(std::string(name_of(selected.posture)) + ": " + odd);
+      damaged += odd + "\n";
+    }
+  }
+  if (damaged.empty() || accepts_odd_slices) return;
+  throw InputError(damaged +
+                   "restore them, leave the posture out with --skip, or go on with "
+                   "--accept-odd-slices if they look right");
+}
+
 /// Shares of the whole time by what the steps take, in seconds of a usual scan on two cores.
 class Shares {
  public:
-  void plan(double seconds) { total_ += seconds; }
+  void plan(double seconds) { left_ += seconds; }
+  void drop(double seconds) { left_ -= seconds; }
   /// The next step's part.
   Progress next(const Progress& progress, double seconds, const std::string& what) {
-    const double begin = done_ / total_;
-    done_ += seconds;
-    return part_of(progress, begin, std::min(1.0, done_ / total_), what);
+    const double begin = at_;
+    at_ += (1.0 - at_) * std::min(1.0, seconds / left_);
+    left_ -= seconds;
+    return part_of(progress, begin, at_, what);
   }
 
  private:
-  double total_ = 0.0, done_ = 0.0;
+  double at_ = 0.0, left_ = 0.0;  // share that is done; seconds that aren't
 };
+constexpr double kChecked = 0.5;
 constexpr double kFound = 25.0, kKept = 0.1, kTracked = 1.5, kMade = 15.0, kWritten = 12.0;
 
 }  // namespace
@@ -179,10 +205,17 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
       plan.key = key_of(selected, options.surfaces);
       plan.is_kept = key_of_scan_surfaces(folder_of(selected.posture, options.work)) == plan.key;
     }
-    shares.plan(plan.is_kept ? kKept : kFound);
+    shares.plan(plan.is_kept ? kKept : kFound + kChecked);
     plans.push_back(std::move(plan));
   }
   shares.plan(kTracked * static_cast<double>(scans.size() - 1) + kMade + kWritten);
+
+  const auto found = std::count_if(plans.begin(), plans.end(),
+                                   [](const PlannedScan& plan) { return !plan.is_kept; });
+  if (found > 0) {
+    require_sound_images(plans, options.accepts_odd_slices,
+                         shares.next(progress, kChecked * static_cast<double>(found), ""), tell);
+  }
 
   std::vector<std::string> digests;
   for (const PlannedScan& plan : plans) {
@@ -196,36 +229,45 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
     digests.push_back(digest_of(scan.surfaces));
   }
 
+  // What earlier runs kept first: then the time that is left can be told.
   const ScanSurfaces& reference = result.scans.front().surfaces;
+  std::vector<std::string> keys = {""};
   std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
+    const ScanPosture posture = result.scans[k].posture;
+    keys.push_back(sha256_hex(build_description() + digests.front() + digests[k]));
+    all += std::string(name_of(posture)) + keys.back();
+    auto kept = kept_bone_motions(folder_of(posture, options.work), keys.back());
+    if (!kept) continue;
+    result.motions[posture] = std::move(*kept);
+    shares.drop(kTracked);
+  }
+  const std::string made_key = sha256_hex(all);
+  std::optional<ScannedHand> made = kept_scanned_hand(options.work, made_key);
+  if (made) shares.drop(kMade - kKept);
+
+  for (std::size_t k = 1; k < result.scans.size(); ++k) {
     const RecordedScan& scan = result.scans[k];
-    const std::string name(name_of(scan.posture));
-    const Progress part = shares.next(progress, kTracked, name);
-    const std::string folder = folder_of(scan.posture, options.work);
-    const std::string key = sha256_hex(build_description() + digests.front() + digests[k]);
-    std::optional<std::vector<BoneMotion>> motions = kept_bone_motions(folder, key);
-    if (!motions) {
-      motions = track_bones(reference, scan.surfaces, part);
-      keep_bone_motions(folder, key, *motions);
-    }
-    result.motions[scan.posture] = std::move(*motions);
-    all += name + key;
+    if (result.motions.contains(scan.posture)) continue;
+    std::vector<BoneMotion> motions =
+        track_bones(reference, scan.surfaces,
+                    shares.next(progress, kTracked, std::string(name_of(scan.posture))));
+    keep_bone_motions(folder_of(scan.posture, options.work), keys[k], motions);
+    result.motions[scan.posture] = std::move(motions);
   }
 
-  const Progress part = shares.next(progress, kMade, "");
+  const Progress part = shares.next(progress, made ? kKept : kMade, "");
   part.update(0.0, "joints");
   const Hand sided = reference.side == model.side ? model : mirrored(model);
   std::map<ScanPosture, ScanSurfaces> surfaces;
   for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
   result.joints = measure_joints(surfaces, result.motions, sided);
   for (const std::string& note : result.joints.notes) tell(note);
-  const std::string key = sha256_hex(all);
-  if (auto kept = kept_scanned_hand(options.work, key)) {
-    result.made = std::move(*kept);
+  if (made) {
+    result.made = std::move(*made);
   } else {
     result.made = make_scanned_hand(sided, surfaces, result.joints, part_of(part, 0.1, 1.0));
-    keep_scanned_hand(options.work, key, result.made);
+    keep_scanned_hand(options.work, made_key, result.made);
   }
   for (const std::string& note : result.made.notes) tell(note);
   if (options.product) {

@@ -18,10 +18,11 @@ namespace palmar::cli {
 
 struct MriPipelineOptions {
   SurfaceOptions surfaces;
-  std::vector<BoneLabel> labels;   ///< of the reference scan
-  std::optional<Side> side;        ///< else from the anatomy
-  std::string work;                ///< folder of what each step made
-  std::optional<Product> product;  ///< what the grasp held, in the patient frame of its scan
+  std::vector<BoneLabel> labels;    ///< of the reference scan
+  std::optional<Side> side;         ///< else from the anatomy
+  bool accepts_odd_slices = false;  ///< goes on though a slice seems damaged
+  std::string work;                 ///< folder of what each step made
+  std::optional<Product> product;   ///< what the grasp held, in the patient frame of its scan
   /// Called with each note as soon as it is known; may be empty.
   std::function<void(const std::string&)> tell;
   /// The last step, which writes hand and report.

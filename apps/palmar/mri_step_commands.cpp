@@ -80,6 +80,7 @@ int run_surfaces(const SurfacesArguments& a, const Context& context) {
   write_scan_surfaces(a.out, surfaces, "");
   finish_progress();
   for (const std::string& text : file.notes) note(context.common, text);
+  for (const std::string& text : file.odd_slices) note(context.common, text);
   for (const std::string& text : surfaces.notes) note(context.common, text);
   print(context.common.json ? json_of(surfaces).dump(2) + "\n" : text_of(surfaces));
   note(context.common, "wrote " + a.out);

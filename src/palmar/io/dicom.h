@@ -41,6 +41,9 @@ struct ImageFile {
   std::string description;  ///< series' description, or the file's name
   std::string laterality;
   std::vector<std::string> notes;  ///< duplicates left out, small irregularities: sentences
+  /// Slices that don't belong between their neighbours (imaging/odd_slices.h), most likely damaged:
+  /// sentences naming the file. Not among the notes.
+  std::vector<std::string> odd_slices;
 };
 
 /// Reads a folder of DICOM files, or a NIfTI (.nii, .nii.gz) or NRRD file. Throws InputError naming

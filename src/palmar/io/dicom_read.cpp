@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/imaging/odd_slices.h"
 #include "palmar/io/bytes.h"
 #include "palmar/io/dicom_compressed.h"
 #include "palmar/io/dicom_slice.h"
@@ -192,6 +193,10 @@ ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choic
       std::copy(pixels.begin(), pixels.end(),
                 file.image.value.begin() + static_cast<std::ptrdiff_t>(s * plane));
     });
+  }
+  for (const OddSlice& odd : odd_slices(file.image)) {
+    file.odd_slices.push_back(
+        odd_slice_text(slices[static_cast<std::size_t>(odd.index)].path, odd));
   }
   return file;
 }

@@ -31,10 +31,25 @@ ImageFile read_image(const std::string& path, const SeriesChoice& choice,
   if (looks_like_dicom(head)) {
     throw InputError(path + ": is one DICOM file; the folder with its series is required");
   }
-  if (head.starts_with("NRRD")) return read_nrrd(read_file(path, kMaxImageBytes + 65536), path);
+  const bool is_nrrd = head.starts_with("NRRD");
   const bool is_nifti = head.size() >= 348 && std::string_view(head).substr(344, 2) == "n+";
-  if (is_nifti || is_gzip(head)) return read_nifti(read_file(path, kMaxImageBytes + 65536), path);
-  throw InputError(path + ": is neither a folder of DICOM files nor NIfTI or NRRD");
+  if (!is_nrrd && !is_nifti && !is_gzip(head)) {
+    throw InputError(path + ": is neither a folder of DICOM files nor NIfTI or NRRD");
+  }
+  const std::string bytes = read_file(path, kMaxImageBytes + 65536);
+  ImageFile file = is_nrrd ? read_nrrd(bytes, path) : read_nifti(bytes, path);
+  for (const OddSlice& odd : odd_slices(file.image)) {
+    file.odd_slices.push_back(
+        odd_slice_text(fmt::format("{}: slice {}", path, odd.index + 1), odd));
+  }
+  return file;
+}
+
+std::string odd_slice_text(const std::string& where, const OddSlice& odd) {
+  return fmt::format(
+      "{}: differs {:.1f} times more from both its neighbours than these from each other; it is "
+      "damaged, or no part of this image",
+      where, odd.ratio);
 }
 
 void write_image(const std::string& path, const Volume& image) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "palmar/imaging/odd_slices.h"
 #include "palmar/io/dicom.h"
 
 namespace palmar {
@@ -12,6 +13,9 @@ namespace palmar {
 /// The series of a folder that `choice` means. As read_image().
 ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choice,
                             const Progress& progress);
+
+/// What is wrong with a slice; `where` names it.
+std::string odd_slice_text(const std::string& where, const OddSlice& odd);
 
 /// NIfTI-1 in one file, plain or gzipped. Its frame has x to the right's opposite: +x is the
 /// patient's right in neither: RAS coordinates become DICOM's by negating x and y. Throws
