@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "palmar/capture/grasp_contact.h"
+#include "palmar/capture/image_edge.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/core/version.h"
@@ -98,9 +99,24 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model,
                                 part_of(progress, 0.1, 1.0));
   scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
   check_laterality(scan, scan.surfaces.notes);
+  mark_cut_fingers(scan.surfaces, file.image.grid);
+  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+  if (!cut.empty()) {
+    scan.surfaces.notes.push_back(
+        fmt::format("the edge of the image cuts {}", fmt::join(cut, ", ")));
+  }
   progress.throw_if_cancelled();
   write_scan_surfaces(folder, scan.surfaces, plan.key);
   return finished(std::move(scan), model, options);
+}
+
+/// A hand of which the image shows a part only would come out too short.
+void require_whole(const RecordedScan& scan) {
+  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+  if (cut.empty()) return;
+  throw InputError(
+      fmt::format("{}: the edge of the image cuts the hand at {}; the reference must show it whole",
+                  scan.title, fmt::join(cut, ", ")));
 }
 
 /// Refuses scans that no hand can be made of, before the long work on the others.
@@ -224,7 +240,10 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
     const RecordedScan& scan = result.scans.back();
     for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);
-    if (result.scans.size() == 1) require_bones(scan, model);
+    if (result.scans.size() == 1) {
+      require_bones(scan, model);
+      require_whole(scan);
+    }
     require_same_side(scan, result.scans.front().surfaces.side);
     digests.push_back(digest_of(scan.surfaces));
   }
