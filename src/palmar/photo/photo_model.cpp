@@ -1,0 +1,211 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/photo/photo_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/plane_cut.h"
+#include "palmar/geometry/weld.h"
+#include "palmar/imaging/iso_surface.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::size_t kFewest = 6;  // photographs
+
+/// The part of a mesh with the largest area.
+TriangleMesh largest_part(const TriangleMesh& mesh) {
+  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
+  std::vector<double> area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto p = static_cast<std::size_t>(std::max(0, part[t]));
+    if (p >= area.size()) area.resize(p + 1, 0.0);
+    const auto& [a, b, c] = mesh.triangles[t];
+    area[p] += triangle_area(mesh.vertices[static_cast<std::size_t>(a)],
+                             mesh.vertices[static_cast<std::size_t>(b)],
+                             mesh.vertices[static_cast<std::size_t>(c)]);
+  }
+  if (area.size() <= 1) return mesh;
+  const auto best = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
+  TriangleMesh kept{mesh.vertices, {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (part[t] == best) kept.triangles.push_back(mesh.triangles[t]);
+  }
+  return weld(kept, {.drops_duplicates = false}).mesh;
+}
+
+/// How many pixels of a photograph are hand, have a depth, and have one that others agree with.
+PhotoUse use_of(const PhotoMask& mask, const DepthMap& map) {
+  PhotoUse use;
+  use.mask_share = mask.box_share;
+  const auto inside = static_cast<double>(
+      std::count_if(map.cost.begin(), map.cost.end(), [](float cost) { return cost < 2.0F; }));
+  const auto deep = static_cast<double>(
+      std::count_if(map.depth.begin(), map.depth.end(), [](float d) { return d > 0.0F; }));
+  use.depth_share = inside == 0.0 ? 0.0 : deep / inside;
+  return use;
+}
+
+/// Steps over many views at once, with what is done of them told.
+template <typename Body>
+void over_views(std::size_t count, const Progress& progress, const char* what, Body&& body) {
+  std::atomic<int> done{0};
+  progress.update(0.0, what);
+  parallel_for(static_cast<int>(count), [&](int i) {
+    progress.throw_if_cancelled();
+    body(static_cast<std::size_t>(i));
+    ++done;
+    if (progress.report)
+      progress.report(static_cast<double>(done) / static_cast<double>(count), what);
+  });
+}
+
+}  // namespace
+
+void PhotoModelOptions::check() const {
+  if (box.isEmpty() || box.sizes().minCoeff() < 20.0 || box.sizes().maxCoeff() > 1000.0) {
+    throw UsageError("the box of the hand: edges of 20 to 1000 mm are allowed");
+  }
+  if (!(pixel >= 0.1 && pixel <= 5.0)) {
+    throw UsageError(fmt::format("pixel {:g} mm; 0.1 to 5 mm is allowed", pixel));
+  }
+  if (!(cut >= 0.0 && cut <= 200.0)) {
+    throw UsageError(fmt::format("cut {:g} mm; 0 to 200 mm is allowed", cut));
+  }
+  mask.check();
+  hull.check();
+  stereo.check();
+  fusion.check();
+  surface.check();
+  colours.check();
+}
+
+PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
+                            const PhotoModelOptions& options, const Progress& progress) {
+  options.check();
+  const std::size_t count = photographs.size();
+  if (count < kFewest) {
+    throw InputError(fmt::format(
+        "{} photographs with a known camera; at least {} are needed, 36 in two rings are advised",
+        count, kFewest));
+  }
+  const Vec3 middle = options.box.center();
+  PhotoModel model;
+  model.reduction = reduction_for(photographs, middle, options.pixel);
+
+  std::vector<PhotoView> views(count);
+  std::vector<PackedView> packs(count);
+  std::vector<PhotoMask> masks(count);
+  over_views(count, part_of(progress, 0.0, 0.08), "finding the outlines", [&](std::size_t v) {
+    views[v] = make_view(photographs[v], model.reduction);
+    packs[v] = packed(views[v]);
+    masks[v] = mask_hand(views[v], options.box, options.board_half, options.mask);
+  });
+  std::vector<double> shares;
+  for (const PhotoMask& mask : masks) shares.push_back(mask.box_share);
+  std::nth_element(shares.begin(), shares.begin() + static_cast<long>(count / 2), shares.end());
+  constexpr double kTellsLittle = 0.6;
+  model.has_background = shares[count / 2] > kTellsLittle;
+  progress.update(0.09, "carving the outline");
+  const VisualHull hull = make_visual_hull(views, masks, options.box, options.hull);
+  model.hull_volume = signed_volume(hull.surface);
+  PatchMatchOptions stereo = options.stereo;
+  if (model.has_background) {
+    constexpr double kDeep = 120.0;  // mm: a hand's breadth and what is in front of it
+    stereo.behind = std::max(stereo.behind, kDeep);
+    stereo.iterations += 2;
+    model.warnings.push_back(
+        "the hand could hardly be told from what is behind it; a plain blue or grey backdrop "
+        "helps");
+  }
+
+  const Vec3 centre = bounding_box(hull.surface).center();
+  const std::vector<std::vector<int>> sources = choose_sources(views, centre, stereo);
+  const auto lonely = static_cast<std::size_t>(std::count_if(
+      sources.begin(), sources.end(), [](const std::vector<int>& s) { return s.size() < 2; }));
+  if (2 * lonely > count) {
+    throw InputError(fmt::format(
+        "{} of {} photographs have no two others taken from a direction 4 to 50 degrees away: "
+        "their views of the hand don't overlap",
+        lonely, count));
+  }
+  const RayQuery bound(hull.surface);
+  std::vector<DepthMap> maps(count);
+  over_views(count, part_of(progress, 0.12, 0.75), "comparing photographs", [&](std::size_t v) {
+    maps[v] = match_patches(views, packs, static_cast<int>(v), masks[v], sources[v], bound,
+                            hull.surface, stereo);
+  });
+  progress.update(0.75, "keeping what agrees");
+  DepthFusionOptions fusion = options.fusion;
+  constexpr std::size_t kSparse = 18;
+  if (count <= kSparse) fusion.least_views = std::min(fusion.least_views, 2);
+  FusedDepths fused = fuse_depths(views, maps, centre, fusion);
+  for (std::size_t v = 0; v < count; ++v) {
+    PhotoUse use = use_of(masks[v], maps[v]);
+    const auto deep = static_cast<double>(std::count_if(maps[v].depth.begin(), maps[v].depth.end(),
+                                                        [](float d) { return d > 0.0F; }));
+    use.kept_share = deep == 0.0 ? 0.0 : static_cast<double>(fused.kept[v]) / deep;
+    model.photographs.push_back(use);
+  }
+  model.points = fused.points.size();
+  constexpr std::size_t kFewPoints = 5000;
+  if (model.points < kFewPoints) {
+    throw InputError(fmt::format(
+        "the photographs agree about {} points of the hand only: they are blurred, the hand moved "
+        "between them, or its skin shows nothing but gloss",
+        model.points));
+  }
+  views = {};
+  packs = {};
+  maps = {};
+  masks = {};
+
+  const PoissonField field = fit_poisson_field(fused.points, hull.occupancy, options.surface,
+                                               part_of(progress, 0.8, 0.93));
+  if (!field.has_converged) {
+    throw NumericalError(
+        fmt::format("the surface through {} points: residual {:.2g} after {} steps", model.points,
+                    field.residual, field.iterations));
+  }
+  progress.update(0.93, "covering it with triangles");
+  TriangleMesh mesh = largest_part(iso_surface(field.field, 0.0));
+  mesh = cut_by_plane(mesh, Vec3(0, 0, options.cut), Vec3::UnitZ(), 0.05).mesh;
+  mesh = largest_part(mesh);
+  progress.update(0.95, "colouring it");
+  VertexColours colours = colour_vertices(mesh, photographs, options.colours);
+  for (std::size_t v = 0; v < count; ++v) model.photographs[v].gain = colours.gain[v];
+
+  std::vector<float> density(mesh.vertices.size());
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    density[i] = value_at(field.density, field.density.grid.to_voxel(mesh.vertices[i]));
+  }
+  std::vector<float> sorted = density;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2),
+                   sorted.end());
+  constexpr float kSparsely = 0.1F;  // of the usual density
+  const float least = kSparsely * sorted[sorted.size() / 2];
+  const std::vector<double> areas = vertex_areas(mesh);
+  double area = 0.0, measured = 0.0;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    model.measured.push_back(density[i] >= least && colours.views[i] >= 2 ? 1 : 0);
+    area += areas[i];
+    measured += model.measured.back() != 0 ? areas[i] : 0.0;
+  }
+  model.measured_share = area > 0.0 ? measured / area : 0.0;
+  model.views = std::move(colours.views);
+  model.skin = {std::move(mesh), std::move(colours.colour)};
+  progress.update(1.0, "done");
+  return model;
+}
+
+}  // namespace palmar

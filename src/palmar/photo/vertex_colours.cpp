@@ -1,0 +1,157 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/photo/vertex_colours.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/ray_query.h"
+
+namespace palmar {
+namespace {
+
+/// A photograph that sees a vertex, and how well the vertex faces it.
+struct Sighting {
+  double cosine = 0.0;
+  std::size_t photograph = 0;
+  Eigen::Vector2d pixel;
+};
+
+class Sightings {
+ public:
+  Sightings(const TriangleMesh& mesh, const std::vector<Photograph>& photographs, double least)
+      : mesh_(mesh), photographs_(photographs), least_(least), query_(mesh) {
+    normals_ = vertex_normals(mesh);
+    for (const Photograph& photograph : photographs) {
+      centres_.push_back(photograph.camera.centre());
+    }
+  }
+
+  /// Best-facing first.
+  std::vector<Sighting> of(std::size_t vertex) const {
+    std::vector<Sighting> result;
+    const Vec3& point = mesh_.vertices[vertex];
+    for (std::size_t p = 0; p < photographs_.size(); ++p) {
+      const Vec3 way = centres_[p] - point;
+      const double distance = way.norm();
+      const double cosine = normals_[vertex].dot(way) / distance;
+      if (cosine < least_) continue;
+      const PhotoCamera& camera = photographs_[p].camera;
+      const auto pixel = camera.project(point);
+      if (!pixel || pixel->x() < 1.0 || pixel->y() < 1.0 || pixel->x() > camera.lens.width - 2.0 ||
+          pixel->y() > camera.lens.height - 2.0) {
+        continue;
+      }
+      constexpr double kLift = 0.3;  // mm; the skin round the vertex itself is no obstacle
+      if (query_.first_hit(point + kLift * normals_[vertex], way / distance, kLift, distance)) {
+        continue;
+      }
+      result.push_back({cosine, p, *pixel});
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Sighting& a, const Sighting& b) { return a.cosine > b.cosine; });
+    return result;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const std::vector<Photograph>& photographs_;
+  double least_;
+  RayQuery query_;
+  std::vector<Vec3> normals_;
+  std::vector<Vec3> centres_;
+};
+
+float brightness(const Photograph& photograph, const Eigen::Vector2d& pixel) {
+  return colour_at(photograph.image, pixel).sum();
+}
+
+/// Alternately: what a vertex' brightness is, and what each photograph makes of it.
+std::vector<double> gains_of(const Sightings& sightings, std::size_t vertices,
+                             const std::vector<Photograph>& photographs) {
+  struct Sample {
+    std::size_t vertex, photograph;
+    double value;
+  };
+  constexpr std::size_t kVertices = 4000;
+  const std::size_t step = std::max<std::size_t>(1, vertices / kVertices);
+  std::vector<std::vector<Sample>> seen((vertices + step - 1) / step);
+  parallel_for(static_cast<int>(seen.size()), [&](int i) {
+    const auto n = static_cast<std::size_t>(i);
+    for (const Sighting& one : sightings.of(n * step)) {
+      constexpr double kFrontal = 0.5;
+      const double value = brightness(photographs[one.photograph], one.pixel);
+      if (one.cosine > kFrontal && value > 30.0) seen[n].push_back({n, one.photograph, value});
+    }
+  });
+  std::vector<double> gain(photographs.size(), 1.0);
+  constexpr int kRounds = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> sum(gain.size(), 0.0), weight(gain.size(), 0.0);
+    for (const auto& of_vertex : seen) {
+      double mean = 0.0;
+      for (const Sample& s : of_vertex) mean += gain[s.photograph] * s.value;
+      mean /= static_cast<double>(std::max<std::size_t>(1, of_vertex.size()));
+      for (const Sample& s : of_vertex) {
+        sum[s.photograph] += mean;
+        weight[s.photograph] += s.value;
+      }
+    }
+    double logs = 0.0;
+    for (std::size_t p = 0; p < gain.size(); ++p) {
+      constexpr double kMost = 4.0;
+      if (weight[p] > 0.0) gain[p] = std::clamp(sum[p] / weight[p], 1.0 / kMost, kMost);
+      logs += std::log(gain[p]);
+    }
+    const double mean = std::exp(logs / static_cast<double>(gain.size()));
+    for (double& g : gain) g /= mean;
+  }
+  return gain;
+}
+
+}  // namespace
+
+void VertexColourOptions::check() const {
+  if (best < 1 || best > 100) {
+    throw UsageError("colours best: " + std::to_string(best) + "; 1 to 100 is allowed");
+  }
+  if (!(least_cosine >= 0.0 && least_cosine < 1.0)) {
+    throw UsageError("colours least_cosine: " + std::to_string(least_cosine) +
+                     "; 0 to 1 is allowed");
+  }
+}
+
+VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+                              const VertexColourOptions& options) {
+  options.check();
+  const Sightings sightings(mesh, photographs, options.least_cosine);
+  const std::size_t count = mesh.vertices.size();
+  VertexColours result;
+  result.gain = gains_of(sightings, count, photographs);
+  result.colour.assign(count, Eigen::Vector3f::Zero());
+  result.views.assign(count, 0);
+  constexpr std::size_t kChunk = 256;
+  parallel_for(static_cast<int>((count + kChunk - 1) / kChunk), [&](int chunk) {
+    const std::size_t begin = static_cast<std::size_t>(chunk) * kChunk;
+    for (std::size_t v = begin; v < std::min(count, begin + kChunk); ++v) {
+      const std::vector<Sighting> seen = sightings.of(v);
+      result.views[v] = static_cast<int>(seen.size());
+      const std::size_t used = std::min(seen.size(), static_cast<std::size_t>(options.best));
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::size_t i = 0; i < used; ++i) {
+        const std::size_t p = seen[i].photograph;
+        sum += static_cast<float>(result.gain[p]) * colour_at(photographs[p].image, seen[i].pixel);
+      }
+      if (used > 0) {
+        result.colour[v] =
+            (sum / (255.0F * static_cast<float>(used))).cwiseMax(0.0F).cwiseMin(1.0F);
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace palmar

@@ -1,0 +1,30 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/photo/photo_view.h"
+
+namespace palmar {
+
+struct VertexColourOptions {
+  int best = 3;               ///< photographs whose mean a colour is
+  double least_cosine = 0.2;  ///< between normal and direction to a camera that counts as seeing
+  void check() const;         ///< throws UsageError: field, value, allowed range
+};
+
+/// Colours of a mesh from photographs.
+struct VertexColours {
+  std::vector<Eigen::Vector3f> colour;  ///< per vertex: sRGB, 0 to 1; black where unseen
+  std::vector<int> views;               ///< per vertex: photographs that see it
+  std::vector<double> gain;             ///< per photograph: its values were multiplied by this
+};
+
+/// The colour of a vertex is the mean of the photographs that it faces best and that see it (a ray
+/// to the camera meets no other skin). Photographs of different exposure are brought together
+/// first: gains that make what they say about the same vertices equal, their geometric mean 1.
+VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+                              const VertexColourOptions& options = {});
+
+}  // namespace palmar
