@@ -1,14 +1,21 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
+#include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/hand/bone_shape.h"
+#include "palmar/hand/skinning.h"
 #include "palmar/report/colormap.h"
+#include "palmar/report/colour_bar.h"
 #include "palmar/report/render.h"
 #include "palmar/report/scan_report.h"
+#include "palmar/report/scan_tables.h"
 
 namespace palmar {
 namespace {
@@ -82,44 +89,89 @@ Rigid3 hand_from_scan(const ScanRecord& record, ScanPosture posture) {
   return hand_from_reference;
 }
 
+/// Colours of the distance from posed to scanned skin.
+ColourScale error_scale() {
+  return {.map = Colormap::kFern,
+          .upper = 3.0,
+          .quantity = "Distance",
+          .unit = "mm",
+          .is_open_ended = true};
+}
+
+/// The hand in a posture as its joints make it, coloured by its distance to the scan. Skin that has
+/// no scanned skin near (touching fingers, markers, the cut) stays grey.
+Scene error_scene(const ScanRecord& record, const RecordedScan& scan, const Posture& posture) {
+  const Hand& hand = record.made.hand;
+  const Rigid3 hand_from_patient = hand_from_scan(record, scan.posture);
+  SkinScan scanned;
+  scanned.skin = moved(scan.surfaces.skin, hand_from_patient);
+  for (const Vec3& marker : scan.surfaces.markers) {
+    scanned.markers.push_back(hand_from_patient * marker);
+  }
+  constexpr double kReach = 15.0;  // mm
+  const TriangleMesh posed{pose_skin(hand, posture), hand.skin.triangles};
+  std::vector<double> distance =
+      distances_to_scan(posed.vertices, vertex_normals(posed), scanned, hand.skeleton, kReach);
+  const double least = 0.01 * error_scale().upper;  // less would look as if nothing was measured
+  for (double& d : distance) d = d < 0.0 ? 0.0 : std::max(d, least);
+  Scene scene;
+  scene.push_back({.mesh = posed,
+                   .colour = kNeutralColour,
+                   .field = std::move(distance),
+                   .field_upper = error_scale().upper,
+                   .map = error_scale().map});
+  return scene;
+}
+
+/// One thing to be shown from every side.
+struct Shown {
+  std::string name, title, alt;
+  Scene scene;
+  std::optional<ColourScale> scale;
+};
+
 }  // namespace
 
 std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options,
                                    const Progress& progress) {
-  std::vector<Picture> pictures;
   const double sign = record.made.hand.side == Side::kLeft ? -1.0 : 1.0;
-  const auto direction_of = [&](const View& view) {
-    return Vec3(sign * view.direction.x(), view.direction.y(), view.direction.z());
-  };
-  const double step = 1.0 / static_cast<double>(kViews.size() * (record.scans.size() + 1));
-  // Told before each picture: how far the work is.
-  const auto next = [&] {
-    const double done = step * static_cast<double>(pictures.size());
-    progress.update(done, "pictures");
-    return part_of(progress, done, done + step, "pictures");
-  };
+  std::vector<Shown> all;
+  all.push_back({"hand_",
+                 "The new hand, ",
+                 "Skin, see-through, with the bones of the scan inside, seen from the ",
+                 hand_scene(record.made.hand),
+                 {}});
+  for (const RecordedScan& scan : record.scans) {
+    const auto posed = record.joints.postures.find(scan.posture);
+    if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
+    const std::string words = words_of(scan.posture);
+    all.push_back({"error_" + std::string(name_of(scan.posture)) + "_",
+                   "Posed skin, distance to the scan: " + words + ", ",
+                   "The hand in the posture " + words +
+                       ", coloured by how far its skin lies from the scanned one, seen from the ",
+                   error_scene(record, scan, posed->second), error_scale()});
+  }
+  for (const RecordedScan& scan : record.scans) {
+    const std::string words = words_of(scan.posture);
+    all.push_back({"scan_" + std::string(name_of(scan.posture)) + "_",
+                   "Scan of the posture " + words + ", ",
+                   "What was found in the scan: skin, bones, markers; seen from the ",
+                   scan_scene(scan.surfaces, hand_from_scan(record, scan.posture)),
+                   {}});
+  }
+  std::vector<Picture> pictures;
+  const double step = 1.0 / static_cast<double>(kViews.size() * all.size());
   try {
-    const Scene hand = hand_scene(record.made.hand);
-    for (const View& view : kViews) {
-      const Progress part = next();
-      pictures.push_back({"hand_" + std::string(view.name),
-                          "The new hand, " + std::string(view.words),
-                          "Skin, see-through, with the bones of the scan inside, seen from the " +
-                              std::string(view.words) + ".",
-                          picture_of(hand, direction_of(view), Vec3::UnitY(), options, part)});
-    }
-    for (const RecordedScan& scan : record.scans) {
-      const Scene scene = scan_scene(scan.surfaces, hand_from_scan(record, scan.posture));
-      if (scene.empty()) continue;
-      std::string words(name_of(scan.posture));
-      for (char& c : words) c = c == '_' ? ' ' : c;
+    for (const Shown& shown : all) {
       for (const View& view : kViews) {
-        const Progress part = next();
-        pictures.push_back({std::string(name_of(scan.posture)) + "_" + view.name,
-                            "Scan of the posture " + words + ", " + view.words,
-                            "What was found in the scan: skin, bones, markers; seen from the " +
-                                std::string(view.words) + ".",
-                            picture_of(scene, direction_of(view), Vec3::UnitY(), options, part)});
+        const double done = step * static_cast<double>(pictures.size());
+        progress.update(done, "pictures");
+        const Vec3 direction(sign * view.direction.x(), view.direction.y(), view.direction.z());
+        Image image = picture_of(shown.scene, direction, Vec3::UnitY(), options,
+                                 part_of(progress, done, done + step, "pictures"));
+        if (shown.scale) draw_colour_bar(image, *shown.scale);
+        pictures.push_back({shown.name + view.name, shown.title + view.words,
+                            shown.alt + view.words + ".", std::move(image)});
       }
     }
   } catch (const Cancelled&) {

@@ -11,15 +11,20 @@
 
 namespace palmar {
 
-/// Pictures of a person's hand made from scans: the new hand with its bones from the palm and from
-/// the thumb's side, and every scan's skin, see-through, with the bones found in it. When
-/// cancelled, those that are finished.
+/// Pictures of a person's hand made from scans, each from the palm and from the thumb's side:
+///
+///     hand_palm ...           the new hand, see-through, with its bones
+///     error_POSTURE_palm ...  the hand posed as scanned, coloured by its distance to the scan
+///     scan_POSTURE_palm ...   what was found in a scan: skin, bones, markers
+///
+/// When cancelled, those that are finished.
 std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options = {},
                                    const Progress& progress = {});
 
 /// Writes into `folder`: report.html (works offline: what was scanned, tables 2-2 to 2-5 of Xie
-/// 2014 for this person with charts, dimensions, pictures, notes), scan.json, bone_errors.csv,
-/// skin_errors.csv. Same record, same bytes. Throws OutputError, Cancelled.
+/// 2014 for this person with charts, ranges, dimensions, pictures, notes), scan.json,
+/// bone_errors.csv, skin_errors.csv and, with a product, grasp_contact.csv. Same record, same
+/// bytes. Throws OutputError, Cancelled.
 void write_scan_report(const std::string& folder, const ScanRecord& record,
                        const Progress& progress = {});
 
