@@ -1,0 +1,235 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "run_program.h"
+
+// `palmar hand from-mri` as a user runs it. Finding surfaces in fine images takes minutes, so that
+// the scans are folders of surfaces, as a user may give them, made of a synthetic person's truth;
+// what is found in images is tested beside the code that does it. Refusals come from images.
+
+namespace palmar::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr const char* kPostures[] = {"reference", "thumb_flexion", "grasp"};
+
+/// The true surfaces of a posture as `palmar mri surfaces` leaves what it found.
+void write_surfaces(const std::string& root, const std::string& posture, const Json& truth) {
+  const fs::path from = fs::path(root) / "p/truth" / posture;
+  const fs::path to = fs::path(root) / "scans" / posture;
+  fs::create_directories(to);
+  fs::copy(from / "skin.ply", to / "skin.ply");
+  fs::copy(from / "bones", to / "bones");
+  const Json& state = truth.at("postures").at(posture);
+  Json bones = Json::array();
+  for (const auto& [name, pose] : state.at("patient_from_reference").items()) {
+    bones.push_back({{"name", name}, {"file", "bones/" + name + ".ply"}, {"is_cut", false}});
+  }
+  const Json index = {{"palmar_scan_version", 1},
+                      {"key", ""},
+                      {"side", truth.at("side")},
+                      {"air_threshold", 40.0},
+                      {"bone_threshold", 90.0},
+                      {"noise", 0.0},
+                      {"bone_error_estimate_mm", 0.1},
+                      {"skin", "skin.ply"},
+                      {"bones", bones},
+                      {"markers_mm", state.at("markers_mm")},
+                      {"notes", Json::array()}};
+  write_text((to / "scan.json").string(), index.dump());
+}
+
+/// A left hand in three postures: images in p/mri, surfaces in scans. Made once.
+const std::string& person() {
+  static const std::string folder = [] {
+    const std::string made = temporary_folder();
+    const ProgramRun run = run_palmar(
+        "phantom mri --seed 4 --side left --pixel-mm 3 --slice-mm 4 --slices 30 --postures "
+        "reference,thumb_flexion,grasp --out p",
+        made);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const Json truth = Json::parse(read_text(made + "/p/truth/subject.json"));
+    for (const char* posture : kPostures) write_surfaces(made, posture, truth);
+    return made;
+  }();
+  return folder;
+}
+
+/// All three scans and the bar that was held. Run once.
+const ProgramRun& whole_run() {
+  static const ProgramRun run = run_palmar(
+      "hand from-mri scans --out anna.hand.glb --product p/truth/grasp/product.ply --no-report "
+      "--json",
+      person());
+  return run;
+}
+
+/// A copy of the surfaces of the reference, to be spoilt.
+std::string copied_reference(const std::string& name) {
+  fs::copy(person() + "/scans/reference", person() + "/" + name, fs::copy_options::recursive);
+  return person() + "/" + name + "/scan.json";
+}
+
+TEST(HandFromMri, ComesOutLikeThePerson) {
+  ASSERT_EQ(whole_run().exit_code, 0) << whole_run().err;
+  const Json record = Json::parse(whole_run().out);
+  const Json truth = Json::parse(read_text(person() + "/p/truth/subject.json"));
+  EXPECT_EQ(record.at("side"), "left");
+  for (const char* dimension : {"hand_length_mm", "hand_width_mm", "hand_circumference_mm"}) {
+    EXPECT_NEAR(record.at("hand").at(dimension).get<double>(),
+                truth.at("dimensions").at(dimension).get<double>(), 2.0)
+        << dimension;
+  }
+  for (const Json& row : record.at("bone_error_rows")) {
+    EXPECT_LT(row.at("icp_mm").get<double>(), 0.2) << row;
+    EXPECT_LT(row.at("single_axis_mm").get<double>(), 1.5) << row;
+  }
+  ASSERT_EQ(record.at("skin_errors").size(), 1U);
+  const Json& skin = record.at("skin_errors").at(0);
+  EXPECT_LT(skin.at("corrected_mm").get<double>(), 0.6);
+  EXPECT_LT(skin.at("corrected_mm").get<double>(), 0.5 * skin.at("skinning_only_mm").get<double>());
+  const ProgramRun info = run_palmar("hand info anna.hand.glb", person());
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("left"));
+}
+
+TEST(HandFromMri, ContactIsComparedOnWhatIsHeld) {
+  ASSERT_EQ(whole_run().exit_code, 0) << whole_run().err;
+  const Json contact = Json::parse(whole_run().out).at("grasp_contact");
+  EXPECT_EQ(contact.at("range_mm"), 2.0);
+  // A hand closed on a bar: 3300 to 4000 mm^2 (docs/method/phantom.md) of 2 mm about the skin.
+  EXPECT_GT(contact.at("scanned_area_mm2").get<double>(), 2000.0);
+  EXPECT_LT(contact.at("scanned_area_mm2").get<double>(), 6000.0);
+  EXPECT_GT(contact.at("share_of_scan").get<double>(), 0.6);
+  EXPECT_GT(contact.at("intersection_over_union").get<double>(), 0.5);
+  write_text(person() + "/far.obj",
+             "v 500 0 0\nv 510 0 0\nv 500 10 0\nv 500 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const ProgramRun elsewhere = run_palmar(
+      "hand from-mri scans --out b.hand.glb --work anna.mri --product far.obj --unit mm "
+      "--no-report",
+      person());
+  EXPECT_EQ(elsewhere.exit_code, 3);
+  EXPECT_THAT(elsewhere.err, HasSubstr("from the skin in the scan of the grasp"));
+  const ProgramRun none = run_palmar(
+      "hand from-mri scans --skip grasp --out b.hand.glb --product p/truth/grasp/product.ply",
+      person());
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("none of the scans shows the posture grasp"));
+}
+
+TEST(HandFromMri, TakesUpWhatIsKeptAndNoMore) {
+  ASSERT_EQ(whole_run().exit_code, 0) << whole_run().err;
+  const std::string work = person() + "/anna.mri", motions = work + "/grasp/motions.json";
+  const auto written = fs::last_write_time(motions);
+  const std::string hand = read_text(person() + "/anna.hand.glb");
+  const ProgramRun again = run_palmar(
+      "hand from-mri scans --out again.hand.glb --name anna --work anna.mri --no-report", person());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_text(person() + "/again.hand.glb"), hand);
+  EXPECT_EQ(fs::last_write_time(motions), written);
+}
+
+TEST(HandFromMri, SaysWhatAMissingPostureCosts) {
+  ASSERT_EQ(whole_run().exit_code, 0) << whole_run().err;
+  // A marker less is another scan: what was made of the whole one is not taken up.
+  const std::string kept = person() + "/anna.mri/hand.json";
+  const Json before = Json::parse(read_text(kept));
+  const std::string index = copied_reference("fewer_markers");
+  Json scan = Json::parse(read_text(index));
+  scan["markers_mm"].erase(0);
+  write_text(index, scan.dump());
+  const ProgramRun run = run_palmar(
+      "hand from-mri fewer_markers --series fewer=reference --out only.hand.glb --work anna.mri "
+      "--no-report --json",
+      person());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(Json::parse(read_text(kept)).at("key"), before.at("key"));
+  const Json record = Json::parse(run.out);
+  EXPECT_THAT(record.at("notes").dump(), HasSubstr("No limit posture of the thumb was scanned"));
+  for (const Json& joint : record.at("joints")) EXPECT_FALSE(joint.at("is_measured")) << joint;
+  EXPECT_TRUE(record.at("bone_errors").empty());
+  EXPECT_TRUE(record.at("grasp_contact").is_null());
+}
+
+TEST(HandFromMri, NoHandIsMadeOfTooLittle) {
+  const std::string index = copied_reference("few_bones");
+  Json scan = Json::parse(read_text(index));
+  for (Json& bone : scan["bones"]) {
+    if (bone.at("name").get<std::string>().rfind("little_", 0) == 0) bone["name"] = "";
+  }
+  write_text(index, scan.dump());
+  const ProgramRun few =
+      run_palmar("hand from-mri few_bones --series few=reference --out x.hand.glb", person());
+  EXPECT_EQ(few.exit_code, 3);
+  EXPECT_THAT(few.err, AllOf(HasSubstr("too few bones"), HasSubstr("little_proximal_phalanx"),
+                             HasSubstr("--labels")));
+
+  const std::string cut = copied_reference("cut");
+  scan = Json::parse(read_text(cut));
+  for (Json& bone : scan["bones"]) bone["is_cut"] = bone.at("name") == "middle_distal_phalanx";
+  write_text(cut, scan.dump());
+  const ProgramRun part =
+      run_palmar("hand from-mri cut --series cut=reference --out x.hand.glb", person());
+  EXPECT_EQ(part.exit_code, 3);
+  EXPECT_THAT(part.err, HasSubstr("the edge of the image cuts the hand at middle_distal_phalanx"));
+
+  const ProgramRun coarse = run_palmar("hand from-mri p/mri --out x.hand.glb", person());
+  EXPECT_EQ(coarse.exit_code, 3);
+  EXPECT_THAT(coarse.err, HasSubstr("too coarse for bones"));
+  EXPECT_FALSE(fs::exists(person() + "/x.hand.glb"));
+}
+
+TEST(HandFromMri, DamagedSeriesAreNamedBeforeTheWork) {
+  const std::string folder = person() + "/damaged";
+  fs::copy(person() + "/p/mri", folder, fs::copy_options::recursive);
+  const std::string slice = folder + "/grasp/slice-0015.dcm";
+  std::string bytes = read_text(slice);
+  for (std::size_t k = bytes.size() - 4000; k < bytes.size(); ++k) bytes[k] = char(k * k % 251);
+  write_text(slice, bytes);
+  const ProgramRun odd = run_palmar("hand from-mri damaged --out x.hand.glb", person());
+  EXPECT_EQ(odd.exit_code, 3);
+  EXPECT_THAT(odd.err,
+              AllOf(HasSubstr("grasp/slice-0015.dcm: differs"), HasSubstr("--accept-odd-slices")));
+
+  write_text(slice, bytes.substr(0, bytes.size() / 2));
+  const ProgramRun cut_off = run_palmar("hand from-mri damaged --out x.hand.glb", person());
+  EXPECT_EQ(cut_off.exit_code, 3);
+  EXPECT_THAT(cut_off.err, AllOf(HasSubstr("slice-0015.dcm"), HasSubstr("the pixels end after"),
+                                 HasSubstr("--skip grasp")));
+
+  fs::remove_all(folder + "/reference");
+  const ProgramRun lacking =
+      run_palmar("hand from-mri damaged --skip grasp --out x.hand.glb", person());
+  EXPECT_EQ(lacking.exit_code, 2);
+  EXPECT_THAT(lacking.err, HasSubstr("none of the series is the reference posture"));
+}
+
+TEST(HandFromMri, WrongUseIsNamed) {
+  const auto fails = [](const std::string& arguments, const std::string& says, int code) {
+    const ProgramRun run = run_palmar("hand from-mri " + arguments, person());
+    EXPECT_EQ(run.exit_code, code) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(says));
+    EXPECT_THAT(run.err, Not(HasSubstr("terminate")));
+  };
+  fails("scans --out x.glb", "must end in .hand.glb", 2);
+  fails("nowhere --out x.hand.glb", "nowhere: there is no such file or folder", 3);
+  fails("scans --out x.hand.glb --skip fist", "no posture", 2);
+  fails("scans --out x.hand.glb --series 9=grasp", "fits no series", 2);
+  fs::create_directories(person() + "/empty");
+  fails("empty --out x.hand.glb", "empty: is empty", 3);
+}
+
+}  // namespace
+}  // namespace palmar::testing
