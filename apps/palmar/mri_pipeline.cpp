@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 
+#include "palmar/capture/bone_plausibility.h"
 #include "palmar/capture/grasp_contact.h"
 #include "palmar/capture/image_edge.h"
 #include "palmar/core/error.h"
@@ -240,6 +241,12 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
     const RecordedScan& scan = result.scans.back();
     for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);
+    const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
+    if (!doubts.empty()) {
+      tell(fmt::format(
+          "{}: look at these bones, which may be found wrongly or bear a wrong name: {}", name,
+          fmt::join(doubts, "; ")));
+    }
     if (result.scans.size() == 1) {
       require_bones(scan, model);
       require_whole(scan);
