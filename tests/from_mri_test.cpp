@@ -229,6 +229,7 @@ TEST(HandFromMri, WrongUseIsNamed) {
   fails("scans --out x.hand.glb --series 9=grasp", "fits no series", 2);
   fs::create_directories(person() + "/empty");
   fails("empty --out x.hand.glb", "empty: is empty", 3);
+  fails("p/mri --out x.hand.glb --work p/mri", "holds the images themselves", 2);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "mri_pipeline.h"
 #include "palmar/core/error.h"
 #include "palmar/io/bone_label_file.h"
+#include "palmar/io/file.h"
 #include "palmar/io/hand_file.h"
 #include "palmar/io/product_file.h"
 #include "palmar/io/scan_record_json.h"
@@ -95,6 +96,27 @@ std::string text_of(const std::vector<SelectedScan>& scans) {
   return "scans of " + seen + (missing.empty() ? "" : "; none of " + missing);
 }
 
+/// Minutes of work shall not end in a folder that can't be written to.
+void require_writable(const std::filesystem::path& folder) {
+  const std::filesystem::path trial = folder / ".palmar-trial";
+  write_file(trial, "");
+  std::error_code ignored;
+  std::filesystem::remove(trial, ignored);
+}
+
+/// The work folder is written to, so no image may lie where results go.
+void require_apart(const std::string& work, const std::vector<SelectedScan>& scans) {
+  for (const SelectedScan& scan : scans) {
+    if (scan.has_surfaces) continue;
+    const auto results = std::filesystem::path(work) / name_of(scan.posture);
+    const auto images = std::filesystem::path(scan.files.front()).parent_path();
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(results, images, ignored)) continue;
+    throw UsageError("--work " + work + ": " + results.string() +
+                     " holds the images themselves; name another folder");
+  }
+}
+
 int run(const FromMriArguments& arguments, const Context& context) {
   if (!ends_as_hand(arguments.out)) {
     throw UsageError("--out: \"" + arguments.out + "\" must end in .hand.glb");
@@ -114,6 +136,11 @@ int run(const FromMriArguments& arguments, const Context& context) {
   options.tell = [&context](const std::string& text) { note(context.common, text); };
   progress.update(0.0, "looking for series");
   const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
+  require_apart(options.work, selection.scans);
+  create_folder(options.work);
+  require_writable(options.work);
+  const std::filesystem::path out_folder = std::filesystem::path(arguments.out).parent_path();
+  require_writable(out_folder.empty() ? std::filesystem::path(".") : out_folder);
   for (const std::string& text : selection.notes) note(context.common, text);
   note(context.common, text_of(selection.scans));
   options.write = [&](ScanRecord& record, const Progress& part) {
