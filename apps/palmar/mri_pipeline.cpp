@@ -74,6 +74,12 @@ ScanSurfaces read_kept(const std::string& folder, bool is_users) {
   }
 }
 
+/// A scan's image for comparing; nothing if there are only its surfaces.
+std::optional<ImageLevels> levels_of(const SelectedScan& selected) {
+  if (selected.has_surfaces) return {};
+  return blurred_levels(read_image(selected.path, selected.choice).image);
+}
+
 struct PlannedScan {
   const SelectedScan* selected = nullptr;
   std::string key;       ///< of the image and the options
@@ -197,7 +203,7 @@ class Shares {
   double at_ = 0.0, left_ = 0.0;  // share that is done; seconds that aren't
 };
 constexpr double kChecked = 0.5;
-constexpr double kFound = 25.0, kKept = 0.1, kTracked = 1.5, kMade = 15.0, kWritten = 12.0;
+constexpr double kFound = 25.0, kKept = 0.1, kTracked = 4.0, kMade = 15.0, kWritten = 12.0;
 
 }  // namespace
 
@@ -261,7 +267,8 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
     const ScanPosture posture = result.scans[k].posture;
-    keys.push_back(sha256_hex(build_description() + digests.front() + digests[k]));
+    keys.push_back(sha256_hex(build_description() + digests.front() + digests[k] +
+                              plans.front().key + plans[k].key));
     all += std::string(name_of(posture)) + keys.back();
     auto kept = kept_bone_motions(folder_of(posture, options.work), keys.back());
     if (!kept) continue;
@@ -272,12 +279,19 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   std::optional<ScannedHand> made = kept_scanned_hand(options.work, made_key);
   if (made) shares.drop(kMade - kKept);
 
+  std::optional<BoneImages> bones;
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
     const RecordedScan& scan = result.scans[k];
     if (result.motions.contains(scan.posture)) continue;
+    const Progress part = shares.next(progress, kTracked, std::string(name_of(scan.posture)));
+    part.update(0.0, "reading");
+    if (!bones) {
+      const std::optional<ImageLevels> image = levels_of(scans.front());
+      bones = image ? images_of_bones(reference, *image) : BoneImages();
+    }
+    const std::optional<ImageLevels> image = levels_of(scans[k]);
     std::vector<BoneMotion> motions =
-        track_bones(reference, scan.surfaces,
-                    shares.next(progress, kTracked, std::string(name_of(scan.posture))));
+        track_bones(reference, scan.surfaces, {&*bones, image ? &*image : nullptr}, part);
     keep_bone_motions(folder_of(scan.posture, options.work), keys[k], motions);
     result.motions[scan.posture] = std::move(motions);
   }

@@ -106,21 +106,39 @@ void add_surfaces(CLI::App& mri, Context& context) {
 
 struct MotionArguments {
   std::string reference, posture;
+  std::vector<std::string> images;
 };
+
+/// Motions from surfaces and, if they are given, images.
+std::vector<BoneMotion> motions_of(const MotionArguments& a, const Progress& progress) {
+  const ScanSurfaces reference = read_scan_surfaces(a.reference);
+  const ScanSurfaces posture = read_scan_surfaces(a.posture);
+  if (a.images.empty()) return track_bones(reference, posture, progress);
+  const BoneImages bones = images_of_bones(
+      reference, blurred_levels(read_image(a.images[0], {}, part_of(progress, 0.0, 0.1)).image));
+  const ImageLevels other =
+      blurred_levels(read_image(a.images[1], {}, part_of(progress, 0.1, 0.2)).image);
+  return track_bones(reference, posture, {&bones, &other}, part_of(progress, 0.2, 1.0));
+}
 
 int run_motion(const MotionArguments& a, const Context& context) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   const Progress progress = make_progress(context.common);
-  const std::vector<BoneMotion> motions =
-      track_bones(read_scan_surfaces(a.reference), read_scan_surfaces(a.posture), progress);
+  const std::vector<BoneMotion> motions = motions_of(a, progress);
   finish_progress();
   if (!context.common.json) {
     std::string text =
-        fmt::format("{:<26} {:>10} {:>11} {:>9}\n", "bone", "turn, deg", "distance, mm", "overlap");
+        fmt::format("{:<26} {:>10} {:>12} {:>9} {:>12} {:>11}\n", "bone", "turn, deg",
+                    "distance, mm", "overlap", "correlation", "error, deg");
     for (const BoneMotion& motion : motions) {
       const Eigen::AngleAxisd turn(motion.posture_from_reference.rotation);
-      text += fmt::format("{:<26} {:>10.1f} {:>11.2f} {:>9.2f}\n", motion.bone,
-                          turn.angle() * kDegrees, motion.fit.mean, motion.fit.overlap);
+      text += fmt::format("{:<26} {:>10.1f} ", motion.bone, turn.angle() * kDegrees);
+      text += motion.is_cut_out
+                  ? fmt::format("{:>12.2f} {:>9.2f} ", motion.fit.mean, motion.fit.overlap)
+                  : fmt::format("{:>12} {:>9} ", "-", "-");
+      text += motion.image ? fmt::format("{:>12.3f} {:>11.2f}\n", motion.image->correlation,
+                                         motion.image->turn_error * kDegrees)
+                           : fmt::format("{:>12} {:>11}\n", "-", "-");
     }
     print(text);
     return 0;
@@ -135,6 +153,10 @@ void add_motion(CLI::App& mri, Context& context) {
                             "palmar mri motion reference thumb_flexion");
   verb->add_option("REFERENCE", a->reference, "Folder that palmar mri surfaces made")->required();
   verb->add_option("POSTURE", a->posture, "Another one, of another posture")->required();
+  verb->add_option("--images", a->images,
+                   "Images of both (DICOM folder, NIfTI or NRRD): bones are laid on their "
+                   "intensities, which is more accurate than on their surfaces")
+      ->expected(2);
   verb->callback(
       [&context, a] { context.run = [&context, a] { return run_motion(*a, context); }; });
 }

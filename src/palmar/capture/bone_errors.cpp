@@ -37,6 +37,7 @@ const TriangleMesh* counterpart(const std::vector<BoneMotion>& tracked, const Sc
                                 const std::string& name) {
   for (const BoneMotion& motion : tracked) {
     if (motion.bone != name) continue;
+    if (!motion.is_cut_out) return nullptr;
     const ScannedBone* bone =
         bone_named(scan, motion.counterpart.empty() ? name : motion.counterpart);
     return bone != nullptr && !bone->mesh.triangles.empty() ? &bone->mesh : nullptr;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/bone_chain.h"
+#include "palmar/capture/image_registration.h"
 #include "palmar/capture/measured_joints.h"
 #include "palmar/capture/reference_hand.h"
 #include "palmar/core/parallel.h"
@@ -26,6 +29,10 @@ constexpr double kLargestGap = 7.0;    // mm that a joint may come apart between
 constexpr double kLargestHead = 10.0;  // mm; radius of a metacarpal's head
 constexpr double kLargestShift = 7.0;  // mm that a bone of the palm may shift against the others
 constexpr double kLargestTurn = 0.6;   // rad; likewise
+// Of intensities: a bone in its right place, and the least that tells one from its surroundings.
+constexpr double kSureCorrelation = 0.93;
+constexpr double kLeastCorrelation = 0.8;
+constexpr double kLeastOverlap = 0.7;  // share of a bone that the other image shows
 
 /// Size of a bone: root mean square extents along its principal axes, ascending.
 Vec3 extents_of(const TriangleMesh& mesh) {
@@ -53,15 +60,20 @@ struct Target {
 
 struct Found {
   IcpResult fit;
-  const Target* target = nullptr;
+  const Target* target = nullptr;  ///< null: no surface, the image alone shows it
   double gap = 0.0;  ///< how far the joint came apart, or the bone shifted in the palm, mm
   bool is_plausible = false;
+  std::optional<ImageFit> image;
+
+  const Rigid3& motion() const { return image ? image->fixed_from_moving : fit.fixed_from_moving; }
+  double cost() const { return fit.mean + 0.1 * gap; }
 };
 
 class BoneTracker {
  public:
-  BoneTracker(const ScanSurfaces& reference, const ScanSurfaces& posture, const Progress& progress)
-      : reference_(reference), progress_(progress) {
+  BoneTracker(const ScanSurfaces& reference, const ScanSurfaces& posture,
+              const TrackedImages& images, const Progress& progress)
+      : reference_(reference), images_(images), progress_(progress) {
     for (ScannedBone& bone : reference_.bones) bone.mesh = smooth_taubin(bone.mesh);
     for (const ScannedBone& bone : posture.bones) {
       if (!(surface_area(bone.mesh) > 0.0)) continue;
@@ -107,33 +119,155 @@ class BoneTracker {
     if (found) found_.emplace_back(name, *found);
   }
 
-  /// One bone of the posture is the counterpart of one bone only: the one that fits better.
-  std::vector<BoneMotion> settle() const {
-    std::vector<BoneMotion> motions;
-    for (const auto& [name, mine] : found_) {
-      const bool is_taken = std::any_of(found_.begin(), found_.end(), [&](const auto& other) {
-        const auto cost = [](const Found& f) { return f.fit.mean + 0.1 * f.gap; };
-        return other.second.target == mine.target && other.first != name &&
-               std::pair(cost(other.second), other.first) < std::pair(cost(mine), name);
-      });
-      if (is_taken) continue;
-      motions.push_back({name, mine.target->bone->name, mine.fit.fixed_from_moving, mine.fit});
-    }
-    return motions;
-  }
-
+  std::vector<BoneMotion> settle() const;
   void place_palm();
   std::optional<Found> find_in_palm(const ScannedBone& bone) const;
   std::vector<std::pair<std::string, std::optional<Found>>> find_ray(Finger finger) const;
   std::optional<Found> find_distal(const ScannedBone& bone, const ScannedBone* proximal,
                                    const Rigid3& motion, bool is_next) const;
+  std::optional<Found> seen_in_image(const ScannedBone& bone, std::optional<Found> found,
+                                     const std::function<double(const Rigid3&)>& gap_of,
+                                     const std::function<std::vector<Rigid3>()>& starts) const;
+  const Target* target_at(const ScannedBone& bone, const Rigid3& motion) const;
 
   ScanSurfaces reference_;  ///< smoothed likewise
+  const TrackedImages& images_;
   const Progress& progress_;
   std::vector<Target> targets_;
   Rigid3 palm_;
   std::vector<std::pair<std::string, Found>> found_;
 };
+
+/// One bone of the posture is the counterpart of one bone only, and two bones aren't at one place:
+/// the one that fits better is.
+std::vector<BoneMotion> BoneTracker::settle() const {
+  std::vector<BoneMotion> motions;
+  for (const auto& [name, mine] : found_) {
+    const Vec3 centre = centre_of_volume(bone_named(reference_, name)->mesh);
+    const bool is_taken = std::any_of(found_.begin(), found_.end(), [&](const auto& entry) {
+      const auto& [other_name, other] = entry;
+      if (other_name == name) return false;
+      constexpr double kSamePlace = 3.0;  // mm between centres
+      const bool is_same =
+          mine.target != nullptr && other.target != nullptr
+              ? mine.target == other.target
+              : (other.motion() * centre_of_volume(bone_named(reference_, other_name)->mesh) -
+                 mine.motion() * centre)
+                        .norm() < kSamePlace;
+      if (!is_same) return false;
+      if (mine.image && other.image) {
+        return std::pair(-other.image->correlation, other_name) <
+               std::pair(-mine.image->correlation, name);
+      }
+      if (mine.image.has_value() != other.image.has_value()) return other.image.has_value();
+      return std::pair(other.cost(), other_name) < std::pair(mine.cost(), name);
+    });
+    if (is_taken) continue;
+    BoneMotion motion{name, "", mine.motion(), mine.fit};
+    motion.image = mine.image;
+    motion.is_cut_out = mine.target != nullptr;
+    if (motion.is_cut_out) motion.counterpart = mine.target->bone->name;
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+/// The posture's bone that a bone moved there would be.
+const Target* BoneTracker::target_at(const ScannedBone& bone, const Rigid3& motion) const {
+  constexpr double kSamePlace = 3.0;  // mm between centres
+  const Vec3 centre = motion * centre_of_volume(bone.mesh), extents = extents_of(bone.mesh);
+  const Target* nearest = nullptr;
+  for (const Target& target : targets_) {
+    const double distance = (target.centre - centre).norm();
+    if (distance > kSamePlace || !has_size_of(extents, target.extents)) continue;
+    if (nearest == nullptr || distance < (nearest->centre - centre).norm()) nearest = &target;
+  }
+  return nearest;
+}
+
+/// What surfaces told, laid on the posture's image; what they didn't tell or what doesn't look
+/// alike there, searched for from `starts`. `gap_of` tells how far a motion takes the joint apart.
+std::optional<Found> BoneTracker::seen_in_image(
+    const ScannedBone& bone, std::optional<Found> found,
+    const std::function<double(const Rigid3&)>& gap_of,
+    const std::function<std::vector<Rigid3>()>& starts) const {
+  if (images_.reference == nullptr || images_.posture == nullptr) return found;
+  const auto picture = images_.reference->find(bone.name);
+  if (picture == images_.reference->end()) return found;
+  progress_.throw_if_cancelled();
+  std::optional<ImageFit> best;
+  const auto take = [&](const ImageFit& fit) {
+    const bool is_allowed = fit.overlap >= kLeastOverlap && fit.correlation >= kLeastCorrelation &&
+                            gap_of(fit.fixed_from_moving) < kLargestGap;
+    if (is_allowed && (!best || fit.correlation > best->correlation)) best = fit;
+  };
+  if (found) take(picture->second.fit(*images_.posture, found->fit.fixed_from_moving));
+  if (!best || best->correlation < kSureCorrelation) {
+    const std::vector<Rigid3> all = starts();
+    if (!all.empty()) take(picture->second.find(*images_.posture, all));
+  }
+  if (!best) return found;
+  if (!found) found.emplace();
+  found->image = best;
+  found->gap = gap_of(best->fixed_from_moving);
+  const Rigid3 correction = found->fit.fixed_from_moving.inverse() * best->fixed_from_moving;
+  const Vec3 centre = centre_of_volume(bone.mesh);
+  const bool stays = found->target != nullptr && (correction * centre - centre).norm() < 4.0 &&
+                     correction.rotation.angularDistance(Quat::Identity()) < kLargestTurn;
+  if (!stays) {
+    found->target = target_at(bone, best->fixed_from_moving);
+    found->fit = {};
+  }
+  return found;
+}
+
+/// Turns of a bone about its joint: to all directions within 110 degrees of where it would go with
+/// the proximal bone, turned a little about itself as well.
+std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rigid3& motion) {
+  constexpr double kDeg = std::numbers::pi / 180.0;
+  constexpr double kStep = 10.0 * kDeg, kTwist = 12.0 * kDeg;  // the strong blur bridges half
+  constexpr int kRings = 11;
+  std::vector<Rigid3> turns;
+  const Vec3 seat = motion * joint;
+  const Vec3 along = (motion.rotation * (centre - joint)).normalized();
+  const Vec3 e1 = along.unitOrthogonal(), e2 = along.cross(e1);
+  for (int ring = 0; ring <= kRings; ++ring) {
+    const double tilt = ring * kStep;
+    const int count =
+        std::max(1, static_cast<int>(std::ceil(2.0 * std::numbers::pi * std::sin(tilt) / kStep)));
+    for (int k = 0; k < count; ++k) {
+      const double phase = 2.0 * std::numbers::pi * k / count;
+      const Vec3 axis = std::cos(phase) * e1 + std::sin(phase) * e2;
+      const Quat swing(Eigen::AngleAxisd(tilt, axis));
+      for (const double twist : {-kTwist, 0.0, kTwist}) {
+        Rigid3 turned;
+        turned.rotation = swing * Quat(Eigen::AngleAxisd(twist, along)) * motion.rotation;
+        turned.translation = seat - turned.rotation * joint;
+        turns.push_back(turned);
+      }
+    }
+  }
+  return turns;
+}
+
+/// A bone's small turns and shifts about where the palm's motion has it.
+std::vector<Rigid3> places_in_palm(const Vec3& centre, const Rigid3& palm) {
+  constexpr double kTurn = 0.17, kShift = 2.0;  // rad, mm
+  std::vector<Rigid3> places;
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const Vec3 middle = palm * centre;
+    const double turn = kTurn * step.norm();
+    const Quat q = turn > 0.0 ? Quat(Eigen::AngleAxisd(turn, step.normalized())) : Quat::Identity();
+    const Rigid3 turned = Rigid3{q, middle - q * middle} * palm;
+    for (int n = 0; n < 7; ++n) {
+      Rigid3 place = turned;
+      if (n < 6) place.translation[n % 3] += n < 3 ? kShift : -kShift;
+      places.push_back(place);
+    }
+  }
+  return places;
+}
 
 TriangleMesh joined(const std::vector<const TriangleMesh*>& meshes) {
   TriangleMesh all;
@@ -206,17 +340,20 @@ std::optional<Found> BoneTracker::find_in_palm(const ScannedBone& bone) const {
     found.is_plausible = found.fit.overlap > 0.3 && error < kPoorMean &&
                          found.gap < kLargestShift && (is_forearm || turn < kLargestTurn);
     if (!found.is_plausible) return;
-    if (!best || found.fit.mean + 0.1 * found.gap < best->fit.mean + 0.1 * best->gap) best = found;
+    if (!best || found.cost() < best->cost()) best = found;
   };
   if (const Target* target = target_named(bone.name)) attempt(*target);
-  if (best && best->fit.mean < kGoodMean) return best;
-  if (is_forearm) return best;
-  for (const Target& target : targets_) {
-    if (target.bone->name == bone.name || target.bone->is_cut) continue;
-    if ((target.centre - palm_ * centre).norm() > 1.5 * kLargestShift) continue;
-    if (has_size_of(extents, target.extents)) attempt(target);
+  if (!is_forearm && !(best && best->fit.mean < kGoodMean)) {
+    for (const Target& target : targets_) {
+      if (target.bone->name == bone.name || target.bone->is_cut) continue;
+      if ((target.centre - palm_ * centre).norm() > 1.5 * kLargestShift) continue;
+      if (has_size_of(extents, target.extents)) attempt(target);
+    }
   }
-  return best;
+  if (is_forearm) return best;
+  return seen_in_image(
+      bone, best, [&](const Rigid3& motion) { return (motion * centre - palm_ * centre).norm(); },
+      [&] { return places_in_palm(centre, palm_); });
 }
 
 std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
@@ -231,7 +368,7 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
     const ScannedBone* bone = bone_named(reference_, name);
     if (is_palm_bone(name)) {
       for (const auto& [found_name, found] : found_) {
-        if (found_name == name) motion = found.fit.fixed_from_moving;
+        if (found_name == name) motion = found.motion();
       }
       proximal = bone;
       continue;
@@ -244,7 +381,7 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
     ray.emplace_back(name, found);
     proximal = bone;
     is_next = found.has_value();
-    if (found) motion = found->fit.fixed_from_moving;
+    if (found) motion = found->motion();
   }
   return ray;
 }
@@ -296,32 +433,42 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
       const double limit = target.bone->name == bone.name ? kPoorMean : kAliasMean;
       found.is_plausible =
           found.fit.overlap > 0.3 && found.fit.mean < limit && found.gap < kLargestGap;
-      if (found.is_plausible &&
-          (!best || found.fit.mean + 0.1 * found.gap < best->fit.mean + 0.1 * best->gap)) {
-        best = found;
-      }
+      if (found.is_plausible && (!best || found.cost() < best->cost())) best = found;
       if (is_next && found.fit.mean < kGoodMean) return;
     }
   };
   if (const Target* target = target_named(bone.name)) attempt(*target);
-  if (best && best->fit.mean < kGoodMean) return best;
-  // Not this one, or there is none of that name: whatever of about that size stands at the joint.
-  const double reach = 2.0 * (centre - joint).norm() + kLargestGap;
-  for (const Target& target : targets_) {
-    if (target.bone->name == bone.name || !has_size_of(extents, target.extents)) continue;
-    if (!has_joint || (target.centre - seat).norm() > reach) continue;
-    const std::optional<ClosestPoint> near =
-        ClosestPointQuery(target.mesh).closest(seat, kLargestGap + kLargestHead);
-    if (near || !is_next) attempt(target);
+  if (!(best && best->fit.mean < kGoodMean)) {
+    // Not this one, or there is none of that name: whatever of about that size stands at the joint.
+    const double reach = 2.0 * (centre - joint).norm() + kLargestGap;
+    for (const Target& target : targets_) {
+      if (target.bone->name == bone.name || !has_size_of(extents, target.extents)) continue;
+      if (!has_joint || (target.centre - seat).norm() > reach) continue;
+      const std::optional<ClosestPoint> near =
+          ClosestPointQuery(target.mesh).closest(seat, kLargestGap + kLargestHead);
+      if (near || !is_next) attempt(target);
+    }
   }
-  return best;
+  return seen_in_image(
+      bone, best,
+      [&](const Rigid3& place) {
+        return has_joint && is_next ? (place * joint - seat).norm() : 0.0;
+      },
+      [&] {
+        return has_joint && is_next ? turns_about(joint, centre, motion) : std::vector<Rigid3>{};
+      });
 }
 
 }  // namespace
 
 std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
+                                    const TrackedImages& images, const Progress& progress) {
+  return BoneTracker(reference, posture, images, progress).track();
+}
+
+std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
                                     const Progress& progress) {
-  return BoneTracker(reference, posture, progress).track();
+  return track_bones(reference, posture, {}, progress);
 }
 
 }  // namespace palmar

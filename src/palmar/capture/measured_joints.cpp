@@ -184,19 +184,37 @@ void note_bones(const ReferenceHand& hand,
                     ". Their joints are the model's, set on by its proportions.");
   }
   for (const auto& [posture, motions] : tracked) {
-    std::vector<std::string> lost;
+    std::vector<std::string> lost, by_image, by_surface;
+    const bool has_image = std::any_of(motions.begin(), motions.end(),
+                                       [](const BoneMotion& m) { return m.image.has_value(); });
     for (const std::string& name : chain) {
       if (!hand.bones.contains(name)) continue;
       const auto found = std::find_if(motions.begin(), motions.end(),
                                       [&](const BoneMotion& m) { return m.bone == name; });
       if (found == motions.end()) {
         lost.push_back(name);
-      } else if (!found->counterpart.empty() && found->counterpart != name) {
+        continue;
+      }
+      if (!found->is_cut_out) by_image.push_back(name);
+      if (has_image && !found->image) by_surface.push_back(name);
+      if (found->is_cut_out && !found->counterpart.empty() && found->counterpart != name) {
         notes.push_back(
             fmt::format("{}: the bone labelled {} is taken for the {}, as it stands in "
                         "that bone's joint and has its shape.",
                         name_of(posture), found->counterpart, name));
       }
+    }
+    if (!by_image.empty()) {
+      notes.push_back(
+          fmt::format("{}: without a surface of its own, found by the image alone: {}. Tables of "
+                      "errors leave it out.",
+                      name_of(posture), listed(by_image)));
+    }
+    if (!by_surface.empty()) {
+      notes.push_back(
+          fmt::format("{}: doesn't look in the image as in the reference, laid on its surface "
+                      "instead, which is less accurate: {}.",
+                      name_of(posture), listed(by_surface)));
     }
     if (!lost.empty()) {
       notes.push_back(

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/capture/image_registration.h"
 #include "palmar/capture/scan_posture.h"
 #include "palmar/capture/scan_surfaces.h"
 #include "palmar/core/progress.h"
@@ -33,13 +34,25 @@ struct BoneMotion {
   std::string bone;
   std::string counterpart;        ///< its name in the other scan: another one if labels disagree
   Rigid3 posture_from_reference;  ///< patient frame of one scan to that of the other
-  IcpResult fit;
+  IcpResult fit;                  ///< surface to surface; 0 without is_cut_out
+  std::optional<ImageFit> image = std::nullopt;  ///< what the motion is from, if images tell it
+  bool is_cut_out = true;                        ///< the other scan has a surface for it
+};
+
+/// Images of two scans, where there are any.
+struct TrackedImages {
+  const BoneImages* reference = nullptr;  ///< of the reference's bones
+  const ImageLevels* posture = nullptr;   ///< the other scan
 };
 
 /// Finds every bone of `reference` in `posture` by registration along the chain from the carpus
 /// out: each bone starts where its proximal neighbour's motion and the bone of the same name put
 /// it. A bone that doesn't fit the one of its name is tried on others near where it must be
-/// (counterpart). Bones that have no counterpart are left out.
+/// (counterpart). With `images` the motions are those that lay the reference's intensities on the
+/// other scan's (image_registration.h), and what has no surface there is searched for in the image
+/// by turning it about its joint. Bones that aren't found are left out.
+std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
+                                    const TrackedImages& images, const Progress& progress = {});
 std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
                                     const Progress& progress = {});
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/error.h"
@@ -104,6 +105,37 @@ std::string digest_of(const ScanSurfaces& surfaces) {
   return digest.hex();
 }
 
+namespace {
+
+/// Null for a motion that no image told. Errors that are infinite are null.
+Json image_fit_json(const std::optional<ImageFit>& fit) {
+  if (!fit) return nullptr;
+  return {{"fixed_from_moving", pose_json(fit->fixed_from_moving)},
+          {"correlation", fit->correlation},
+          {"overlap", fit->overlap},
+          {"turn_error_rad", fit->turn_error},
+          {"shift_error_mm", fit->shift_error},
+          {"has_converged", fit->has_converged}};
+}
+
+std::optional<ImageFit> image_fit_in(const Json& json) {
+  if (json.is_null()) return {};
+  const auto or_infinite = [&](const char* key) {
+    const Json& value = json.at(key);
+    return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+  };
+  ImageFit fit;
+  fit.fixed_from_moving = pose_in(json.at("fixed_from_moving"));
+  fit.correlation = json.at("correlation").get<double>();
+  fit.overlap = json.at("overlap").get<double>();
+  fit.turn_error = or_infinite("turn_error_rad");
+  fit.shift_error = or_infinite("shift_error_mm");
+  fit.has_converged = json.at("has_converged").get<bool>();
+  return fit;
+}
+
+}  // namespace
+
 void keep_bone_motions(const std::string& folder, const std::string& key,
                        const std::vector<BoneMotion>& motions) {
   Json list = Json::array();
@@ -119,7 +151,9 @@ void keep_bone_motions(const std::string& folder, const std::string& key,
                       {"overlap", fit.overlap},
                       {"conditioning", fit.conditioning},
                       {"iterations", fit.iterations},
-                      {"has_converged", fit.has_converged}}}});
+                      {"has_converged", fit.has_converged}}},
+                    {"image", image_fit_json(motion.image)},
+                    {"is_cut_out", motion.is_cut_out}});
   }
   create_folder(folder);
   write_file(fs::path(folder) / "motions.json",
@@ -143,6 +177,8 @@ std::optional<std::vector<BoneMotion>> kept_bone_motions(const std::string& fold
       motion.fit.conditioning = fit.at("conditioning").get<double>();
       motion.fit.iterations = fit.at("iterations").get<int>();
       motion.fit.has_converged = fit.at("has_converged").get<bool>();
+      motion.image = image_fit_in(one.at("image"));
+      motion.is_cut_out = one.at("is_cut_out").get<bool>();
       motions.push_back(std::move(motion));
     }
     return motions;

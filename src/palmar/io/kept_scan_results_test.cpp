@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "palmar/geometry/primitive_meshes.h"
 #include "palmar/io/file.h"
 #include "palmar/io/test_files.h"
@@ -52,6 +55,10 @@ TEST(KeptScanResults, MotionsComeBackBitForBit) {
   motion.posture_from_reference.translation = Vec3(1.0 / 3.0, -1e-17, 5e9);
   motion.fit.mean = 0.1;
   motion.fit.iterations = 7;
+  motion.image.emplace();
+  motion.image->correlation = 0.9;
+  motion.image->turn_error = std::numeric_limits<double>::infinity();
+  motion.is_cut_out = false;
   keep_bone_motions(path, "key", {motion});
   EXPECT_FALSE(kept_bone_motions(path, "another").has_value());
   const auto back = kept_bone_motions(path, "key");
@@ -64,6 +71,10 @@ TEST(KeptScanResults, MotionsComeBackBitForBit) {
   EXPECT_EQ(one.posture_from_reference.translation, motion.posture_from_reference.translation);
   EXPECT_EQ(one.fit.mean, 0.1);
   EXPECT_EQ(one.fit.iterations, 7);
+  ASSERT_TRUE(one.image.has_value());
+  EXPECT_EQ(one.image->correlation, 0.9);
+  EXPECT_FALSE(std::isfinite(one.image->turn_error));
+  EXPECT_FALSE(one.is_cut_out);
 }
 
 TEST(KeptScanResults, WhatIsDamagedIsNotTakenUp) {

@@ -140,13 +140,26 @@ Json motion_list(const std::vector<BoneMotion>& motions) {
   Json list = Json::array();
   for (const BoneMotion& motion : motions) {
     const Quat& q = motion.posture_from_reference.rotation;
-    list.push_back({{"bone", motion.bone},
-                    {"counterpart", motion.counterpart},
-                    {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-                    {"translation_mm", vector3(motion.posture_from_reference.translation)},
-                    {"mean_distance_mm", motion.fit.mean},
-                    {"overlap", motion.fit.overlap},
-                    {"conditioning", motion.fit.conditioning}});
+    Json one = {{"bone", motion.bone},
+                {"counterpart", motion.counterpart},
+                {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+                {"translation_mm", vector3(motion.posture_from_reference.translation)},
+                {"mean_distance_mm", nullptr},
+                {"overlap", nullptr},
+                {"conditioning", nullptr},
+                {"image", nullptr}};
+    if (motion.is_cut_out) {
+      one["mean_distance_mm"] = motion.fit.mean;
+      one["overlap"] = motion.fit.overlap;
+      one["conditioning"] = motion.fit.conditioning;
+    }
+    if (motion.image) {
+      one["image"] = {{"correlation", motion.image->correlation},
+                      {"overlap", motion.image->overlap},
+                      {"turn_error_deg", motion.image->turn_error * kDegrees},
+                      {"shift_error_mm", motion.image->shift_error}};
+    }
+    list.push_back(std::move(one));
   }
   return list;
 }
