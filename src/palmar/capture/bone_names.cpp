@@ -19,23 +19,34 @@ namespace {
 
 constexpr double kLargestUnnamed = 5.0e3;  // mm^3
 constexpr double kAlone = 16.0;            // 4 standard deviations
+constexpr double kUnlikely = 9.0;          // 3 standard deviations
 constexpr double kWidestGap = 10.0;        // mm
-constexpr double kShell = 0.8;             // mm of cortical bone round marrow
+constexpr double kUsualShell = 0.3;        // share of the way from dark to marrow
+constexpr double kDarkEnough = 0.6;
+constexpr double kBorder = 4.0;     // mm
+constexpr double kNearby = 20.0;    // mm
+constexpr double kStraight = 1.15;  // widening that two parts in a row may show
+constexpr double kShell = 0.8;      // mm of cortical bone round marrow
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_cut) {
-  const double place = (found.centre - expected.centre).norm() / 5.0;
-  double cost = place * place;
+double square(double x) { return x * x; }
+
+/// `may_be_cut`: the expected bone reaches out of the image.
+double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_cut,
+                 bool may_be_cut) {
+  double cost = square((found.centre - expected.centre).norm() / 5.0);
   const bool is_long = expected.length > 1.7 * expected.width && found.length > 1.7 * found.width;
   if (is_long) {
     const double angle = std::acos(std::clamp(std::abs(found.axis.dot(expected.axis)), 0.0, 1.0));
-    cost += angle * angle / (0.35 * 0.35);
+    cost += square(angle / 0.35);
   }
-  if (!is_cut) {
-    const double ratio = std::log(std::max(found.length, 1.0) / std::max(expected.length, 1.0));
-    cost += ratio * ratio / 0.09;
-  }
+  const auto differ = [](double a, double b) {
+    return square(std::log(std::max(a, 1.0) / std::max(b, 1.0)) / 0.3);
+  };
+  if (!is_cut) cost += differ(found.length, expected.length);
+  cost += differ(found.width, expected.width);
+  if (is_cut && !may_be_cut) cost += kUnlikely;
   return cost;
 }
 
@@ -55,19 +66,97 @@ std::vector<std::array<int, 2>> chain_links(const Hand& model) {
 }
 
 struct Pairing {
-  std::vector<MarrowRegion> candidates;  ///< some joined, those that went into another empty
+  std::vector<MarrowRegion> candidates;  ///< those given, then joined ones
+  std::vector<char> is_used;             ///< of those given: wholly or in part
   std::vector<int> found;                ///< per bone of the model
   std::vector<BoneOutline> expected;     ///< the same
   double cost = 0.0;                     ///< mean over the model's bones
 };
 
+/// Darkest signal round a region: 0 cortical bone, 1 the region's own.
+double shell_of(const MarrowRegion& region, const ScanLevels& levels) {
+  return (region.shell - levels.dark) / std::max(1e-9, region.level - levels.dark);
+}
+
 /// Whether two regions may be parts of one bone: as bright, and both darkly enclosed.
 bool is_alike(const MarrowRegion& a, const MarrowRegion& b, const ScanLevels& levels) {
-  const auto shell = [&](const MarrowRegion& m) {
-    return (m.shell - levels.dark) / std::max(1e-9, m.level - levels.dark);
-  };
   return std::abs(a.level - b.level) < 0.15 * (levels.bright - levels.dark) &&
-         std::abs(shell(a) - shell(b)) < 0.15 && shell(b) < 0.45;
+         std::abs(shell_of(a, levels) - shell_of(b, levels)) < 0.15 &&
+         shell_of(b, levels) < kDarkEnough;
+}
+
+/// What may be paired with a bone of the model: a region, or two in a row.
+struct Hypotheses {
+  std::vector<MarrowRegion> regions;
+  std::vector<BoneOutline> outlines;
+  void add(MarrowRegion region) {
+    outlines.push_back(outline_of(region));
+    regions.push_back(std::move(region));
+  }
+};
+
+/// Whether two parts make one long bone: the one's end is where the other begins.
+bool is_in_a_row(const BoneOutline& both, const BoneOutline& a, const BoneOutline& b) {
+  return both.width < kStraight * std::max(a.width, b.width) && both.length > 1.7 * both.width &&
+         both.length > 0.8 * (a.length + b.length);
+}
+
+/// A shaft whose marrow is too thin to be seen leaves two ends in a row.
+Hypotheses hypotheses_of(const std::vector<MarrowRegion>& candidates, const ScanLevels& levels,
+                         double longest) {
+  Hypotheses all;
+  for (const MarrowRegion& candidate : candidates) all.add(candidate);
+  const int count = static_cast<int>(candidates.size());
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      const BoneOutline &first = all.outlines[at(a)], &second = all.outlines[at(b)];
+      const MarrowRegion &m = candidates[at(a)], &n = candidates[at(b)];
+      if (overlap(m, n) || !is_alike(m, n, levels) || !is_alike(n, m, levels)) continue;
+      const double apart = (first.centre - second.centre).norm();
+      if (apart > longest || apart > 0.5 * (first.length + second.length) + kWidestGap) continue;
+      if (gap_between(m, n) > kWidestGap) continue;
+      MarrowRegion both = joined(m, n);
+      const BoneOutline outline = outline_of(both);
+      if (!is_in_a_row(outline, first, second) || outline.length > longest) continue;
+      all.add(std::move(both));
+    }
+  }
+  return all;
+}
+
+/// Least-cost pairs that use no region twice: where two do, the one or the other is forbidden,
+/// whichever costs less.
+std::vector<int> exclusive_pairs(std::vector<std::vector<double>> cost, const Hypotheses& all) {
+  const auto total = [&](const std::vector<int>& pairs) {
+    double sum = 0.0;
+    for (std::size_t e = 0; e < pairs.size(); ++e) {
+      sum += pairs[e] < 0 ? kAlone : cost[e][at(pairs[e])];
+    }
+    return sum;
+  };
+  std::vector<int> pairs = least_cost_pairs(cost, kAlone);
+  while (true) {
+    int a = -1, b = -1;
+    for (std::size_t e = 0; e < pairs.size() && a < 0; ++e) {
+      for (std::size_t f = e + 1; f < pairs.size() && a < 0; ++f) {
+        if (pairs[e] < 0 || pairs[f] < 0) continue;
+        if (!overlap(all.regions[at(pairs[e])], all.regions[at(pairs[f])])) continue;
+        a = pairs[e];
+        b = pairs[f];
+      }
+    }
+    if (a < 0) return pairs;
+    const auto without = [&](int column) {
+      std::vector<std::vector<double>> fewer = cost;
+      for (std::vector<double>& row : fewer) row[at(column)] = 1e6;
+      return fewer;
+    };
+    const std::vector<int> first = least_cost_pairs(without(a), kAlone),
+                           second = least_cost_pairs(without(b), kAlone);
+    const bool keeps_b = total(first) <= total(second);
+    cost = without(keeps_b ? a : b);
+    pairs = keeps_b ? first : second;
+  }
 }
 
 std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& model,
@@ -88,83 +177,102 @@ std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& mo
 Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels& levels,
                    const TriangleMesh& skin, const Hand& model, const Progress& progress) {
   Pairing pairing;
-  pairing.candidates = candidates;
-  const std::vector<BoneOutline> expected = expected_bones(skin, model, progress);
-  pairing.expected = expected;
+  pairing.expected = expected_bones(skin, model, progress);
+  const std::vector<BoneOutline>& expected = pairing.expected;
+  double longest = 0.0;
+  for (const BoneOutline& outline : expected) longest = std::max(longest, outline.length);
+  Hypotheses all = hypotheses_of(candidates, levels, 1.3 * longest);
+  const Box3 seen = bounding_box(skin);
   const std::vector<std::array<int, 2>> links = chain_links(model);
   std::vector<Vec3> shift(expected.size(), Vec3::Zero());
-  std::vector<BoneOutline> outlines;
-  for (const MarrowRegion& candidate : pairing.candidates)
-    outlines.push_back(outline_of(candidate));
   const auto cost_of = [&](std::size_t e, const BoneOutline& outline, bool is_cut) {
     BoneOutline moved = expected[e];
     moved.centre += shift[e];
-    return pair_cost(outline, moved, is_cut);
+    bool may_be_cut = false;
+    for (const double way : {-0.5, 0.5}) {
+      const Vec3 end = moved.centre + way * moved.length * moved.axis;
+      may_be_cut = may_be_cut || (end - seen.min()).minCoeff() < kBorder ||
+                   (seen.max() - end).minCoeff() < kBorder;
+    }
+    return pair_cost(outline, moved, is_cut, may_be_cut);
   };
+  std::vector<std::vector<double>> cost;
   for (int round = 0; round < 6; ++round) {
-    std::vector<std::vector<double>> cost(expected.size(),
-                                          std::vector<double>(outlines.size(), 0.0));
+    cost.assign(expected.size(), std::vector<double>(all.outlines.size(), 0.0));
     for (std::size_t e = 0; e < expected.size(); ++e) {
-      for (std::size_t f = 0; f < outlines.size(); ++f) {
-        cost[e][f] = cost_of(e, outlines[f], pairing.candidates[f].is_cut);
+      for (std::size_t f = 0; f < all.outlines.size(); ++f) {
+        cost[e][f] = cost_of(e, all.outlines[f], all.regions[f].is_cut) +
+                     square(shell_of(all.regions[f], levels) / kUsualShell);
       }
     }
-    pairing.found = least_cost_pairs(cost, kAlone);
-    if (round >= 1 && round < 5) {
-      // Parts that nobody wants may belong to a neighbour.
-      std::vector<char> is_taken(outlines.size(), 0);
-      for (const int f : pairing.found) {
-        if (f >= 0) is_taken[at(f)] = 1;
-      }
-      for (std::size_t e = 0; e < expected.size(); ++e) {
-        const int f = pairing.found[e];
-        if (f < 0) continue;
-        // The best one first; another round may join another.
-        double least = cost[e][at(f)] - 1.0;
-        int best = -1;
-        const MarrowRegion& own = pairing.candidates[at(f)];
-        for (std::size_t g = 0; g < outlines.size(); ++g) {
-          const MarrowRegion& part = pairing.candidates[g];
-          if (is_taken[g] != 0 || part.voxels.empty() || !is_alike(own, part, levels)) continue;
-          if ((outlines[g].centre - outlines[at(f)].centre).norm() > expected[e].length) continue;
-          if (gap_between(own, part) > kWidestGap) continue;
-          const MarrowRegion both = joined(own, part);
-          const double then = cost_of(e, outline_of(both), both.is_cut);
-          if (then > least) continue;
-          least = then;
-          best = static_cast<int>(g);
-        }
-        if (best < 0) continue;
-        is_taken[at(best)] = 1;
-        pairing.candidates[at(f)] = joined(own, pairing.candidates[at(best)]);
-        outlines[at(f)] = outline_of(pairing.candidates[at(f)]);
-        pairing.candidates[at(best)].voxels.clear();
-        outlines[at(best)].centre = Vec3::Constant(1e6);
-        cost[e][at(f)] = least;
-      }
-    }
-    pairing.cost = 0.0;
-    for (std::size_t e = 0; e < expected.size(); ++e) {
-      const int f = pairing.found[e];
-      pairing.cost += f < 0 ? kAlone : cost[e][at(f)];
-    }
-    pairing.cost /= static_cast<double>(std::max<std::size_t>(1, expected.size()));
+    pairing.found = exclusive_pairs(cost, all);
     // What a bone is off by tells the same of itself and, by half, of its neighbours.
     std::vector<Vec3> sum(expected.size(), Vec3::Zero());
     std::vector<double> weight(expected.size(), 0.5);
     const auto add = [&](int to, int from, double w) {
       const int f = pairing.found[at(from)];
       if (f < 0) return;
-      sum[at(to)] += w * (outlines[at(f)].centre - expected[at(from)].centre);
+      sum[at(to)] += w * (all.outlines[at(f)].centre - expected[at(from)].centre);
       weight[at(to)] += w;
     };
-    for (int e = 0; e < static_cast<int>(expected.size()); ++e) add(e, e, 0.5);
+    for (int e = 0; e < static_cast<int>(expected.size()); ++e) {
+      add(e, e, 0.5);
+      for (int f = 0; f < static_cast<int>(expected.size()); ++f) {
+        const double away = (expected[at(e)].centre - expected[at(f)].centre).norm() / kNearby;
+        if (f != e && away < 2.0) add(e, f, 0.25 * std::exp(-away * away));
+      }
+    }
     for (const auto& [a, b] : links) {
       add(a, b, 0.5);
       add(b, a, 0.5);
     }
     for (std::size_t e = 0; e < expected.size(); ++e) shift[e] = sum[e] / weight[e];
   }
+
+  // Parts that nobody wants may belong to a neighbour: the best one first.
+  std::vector<char> is_taken(candidates.size(), 0);
+  const auto take = [&](const MarrowRegion& region) {
+    for (std::size_t g = 0; g < candidates.size(); ++g) {
+      if (overlap(region, candidates[g])) is_taken[g] = 1;
+    }
+  };
+  for (const int f : pairing.found) {
+    if (f >= 0) take(all.regions[at(f)]);
+  }
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t e = 0; e < expected.size(); ++e) {
+      const int f = pairing.found[e];
+      if (f < 0) continue;
+      double least = cost_of(e, all.outlines[at(f)], all.regions[at(f)].is_cut) - 1.0;
+      int best = -1;
+      for (std::size_t g = 0; g < candidates.size(); ++g) {
+        const MarrowRegion &own = all.regions[at(f)], &part = candidates[g];
+        if (is_taken[g] != 0 || !is_alike(own, part, levels)) continue;
+        if ((all.outlines[g].centre - all.outlines[at(f)].centre).norm() > expected[e].length) {
+          continue;
+        }
+        if (gap_between(own, part) > kWidestGap) continue;
+        const MarrowRegion both = joined(own, part);
+        const BoneOutline outline = outline_of(both);
+        if (!is_in_a_row(outline, all.outlines[at(f)], all.outlines[g])) continue;
+        const double then = cost_of(e, outline, both.is_cut);
+        if (then > least) continue;
+        least = then;
+        best = static_cast<int>(g);
+      }
+      if (best < 0) continue;
+      take(candidates[at(best)]);
+      all.regions[at(f)] = joined(all.regions[at(f)], candidates[at(best)]);
+      all.outlines[at(f)] = outline_of(all.regions[at(f)]);
+    }
+  }
+  for (std::size_t e = 0; e < expected.size(); ++e) {
+    const int f = pairing.found[e];
+    pairing.cost += f < 0 ? kAlone : cost[e][at(f)];
+  }
+  pairing.cost /= static_cast<double>(std::max<std::size_t>(1, expected.size()));
+  pairing.candidates = std::move(all.regions);
+  pairing.is_used = std::move(is_taken);
   return pairing;
 }
 
@@ -287,7 +395,6 @@ BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& lev
   names.other_misfit = is_own ? opposite.cost : own.cost;
   std::vector<std::string> missing;
   double level = 0.0;
-  std::vector<char> is_named(best.candidates.size(), 0);
   for (std::size_t e = 0; e < best.found.size(); ++e) {
     const int f = best.found[e];
     if (f >= 0) {
@@ -297,15 +404,14 @@ BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& lev
                                     outline.width > 1.4 * best.expected[e].width;
       level += best.candidates[at(f)].level;
       names.name.push_back(model.bones[e].name);
-      is_named[at(f)] = 1;
     } else {
       missing.push_back(model.bones[e].name);
     }
   }
   level /= static_cast<double>(std::max<std::size_t>(1, names.bones.size()));
-  for (std::size_t f = 0; f < best.candidates.size(); ++f) {
+  for (std::size_t f = 0; f < best.is_used.size(); ++f) {
     const MarrowRegion& left = best.candidates[f];
-    if (is_named[f] != 0 || left.voxels.empty() || left.volume < 150.0) continue;
+    if (best.is_used[f] != 0 || left.volume < 150.0) continue;
     if (left.shell > levels.dark + 0.3 * (left.level - levels.dark)) continue;
     if (left.level < 0.9 * level || left.volume > kLargestUnnamed) continue;
     names.bones.push_back(left);

@@ -5,22 +5,31 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/remesh.h"
 #include "palmar/geometry/smooth.h"
+#include "palmar/imaging/bright_regions.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/imaging/iso_surface.h"
 
 namespace palmar {
 namespace {
 
+// Films that part regions, from thin ones on: one bone may be parted by a film that is darker than
+// another's leaky shell.
+constexpr std::array<double, 2> kFilmDepths = {0.22, 0.35};
+constexpr double kFloor = 0.15;         // share of the way from dark to bright
+constexpr double kCore = 0.65;          // share of the way from dark to the region's own level
 constexpr double kUsualShell = 0.8;     // mm
 constexpr double kLeastMarrow = 8.0;    // mm^3
 constexpr double kMostMarrow = 60.0e3;  // mm^3: that of the radius with much of its shaft
+constexpr float kSkin = 1.0F;           // mm below the surface: too near for a bone's shell
 constexpr double kLeastDepth = 1.4;     // mm below the skin
 constexpr double kMostShallow = 0.2;    // share of voxels nearer to it
-constexpr double kDarkestShell = 0.52;  // share of the way from dark to the region's own level
+constexpr double kDarkestShell = 0.62;  // share of the way from dark to the region's own level
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -54,7 +63,9 @@ VoxelMask without_leaks(const VolumeGrid& grid, const VoxelMask& mask) {
 
 }  // namespace
 
-std::vector<MarrowRegion> marrow_regions(const ScanImage& scan, const BrightRegions& regions) {
+namespace {
+
+std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRegions& regions) {
   const VolumeGrid& grid = scan.image.grid;
   struct Sums {
     double bright = 0.0, voxels = 0.0, shell = 0.0, faces = 0.0, shallow = 0.0, core = 0.0;
@@ -71,7 +82,7 @@ std::vector<MarrowRegion> marrow_regions(const ScanImage& scan, const BrightRegi
   }
   const auto limit_of = [&](std::int32_t r) {
     const Sums& s = sums[at(r)];
-    return s.voxels > 0.0 ? dark + 0.5 * (s.bright / s.voxels - dark)
+    return s.voxels > 0.0 ? dark + kCore * (s.bright / s.voxels - dark)
                           : std::numeric_limits<double>::infinity();
   };
   const auto is_core = [&](std::size_t v, std::int32_t r) {
@@ -98,11 +109,13 @@ std::vector<MarrowRegion> marrow_regions(const ScanImage& scan, const BrightRegi
             }
             std::size_t w = way > 0 ? v + stride[axis] : v - stride[axis];
             if (is_core(w, r)) continue;
-            float least = scan.smooth.value[w];
-            for (int step = 1; step < std::min(room, 3); ++step) {
-              w = way > 0 ? w + stride[axis] : w - stride[axis];
+            // Air behind the skin is no shell.
+            float least = std::numeric_limits<float>::max();
+            for (int step = 0; step < std::min(room, 3) && scan.depth[w] > kSkin; ++step) {
               least = std::min(least, scan.smooth.value[w]);
+              w = way > 0 ? w + stride[axis] : w - stride[axis];
             }
+            if (least == std::numeric_limits<float>::max()) continue;
             s.shell += static_cast<double>(least);
             s.faces += 1.0;
           }
@@ -140,6 +153,58 @@ std::vector<MarrowRegion> marrow_regions(const ScanImage& scan, const BrightRegi
     }
   }
   return found;
+}
+
+}  // namespace
+
+MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
+  const double dark = scan.levels.dark, contrast = scan.levels.bright - dark;
+  const auto parted = [&](double depth) {
+    return bright_regions(scan.smooth, inner,
+                          {.dark = dark,
+                           .floor = dark + kFloor * contrast,
+                           .core = dark + 0.5 * contrast,
+                           .depth = depth});
+  };
+  std::array<BrightRegions, kFilmDepths.size()> at_depth;
+  std::array<std::vector<MarrowRegion>, kFilmDepths.size()> enclosed;
+  parallel_for(static_cast<int>(at_depth.size()), [&](int d) {
+    at_depth[at(d)] = parted(kFilmDepths[at(d)]);
+    enclosed[at(d)] = enclosed_regions(scan, at_depth[at(d)]);
+  });
+  MarrowRegions found;
+  found.candidates = std::move(enclosed.front());
+  BrightRegions& fine = at_depth.front();
+  for (std::size_t d = 1; d < at_depth.size(); ++d) {
+    // Each fine region lies in a coarser one, but for some that merged with another neighbour.
+    std::vector<std::map<std::int32_t, std::size_t>> share(fine.voxels.size());
+    for (std::size_t v = 0; v < fine.region.size(); ++v) {
+      if (fine.region[v] >= 0) ++share[at(fine.region[v])][at_depth[d].region[v]];
+    }
+    for (MarrowRegion& candidate : enclosed[d]) {
+      const std::int32_t coarse = candidate.regions.front();
+      candidate.regions.clear();
+      for (std::size_t r = 0; r < share.size(); ++r) {
+        const auto inside = share[r].find(coarse);
+        if (inside != share[r].end() && 2 * inside->second > fine.voxels[r]) {
+          candidate.regions.push_back(static_cast<std::int32_t>(r));
+        }
+      }
+      const bool is_known = std::any_of(
+          found.candidates.begin(), found.candidates.end(),
+          [&](const MarrowRegion& other) { return other.regions == candidate.regions; });
+      if (!is_known && !candidate.regions.empty()) found.candidates.push_back(std::move(candidate));
+    }
+  }
+  found.region = std::move(fine.region);
+  found.count = static_cast<int>(fine.voxels.size());
+  return found;
+}
+
+bool overlap(const MarrowRegion& a, const MarrowRegion& b) {
+  return std::any_of(a.regions.begin(), a.regions.end(), [&](std::int32_t r) {
+    return std::find(b.regions.begin(), b.regions.end(), r) != b.regions.end();
+  });
 }
 
 MarrowRegion joined(const MarrowRegion& a, const MarrowRegion& b) {

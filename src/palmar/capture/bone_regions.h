@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "palmar/capture/scan_image.h"
-#include "palmar/imaging/bright_regions.h"
 
 namespace palmar {
 
 /// A bright region that may be the marrow of a bone, or a part of it.
 struct MarrowRegion {
-  std::vector<std::int32_t> regions;         ///< of BrightRegions; several where parts were joined
+  std::vector<std::int32_t> regions;         ///< of MarrowRegions::region
   std::vector<std::array<Vec3, 2>> bridges;  ///< between joined parts, patient frame
   std::vector<Vec3> voxels;        ///< centres of those brighter than half way to the dark
   std::vector<std::size_t> index;  ///< of the same voxels in the image
@@ -24,9 +23,21 @@ struct MarrowRegion {
   bool is_leaky = false;  ///< larger than the bone it stands for: its thin parts are leaks
 };
 
-/// Bright regions inside the body that are enclosed like marrow: not near the skin, nor as large as
-/// the fat below it, and with something darker than marrow and muscle round most of them.
-std::vector<MarrowRegion> marrow_regions(const ScanImage& scan, const BrightRegions& regions);
+/// What may be the marrow of a bone.
+struct MarrowRegions {
+  std::vector<std::int32_t> region;      ///< per voxel; -1 for none
+  int count = 0;                         ///< of these regions
+  std::vector<MarrowRegion> candidates;  ///< one or several regions each; some overlap
+};
+
+/// Bright regions (bright_regions.h) inside the mask that are enclosed like marrow: not near the
+/// skin, nor as large as the fat below it, and with something darker than marrow and muscle round
+/// most of them. Regions are parted by films of two depths: those that only deep films part hold
+/// several of the others, and overlap with them as candidates.
+MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner);
+
+/// Whether two candidates hold the same region.
+bool overlap(const MarrowRegion& a, const MarrowRegion& b);
 
 /// Both as one; a bridge joins them where they are nearest.
 MarrowRegion joined(const MarrowRegion& a, const MarrowRegion& b);

@@ -148,16 +148,29 @@ void find_bone_levels(ScanImage& scan, double given) {
     if (scan.depth[v] > 2.5F) inner.push_back(scan.smooth.value[v]);
   }
   const auto [low, high] = three_classes(inner);
-  std::vector<float> dark, bright;
+  std::vector<float> bright, below;
   for (const float v : inner) {
-    if (static_cast<double>(v) < low) dark.push_back(v);
-    if (static_cast<double>(v) > high) bright.push_back(v);
+    if (static_cast<double>(v) < low) below.push_back(v);
+  }
+  const double muscle = three_classes(below)[0];
+  VoxelMask is_dark(scan.depth.size(), 0);
+  for (std::size_t v = 0; v < scan.depth.size(); ++v) {
+    if (scan.depth[v] <= 2.5F) continue;
+    const float value = scan.smooth.value[v];
+    if (static_cast<double>(value) > high) bright.push_back(value);
+    if (static_cast<double>(value) < muscle) is_dark[v] = 1;
+  }
+  // Thin shells never reach their own signal; what is dark all round does: thick ones and tendons.
+  // Muscle lies between.
+  const VolumeGrid& grid = scan.smooth.grid;
+  const VoxelMask thick = eroded(grid, is_dark, 1.01 * grid.spacing.minCoeff());
+  std::vector<float> dark;
+  for (std::size_t v = 0; v < thick.size(); ++v) {
+    if (thick[v] != 0) dark.push_back(scan.smooth.value[v]);
   }
   ScanLevels& levels = scan.levels;
   levels.bright = median(bright);
-  // Thin shells never reach their own signal; thick ones are the darkest of the tissue.
-  std::sort(dark.begin(), dark.end());
-  levels.dark = dark.empty() ? 0.0 : static_cast<double>(dark[dark.size() / 50]);
+  levels.dark = median(dark);
   levels.bone_threshold = given > 0.0 ? given : 0.5 * (levels.dark + levels.bright);
 }
 

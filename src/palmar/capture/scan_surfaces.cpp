@@ -17,7 +17,6 @@
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/remesh.h"
 #include "palmar/geometry/smooth.h"
-#include "palmar/imaging/bright_regions.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/imaging/noise_floor.h"
 #include "palmar/imaging/simple_body.h"
@@ -101,12 +100,9 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   VoxelMask inner(scan.body.size());
   for (std::size_t v = 0; v < inner.size(); ++v) inner[v] = scan.depth[v] > 1.0F ? 1 : 0;
   const double contrast = scan.levels.bright - scan.levels.dark;
-  const BrightRegions regions = bright_regions(scan.smooth, inner,
-                                               {.floor = scan.levels.dark + 0.15 * contrast,
-                                                .core = scan.levels.dark + 0.5 * contrast,
-                                                .depth = 0.25 * contrast});
-  const BoneNames names = name_bones(marrow_regions(scan, regions), scan.levels, surfaces.skin,
-                                     model, share(0.6, 0.75));
+  const MarrowRegions regions = marrow_regions(scan, inner);
+  const BoneNames names =
+      name_bones(regions.candidates, scan.levels, surfaces.skin, model, share(0.6, 0.75));
   surfaces.side = names.side;
   surfaces.bone_error_estimate =
       kErrorPerVoxel * std::cbrt(image.grid.spacing.prod()) * (1.0 + scan.levels.noise / contrast);
@@ -121,7 +117,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
 
   progress.update(0.75, "bones");
   // Voxels of a bone's own region and of other bones' end and limit its profiles.
-  std::vector<std::int32_t> bone_of(at(regions.count()), -1);
+  std::vector<std::int32_t> bone_of(at(regions.count), -1);
   for (std::size_t b = 0; b < names.bones.size(); ++b) {
     for (const std::int32_t r : names.bones[b].regions) {
       bone_of[at(r)] = static_cast<std::int32_t>(b);

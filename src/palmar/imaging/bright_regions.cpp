@@ -121,7 +121,8 @@ void BrightRegionOptions::check() const {
   };
   require(std::isfinite(floor), "floor", floor, "any intensity");
   require(std::isfinite(core) && core >= floor, "core", core, "floor or more");
-  require(std::isfinite(depth) && depth >= 0.0, "depth", depth, "0 or more");
+  require(std::isfinite(dark) && dark <= floor, "dark", dark, "floor or less");
+  require(depth >= 0.0 && depth <= 1.0, "depth", depth, "0 to 1");
   require(leak > 0.0 && leak < 1.0, "leak", leak, "more than 0 and less than 1");
 }
 
@@ -175,7 +176,9 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
   }
 
   const auto depth_between = [&](const Basin& a, const Basin& b, const Film& film) {
-    return std::min(a.level(), b.level()) - options.floor - bin * film.exceeded_by(options.leak);
+    const double lower = std::min(a.level(), b.level()) - options.dark;
+    const double between = options.floor - options.dark + bin * film.exceeded_by(options.leak);
+    return 1.0 - between / lower;
   };
   // Shallowest film first. A merger changes the depths of all films of the merged basin a little;
   // an entry is brought up to date when its turn comes.

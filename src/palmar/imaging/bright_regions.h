@@ -18,9 +18,10 @@ struct BrightRegions {
 };
 
 struct BrightRegionOptions {
-  double floor = 0.0;  ///< intensity: darker voxels belong to no region
-  double core = 0.0;   ///< intensity that a region must have somewhere; at least `floor`
-  double depth = 0.0;  ///< intensity: films shallower than this part nothing
+  double dark = 0.0;    ///< intensity of a film thick enough to be seen as it is
+  double floor = 0.0;   ///< intensity: darker voxels belong to no region; at least `dark`
+  double core = 0.0;    ///< intensity that a region must have somewhere; at least `floor`
+  double depth = 0.25;  ///< films shallower than this part nothing: 1 is as deep as to `dark`
   /// Largest part of a film that may leak: 0.3 lies between the 0.1 to 0.2 that partial volume
   /// opens in a shell of half a voxel's thickness and the half of its section that the marrow of a
   /// slender bone fills.
@@ -37,7 +38,8 @@ struct BrightRegionOptions {
 ///    two basins meet along the whole of a film, darkest in its middle.
 /// 2. Where two basins A, B meet, the darker voxel of each pair of touching voxels (6 neighbours)
 ///    goes into a histogram; m is the value that a share `leak` of them exceeds. With L the mean
-///    brightness of a basin's voxels above `core`, the film has depth min(L_A, L_B) - m. The pair
+///    brightness of a basin's voxels above `core` and D = `dark`, the film has depth
+///    1 - (m - D) / (min(L_A, L_B) - D): what a dim basin is parted by needn't be as dark. The pair
 ///    with the shallowest film is made one as long as that is less than `depth`. A hierarchy by the
 ///    pass (dynamics) would join two sides at the first leak.
 ///
