@@ -33,9 +33,10 @@ std::string key_of(const SelectedScan& selected, const SurfaceOptions& options) 
     digest.add(fmt::format("{}:", bytes.size()));
     digest.add(bytes);
   }
-  digest.add(fmt::format("{} {} {} {} {} {} {}", build_description(), options.air_threshold,
+  digest.add(fmt::format("{} {} {} {} {} {} {} {}", build_description(), options.air_threshold,
                          options.bone_threshold, options.corrects_bias, options.edge_length,
-                         options.marker_diameter, selected.choice.number.value_or(-1)));
+                         options.marker_diameter, selected.choice.number.value_or(-1),
+                         options.side ? name_of(*options.side) : "from the anatomy"));
   return digest.hex();
 }
 
@@ -86,7 +87,9 @@ struct PlannedScan {
   bool is_kept = false;  ///< surfaces are there already
 };
 
-RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model,
+/// `reference`: the side of the reference scan, once it is known: another one must be clearly the
+/// other hand's to be taken for it.
+RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::optional<Side> reference,
                          const MriPipelineOptions& options, const Progress& progress) {
   const SelectedScan& selected = *plan.selected;
   RecordedScan scan;
@@ -102,8 +105,13 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model,
   }
   const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
   scan.laterality = file.laterality;
-  scan.surfaces = find_surfaces(file.image, selected.title, model, options.surfaces,
-                                part_of(progress, 0.1, 1.0));
+  SurfaceOptions how = options.surfaces;
+  if (!how.side && reference) {
+    how.side = reference;
+    how.doubted_below = 0.67;
+  }
+  scan.surfaces =
+      find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
   scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
   check_laterality(scan, scan.surfaces.notes);
   mark_cut_fingers(scan.surfaces, file.image.grid);
@@ -243,7 +251,9 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   std::vector<std::string> digests;
   for (const PlannedScan& plan : plans) {
     const std::string name(name_of(plan.selected->posture));
-    result.scans.push_back(surfaces_of(plan, model, options,
+    std::optional<Side> side;
+    if (!result.scans.empty()) side = result.scans.front().surfaces.side;
+    result.scans.push_back(surfaces_of(plan, model, side, options,
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
     const RecordedScan& scan = result.scans.back();
     for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);

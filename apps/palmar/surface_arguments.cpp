@@ -12,8 +12,7 @@ void SurfaceArguments::add_to(CLI::App& verb) {
                   "Intensity that parts cortical bone from its surroundings; 0: found likewise")
       ->capture_default_str();
   verb.add_flag("--keep-bias", keeps_bias_, "Don't correct the brightness across the image");
-  verb.add_option("--bone-edge-mm", options_.edge_length,
-                  "Mean edge of the meshes")
+  verb.add_option("--bone-edge-mm", options_.edge_length, "Mean edge of the meshes")
       ->capture_default_str();
   verb.add_option("--marker-mm", options_.marker_diameter,
                   "Diameter of markers stuck on the skin; 0: there are none")
@@ -25,6 +24,7 @@ void SurfaceArguments::add_to(CLI::App& verb) {
 SurfaceOptions SurfaceArguments::options() const {
   SurfaceOptions options = options_;
   options.corrects_bias = !keeps_bias_;
+  options.side = chosen_side();
   options.check();
   return options;
 }

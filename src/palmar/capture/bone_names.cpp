@@ -382,11 +382,18 @@ std::vector<int> least_cost_pairs(const std::vector<std::vector<double>>& cost, 
 }
 
 BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& levels,
-                     const TriangleMesh& skin, const Hand& model, const Progress& progress) {
+                     const TriangleMesh& skin, const Hand& model, const KnownSide& known,
+                     const Progress& progress) {
   const Hand other = mirrored(model);
   Pairing own = pair_bones(candidates, levels, skin, model, progress);
   Pairing opposite = pair_bones(candidates, levels, skin, other, progress);
-  const bool is_own = own.cost <= opposite.cost;
+  bool is_own = own.cost <= opposite.cost;
+  if (known.side) {
+    const bool says_own = *known.side == model.side;
+    const double said = says_own ? own.cost : opposite.cost;
+    const bool is_doubted = (says_own ? opposite.cost : own.cost) < known.doubted_below * said;
+    is_own = says_own != is_doubted;
+  }
   Pairing& best = is_own ? own : opposite;
 
   BoneNames names;
@@ -423,7 +430,7 @@ BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& lev
     names.notes.push_back(
         fmt::format("{} of {} bones not found: {}", missing.size(), model.bones.size(), list));
   }
-  if (names.other_misfit < 1.5 * names.misfit) {
+  if (!known.side && names.other_misfit < 1.5 * names.misfit) {
     names.notes.push_back(fmt::format(
         "the bones fit a {} hand little better than the other one ({:.1f} against {:.1f}): check "
         "the side",

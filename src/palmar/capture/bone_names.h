@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,12 @@ struct BoneNames {
   std::vector<std::string> notes;
 };
 
+/// What is known of the side beforehand (see SurfaceOptions).
+struct KnownSide {
+  std::optional<Side> side = {};
+  double doubted_below = 0.0;
+};
+
 /// Names bones after those of a model and tells the side.
 ///
 /// 1. The model, and its mirror image, are laid into the skin (fit_posture_to_mesh()); that tells
@@ -43,12 +50,13 @@ struct BoneNames {
 /// 4. Where a shaft's marrow is too thin to be seen, a bone comes in two parts: parts without a
 /// name
 ///    are joined to one within 10 mm that has a name, if that lowers its cost by 1 at least.
-/// 5. The side is that with the lower cost.
+/// 5. The side is that with the lower cost, unless it is known.
 ///
 /// Regions that no bone of the model wants are left out unless they are larger than 150 mm^3 and
 /// darkly enclosed.
 BoneNames name_bones(std::vector<MarrowRegion> candidates, const ScanLevels& levels,
-                     const TriangleMesh& skin, const Hand& model, const Progress& progress = {});
+                     const TriangleMesh& skin, const Hand& model, const KnownSide& known = {},
+                     const Progress& progress = {});
 
 /// Least-cost pairing: column of each row, -1 for rows that stay alone at `alone` each. `cost` is
 /// rows x columns.

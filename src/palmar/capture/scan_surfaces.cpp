@@ -101,8 +101,8 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   for (std::size_t v = 0; v < inner.size(); ++v) inner[v] = scan.depth[v] > 1.0F ? 1 : 0;
   const double contrast = scan.levels.bright - scan.levels.dark;
   const MarrowRegions regions = marrow_regions(scan, inner);
-  const BoneNames names =
-      name_bones(regions.candidates, scan.levels, surfaces.skin, model, share(0.6, 0.75));
+  const BoneNames names = name_bones(regions.candidates, scan.levels, surfaces.skin, model,
+                                     {options.side, options.doubted_below}, share(0.6, 0.75));
   surfaces.side = names.side;
   surfaces.bone_error_estimate =
       kErrorPerVoxel * std::cbrt(image.grid.spacing.prod()) * (1.0 + scan.levels.noise / contrast);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,13 @@ struct SurfaceOptions {
   double air_threshold = 0.0;   ///< intensity of the file; 0: found from the histogram
   double bone_threshold = 0.0;  ///< likewise
   bool corrects_bias = true;
-  double edge_length = 1.2;      ///< mean edge of the meshes, mm
-  double marker_diameter = 5.0;  ///< mm; 0: no markers are looked for
-  void check() const;            ///< throws UsageError: field, value, allowed range
+  double edge_length = 1.2;       ///< mean edge of the meshes, mm
+  double marker_diameter = 5.0;   ///< mm; 0: no markers are looked for
+  std::optional<Side> side = {};  ///< which hand it is, if that is known
+  /// Bones that fit the other hand with less than this share of the misfit tell that `side` is
+  /// wrong after all; 0: it is certain.
+  double doubted_below = 0.0;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 /// Finds skin, bones and markers in a T1-weighted MR image of one hand. `model`: any hand, for
