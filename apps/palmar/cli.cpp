@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <charconv>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "palmar/core/error.h"
 #include "palmar/io/hand_file.h"
@@ -121,14 +123,22 @@ Progress make_progress(const CommonOptions& common) {
   progress.cancel = &interrupted;
   if (common.quiet || common.json || isatty(STDERR_FILENO) == 0) return progress;
   const auto start = std::chrono::steady_clock::now();
-  progress.report = [start](double share, const std::string& activity) {
+  // A part that doesn't know where it stands in the whole must not turn the line back.
+  const auto most = std::make_shared<double>(0.0);
+  progress.report = [start, most](double share, const std::string& activity) {
+    *most = std::max(*most, share);
     const double spent =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     char left[48] = "";
-    if (share > 0.1 && share < 1.0 && spent > 1.0) {
-      std::snprintf(left, sizeof left, ", about %.0f s left", std::ceil(spent * (1 / share - 1)));
+    if (*most > 0.1 && *most < 1.0 && spent > 1.0) {
+      const double seconds = std::ceil(spent * (1 / *most - 1));
+      if (seconds > 90.0) {
+        std::snprintf(left, sizeof left, ", about %.0f min left", std::round(seconds / 60.0));
+      } else {
+        std::snprintf(left, sizeof left, ", about %.0f s left", seconds);
+      }
     }
-    std::fprintf(stderr, "\r\033[K%3.0f %%  %s%s", 100 * share, activity.c_str(), left);
+    std::fprintf(stderr, "\r\033[K%3.0f %%  %s%s", 100 * *most, activity.c_str(), left);
     std::fflush(stderr);
     progress_line_open = true;
   };

@@ -10,6 +10,7 @@
 
 #include "palmar/capture/surface_markers.h"
 #include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/imaging/air_threshold.h"
 #include "palmar/imaging/bias_field.h"
 #include "palmar/imaging/connected_parts.h"
@@ -255,7 +256,7 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   VoxelMask tissue = cut_out(image.grid, whole, box);
   if (options.corrects_bias) {
     progress.update(0.05, "taking the coil's field out");
-    scan.image = corrected_for_bias(scan.image, tissue, {}, progress);
+    scan.image = corrected_for_bias(scan.image, tissue, {}, part_of(progress, 0.05, 0.5));
   }
   progress.update(0.5, "measuring the tissues' signals");
   ScanLevels& levels = scan.levels;

@@ -3,9 +3,20 @@
 #include "palmar/capture/scan_record.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 namespace palmar {
 namespace {
+
+/// Where a row stands among those of its posture: the thumb's, then the fingers' outwards.
+int order_of(const std::string& row) {
+  constexpr std::array<std::string_view, 6> kOrder = {
+      "thumb_metacarpal",        "thumb_proximal_phalanx", "thumb_distal_phalanx",
+      "proximal phalanges II-V", "middle phalanges II-V",  "distal phalanges II-V"};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), row) - kOrder.begin());
+}
 
 /// Which row a bone counts in; "" for none.
 std::string row_of(const std::string& bone) {
@@ -44,8 +55,9 @@ std::vector<ErrorRow> error_rows(const std::vector<BoneError>& errors) {
     row.single_axis /= row.count;
     if (row.interpolated_cmc) *row.interpolated_cmc /= row.count;
   }
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const ErrorRow& a, const ErrorRow& b) { return a.posture < b.posture; });
+  std::stable_sort(rows.begin(), rows.end(), [](const ErrorRow& a, const ErrorRow& b) {
+    return std::pair(a.posture, order_of(a.bones)) < std::pair(b.posture, order_of(b.bones));
+  });
   return rows;
 }
 

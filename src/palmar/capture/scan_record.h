@@ -48,7 +48,7 @@ struct ErrorRow {
   std::optional<double> interpolated_cmc;  ///< mm; thumb only
 };
 
-/// Rows in the order of the postures; fingers II to V by kind of phalanx, the thumb bone by bone.
+/// Rows in the order of the postures: the thumb bone by bone, fingers II to V by kind of phalanx.
 /// The metacarpals II to V, carpals and forearm, which don't move with a finger, have none.
 std::vector<ErrorRow> error_rows(const std::vector<BoneError>& errors);
 
