@@ -17,6 +17,7 @@
 #include "palmar/phantom/mri_subject.h"
 #include "palmar/phantom/scan_grid.h"
 #include "phantom_commands.h"
+#include "phantom_scan_command.h"
 
 namespace palmar::cli {
 namespace {
@@ -208,6 +209,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->callback([&context, o] { context.run = [&context, o] { return run_mri(*o, context); }; });
+  add_phantom_scan(*phantom, context);
   phantom->footer("Example: palmar phantom mri --seed 3 --out subject3");
 }
 

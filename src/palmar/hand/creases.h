@@ -72,6 +72,7 @@ class HandCreases {
   const CreasePlane& proximal_crease(Segment phalanx) const;
   /// Puts a crease where this person's is seen. Throws UsageError for the palm.
   void set_proximal_crease(Segment phalanx, const CreasePlane& crease);
+  void set_wrist(const CreasePlane& crease) { wrist_ = crease; }
   /// Deepest point of the web between finger k and k + 1 (0: thumb and index).
   const Vec3& web(int k) const { return web_[static_cast<std::size_t>(k)]; }
   /// Height above the joint axes towards the palm, mm; 0 where palmar skin ends.

@@ -130,4 +130,35 @@ void write_coloured_mesh(const fs::path& path, const ColouredMesh& mesh) {
   write_file(path, format_ply(mesh));
 }
 
+void write_textured_mesh(const fs::path& path, const TriangleMesh& mesh,
+                         const SurfaceColours& colours) {
+  if (path.extension() != ".obj" || colours.textures.size() != 1 ||
+      colours.place.size() != mesh.triangles.size()) {
+    throw UsageError(path.string() + ": one texture on all triangles is written, as .obj");
+  }
+  const std::string stem = path.stem().string();
+  std::string text = "mtllib " + stem + ".mtl\n";
+  for (const Vec3& v : mesh.vertices) {
+    text += "v " + shortest(v.x()) + " " + shortest(v.y()) + " " + shortest(v.z()) + "\n";
+  }
+  for (const auto& corners : colours.place) {
+    for (const Eigen::Vector2f& p : corners) {
+      // From the lower left.
+      text += "vt " + shortest(p.x()) + " " + shortest(1.0 - p.y()) + "\n";
+    }
+  }
+  text += "usemtl skin\n";
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    text += "f";
+    for (std::size_t k = 0; k < 3; ++k) {
+      text += " " + std::to_string(mesh.triangles[t][k] + 1) + "/" + std::to_string(3 * t + k + 1);
+    }
+    text += "\n";
+  }
+  write_file(fs::path(path).replace_extension(".png"), format_png(colours.textures.front()));
+  write_file(fs::path(path).replace_extension(".mtl"),
+             "newmtl skin\nKd 1 1 1\nmap_Kd " + stem + ".png\n");
+  write_file(path, text);
+}
+
 }  // namespace palmar

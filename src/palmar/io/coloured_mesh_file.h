@@ -21,7 +21,12 @@ struct ColouredMeshFile {
 /// InputError that names it.
 ColouredMeshFile read_coloured_mesh(const std::filesystem::path& path);
 
-/// Writes a .ply with vertex colours, mm.
+/// Writes a .ply with vertex colours, coordinates as they are.
 void write_coloured_mesh(const std::filesystem::path& path, const ColouredMesh& mesh);
+
+/// Writes an .obj with its material file and texture beside it (same name, .mtl and .png).
+/// `colours` holds one texture that all triangles use; throws UsageError otherwise, OutputError.
+void write_textured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                         const SurfaceColours& colours);
 
 }  // namespace palmar

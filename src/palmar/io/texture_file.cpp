@@ -114,4 +114,19 @@ RgbImage read_texture(std::string_view bytes, const std::string& name) {
                    in_quotes(bytes.substr(0, 8)));
 }
 
+std::string format_png(const RgbImage& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {
+    throw Error(std::string("can't make a PNG: ") + png.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace palmar

@@ -17,4 +17,7 @@ inline constexpr int kMaxTextureSide = 32768;
 /// file, and images without pixels or larger than kMaxTextureSide.
 RgbImage read_texture(std::string_view bytes, const std::string& name);
 
+/// The image as a PNG.
+std::string format_png(const RgbImage& image);
+
 }  // namespace palmar

@@ -21,6 +21,7 @@
 #include "palmar/phantom/soft_tissue.h"
 #include "palmar/phantom/subject_bones.h"
 #include "palmar/phantom/subject_person.h"
+#include "palmar/phantom/waves.h"
 
 namespace palmar {
 namespace {
@@ -32,32 +33,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double some(RandomStream& random, double deviation) {
   return deviation * std::clamp(random.normal(), -2.5, 2.5);
 }
-
-/// Smooth noise: cosines in random directions, mean 0, variance 1.
-class Pattern {
- public:
-  Pattern(std::uint64_t seed, double wavelength) {
-    RandomStream random(seed, kPattern);
-    for (Wave& w : wave_) {
-      const Vec3 direction = Vec3(random.normal(), random.normal(), random.normal()).normalized();
-      w.k = direction * (6.2831853 / (wavelength * (0.7 + 0.6 * random.uniform())));
-      w.phase = 6.2831853 * random.uniform();
-    }
-  }
-  double at(const Vec3& p) const {
-    double sum = 0.0;
-    for (const Wave& w : wave_) sum += std::cos(w.k.dot(p) + w.phase);
-    return sum * std::sqrt(2.0 / kCount);
-  }
-
- private:
-  static constexpr int kCount = 24;
-  struct Wave {
-    Vec3 k = Vec3::Zero();
-    double phase = 0.0;
-  };
-  std::array<Wave, kCount> wave_;
-};
 
 /// A place on the surface of the reference posture that goes with it.
 struct SkinPlace {
@@ -89,6 +64,9 @@ HandCreases creases_of(const SubjectPerson& person, const TriangleMesh& skin, st
     plane.point += some(random, 0.8) * plane.normal;
     creases.set_proximal_crease(segment, plane);
   }
+  CreasePlane wrist = creases.wrist();
+  wrist.point += some(random, 1.2) * wrist.normal;
+  creases.set_wrist(wrist);
   return creases;
 }
 
@@ -150,6 +128,33 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
   return dots;
 }
 
+bool is_wrist_front(const HandCreases& creases, const Vec3& p) {
+  return p.z() > creases.wrist().point.z() && std::abs(creases.wrist().value(p)) < 20.0;
+}
+
+/// Where edges of the skin cross a plane, of the points that lie on the crease.
+template <typename IsOnIt>
+void add_crossings(const TriangleMesh& skin, const CreasePlane& plane, const IsOnIt& is_on_it,
+                   std::vector<SkinPlace>& line) {
+  for (int t = 0; t < skin.triangle_count(); ++t) {
+    const Triangle& corner = skin.triangles[at(t)];
+    for (std::size_t e = 0; e < 3; ++e) {
+      const std::size_t next = (e + 1) % 3;
+      const int a = corner[e], b = corner[next];
+      if (a > b) continue;  // every edge once
+      const Vec3 &pa = skin.vertices[at(a)], &pb = skin.vertices[at(b)];
+      const double va = plane.value(pa), vb = plane.value(pb);
+      if ((va < 0.0) == (vb < 0.0)) continue;
+      const double s = va / (va - vb);
+      if (!is_on_it((1.0 - s) * pa + s * pb)) continue;
+      SkinPlace place{t, {0.0, 0.0, 0.0}};
+      place.weights[e] = 1.0 - s;
+      place.weights[next] = s;
+      line.push_back(place);
+    }
+  }
+}
+
 Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandCreases& creases,
               const PaintedHandOptions& options) {
   const SkinPaint& paint = options.paint;
@@ -159,8 +164,8 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
   for (const auto& [segment, place] : result.dots) {
     dot.push_back(place.in(skin.vertices, skin.triangles));
   }
-  const Pattern coarse(options.seed, 9.0), middle(options.seed + 1, 3.0),
-      fine(options.seed + 2, 1.2);
+  const Waves coarse(options.seed, kPattern, 9.0), middle(options.seed + 1, kPattern, 3.0),
+      fine(options.seed + 2, kPattern, 1.2);
   result.colour.resize(skin.vertices.size());
   parallel_for(static_cast<int>(skin.vertices.size()), [&](int v) {
     const Vec3& p = skin.vertices[at(v)];
@@ -193,6 +198,9 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
         ink(paint.crease, 0.5 * paint.crease_width - std::abs(plane.value(p)));
       }
     }
+    if (paint.has_creases && is_wrist_front(creases, p)) {
+      ink(paint.crease, 0.5 * paint.crease_width - std::abs(creases.wrist().value(p)));
+    }
     for (const Vec3& d : dot) {
       const double distance = (p - d).norm();
       if (distance < paint.dot_diameter) ink(paint.dot, 0.5 * paint.dot_diameter - distance);
@@ -200,35 +208,22 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
     result.colour[at(v)] = colour.cwiseMax(0.0F).cwiseMin(1.0F);
   });
   if (!paint.has_creases) return result;
-  // Middle lines: where edges cross the planes.
-  for (int t = 0; t < skin.triangle_count(); ++t) {
-    const Triangle& corner = skin.triangles[at(t)];
-    for (int k = 1; k < kSegmentCount; ++k) {
-      const auto segment = static_cast<Segment>(k);
-      const CreasePlane& plane = creases.proximal_crease(segment);
-      for (std::size_t e = 0; e < 3; ++e) {
-        const std::size_t next = (e + 1) % 3;
-        const int a = corner[e], b = corner[next];
-        if (a > b) continue;  // every edge once
-        const double va = plane.value(skin.vertices[at(a)]), vb = plane.value(skin.vertices[at(b)]);
-        if ((va < 0.0) == (vb < 0.0)) continue;
-        const double s = va / (va - vb);
-        const Vec3 p = (1.0 - s) * skin.vertices[at(a)] + s * skin.vertices[at(b)];
-        const auto finger = static_cast<int>(*finger_of(segment));
-        if (creases.palmar_height(p) <= 0.0 ||
-            (p - plane.point).norm() > 0.75 * person.finger_width[at(finger)] + 3.0) {
-          continue;
-        }
-        const SkinLabel label = creases.label(p);
-        if (label.segment != Segment::kPalm && finger_of(label.segment) != finger_of(segment)) {
-          continue;
-        }
-        SkinPlace place{t, {0.0, 0.0, 0.0}};
-        place.weights[e] = 1.0 - s;
-        place.weights[next] = s;
-        result.crease[segment].push_back(place);
+  add_crossings(
+      skin, creases.wrist(), [&](const Vec3& p) { return is_wrist_front(creases, p); },
+      result.crease[Segment::kPalm]);
+  for (int k = 1; k < kSegmentCount; ++k) {
+    const auto segment = static_cast<Segment>(k);
+    const auto finger = static_cast<int>(*finger_of(segment));
+    const CreasePlane& plane = creases.proximal_crease(segment);
+    const auto is_on_it = [&](const Vec3& p) {
+      if (creases.palmar_height(p) <= 0.0 ||
+          (p - plane.point).norm() > 0.75 * person.finger_width[at(finger)] + 3.0) {
+        return false;
       }
-    }
+      const SkinLabel label = creases.label(p);
+      return label.segment == Segment::kPalm || finger_of(label.segment) == finger_of(segment);
+    };
+    add_crossings(skin, plane, is_on_it, result.crease[segment]);
   }
   return result;
 }

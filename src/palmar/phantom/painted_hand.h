@@ -15,7 +15,8 @@
 namespace palmar {
 
 /// What is drawn on a synthetic person's skin for a scan (Xie 2014, 4.2): a line along each of the
-/// 14 creases of the fingers, three dots on the back of every phalanx, eight on that of the hand.
+/// 14 creases of the fingers and that of the wrist, three dots on the back of every phalanx, eight
+/// on that of the hand.
 struct SkinPaint {
   Srgb skin{0.80F, 0.60F, 0.50F};
   Srgb crease{0.10F, 0.45F, 0.22F};
@@ -45,7 +46,8 @@ struct PaintedDot {
 struct PaintedPosture {
   std::vector<Vec3> skin;                       ///< vertex for vertex that of the reference posture
   std::vector<PaintedDot> dots;                 ///< centres
-  std::map<Segment, std::vector<Vec3>> crease;  ///< middle line of each proximal crease
+  std::map<Segment, std::vector<Vec3>> crease;  ///< middle line of each proximal crease;
+                                                ///< palm: the wrist's
   /// Where the flexion axis of each phalanx' joint lies: axis (unit) and a point, its middle.
   struct TrueJoint {
     Vec3 axis = Vec3::UnitX(), centre = Vec3::Zero();

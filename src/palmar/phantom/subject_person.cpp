@@ -13,6 +13,7 @@
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/section.h"
 #include "palmar/hand/hand_instance.h"
+#include "palmar/hand/skeleton_in_posture.h"
 #include "palmar/hand/skinning.h"
 
 namespace palmar {
@@ -76,40 +77,6 @@ Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
   posture[Dof::kThumbIpFlexion] = kDeg * (10.0 + spread(random, 2.0));
   posture[Dof::kThumbCmcAbduction] += kDeg * (2.0 + spread(random, 1.5));
   return posture;
-}
-
-// The skeleton with joints, axes and tips where they are in a posture, which becomes its reference.
-Skeleton posed(const Skeleton& skeleton, const Posture& posture) {
-  const PosedSkeleton pose = pose_skeleton(skeleton, posture);
-  Skeleton result = skeleton;
-  const auto carry = [&](JointId id, const Rigid3& before, const Rigid3& after) {
-    Joint& joint = result.joints[static_cast<std::size_t>(id)];
-    joint.centre = before * joint.centre;
-    for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
-      // The first axis of two goes with the distal part.
-      const Rigid3& by = k + 1 < joint.dofs.size() ? after : before;
-      joint.dofs[k].axis = by.rotation * joint.dofs[k].axis;
-      joint.dofs[k].centre = by * joint.dofs[k].centre;
-      joint.dofs[k].reference = posture[joint.dofs[k].dof];
-    }
-  };
-  const Rigid3 still;
-  carry(JointId::kThumbCmc, still, pose.thumb_metacarpal);
-  for (int f = 0; f < kFingerCount; ++f) {
-    Rigid3 before = f == 0 ? pose.thumb_metacarpal : still;
-    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
-      if (!segment) continue;
-      const Rigid3& after = pose.segment[static_cast<std::size_t>(*segment)];
-      carry(joint_of(*segment), before, after);
-      before = after;
-    }
-    result.fingertips[at(f)] = before * result.fingertips[at(f)];
-  }
-  // Metacarpal of the thumb: limit postures are measured from here on.
-  for (JointDof& dof : result.joints[at(static_cast<int>(JointId::kThumbCmc))].dofs) {
-    if (dof.dof == Dof::kThumbCmcFlexion) dof.reference = posture[dof.dof];
-  }
-  return result;
 }
 
 // Bumps and hollows of an outline of one's own.
@@ -437,7 +404,7 @@ SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
   person.reference = relaxed(hand.skeleton, random);
   person.skin = hand.skin;
   person.skin.vertices = pose_skin(hand, person.reference);
-  person.skeleton = posed(hand.skeleton, person.reference);
+  person.skeleton = skeleton_in_posture(hand.skeleton, person.reference);
   reshape(person.skin, person.skeleton, seed);
   lengthen_forearm(person.skin, person.skeleton.joint(JointId::kWrist).centre);
   for (int f = 0; f < kFingerCount; ++f) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "palmar/report/html_page.h"
 #include "palmar/report/html_text.h"
 #include "palmar/report/plain_words.h"
 #include "palmar/report/svg_chart.h"
@@ -22,28 +23,6 @@ constexpr Rgb kIcpColour{150, 158, 166}, kAxisColour{213, 94, 0}, kCmcColour{0, 
 std::string with_spaces(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
-}
-
-std::string number_cell(const std::optional<double>& value, int decimals = 2) {
-  if (!value) return "<td class=\"n\">–</td>";
-  return fmt::format("<td class=\"n\" data-value=\"{}\">{:.{}f}</td>", exact_number(*value), *value,
-                     decimals);
-}
-
-std::string row_head(const std::string& text) {
-  return "<th scope=\"row\">" + html_escaped(text) + "</th>";
-}
-
-/// `texts`: how many of the first columns hold words.
-std::string table(const std::string& caption, const std::vector<std::string>& heads,
-                  const std::string& rows, std::size_t texts = 1) {
-  std::string html =
-      "<div class=\"wide\"><table><caption>" + html_escaped(caption) + "</caption><thead><tr>";
-  for (std::size_t k = 0; k < heads.size(); ++k) {
-    html += std::string("<th scope=\"col\"") + (k < texts ? "" : " class=\"n\"") + ">" +
-            html_escaped(heads[k]) + "</th>";
-  }
-  return html + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
 const ErrorRow* row_at(const std::vector<ErrorRow>& rows, ScanPosture posture,
@@ -81,10 +60,10 @@ std::string finger_table(const std::vector<ErrorRow>& rows) {
     }
     body += "</tr>";
   }
-  return table("Fingers II to V: mean distance in mm, moved freely and by the joints",
-               {"Posture", "First phalanges, freely", "by joints", "Middle phalanges, freely",
-                "by joints", "Last phalanges, freely", "by joints"},
-               body);
+  return html_table("Fingers II to V: mean distance in mm, moved freely and by the joints",
+                    {"Posture", "First phalanges, freely", "by joints", "Middle phalanges, freely",
+                     "by joints", "Last phalanges, freely", "by joints"},
+                    body);
 }
 
 std::string thumb_table(const std::vector<ErrorRow>& rows) {
@@ -99,7 +78,7 @@ std::string thumb_table(const std::vector<ErrorRow>& rows) {
     }
     body += "</tr>";
   }
-  return table(
+  return html_table(
       "Thumb: mean distance in mm, moved freely, by fixed axes, by the interpolated saddle joint",
       {"Posture", "Metacarpal, freely", "fixed axes", "interpolated", "First phalanx, freely",
        "fixed axes", "interpolated", "Last phalanx, freely", "fixed axes", "interpolated"},
@@ -143,13 +122,13 @@ std::string contact_html(const ScanRecord& record) {
              "{:.0f} %.</p>\n",
              record.contact->range, html_escaped(record.contact->product), 100.0 * c.share_of_scan,
              100.0 * c.share_of_hand) +
-         table("Contact area, mm²",
-               {"", "Skin of the scan", "Skin of the new hand", "Product touched by both",
-                "Shared part of all that is touched"},
-               "<tr>" + row_head("grasp") + number_cell(c.scanned_area, 0) +
-                   number_cell(c.hand_area, 0) + number_cell(c.shared_area, 0) +
-                   fmt::format("<td class=\"n\">{:.0f} %</td></tr>",
-                               100.0 * c.intersection_over_union));
+         html_table("Contact area, mm²",
+                    {"", "Skin of the scan", "Skin of the new hand", "Product touched by both",
+                     "Shared part of all that is touched"},
+                    "<tr>" + row_head("grasp") + number_cell(c.scanned_area, 0) +
+                        number_cell(c.hand_area, 0) + number_cell(c.shared_area, 0) +
+                        fmt::format("<td class=\"n\">{:.0f} %</td></tr>",
+                                    100.0 * c.intersection_over_union));
 }
 
 }  // namespace
@@ -176,11 +155,11 @@ std::string scans_section(const ScanRecord& record) {
             number_cell(surfaces.bone_threshold, 0) + number_cell(surfaces.noise, 1) + "</tr>";
   }
   return "<h2>What was scanned</h2>\n" +
-         table("Scans, and what was found in them",
-               {"Posture", "Series", "Bones found", "Markers found",
-                "Expected error of a bone's surface, mm", "Air below (intensity)",
-                "Cortical bone below (intensity)", "Noise (intensity)"},
-               rows, 2) +
+         html_table("Scans, and what was found in them",
+                    {"Posture", "Series", "Bones found", "Markers found",
+                     "Expected error of a bone's surface, mm", "Air below (intensity)",
+                     "Cortical bone below (intensity)", "Noise (intensity)"},
+                    rows, 2) +
          (missing.empty() ? "" : "<p>Not scanned: " + missing + ".</p>\n");
 }
 
@@ -221,7 +200,8 @@ std::string joint_range_section(const ScanRecord& record) {
          "measured if a scan bends the joint far enough; a range ends where a scanned limit "
          "posture does, else where the model's does.</p>\n<details><summary>Ranges of motion of "
          "all joints</summary>" +
-         table("Range, degrees", {"Motion", "From", "To", "In the reference scan", "Axis"}, rows) +
+         html_table("Range, degrees", {"Motion", "From", "To", "In the reference scan", "Axis"},
+                    rows) +
          "</details>\n";
 }
 
@@ -239,10 +219,10 @@ std::string skin_section(const ScanRecord& record) {
     html +=
         " When the thumb moves, its ball swells. Skin that follows the joints alone misses that; "
         "Xie (2014, table 2-5) found 3.7 mm there, and 0.6 mm once corrected by markers.</p>\n" +
-        table("Thumb ball: mean distance of the posed skin from the scanned one, mm",
-              {"Posture", "Skin follows the joints alone", "Corrected by the markers alone",
-               "Corrected by markers and scanned skin"},
-              rows);
+        html_table("Thumb ball: mean distance of the posed skin from the scanned one, mm",
+                   {"Posture", "Skin follows the joints alone", "Corrected by the markers alone",
+                    "Corrected by markers and scanned skin"},
+                   rows);
   } else {
     html +=
         "</p>\n<p>No limit posture of the thumb was scanned: the swelling of its ball isn't "
@@ -259,8 +239,8 @@ std::string dimensions_section(const Hand& hand) {
     rows += "<tr>" + row_head(plain_words(static_cast<Segment>(s))) + number_cell(size.length, 1) +
             number_cell(size.width, 1) + number_cell(size.thickness, 1) + "</tr>";
   }
-  return "<h2>Dimensions</h2>\n" + table("Segments between the creases, mm",
-                                         {"Segment", "Length", "Width", "Thickness"}, rows);
+  return "<h2>Dimensions</h2>\n" + html_table("Segments between the creases, mm",
+                                              {"Segment", "Length", "Width", "Thickness"}, rows);
 }
 
 }  // namespace palmar

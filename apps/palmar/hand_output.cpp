@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "hand_output.h"
+
+#include <filesystem>
+#include <string_view>
+
+#include "palmar/core/error.h"
+
+namespace palmar::cli {
+namespace {
+
+constexpr std::string_view kHandEnding = ".hand.glb";
+
+}  // namespace
+
+void check_hand_output(const std::string& out) {
+  if (out.size() <= kHandEnding.size() || !out.ends_with(kHandEnding)) {
+    throw UsageError("--out: \"" + out + "\" must end in .hand.glb");
+  }
+}
+
+std::string beside_hand(const std::string& out, const std::string& ending) {
+  return out.substr(0, out.size() - kHandEnding.size()) + ending;
+}
+
+std::string hand_name_of(const std::string& out) {
+  return std::filesystem::path(beside_hand(out, "")).filename().string();
+}
+
+}  // namespace palmar::cli

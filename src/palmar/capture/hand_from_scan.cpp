@@ -1,0 +1,330 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/hand_from_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "palmar/capture/bone_chain.h"
+#include "palmar/capture/dotted_joints.h"
+#include "palmar/capture/marker_matching.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/cluster_vertices.h"
+#include "palmar/hand/dimensions.h"
+#include "palmar/hand/hand_points.h"
+#include "palmar/hand/template_hand.h"
+
+namespace palmar {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kLookUpEdge = 1.2;  // mm; of the mesh that is fitted to
+
+/// A scan as fits look at it.
+TriangleMesh looked_up(const TriangleMesh& mesh) {
+  constexpr int kMany = 60'000;
+  return mesh.triangle_count() > kMany ? cluster_vertices(mesh, kLookUpEdge) : mesh;
+}
+
+/// A dot of the reference scan and where its skin carries it.
+struct BoundDot {
+  Vec3 point = Vec3::Zero();  ///< hand frame, reference
+  HandPoint on_hand;
+  Segment segment{};
+};
+
+std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
+                                const Rigid3& hand_from_scan) {
+  std::vector<BoundDot> dots;
+  for (const InkDot& dot : marks.dots) {
+    BoundDot bound;
+    bound.point = hand_from_scan * dot.point;
+    bound.on_hand = skin_point_near(hand, bound.point);
+    bound.segment = hand.segment[at(*bound.on_hand.vertex)];
+    dots.push_back(std::move(bound));
+  }
+  return dots;
+}
+
+MeasuredJoints joints_of(const LaidSkeleton& laid) {
+  MeasuredJoints joints;
+  joints.skeleton = laid.skeleton;
+  joints.patient_from_hand = laid.scan_from_hand;
+  return joints;
+}
+
+ScannedHand register_model(const Hand& model, const SurfaceScan& scan, const MeasuredJoints& joints,
+                           const Progress& progress) {
+  ScanSurfaces surfaces;
+  surfaces.skin = looked_up(scan.skin);
+  surfaces.side = model.side;
+  return make_scanned_hand(model, {{ScanPosture::kReference, std::move(surfaces)}}, joints,
+                           progress);
+}
+
+/// Joints of one other scan, from the palm outwards.
+class DotReader {
+ public:
+  DotReader(const Hand& hand, const std::vector<BoundDot>& dots, MeasuredJoints& joints,
+            HandFromScan& result)
+      : hand_(hand), dots_(dots), joints_(joints), result_(result) {}
+
+  void read(ScanPosture name, const SurfaceScan& scan, const MeshFit& fit) {
+    name_ = name;
+    posture_ = fit.posture;
+    const auto found = find_dots(scan, fit);
+    const Rigid3 palm = palm_motion(found, fit);
+    result_.scan_from_hand[name] = palm;
+    // The thumb's metacarpal has no dots of its own: its motion is that of the fitted skin.
+    const PosedSkeleton posed = pose_skeleton(hand_.skeleton, fit.posture);
+    for (int f = 0; f < kFingerCount; ++f) {
+      const auto finger = static_cast<Finger>(f);
+      Rigid3 before = finger == Finger::kThumb ? fit.mesh_from_hand * posed.thumb_metacarpal : palm;
+      for (const auto& segment : segments_of(finger)) {
+        if (!segment) continue;
+        before = before * read_joint(*segment, before, found);
+      }
+    }
+    result_.postures[name] = posture_;
+  }
+
+ private:
+  /// Where each dot is in the scan.
+  std::vector<std::optional<Vec3>> find_dots(const SurfaceScan& scan, const MeshFit& fit) {
+    std::vector<HandPoint> points;
+    for (const BoundDot& dot : dots_) points.push_back(dot.on_hand);
+    std::vector<Vec3> expected = PosablePoints(hand_, points).pose(fit.posture);
+    for (Vec3& p : expected) p = fit.mesh_from_hand * p;
+    std::vector<Vec3> seen;
+    for (const InkDot& dot : scan.marks.dots) seen.push_back(dot.point);
+    std::vector<std::optional<Vec3>> found(dots_.size());
+    if (seen.empty() || expected.empty()) return found;
+    MarkerMatchOptions options;
+    options.gate = 10.0;
+    options.last_gate = 4.0;
+    const auto match = match_markers(expected, seen, options);
+    for (std::size_t k = 0; k < match.size(); ++k) {
+      if (match[k]) found[k] = seen[at(*match[k])];
+    }
+    return found;
+  }
+
+  Rigid3 palm_motion(const std::vector<std::optional<Vec3>>& found, const MeshFit& fit) const {
+    std::vector<Vec3> a, b;
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (dots_[k].segment != Segment::kPalm || !found[k]) continue;
+      a.push_back(dots_[k].point);
+      b.push_back(*found[k]);
+    }
+    constexpr std::size_t kEnough = 5;
+    return a.size() < kEnough ? fit.mesh_from_hand : align_points_robustly(a, b, 2.0);
+  }
+
+  /// Motion of the part behind a joint against the part before it.
+  Rigid3 read_joint(Segment segment, const Rigid3& before,
+                    const std::vector<std::optional<Vec3>>& found) {
+    Joint& joint = joints_.skeleton.joints[static_cast<std::size_t>(joint_of(segment))];
+    const Joint& of_skin = hand_.skeleton.joint(joint_of(segment));
+    const JointDof& bends = of_skin.dofs.back();
+    Rigid3 spread;
+    if (of_skin.dofs.size() == 2) {
+      const JointDof& s = of_skin.dofs.front();
+      spread = Rigid3::about_axis(s.axis, s.centre, posture_[s.dof] - s.reference);
+    }
+    std::vector<Vec3> x, y;
+    const Rigid3 in_part = before.inverse();
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (dots_[k].segment != segment || !found[k]) continue;
+      x.push_back(spread * dots_[k].point);
+      y.push_back(in_part * *found[k]);
+    }
+    HingePrior prior;
+    prior.axis = bends.axis;
+    prior.point = bends.centre;
+    prior.turn = posture_[bends.dof] - bends.reference;
+    constexpr std::size_t kEnough = 2;
+    if (x.size() < kEnough) {
+      return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
+    }
+    const DotHinge hinge = fit_dot_hinge(x, y, prior);
+    posture_[bends.dof] = bends.reference + hinge.turn;
+    DottedJoint report;
+    report.segment = segment;
+    report.posture = name_;
+    report.turn = hinge.turn;
+    report.residual = hinge.residual;
+    report.axis_change = std::acos(std::min(1.0, std::abs(hinge.axis.dot(prior.axis))));
+    report.centre_change = (hinge.point - prior.point).norm();
+    report.dots = static_cast<int>(x.size());
+    result_.joints.push_back(report);
+    // A turn of 20 degrees or more tells an axis; the largest one tells most.
+    constexpr double kTells = 20.0 * std::numbers::pi / 180.0;
+    double& most = told_by_[static_cast<std::size_t>(joint.id)];
+    if (std::abs(hinge.turn) > std::max(kTells, most)) {
+      most = std::abs(hinge.turn);
+      JointDof& dof = joint.dofs.back();
+      dof.axis = hinge.axis;
+      dof.centre = hinge.point;
+      dof.source = "this person's scans";
+      joint.centre = hinge.point;
+      joints_.is_measured[static_cast<std::size_t>(dof.dof)] = true;
+    }
+    return Rigid3::about_axis(hinge.axis, hinge.point, hinge.turn) * spread;
+  }
+
+  const Hand& hand_;
+  const std::vector<BoundDot>& dots_;
+  MeasuredJoints& joints_;
+  HandFromScan& result_;
+  ScanPosture name_{};
+  Posture posture_;
+  std::array<double, kJointCount> told_by_{};
+};
+
+/// Ends of the ranges that were scanned as such.
+void take_ranges(const std::map<ScanPosture, Posture>& postures, Skeleton& skeleton) {
+  for (Joint& joint : skeleton.joints) {
+    for (JointDof& dof : joint.dofs) {
+      for (const auto& [name, posture] : postures) {
+        dof.lower = std::min(dof.lower, posture[dof.dof]);
+        dof.upper = std::max(dof.upper, posture[dof.dof]);
+      }
+    }
+  }
+}
+
+std::string listed(const std::vector<Segment>& segments) {
+  std::string text;
+  for (const Segment s : segments) text += (text.empty() ? "" : ", ") + std::string(name_of(s));
+  return text;
+}
+
+std::vector<InkLine> moved(std::vector<InkLine> lines, const Rigid3& motion) {
+  for (InkLine& line : lines) {
+    for (Vec3& p : line.point) p = motion * p;
+  }
+  return lines;
+}
+
+/// Finds the person's creases by where the joints suggest them, and moves joints to them.
+void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& result) {
+  const Hand& hand = result.scanned.hand;
+  const HandCreases suggested(hand.skin, hand.skeleton);
+  FoundCreases& found = result.creases;
+  const Rigid3 before = laid.scan_from_hand;
+  found = find_creases(moved(scan.marks.lines, before.inverse()), suggested);
+  shift_to_creases(laid, found);
+  const Rigid3 turn = laid.scan_from_hand.inverse() * before;
+  for (auto& [segment, plane] : found.plane) {
+    plane = {turn * plane.point, turn.rotation * plane.normal};
+  }
+  if (!found.missing.empty()) {
+    result.notes.push_back("Creases not found, taken from the joints: " + listed(found.missing) +
+                           ".");
+  }
+  constexpr int kMany = 60;
+  if (found.stray > kMany) {
+    result.notes.emplace_back("Some of what is drawn in the creases' colour lies on no crease.");
+  }
+}
+
+void measure_distances(const SurfaceScan& scan, HandFromScan& result) {
+  constexpr double kReach = 5.0;  // mm
+  const ClosestPointQuery query(scan.skin);
+  const Hand& hand = result.scanned.hand;
+  for (const Vec3& v : hand.skin.vertices) {
+    const auto near = query.closest(result.scanned.patient_from_hand * v, kReach);
+    result.distance.push_back(near ? near->distance : -1.0);
+  }
+}
+
+}  // namespace
+
+HandFromScan make_hand_from_scans(const Hand& model,
+                                  const std::map<ScanPosture, SurfaceScan>& scans,
+                                  std::optional<Side> side, const Progress& progress) {
+  const auto reference = scans.find(ScanPosture::kReference);
+  if (reference == scans.end()) {
+    throw InputError("hand from scans: there is no scan of the reference posture");
+  }
+  const SurfaceScan& scan = reference->second;
+  HandFromScan result;
+  const double others = static_cast<double>(scans.size() - 1);
+  const double unit = 1.0 / (4.0 + others);  // laying, registering thrice, one fit each
+
+  LaidSkeleton laid =
+      lay_skeleton(model, looked_up(scan.skin), side, scan.name, part_of(progress, 0.0, unit));
+  const Hand base = laid.side == model.side ? model : mirrored(model);
+  MeasuredJoints joints = joints_of(laid);
+  result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
+  if (!scan.marks.lines.empty()) {
+    take_creases(scan, laid, result);
+    joints = joints_of(laid);
+    // The same skin, seen from the frame that the creases moved.
+    result.scanned = register_model(base, scan, joints, part_of(progress, 2.0 * unit, 3.0 * unit));
+  } else {
+    result.notes.emplace_back(
+        "No drawn creases: segments and joints follow the skin's shape alone, which tells where "
+        "fingers bend to 2 to 4 mm.");
+  }
+  const Rigid3 hand_from_scan = laid.scan_from_hand.inverse();
+
+  // Joints by dots, seen from the hand that the skin gave.
+  const Hand& by_skin = result.scanned.hand;
+  const std::vector<BoundDot> dots = bind_dots(by_skin, scan.marks, hand_from_scan);
+  for (const BoundDot& dot : dots) ++result.dots[dot.segment];
+  result.postures[ScanPosture::kReference] = reference_posture(joints.skeleton);
+  result.scan_from_hand[ScanPosture::kReference] = laid.scan_from_hand;
+  DotReader reader(by_skin, dots, joints, result);
+  int done = 0;
+  for (const auto& [name, other] : scans) {
+    if (name == ScanPosture::kReference) continue;
+    const double from = (3.0 + done) * unit;
+    ++done;
+    const MeshFit fit = fit_posture_to_mesh(by_skin, looked_up(other.skin), {},
+                                            part_of(progress, from, from + unit));
+    if (fit.status != PostureFitStatus::kFitted) {
+      result.notes.push_back(fmt::format("{}: this hand isn't found in it, and it isn't used: {}",
+                                         other.name, fit.message));
+      continue;
+    }
+    result.fits[name] = fit;
+    reader.read(name, other, fit);
+  }
+  take_ranges(result.postures, joints.skeleton);
+  joints.postures = result.postures;
+  if (done == 0) {
+    result.notes.emplace_back(
+        "Only the reference posture was scanned: joints' axes are the model's, as the skin carries "
+        "them, their ranges the model's.");
+  } else if (dots.empty()) {
+    result.notes.emplace_back(
+        "No dots were found on the reference scan: joints' axes are the model's, as the skin "
+        "carries them.");
+  }
+
+  result.scanned = register_model(base, scan, joints, part_of(progress, 1.0 - unit, 1.0));
+  Hand& hand = result.scanned.hand;
+  HandCreases creases(hand.skin, hand.skeleton);
+  for (const auto& [segment, plane] : result.creases.plane) {
+    if (segment == Segment::kPalm) {
+      creases.set_wrist(plane);
+    } else {
+      creases.set_proximal_crease(segment, plane);
+    }
+  }
+  hand.dimensions = measure_hand(hand.skin, hand.skeleton, creases);
+  measure_distances(scan, result);
+  result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
+  return result;
+}
+
+}  // namespace palmar

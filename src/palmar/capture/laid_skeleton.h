@@ -1,0 +1,62 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/capture/skin_marks.h"
+#include "palmar/core/progress.h"
+#include "palmar/hand/creases.h"
+#include "palmar/hand/hand.h"
+#include "palmar/hand/posture_from_mesh.h"
+
+namespace palmar {
+
+/// Creases of a person found in a scan.
+struct FoundCreases {
+  std::map<Segment, CreasePlane> plane;  ///< proximal creases, of the palm the wrist's; hand frame
+  std::map<Segment, double>
+      shift;                     ///< distal of where the joints would put them, at the middle, mm
+  std::vector<Segment> missing;  ///< not drawn, or not found
+  int stray = 0;                 ///< drawn vertices that no crease is near
+};
+
+/// Takes drawn lines for creases: each of their points belongs to the finger whose bones are
+/// nearest and to that of its creases which lies nearest, within 8 mm. A crease is the plane
+/// through its points that stays square to the finger's palmar direction: offset and slope across
+/// the finger by least squares. Lines that cover less than a third of the finger's breadth count as
+/// missing. `creases`: where the joints suggest them.
+FoundCreases find_creases(const std::vector<InkLine>& lines, const HandCreases& creases);
+
+/// Joints of a person of whom a scan shows the skin.
+struct LaidSkeleton {
+  Skeleton skeleton;      ///< the scan's posture is its reference; hand frame of the scan
+  Rigid3 scan_from_hand;  ///< mm
+  Side side = Side::kRight;
+  MeshFit fit;  ///< how the model lay in the scan at first
+};
+
+/// Lays a model's joints into a scan by what lies round them:
+/// 1. fit_posture_to_mesh() with one overall size tells posture and place;
+/// 2. the skin of the model, posed so, is bent onto the scan (register_skin());
+/// 3. every joint goes with the skin round it: an affine map of the vertices within a finger's
+///    breadth, least squares with weights exp(-d^2 / 2 h^2), held towards a rigid motion so that
+///    skin that slid along itself doesn't shear it.
+/// `mesh`: mm, oriented outwards, may have holes; any frame. `side`: of the hand, if known; a
+/// scan's axes may have been mirrored on the way, so what is known is held against what is found.
+/// `model` may be of either side. Throws InputError "`name`: ..." if no hand, or that of the other
+/// side, lies in it.
+LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
+                          const std::string& name, const Progress& progress = {});
+
+/// Moves the fingers' hinges along their fingers to where the creases over them say: a joint lies
+/// distal of its crease by a share of the phalanx (HandCreases). Creases differ between people by
+/// about a millimetre; the skin of a slim finger hardly tells the place (two to four millimetres on
+/// synthetic persons). So 0.85 of the difference counts.
+/// The wrist goes with its crease. The hand frame, and so `laid.scan_from_hand`, follows.
+void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases);
+
+}  // namespace palmar

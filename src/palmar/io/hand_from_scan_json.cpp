@@ -1,0 +1,122 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/io/hand_from_scan_json.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "palmar/hand/hand_dimension.h"
+#include "palmar/io/json_values.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+std::string text(std::string_view name) { return std::string(name); }
+
+Json scan_joints(const HandFromScan& made) {
+  const Rigid3& scan = made.scanned.patient_from_hand;
+  Json list = Json::array();
+  for (const Joint& joint : made.scanned.hand.skeleton.joints) {
+    for (const JointDof& dof : joint.dofs) {
+      list.push_back({{"joint", text(name_of(joint.id))},
+                      {"dof", text(name_of(dof.dof))},
+                      {"axis", vector3(dof.axis)},
+                      {"centre_mm", vector3(dof.centre)},
+                      {"axis_in_scan", vector3(scan.rotation * dof.axis)},
+                      {"centre_in_scan_mm", vector3(scan * dof.centre)},
+                      {"lower_deg", dof.lower * kDegrees},
+                      {"upper_deg", dof.upper * kDegrees},
+                      {"reference_deg", dof.reference * kDegrees},
+                      {"source", dof.source}});
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string hand_from_scan_json(const HandFromScan& made) {
+  const Hand& hand = made.scanned.hand;
+  Json dimensions = Json::object();
+  for (const HandDimension& d : all_hand_dimensions()) {
+    dimensions[text(name_of(d)) + "_mm"] = value_of(hand.dimensions, d);
+  }
+  Json scans = Json::object();
+  for (const auto& [name, posture] : made.postures) {
+    Json one = Json::object();
+    Json angles = Json::object();
+    for (int d = 0; d < kDofCount; ++d) {
+      angles[text(name_of(static_cast<Dof>(d))) + "_deg"] = posture[static_cast<Dof>(d)] * kDegrees;
+    }
+    one["angles"] = std::move(angles);
+    if (const auto fit = made.fits.find(name); fit != made.fits.end()) {
+      one["fit_mean_mm"] = fit->second.mean;
+      one["fit_p95_mm"] = fit->second.percentile_95;
+      one["skin_share_seen"] = fit->second.partner_share;
+    }
+    scans[text(name_of(name))] = std::move(one);
+  }
+  Json creases = Json::object();
+  for (const auto& [segment, plane] : made.creases.plane) {
+    creases[text(name_of(segment))] = {{"point_mm", vector3(plane.point)},
+                                       {"normal", vector3(plane.normal)},
+                                       {"distal_of_expected_mm", made.creases.shift.at(segment)}};
+  }
+  Json missing = Json::array();
+  for (const Segment s : made.creases.missing) missing.push_back(text(name_of(s)));
+  Json dots = Json::object();
+  for (const auto& [segment, count] : made.dots) dots[text(name_of(segment))] = count;
+  Json told = Json::array();
+  for (const DottedJoint& joint : made.joints) {
+    told.push_back({{"segment", text(name_of(joint.segment))},
+                    {"posture", text(name_of(joint.posture))},
+                    {"turn_deg", joint.turn * kDegrees},
+                    {"residual_mm", joint.residual},
+                    {"axis_change_deg", joint.axis_change * kDegrees},
+                    {"centre_change_mm", joint.centre_change},
+                    {"dots", joint.dots}});
+  }
+  const Json json = {{"hand", hand.name},
+                     {"side", text(name_of(hand.side))},
+                     {"dimensions", std::move(dimensions)},
+                     {"skin_mean_mm", made.scanned.registration_mean},
+                     {"skin_p95_mm", made.scanned.registration_p95},
+                     {"joints", scan_joints(made)},
+                     {"scans", std::move(scans)},
+                     {"proximal_creases", std::move(creases)},
+                     {"creases_not_found", std::move(missing)},
+                     {"dots", std::move(dots)},
+                     {"joints_by_dots", std::move(told)},
+                     {"notes", made.notes}};
+  return json.dump(2);
+}
+
+CsvTable dimension_csv(const HandDimensions& dimensions) {
+  CsvTable table{{"dimension", "value_mm"}, {}};
+  for (const HandDimension& d : all_hand_dimensions()) {
+    table.rows.push_back({text(name_of(d)), fmt::format("{:.3f}", value_of(dimensions, d))});
+  }
+  return table;
+}
+
+CsvTable dotted_joint_csv(const HandFromScan& made) {
+  CsvTable table{{"segment", "posture", "turn_deg", "residual_mm", "axis_change_deg",
+                  "centre_change_mm", "dots"},
+                 {}};
+  for (const DottedJoint& joint : made.joints) {
+    table.rows.push_back({text(name_of(joint.segment)), text(name_of(joint.posture)),
+                          fmt::format("{:.2f}", joint.turn * kDegrees),
+                          fmt::format("{:.3f}", joint.residual),
+                          fmt::format("{:.2f}", joint.axis_change * kDegrees),
+                          fmt::format("{:.3f}", joint.centre_change), std::to_string(joint.dots)});
+  }
+  return table;
+}
+
+}  // namespace palmar

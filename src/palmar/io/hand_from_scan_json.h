@@ -1,0 +1,24 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/capture/hand_from_scan.h"
+#include "palmar/io/csv.h"
+
+namespace palmar {
+
+/// Everything that was measured on surface scans: side, dimensions, joints with axis and centre in
+/// the hand's and in the reference scan's frame, angles of every scan, creases, dots, fits, notes.
+/// mm, degrees.
+std::string hand_from_scan_json(const HandFromScan& made);
+
+/// One row per dimension: name, value_mm.
+CsvTable dimension_csv(const HandDimensions& dimensions);
+
+/// One row per joint and scan that dots told: segment, posture, turn_deg, residual_mm,
+/// axis_change_deg, centre_change_mm, dots.
+CsvTable dotted_joint_csv(const HandFromScan& made);
+
+}  // namespace palmar
