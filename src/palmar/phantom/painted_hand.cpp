@@ -108,8 +108,8 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
       // A triangle on the back, in the middle half of the phalanx; clear of the nail on the last.
       const bool is_last = k + 1 == count;
       const std::array<std::array<double, 2>, 3> spot{{{is_last ? 0.18 : 0.30, 0.0},
-                                                       {is_last ? 0.42 : 0.62, -0.45},
-                                                       {is_last ? 0.42 : 0.62, 0.45}}};
+                                                       {is_last ? 0.42 : 0.62, -0.6},
+                                                       {is_last ? 0.42 : 0.62, 0.6}}};
       for (const auto& [share, side] : spot) {
         const Vec3 from = joint.centre + (share + some(random, 0.02)) * along;
         add(*chain[at(k)], from, -palmar + (side + some(random, 0.04)) * aside);
