@@ -131,6 +131,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   const ShellImage shell{scan.image, bone, scan.levels.dark, scan.levels.bright, scan.levels.noise};
   surfaces.bones.resize(names.bones.size());
   parallel_for(static_cast<int>(names.bones.size()), [&](int b) {
+    if (progress.is_cancelled()) return;
     ScannedBone& found = surfaces.bones[at(b)];
     found.name = names.name[at(b)];
     found.is_cut = names.bones[at(b)].is_cut;
@@ -141,6 +142,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     }
     found.mesh = std::move(mesh);
   });
+  progress.throw_if_cancelled();
   return surfaces;
 }
 
