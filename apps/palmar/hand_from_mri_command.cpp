@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hand_output.h"
 #include "mri_pipeline.h"
 #include "palmar/core/error.h"
 #include "palmar/io/bone_label_file.h"
@@ -28,17 +29,10 @@ struct FromMriArguments {
   bool no_report = false, accepts_odd_slices = false;
 };
 
-constexpr std::string_view kEnding = ".hand.glb";
-
-bool ends_as_hand(const std::string& path) {
-  return path.size() > kEnding.size() &&
-         path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-}
-
 /// Folder beside the hand: "anna.hand.glb" -> "anna.mri".
 std::string work_folder(const FromMriArguments& arguments) {
   if (!arguments.work.empty()) return arguments.work;
-  return arguments.out.substr(0, arguments.out.size() - kEnding.size()) + ".mri";
+  return beside_hand(arguments.out, ".mri");
 }
 
 std::string millimetres(const std::optional<double>& value) {
@@ -96,14 +90,6 @@ std::string text_of(const std::vector<SelectedScan>& scans) {
   return "scans of " + seen + (missing.empty() ? "" : "; none of " + missing);
 }
 
-/// Minutes of work shall not end in a folder that can't be written to.
-void require_writable(const std::filesystem::path& folder) {
-  const std::filesystem::path trial = folder / ".palmar-trial";
-  write_file(trial, "");
-  std::error_code ignored;
-  std::filesystem::remove(trial, ignored);
-}
-
 /// The work folder is written to, so no image may lie where results go.
 void require_apart(const std::string& work, const std::vector<SelectedScan>& scans) {
   for (const SelectedScan& scan : scans) {
@@ -118,9 +104,7 @@ void require_apart(const std::string& work, const std::vector<SelectedScan>& sca
 }
 
 int run(const FromMriArguments& arguments, const Context& context) {
-  if (!ends_as_hand(arguments.out)) {
-    throw UsageError("--out: \"" + arguments.out + "\" must end in .hand.glb");
-  }
+  check_hand_output(arguments.out);
   const Progress progress = make_progress(context.common);
   const auto model = load_hand(arguments.model);
   MriPipelineOptions options;
@@ -139,18 +123,13 @@ int run(const FromMriArguments& arguments, const Context& context) {
   require_apart(options.work, selection.scans);
   create_folder(options.work);
   require_writable(options.work);
-  const std::filesystem::path out_folder = std::filesystem::path(arguments.out).parent_path();
-  require_writable(out_folder.empty() ? std::filesystem::path(".") : out_folder);
+  require_writable(folder_of(arguments.out));
   for (const std::string& text : selection.notes) note(context.common, text);
   note(context.common, text_of(selection.scans));
   options.write = [&](ScanRecord& record, const Progress& part) {
     record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
     Hand& hand = record.made.hand;
-    hand.name = arguments.name;
-    if (hand.name.empty()) {
-      hand.name = std::filesystem::path(arguments.out).filename().string();
-      hand.name.resize(hand.name.size() - kEnding.size());
-    }
+    hand.name = arguments.name.empty() ? hand_name_of(arguments.out) : arguments.name;
     write_hand(arguments.out, hand);
     if (!arguments.no_report) write_scan_report(options.work, record, part);
   };

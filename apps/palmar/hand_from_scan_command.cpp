@@ -11,9 +11,11 @@
 
 #include "colour_argument.h"
 #include "hand_output.h"
+#include "output_guard.h"
 #include "palmar/capture/hand_from_scan.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/io/file.h"
 #include "palmar/io/hand_file.h"
 #include "palmar/io/hand_from_scan_json.h"
 #include "palmar/report/hand_scan_report.h"
@@ -128,6 +130,14 @@ int run_from_scan(const FromScanArguments& arguments, const Context& context) {
   inks.dot_diameter = arguments.dot_mm;
   inks.check();
   const auto files = files_of(arguments);
+  const std::string work =
+      arguments.work.empty() ? beside_hand(arguments.out, ".scan") : arguments.work;
+  for (const auto& [posture, path] : files) refuse_same_file(path, arguments.out);
+  if (!arguments.no_report) {
+    create_folder(work);
+    require_writable(work);
+  }
+  require_writable(folder_of(arguments.out));
   const auto model = load_hand(arguments.model);
   const Progress progress = make_progress(context.common);
 
@@ -164,8 +174,6 @@ int run_from_scan(const FromScanArguments& arguments, const Context& context) {
   Hand& hand = made.scanned.hand;
   hand.name = arguments.name.empty() ? hand_name_of(arguments.out) : arguments.name;
   write_hand(arguments.out, hand);
-  const std::string work =
-      arguments.work.empty() ? beside_hand(arguments.out, ".scan") : arguments.work;
   if (!arguments.no_report) {
     write_hand_scan_report(work, made, shown, part_of(progress, 0.9, 1.0));
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace palmar::cli {
@@ -12,5 +13,9 @@ void check_hand_output(const std::string& out);
 std::string hand_name_of(const std::string& out);
 /// "folder/anna.hand.glb", ".mri" -> "folder/anna.mri".
 std::string beside_hand(const std::string& out, const std::string& ending);
+/// The folder that a file lies in; "." for a bare name.
+std::filesystem::path folder_of(const std::string& out);
+/// Minutes of work shall not end in a folder that can't be written to: throws OutputError at once.
+void require_writable(const std::filesystem::path& folder);
 
 }  // namespace palmar::cli
