@@ -194,6 +194,20 @@ void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_od
                    "--accept-odd-slices if they look right");
 }
 
+/// What goes wrong here comes from bones that were found wrongly.
+ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& surfaces,
+                      const ScanRecord& record, const Progress& progress) {
+  try {
+    return make_scanned_hand(model, surfaces, record.joints, progress);
+  } catch (const InputError& error) {
+    const RecordedScan& reference = record.scans.front();
+    throw InputError(fmt::format(
+        "{}: its bones and skin make no whole hand ({}). Bones that are missing or look "
+        "wrong: {}. Scan finer, name bones by --labels, or mend their meshes",
+        reference.title, error.what(), fmt::join(doubtful_bones(reference.surfaces, model), "; ")));
+  }
+}
+
 /// Shares of the whole time by what the steps take, in seconds of a usual scan on two cores.
 class Shares {
  public:
@@ -260,8 +274,12 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
     const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
     if (!doubts.empty()) {
       tell(fmt::format(
-          "{}: look at these bones, which may be found wrongly or bear a wrong name: {}", name,
-          fmt::join(doubts, "; ")));
+          "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
+          fmt::join(doubts, "; "),
+          result.scans.size() == 1
+              ? ". Joints and lengths of the hand hang on them: scan finer, name them by --labels, "
+                "or mend their meshes"
+              : ""));
     }
     if (result.scans.size() == 1) {
       require_bones(scan, model);
@@ -316,7 +334,7 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   if (made) {
     result.made = std::move(*made);
   } else {
-    result.made = make_scanned_hand(sided, surfaces, result.joints, part_of(part, 0.1, 1.0));
+    result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
     keep_scanned_hand(options.work, made_key, result.made);
   }
   for (const std::string& note : result.made.notes) tell(note);
