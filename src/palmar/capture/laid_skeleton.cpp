@@ -150,7 +150,7 @@ void lay_frame(LaidSkeleton& laid) {
 }  // namespace
 
 FoundCreases find_creases(const std::vector<InkLine>& lines, const HandCreases& creases) {
-  constexpr double kReach = 8.0, kWristReach = 18.0;  // mm
+  constexpr double kReach = 8.0, kWristReach = 18.0, kAside = 28.0;  // mm
   FoundCreases found;
   struct Sample {
     double value, aside, weight;
@@ -187,7 +187,7 @@ FoundCreases find_creases(const std::vector<InkLine>& lines, const HandCreases& 
         }
         const CreasePlane& plane = creases.proximal_crease(segment);
         const double off = std::abs(plane.value(p));
-        if (off >= least || (p - plane.point).norm() > 20.0) continue;
+        if (off >= least || (p - plane.point).norm() > kAside) continue;
         least = off;
         best = segment;
       }

@@ -128,6 +128,13 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
   return dots;
 }
 
+/// How far a crease reaches from the finger's axis, mm: round the palmar half of the finger; at the
+/// thumb's base, which widens into the ball, farther.
+double crease_reach(const SubjectPerson& person, Segment segment) {
+  const double width = person.finger_width[at(static_cast<int>(*finger_of(segment)))];
+  return segment == Segment::kThumbProximal ? width + 6.0 : 0.75 * width + 3.0;
+}
+
 bool is_wrist_front(const HandCreases& creases, const Vec3& p) {
   return p.z() > creases.wrist().point.z() && std::abs(creases.wrist().value(p)) < 20.0;
 }
@@ -191,8 +198,7 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
         if (!is_here) continue;
         const CreasePlane& plane = creases.proximal_crease(segment);
         // Base creases end where the finger does; the palm is wider.
-        if ((p - plane.point).norm() >
-            0.75 * person.finger_width[at(static_cast<int>(*finger_of(segment)))] + 3.0) {
+        if ((p - plane.point).norm() > crease_reach(person, segment)) {
           continue;
         }
         ink(paint.crease, 0.5 * paint.crease_width - std::abs(plane.value(p)));
@@ -213,11 +219,10 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
       result.crease[Segment::kPalm]);
   for (int k = 1; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
-    const auto finger = static_cast<int>(*finger_of(segment));
     const CreasePlane& plane = creases.proximal_crease(segment);
     const auto is_on_it = [&](const Vec3& p) {
       if (creases.palmar_height(p) <= 0.0 ||
-          (p - plane.point).norm() > 0.75 * person.finger_width[at(finger)] + 3.0) {
+          (p - plane.point).norm() > crease_reach(person, segment)) {
         return false;
       }
       const SkinLabel label = creases.label(p);
