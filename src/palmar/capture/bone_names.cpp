@@ -20,8 +20,10 @@ namespace {
 constexpr double kLargestUnnamed = 5.0e3;  // mm^3
 constexpr double kAlone = 16.0;            // 4 standard deviations
 constexpr double kUnlikely = 9.0;          // 3 standard deviations
-constexpr double kWidestGap = 10.0;        // mm
-constexpr double kUsualShell = 0.3;        // share of the way from dark to marrow
+constexpr double kForbidden = 1e6;
+constexpr double kSlender = 1.7;     // length over width
+constexpr double kWidestGap = 10.0;  // mm
+constexpr double kUsualShell = 0.3;  // share of the way from dark to marrow
 constexpr double kDarkEnough = 0.6;
 constexpr double kBorder = 4.0;     // mm
 constexpr double kNearby = 20.0;    // mm
@@ -32,12 +34,22 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double square(double x) { return x * x; }
 
+/// Only shafts come in two parts.
+bool is_long(const BoneOutline& bone) { return bone.length > kSlender * bone.width; }
+
 /// `may_be_cut`: the expected bone reaches out of the image.
 double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_cut,
                  bool may_be_cut) {
-  double cost = square((found.centre - expected.centre).norm() / 5.0);
-  const bool is_long = expected.length > 1.7 * expected.width && found.length > 1.7 * found.width;
-  if (is_long) {
+  double place = (found.centre - expected.centre).norm();
+  if (is_cut && may_be_cut) {
+    // How much is seen of it shifts its centre; the end that is seen stays.
+    place = std::numeric_limits<double>::infinity();
+    for (const Vec3& end : found.ends) {
+      for (const Vec3& other : expected.ends) place = std::min(place, (end - other).norm());
+    }
+  }
+  double cost = square(place / 5.0);
+  if (is_long(expected) && is_long(found)) {
     const double angle = std::acos(std::clamp(std::abs(found.axis.dot(expected.axis)), 0.0, 1.0));
     cost += square(angle / 0.35);
   }
@@ -97,7 +109,7 @@ struct Hypotheses {
 
 /// Whether two parts make one long bone: the one's end is where the other begins.
 bool is_in_a_row(const BoneOutline& both, const BoneOutline& a, const BoneOutline& b) {
-  return both.width < kStraight * std::max(a.width, b.width) && both.length > 1.7 * both.width &&
+  return both.width < kStraight * std::max(a.width, b.width) && is_long(both) &&
          both.length > 0.8 * (a.length + b.length);
 }
 
@@ -148,7 +160,7 @@ std::vector<int> exclusive_pairs(std::vector<std::vector<double>> cost, const Hy
     if (a < 0) return pairs;
     const auto without = [&](int column) {
       std::vector<std::vector<double>> fewer = cost;
-      for (std::vector<double>& row : fewer) row[at(column)] = 1e6;
+      for (std::vector<double>& row : fewer) row[at(column)] = kForbidden;
       return fewer;
     };
     const std::vector<int> first = least_cost_pairs(without(a), kAlone),
@@ -167,6 +179,7 @@ std::vector<BoneOutline> expected_bones(const TriangleMesh& skin, const Hand& mo
     BoneOutline outline = outline_of(mesh);
     outline.centre = fit.mesh_from_hand * (fit.scale * outline.centre);
     outline.axis = fit.mesh_from_hand.rotation * outline.axis;
+    for (Vec3& end : outline.ends) end = fit.mesh_from_hand * (fit.scale * end);
     outline.length *= fit.scale;
     outline.width *= fit.scale;
     expected.push_back(outline);
@@ -188,9 +201,10 @@ Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels
   const auto cost_of = [&](std::size_t e, const BoneOutline& outline, bool is_cut) {
     BoneOutline moved = expected[e];
     moved.centre += shift[e];
-    bool may_be_cut = false;
-    for (const double way : {-0.5, 0.5}) {
-      const Vec3 end = moved.centre + way * moved.length * moved.axis;
+    for (Vec3& end : moved.ends) end += shift[e];
+    // The model's forearm may be shorter than what is seen.
+    bool may_be_cut = model.bones[e].name == "radius" || model.bones[e].name == "ulna";
+    for (const Vec3& end : moved.ends) {
       may_be_cut = may_be_cut || (end - seen.min()).minCoeff() < kBorder ||
                    (seen.max() - end).minCoeff() < kBorder;
     }
@@ -203,6 +217,7 @@ Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels
       for (std::size_t f = 0; f < all.outlines.size(); ++f) {
         cost[e][f] = cost_of(e, all.outlines[f], all.regions[f].is_cut) +
                      square(shell_of(all.regions[f], levels) / kUsualShell);
+        if (f >= candidates.size() && !is_long(expected[e])) cost[e][f] = kForbidden;
       }
     }
     pairing.found = exclusive_pairs(cost, all);
@@ -211,7 +226,8 @@ Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels
     std::vector<double> weight(expected.size(), 0.5);
     const auto add = [&](int to, int from, double w) {
       const int f = pairing.found[at(from)];
-      if (f < 0) return;
+      // Of one that is cut only a part is seen.
+      if (f < 0 || all.regions[at(f)].is_cut) return;
       sum[at(to)] += w * (all.outlines[at(f)].centre - expected[at(from)].centre);
       weight[at(to)] += w;
     };
@@ -242,7 +258,7 @@ Pairing pair_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels
   for (int round = 0; round < 3; ++round) {
     for (std::size_t e = 0; e < expected.size(); ++e) {
       const int f = pairing.found[e];
-      if (f < 0) continue;
+      if (f < 0 || !is_long(expected[e])) continue;
       double least = cost_of(e, all.outlines[at(f)], all.regions[at(f)].is_cut) - 1.0;
       int best = -1;
       for (std::size_t g = 0; g < candidates.size(); ++g) {
@@ -290,6 +306,11 @@ BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
       high = std::max(high, d);
     }
     extents[at(a)] = high - low;
+    if (a == 2) {
+      const Vec3 axis = axes.eigenvectors().col(a);
+      outline.ends = {centre + (low - axis.dot(centre)) * axis,
+                      centre + (high - axis.dot(centre)) * axis};
+    }
   }
   outline.axis = axes.eigenvectors().col(2);
   outline.length = extents[2];

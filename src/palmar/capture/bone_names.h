@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct BoneOutline {
   Vec3 axis = Vec3::UnitX();   ///< unit, along the bone; either way round
   double length = 0.0;         ///< along it, mm
   double width = 0.0;          ///< mean extent across, mm
+  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  ///< where the axis leaves the bone
 };
 BoneOutline outline_of(const TriangleMesh& mesh);
 BoneOutline outline_of(const MarrowRegion& marrow);

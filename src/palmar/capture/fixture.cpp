@@ -13,6 +13,9 @@ namespace {
 constexpr double kDeepestSkin = 5.0;    // mm from the air to something bright
 constexpr double kFarthest = 12.0;      // mm; tissue of a hand has fat or marrow nearer than that
 constexpr double kLikeness = 0.15;      // share by which the signal below the surface may differ
+constexpr double kEvenness = 0.15;      // share that the signal inside may vary by
+constexpr double kFat = 0.6;            // share of the bright signal; skin has less
+constexpr std::size_t kLeastFat = 10;   // voxels
 constexpr double kLeastVolume = 1.0e3;  // mm^3
 constexpr double kThinnest = 1.2;       // mm, half of what the fixture is thicker than
 
@@ -24,10 +27,15 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   const std::size_t count = tissue.size();
   VoxelMask fat(count);
   for (std::size_t v = 0; v < count; ++v) {
-    fat[v] = tissue[v] != 0 && static_cast<double>(smooth.value[v]) > 0.7 * bright ? 1 : 0;
+    fat[v] = tissue[v] != 0 && static_cast<double>(smooth.value[v]) > kFat * bright ? 1 : 0;
   }
-  // Single bright voxels are noise.
-  fat = opened(grid, fat, 1.01 * grid.spacing.minCoeff());
+  // Single bright voxels are noise; the fat of a slender finger is a film of one or two.
+  const ConnectedParts fat_parts = connected_parts(grid, fat, Neighbourhood::kCorners);
+  for (std::size_t v = 0; v < count; ++v) {
+    if (fat[v] != 0 && fat_parts.voxels[static_cast<std::size_t>(fat_parts.part[v])] < kLeastFat) {
+      fat[v] = 0;
+    }
+  }
   const std::vector<float> to_fat = distance_transform(grid, fat);
   VoxelMask far(count);
   for (std::size_t v = 0; v < count; ++v) {
@@ -36,7 +44,7 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   const std::vector<float> to_air = distance_transform(grid, air);
   const ConnectedParts parts = connected_parts(grid, far);
   struct Part {
-    double open = 0.0, farthest = 0.0;
+    double open = 0.0, farthest = 0.0, squares = 0.0;
     double shallow = 0.0, shallow_voxels = 0.0, deep = 0.0, deep_voxels = 0.0;
   };
   std::vector<Part> measures(parts.voxels.size());
@@ -53,12 +61,14 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
     } else if (depth > 3.5) {
       part.deep += value;
       part.deep_voxels += 1.0;
+      part.squares += value * value;
     }
   }
   Fixture fixture;
   VoxelMask seed(count, 0);
   std::vector<char> is_fixture(parts.voxels.size(), 0);
   double total = 0.0, voxels = 0.0;
+  int largest = -1;
   for (std::size_t p = 0; p < measures.size(); ++p) {
     const Part& part = measures[p];
     const auto size = static_cast<double>(parts.voxels[p]);
@@ -68,7 +78,24 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
     if (part.shallow_voxels == 0.0 || part.deep_voxels == 0.0) continue;
     const double below = part.shallow / part.shallow_voxels, inside = part.deep / part.deep_voxels;
     if (std::abs(below - inside) > kLikeness * inside) continue;
+    const double spread =
+        std::sqrt(std::max(0.0, part.squares / part.deep_voxels - inside * inside));
+    if (spread > kEvenness * inside) continue;
     is_fixture[p] = 1;
+    if (largest < 0 ||
+        size > static_cast<double>(parts.voxels[static_cast<std::size_t>(largest)])) {
+      largest = static_cast<int>(p);
+    }
+  }
+  // One material: a piece of another signal is none of it.
+  for (std::size_t p = 0; p < measures.size(); ++p) {
+    if (is_fixture[p] == 0) continue;
+    const Part &part = measures[p], &main = measures[static_cast<std::size_t>(largest)];
+    const double here = part.deep / part.deep_voxels, there = main.deep / main.deep_voxels;
+    if (std::abs(here - there) > kLikeness * there) {
+      is_fixture[p] = 0;
+      continue;
+    }
     total += part.deep;
     voxels += part.deep_voxels;
   }
