@@ -8,7 +8,7 @@ palmar_packages=(
   build-essential cmake ninja-build ccache pkg-config git
   libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libtomlplusplus-dev libboost-dev libsqlite3-dev
-  libocct-data-exchange-dev libnlopt-cxx-dev
+  libocct-data-exchange-dev libopencv-contrib-dev libnlopt-cxx-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format
 )

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "palmar/io/cad_worker.h"
+#include "palmar/io/worker.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 
@@ -20,19 +20,19 @@ void* __libc_realloc(void* old, std::size_t size);
 
 void* malloc(std::size_t size) {
   void* const memory = __libc_malloc(size);
-  if (memory == nullptr) _exit(palmar::kCadOutOfMemory);
+  if (memory == nullptr) _exit(palmar::kWorkerOutOfMemory);
   return memory;
 }
 
 void* calloc(std::size_t count, std::size_t size) {
   void* const memory = __libc_calloc(count, size);
-  if (memory == nullptr) _exit(palmar::kCadOutOfMemory);
+  if (memory == nullptr) _exit(palmar::kWorkerOutOfMemory);
   return memory;
 }
 
 void* realloc(void* old, std::size_t size) {
   void* const memory = __libc_realloc(old, size);
-  if (memory == nullptr && size > 0) _exit(palmar::kCadOutOfMemory);
+  if (memory == nullptr && size > 0) _exit(palmar::kWorkerOutOfMemory);
   return memory;
 }
 

@@ -14,6 +14,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
 #include "phantom_commands.h"
+#include "photos_commands.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -106,6 +107,7 @@ int run(int argc, char** argv) {
   add_effort_commands(app, context);
   add_mri_commands(app, context);
   add_phantom_commands(app, context);
+  add_photos_commands(app, context);
   add_population_commands(app, context);
   add_redesign_commands(app, context);
   add_study_commands(app, context);

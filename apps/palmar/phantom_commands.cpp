@@ -17,6 +17,7 @@
 #include "palmar/phantom/mri_subject.h"
 #include "palmar/phantom/scan_grid.h"
 #include "phantom_commands.h"
+#include "phantom_photos_command.h"
 #include "phantom_scan_command.h"
 
 namespace palmar::cli {
@@ -210,6 +211,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
       ->capture_default_str();
   verb->callback([&context, o] { context.run = [&context, o] { return run_mri(*o, context); }; });
   add_phantom_scan(*phantom, context);
+  add_phantom_photos_command(*phantom, context);
   phantom->footer("Example: palmar phantom mri --seed 3 --out subject3");
 }
 

@@ -460,14 +460,23 @@ MeshFile parse(std::string_view bytes, const std::string& name, SurfaceColours* 
   return file;
 }
 
-std::string format(const TriangleMesh& mesh, const std::vector<Srgb>& colour) {
+std::string format(const TriangleMesh& mesh, const std::vector<Srgb>& colour,
+                   const std::vector<PlyByteProperty>& properties = {}) {
+  std::string names;
+  for (const PlyByteProperty& property : properties) {
+    if (property.value.size() != mesh.vertices.size()) {
+      throw UsageError("property " + property.name +
+                       " of a mesh: one value per vertex is required");
+    }
+    names += "property uchar " + property.name + "\n";
+  }
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\ncomment Palmar; millimetre\n"
       "element vertex " +
       std::to_string(mesh.vertices.size()) +
       "\nproperty double x\nproperty double y\nproperty double z\n" +
       (colour.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
-      "element face " + std::to_string(mesh.triangles.size()) +
+      names + "element face " + std::to_string(mesh.triangles.size()) +
       "\nproperty list uchar int vertex_indices\nend_header\n";
   bytes.reserve(bytes.size() + 27 * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -476,6 +485,7 @@ std::string format(const TriangleMesh& mesh, const std::vector<Srgb>& colour) {
       const float value = std::clamp(colour[v][c], 0.0F, 1.0F);
       append_value(bytes, static_cast<std::uint8_t>(std::lround(255.0F * value)));
     }
+    for (const PlyByteProperty& property : properties) append_value(bytes, property.value[v]);
   }
   for (const Triangle& t : mesh.triangles) {
     append_value(bytes, std::uint8_t{3});
@@ -501,5 +511,9 @@ MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColou
 std::string format_ply(const TriangleMesh& mesh) { return format(mesh, {}); }
 
 std::string format_ply(const ColouredMesh& mesh) { return format(mesh.mesh, mesh.colour); }
+
+std::string format_ply(const ColouredMesh& mesh, const std::vector<PlyByteProperty>& properties) {
+  return format(mesh.mesh, mesh.colour, properties);
+}
 
 }  // namespace palmar

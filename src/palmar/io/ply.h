@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "palmar/geometry/textured_mesh.h"
 #include "palmar/io/mesh_file.h"
@@ -29,5 +31,11 @@ MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColou
 std::string format_ply(const TriangleMesh& mesh);
 /// The same with a colour of every vertex in bytes, as other programs read it.
 std::string format_ply(const ColouredMesh& mesh);
+/// The same with more properties of the vertices, a byte each.
+struct PlyByteProperty {
+  std::string name;
+  std::vector<std::uint8_t> value;  ///< per vertex
+};
+std::string format_ply(const ColouredMesh& mesh, const std::vector<PlyByteProperty>& properties);
 
 }  // namespace palmar

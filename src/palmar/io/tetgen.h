@@ -5,16 +5,10 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/io/program_missing.h"
 #include "palmar/io/tet_mesh.h"
 
 namespace palmar {
-
-/// A program that a benchmark or an export calls isn't installed. Exit code 6.
-class ProgramMissing : public Error {
- public:
-  using Error::Error;
-  int exit_code() const override { return 6; }
-};
 
 /// Fills a tissue block with tetrahedra by TetGen, a program of its own (AGPL: it is called, never
 /// linked). Writes tissue.poly and the mesher's files to `folder`. Facets of skin and bone stay as

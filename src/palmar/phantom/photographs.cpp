@@ -155,7 +155,7 @@ class Shutter {
     focus_ = stage.options.distance + stage.options.focus;
   }
 
-  PhotoImage take() {
+  RgbImage take() {
     const PhotoLens& lens = shot_.pose.lens;
     // Directions at the corners of the pixels; between them they are as good as linear.
     const int columns = lens.width + 1;
@@ -345,16 +345,16 @@ class Shutter {
     pass(other, light, 0, 1);
   }
 
-  PhotoImage developed(const std::vector<Vec3f>& light) const {
+  RgbImage developed(const std::vector<Vec3f>& light) const {
     const PhotoLens& lens = shot_.pose.lens;
-    PhotoImage image{lens.width, lens.height, {}};
+    RgbImage image{lens.width, lens.height, {}};
     image.rgb.resize(3 * light.size());
     const auto noise = static_cast<float>(stage_.options.noise);
     parallel_for(lens.height, [&](int y) {
       RandomStream random(stage_.options.seed, (static_cast<std::uint64_t>(number_ + 1) << 32) +
                                                    static_cast<std::uint64_t>(y));
       for (int x = 0; x < lens.width; ++x) {
-        const std::size_t at = image.offset(x, y);
+        const std::size_t at = pixel_offset(image, x, y);
         for (std::size_t c = 0; c < 3; ++c) {
           float value = 255.0F * srgb_of(light[at / 3][static_cast<int>(c)]);
           if (noise > 0.0F) {
@@ -403,8 +403,8 @@ PhotographsStage::PhotographsStage(const ColouredMesh& hand, const PrintedBoard&
 
 PhotographsStage::~PhotographsStage() = default;
 
-PhotoImage PhotographsStage::take(const PhotoShot& shot, const Rigid3& board_from_hand,
-                                  int number) const {
+RgbImage PhotographsStage::take(const PhotoShot& shot, const Rigid3& board_from_hand,
+                                int number) const {
   return Shutter(*impl_, shot, board_from_hand, number).take();
 }
 

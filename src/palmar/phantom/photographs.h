@@ -80,7 +80,7 @@ class PhotographsStage {
                    const PhotographsOptions& options);
   ~PhotographsStage();
   /// `number` tells photographs' noise apart. The same for any number of threads.
-  PhotoImage take(const PhotoShot& shot, const Rigid3& board_from_hand, int number) const;
+  RgbImage take(const PhotoShot& shot, const Rigid3& board_from_hand, int number) const;
 
   struct Impl;
 

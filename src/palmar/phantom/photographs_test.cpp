@@ -62,14 +62,14 @@ TEST(Photographs, APointIsSeenWhereTheCameraSaysSo) {
   const PhotographsStage stage(egg, {}, options);
   PhotoShot shot = plan_photographs(options).shots[0];
   shot.pose.camera_from_world = looking_at(Vec3(0, -400, 100), Vec3(0, 0, 45));
-  const PhotoImage image = stage.take(shot, {}, 0);
+  const RgbImage image = stage.take(shot, {}, 0);
   // Middle of the blue pixels inside of the egg, against the dot's own place.
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double count = 0.0;
   const Eigen::Vector2d middle = *shot.pose.project(Vec3(0, -20, 42));
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const std::size_t at = image.offset(x, y);
+      const std::size_t at = pixel_offset(image, x, y);
       if ((Eigen::Vector2d(x, y) - middle).norm() > 12.0 || image.rgb[at + 2] <= image.rgb[at]) {
         continue;
       }
@@ -135,9 +135,9 @@ TEST(Photographs, AnyNumberOfThreadsTakesTheSame) {
   const PhotographsStage stage(egg, {}, options);
   const PhotoShot shot = plan_photographs(options).shots[3];
   set_thread_count(1);
-  const PhotoImage one = stage.take(shot, {}, 3);
+  const RgbImage one = stage.take(shot, {}, 3);
   set_thread_count(3);
-  const PhotoImage three = stage.take(shot, {}, 3);
+  const RgbImage three = stage.take(shot, {}, 3);
   set_thread_count(0);
   EXPECT_EQ(one.rgb, three.rgb);
 }

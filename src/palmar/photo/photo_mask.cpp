@@ -78,19 +78,19 @@ std::vector<Vec3> corners_of(const Box3& box) {
 }
 
 /// Means of 3 x 3 pixels.
-std::vector<Eigen::Vector3f> blurred(const PhotoImage& image) {
+std::vector<Eigen::Vector3f> blurred(const RgbImage& image) {
   std::vector<Eigen::Vector3f> result(image.rgb.size() / 3);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
-          const std::size_t at = image.offset(std::clamp(x + i, 0, image.width - 1),
+          const std::size_t at = pixel_offset(image, std::clamp(x + i, 0, image.width - 1),
                                               std::clamp(y + j, 0, image.height - 1));
           sum += Eigen::Vector3f(image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]);
         }
       }
-      result[image.offset(x, y) / 3] = sum / 9.0F;
+      result[pixel_offset(image, x, y) / 3] = sum / 9.0F;
     }
   }
   return result;

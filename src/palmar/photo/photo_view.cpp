@@ -10,17 +10,17 @@
 
 namespace palmar {
 
-Eigen::Vector3f colour_at(const PhotoImage& image, const Eigen::Vector2d& pixel) {
+Eigen::Vector3f pixel_colour(const RgbImage& image, const Eigen::Vector2d& pixel) {
   const double x = std::clamp(pixel.x(), 0.0, image.width - 1.0);
   const double y = std::clamp(pixel.y(), 0.0, image.height - 1.0);
   const int x0 = std::min(static_cast<int>(x), std::max(0, image.width - 2));
   const int y0 = std::min(static_cast<int>(y), std::max(0, image.height - 2));
   const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
   const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
-  const std::uint8_t* const a = &image.rgb[image.offset(x0, y0)];
-  const std::uint8_t* const b = &image.rgb[image.offset(x1, y0)];
-  const std::uint8_t* const c = &image.rgb[image.offset(x0, y1)];
-  const std::uint8_t* const d = &image.rgb[image.offset(x1, y1)];
+  const std::uint8_t* const a = &image.rgb[pixel_offset(image, x0, y0)];
+  const std::uint8_t* const b = &image.rgb[pixel_offset(image, x1, y0)];
+  const std::uint8_t* const c = &image.rgb[pixel_offset(image, x0, y1)];
+  const std::uint8_t* const d = &image.rgb[pixel_offset(image, x1, y1)];
   Eigen::Vector3f colour;
   for (int k = 0; k < 3; ++k) {
     const float top = a[k] + fx * static_cast<float>(b[k] - a[k]);
@@ -62,7 +62,7 @@ PhotoView make_view(const Photograph& photograph, int reduction) {
         for (int i = 0; i < reduction; ++i) {
           const Eigen::Vector2d direction((x * by + i - lens.centre_x) / lens.focal_x,
                                           (y * by + j - lens.centre_y) / lens.focal_y);
-          sum += colour_at(photograph.image, lens.pixel_of(direction));
+          sum += pixel_colour(photograph.image, lens.pixel_of(direction));
         }
       }
       sum *= share;

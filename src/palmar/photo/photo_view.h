@@ -2,32 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "palmar/geometry/textured_mesh.h"
 #include "palmar/photo/photo_camera.h"
 
 namespace palmar {
 
-/// A colour picture, row by row from the top left, three bytes (sRGB) per pixel.
-struct PhotoImage {
-  int width = 0, height = 0;  ///< pixels
-  std::vector<std::uint8_t> rgb;
-
-  std::size_t offset(int x, int y) const {
-    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(x));
-  }
-};
+/// Where a pixel's three bytes begin.
+inline std::size_t pixel_offset(const RgbImage& image, int x, int y) {
+  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+              static_cast<std::size_t>(x));
+}
 
 /// Colour between pixels, bilinear, 0 to 255; beyond the border that of the border.
-Eigen::Vector3f colour_at(const PhotoImage& image, const Eigen::Vector2d& pixel);
+Eigen::Vector3f pixel_colour(const RgbImage& image, const Eigen::Vector2d& pixel);
 
 /// One photograph of a set, its camera known.
 struct Photograph {
   std::string name;
-  PhotoImage image;
+  RgbImage image;
   PhotoCamera camera;
   /// Photographs of one position of the rig were taken together: the hand did not move between.
   int position = 0;
@@ -37,7 +32,7 @@ struct Photograph {
 /// 0.
 struct PhotoView {
   PhotoCamera camera;
-  PhotoImage colour;
+  RgbImage colour;
   std::vector<float> grey;  ///< mean of the three channels, 0 to 255, per pixel
   int width() const { return colour.width; }
   int height() const { return colour.height; }

@@ -66,7 +66,7 @@ class Sightings {
 };
 
 float brightness(const Photograph& photograph, const Eigen::Vector2d& pixel) {
-  return colour_at(photograph.image, pixel).sum();
+  return pixel_colour(photograph.image, pixel).sum();
 }
 
 /// Alternately: what a vertex' brightness is, and what each photograph makes of it.
@@ -143,7 +143,8 @@ VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photog
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (std::size_t i = 0; i < used; ++i) {
         const std::size_t p = seen[i].photograph;
-        sum += static_cast<float>(result.gain[p]) * colour_at(photographs[p].image, seen[i].pixel);
+        sum +=
+            static_cast<float>(result.gain[p]) * pixel_colour(photographs[p].image, seen[i].pixel);
       }
       if (used > 0) {
         result.colour[v] =

@@ -1,0 +1,224 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "phantom_photos_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/io/file.h"
+#include "palmar/io/json_values.h"
+#include "palmar/io/painted_hand_file.h"
+#include "palmar/io/photo_worker.h"
+#include "palmar/phantom/painted_hand.h"
+#include "palmar/phantom/photographs.h"
+#include "palmar/report/image.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct PhantomPhotosArguments {
+  std::string base = "template", out, side = "right", posture = "reference";
+  PhotographsOptions photographs;
+  BoardPattern board;
+  int calibration = 12;
+  bool no_hand = false;
+};
+
+/// Fingers up, wrist through the board; from the hand frame.
+constexpr double kBelow = 15.0;  // mm of the forearm below the board
+
+Rigid3 board_from_hand_frame(const ColouredMesh& hand) {
+  double lowest = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(lowest), high = -low;
+  for (const Vec3& vertex : hand.mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  Eigen::Matrix3d turn;
+  turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return {Quat(turn),
+          Vec3(-0.5 * (low.x() + high.x()), 0.5 * (low.z() + high.z()), -low.y() - kBelow)};
+}
+
+Image picture_of(const RgbImage& photograph) {
+  Image image(photograph.width, photograph.height);
+  for (std::size_t p = 0; p < image.pixels.size(); ++p) {
+    image.pixels[p] = {photograph.rgb[3 * p], photograph.rgb[3 * p + 1], photograph.rgb[3 * p + 2]};
+  }
+  return image;
+}
+
+Json json_of(const Rigid3& rigid) {
+  const Quat& q = rigid.rotation;
+  return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_mm", vector3(rigid.translation)}};
+}
+
+Json json_of(const PhotoShot& shot, const std::string& file) {
+  const PhotoLens& lens = shot.pose.lens;
+  return {{"file", file},
+          {"camera", fmt::format("c{}", shot.camera)},
+          {"position", shot.position},
+          {"gain", shot.gain},
+          {"camera_from_board", json_of(shot.pose.camera_from_world)},
+          {"width_px", lens.width},
+          {"height_px", lens.height},
+          {"focal_x_px", lens.focal_x},
+          {"focal_y_px", lens.focal_y},
+          {"centre_x_px", lens.centre_x},
+          {"centre_y_px", lens.centre_y},
+          {"k1", lens.k1},
+          {"k2", lens.k2}};
+}
+
+ScanPosture posture_named(const std::string& name) {
+  for (int p = 0; p < kScanPostureCount; ++p) {
+    if (name_of(static_cast<ScanPosture>(p)) == name) return static_cast<ScanPosture>(p);
+  }
+  throw UsageError("--posture: \"" + name + "\" is no posture of palmar phantom mri");
+}
+
+int run_photos(PhantomPhotosArguments arguments, const Context& context) {
+  arguments.photographs.seed = context.common.seed;
+  arguments.photographs.check();
+  arguments.board.check();
+  if (arguments.side != "right" && arguments.side != "left") {
+    throw UsageError("--side: \"" + arguments.side + "\" is neither right nor left");
+  }
+  if (arguments.calibration < 0 || arguments.calibration > 200) {
+    throw UsageError(fmt::format("--calibration {}; 0 to 200 is allowed", arguments.calibration));
+  }
+  const ScanPosture posture = posture_named(arguments.posture);
+  const Progress progress = make_progress(context.common);
+  progress.update(0.0, "painting the person");
+  PaintedHandOptions person;
+  person.seed = context.common.seed;
+  person.side = arguments.side == "left" ? Side::kLeft : Side::kRight;
+  person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
+  const PaintedHand hand = make_painted_hand(*load_hand(arguments.base), {posture}, person);
+  ColouredMesh surface = surface_of(hand, posture);
+  const Rigid3 board_from_hand = board_from_hand_frame(surface);
+  for (Vec3& vertex : surface.mesh.vertices) vertex = board_from_hand * vertex;
+
+  constexpr int kPixelsPerSquare = 180;
+  const BoardPicture picture = draw_board(arguments.board, kPixelsPerSquare);
+  PrintedBoard board{picture.pixels, picture.grey, arguments.board.edge(),
+                     arguments.board.edge() + 24.0};
+  const PhotographsOptions& options = arguments.photographs;
+  const PhotographsStage stage(arguments.no_hand ? ColouredMesh{} : surface, board, options);
+  const PhotographsStage empty({}, board, options);
+  const PhotoShoot shoot = plan_photographs(options);
+  const std::vector<PhotoShot> tilted = plan_calibration(options, arguments.calibration);
+  const std::size_t count = shoot.shots.size() + tilted.size();
+
+  const fs::path out(arguments.out);
+  for (const char* const folder : {"photos", "calibration"}) {
+    std::error_code ignored;
+    fs::remove_all(out / folder, ignored);
+  }
+  Json cameras = Json::array();
+  int number = 0;
+  const auto take = [&](const PhotographsStage& from, const PhotoShot& shot, const Rigid3& moved,
+                        const std::string& file) {
+    progress.update(0.05 + 0.9 * number / static_cast<double>(count), "photographing");
+    write_file(out / file, encode_png(picture_of(from.take(shot, moved, number++))));
+    cameras.push_back(json_of(shot, file));
+  };
+  create_folder(out);
+  create_folder(out / "photos");
+  create_folder(out / "truth");
+  for (const PhotoShot& shot : shoot.shots) {
+    take(stage, shot, shoot.board_from_hand[static_cast<std::size_t>(shot.position)],
+         fmt::format("photos/p{:02d}_c{}.png", shot.position, shot.camera));
+  }
+  if (!tilted.empty()) create_folder(out / "calibration");
+  for (const PhotoShot& shot : tilted) {
+    take(empty, shot, {}, fmt::format("calibration/p{:02d}_c{}.png", shot.position, shot.camera));
+  }
+  progress.update(0.97, "writing the truth");
+  const Json board_json = {{"squares", arguments.board.squares},
+                           {"square_mm", arguments.board.square},
+                           {"marker_mm", arguments.board.marker}};
+  write_painted_hand((out / "truth").string(), hand, context.common.seed,
+                     {{posture, {"photos", board_from_hand}}});
+  Json motions = Json::array();
+  for (const Rigid3& motion : shoot.board_from_hand) motions.push_back(json_of(motion));
+  const Json truth = {{"board", board_json}, {"motions", motions}, {"photographs", cameras}};
+  write_file(out / "truth" / "cameras.json", truth.dump(1) + "\n");
+  finish_progress();
+  if (context.common.json) {
+    print(Json{{"photographs", shoot.shots.size()},
+               {"calibration", tilted.size()},
+               {"folder", (out / "photos").string()},
+               {"truth", (out / "truth").string()}}
+              .dump(2) +
+          "\n");
+  } else {
+    print(fmt::format("{} photographs: {}\n{} of the board for the lenses: {}\ntruth: {}\n",
+                      shoot.shots.size(), (out / "photos").string(), tilted.size(),
+                      (out / "calibration").string(), (out / "truth").string()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_phantom_photos_command(CLI::App& phantom, Context& context) {
+  const auto o = std::make_shared<PhantomPhotosArguments>();
+  CLI::App* verb =
+      add_verb(phantom, "photos",
+               "Photographs of a synthetic person's painted hand on a board, taken by a "
+               "rig of cameras, with the truth beside them; --seed chooses the person",
+               "palmar phantom photos --seed 3 --out subject3");
+  PhotographsOptions& p = o->photographs;
+  verb->add_option("--out", o->out, "Folder; photos/, calibration/ and truth/ go into it")
+      ->required();
+  verb->add_option("--posture", o->posture, "Which, by its name in palmar phantom mri")
+      ->capture_default_str();
+  verb->add_option("--side", o->side, "right or left")->capture_default_str();
+  verb->add_option("--cameras", p.cameras, "Cameras, at two heights by turns")
+      ->capture_default_str();
+  verb->add_option("--positions", p.positions, "Positions of the rig")->capture_default_str();
+  verb->add_option("--step-deg", p.step, "From position to position")->capture_default_str();
+  verb->add_option("--width-px", p.width, "Of a photograph")->capture_default_str();
+  verb->add_option("--height-px", p.height, "Of a photograph")->capture_default_str();
+  verb->add_option("--calibration", o->calibration, "Photographs of the tilted board per camera")
+      ->capture_default_str();
+  verb->add_option("--texture", p.texture, "Unevenness of the skin's colour, as a share")
+      ->capture_default_str();
+  verb->add_option("--noise", p.noise, "Deviation of the sensor's noise, of 255")
+      ->capture_default_str();
+  verb->add_option("--blur-px", p.blur, "Of lens and sensor")->capture_default_str();
+  verb->add_option("--exposure", p.exposure, "Deviation of the exposures, as a share")
+      ->capture_default_str();
+  verb->add_option("--aperture-mm", p.aperture, "Of the lenses: blurs what isn't in focus")
+      ->capture_default_str();
+  verb->add_option("--focus-mm", p.focus, "Focus behind the hand's middle; negative: in front")
+      ->capture_default_str();
+  verb->add_option("--gloss", p.gloss, "Oily skin: share of the light that it mirrors")
+      ->capture_default_str();
+  verb->add_option("--motion-mm", p.motion, "Shift of the hand between positions, RMS")
+      ->capture_default_str();
+  verb->add_option("--motion-deg", p.motion_turn, "And turn, RMS")->capture_default_str();
+  verb->add_flag("--light-on-rig", p.light_on_rig, "The lamps go round with the cameras");
+  verb->add_flag("--clutter", p.clutter, "Warm things behind the hand, no cloth");
+  verb->add_flag("--one-ring", p.one_ring, "All cameras at the lower height");
+  verb->add_flag("--no-hand", o->no_hand, "The board alone");
+  verb->add_option("--base", o->base,
+                   "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
+      ->capture_default_str();
+  verb->callback(
+      [&context, o] { context.run = [&context, o] { return run_photos(*o, context); }; });
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,169 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "photos_commands.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/io/file.h"
+#include "palmar/io/photo_set.h"
+#include "palmar/io/photo_worker.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+struct PhotosBoardArguments {
+  std::string out;
+  BoardPattern board;
+};
+
+/// The board in millimetres, with a ruler of 100 mm to check the print with. One path of dark runs,
+/// row by row of the cells.
+std::string board_svg(const BoardPattern& board, const BoardPicture& picture) {
+  constexpr double kMargin = 12.0;  // mm
+  const double edge = board.edge(), pixel = edge / picture.pixels;
+  const double width = edge + 2.0 * kMargin, height = width + 14.0;
+  std::string path;
+  const auto at = [&](int x, int y) {
+    return picture.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.pixels) +
+                        static_cast<std::size_t>(x)] < 128;
+  };
+  for (int y = 0; y < picture.pixels; ++y) {
+    for (int x = 0; x < picture.pixels;) {
+      int end = x;
+      while (end < picture.pixels && at(end, y)) ++end;
+      if (end > x) {
+        path += fmt::format("M{:.4g} {:.4g}h{:.4g}v{:.4g}h{:.4g}z", kMargin + x * pixel,
+                            kMargin + y * pixel, (end - x) * pixel, pixel, (x - end) * pixel);
+      }
+      x = std::max(end, x + 1);
+    }
+  }
+  const double ruler = width + 2.0;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 "
+      "{0} "
+      "{1}\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n<path d=\"{2}\" "
+      "shape-rendering=\"crispEdges\"/>\n<path d=\"M{3} {4}h100m-100 -2v4m100 -4v4\" "
+      "stroke=\"#000\" "
+      "stroke-width=\"0.3\" fill=\"none\"/>\n<text x=\"{5}\" y=\"{6}\" font-size=\"4\" "
+      "font-family=\"sans-serif\">100 mm: measure it; {7} x {7} squares of {8:g} mm, markers {9:g} "
+      "mm</text>\n</svg>\n",
+      width, height, path, kMargin, ruler, kMargin + 104.0, ruler + 1.5, board.squares,
+      board.square, board.marker);
+}
+
+int run_board(const PhotosBoardArguments& arguments, const Context& context) {
+  const fs::path out(arguments.out);
+  if (out.extension() != ".svg") throw UsageError(arguments.out + ": the board is written as .svg");
+  // Markers begin between the cells of a grid only if both lengths are whole numbers of them; a
+  // fine picture does for any.
+  constexpr int kPixelsPerSquare = 144;
+  const BoardPicture picture = draw_board(arguments.board, kPixelsPerSquare);
+  write_file(out, board_svg(arguments.board, picture));
+  if (context.common.json) {
+    print(Json{{"board", arguments.out}, {"edge_mm", arguments.board.edge()}}.dump(2) + "\n");
+  } else {
+    print(
+        fmt::format("{}: {:g} x {:g} mm; print it at 100 %, check the ruler, glue it on something "
+                    "flat\n",
+                    arguments.out, arguments.board.edge(), arguments.board.edge()));
+  }
+  return 0;
+}
+
+struct PhotosCalibrateArguments {
+  std::string folder, out;
+};
+
+int run_calibrate(const PhotosCalibrateArguments& arguments, const Context& context) {
+  const PhotoSet set = read_photo_set(arguments.folder);
+  const Progress progress = make_progress(context.common);
+  std::vector<fs::path> files;
+  std::map<std::string, std::vector<std::size_t>> by_camera;
+  for (std::size_t i = 0; i < set.photographs.size(); ++i) {
+    files.push_back(set.photographs[i].path);
+    by_camera[set.photographs[i].camera].push_back(i);
+  }
+  const std::vector<BoardSighting> seen = find_boards(set.board, files, progress);
+  PhotoLenses lenses;
+  for (const auto& [camera, photographs] : by_camera) {
+    std::vector<std::vector<BoardCorner>> corners;
+    const BoardSighting& first = seen[photographs.front()];
+    for (const std::size_t i : photographs) {
+      if (seen[i].width != first.width || seen[i].height != first.height) {
+        throw InputError(fmt::format("{}: {} x {} pixels; {} has {} x {}, one camera's are alike",
+                                     files[i].string(), seen[i].width, seen[i].height,
+                                     files[photographs.front()].string(), first.width,
+                                     first.height));
+      }
+      corners.push_back(seen[i].corners);
+    }
+    lenses[camera] =
+        calibrate_lens(first.width, first.height, corners, arguments.folder + ": camera " + camera);
+  }
+  write_file(arguments.out, format_lenses(lenses));
+  finish_progress();
+  if (context.common.json) {
+    print(format_lenses(lenses));
+    return 0;
+  }
+  std::string text;
+  for (const auto& [camera, one] : lenses) {
+    text += fmt::format(
+        "{:<8} focal {:.1f} +- {:.1f} px, centre {:.1f} {:.1f} +- {:.1f} px, residual {:.3f} px of "
+        "{} "
+        "photographs\n",
+        camera, one.lens.focal_x, one.focal_deviation, one.lens.centre_x, one.lens.centre_y,
+        one.centre_deviation, one.rms, one.photographs);
+    constexpr double kLoose = 3.0;  // pixels
+    if (one.centre_deviation > kLoose) {
+      note(context.common, fmt::format("camera {}: its centre is known to {:.1f} px only; add "
+                                       "photographs with the board tilted in other ways",
+                                       camera, one.centre_deviation));
+    }
+  }
+  print(text + "lenses: " + arguments.out + "\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_photos_commands(CLI::App& app, Context& context) {
+  CLI::App* photos = app.add_subcommand(
+      "photos", "A coloured mesh of a hand from photographs: board, lenses, mesh");
+  photos->require_subcommand(1);
+  photos->fallthrough();
+  photos->footer("Example: palmar photos mesh photos/ --lenses lenses.json --out hand.ply");
+
+  const auto b = std::make_shared<PhotosBoardArguments>();
+  CLI::App* board = add_verb(*photos, "board", "The board that the hand stands on, to be printed",
+                             "palmar photos board --out board.svg");
+  board->add_option("--out", b->out, "The drawing, .svg in millimetres")->required();
+  board->add_option("--squares", b->board.squares, "Along an edge; odd")->capture_default_str();
+  board->add_option("--square-mm", b->board.square, "Edge of a square")->capture_default_str();
+  board->add_option("--marker-mm", b->board.marker, "Edge of a marker")->capture_default_str();
+  board->callback(
+      [&context, b] { context.run = [&context, b] { return run_board(*b, context); }; });
+
+  const auto c = std::make_shared<PhotosCalibrateArguments>();
+  CLI::App* calibrate = add_verb(*photos, "calibrate",
+                                 "Lenses of cameras from about 12 photographs each of the board, "
+                                 "tilted every way; focus and zoom as for the hand",
+                                 "palmar photos calibrate calibration/ --out lenses.json");
+  calibrate->add_option("folder", c->folder, "Photographs; names like p3_c2.jpg say the camera")
+      ->required();
+  calibrate->add_option("--out", c->out, "Lenses, JSON")->required();
+  calibrate->callback(
+      [&context, c] { context.run = [&context, c] { return run_calibrate(*c, context); }; });
+
+  add_photos_mesh_command(*photos, context);
+}
+
+}  // namespace palmar::cli

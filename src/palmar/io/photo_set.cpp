@@ -1,0 +1,162 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/io/photo_set.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "palmar/core/error.h"
+#include "palmar/io/file.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+bool is_photograph(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+/// By what names say: whole sets only.
+void describe_by_names(PhotoSet& set) {
+  static const std::regex kName("(?:^|[^a-z0-9])p([0-9]{1,4})[^a-z0-9]+c([0-9]{1,4})(?:[^0-9]|$)",
+                                std::regex::icase);
+  set.is_described = true;
+  for (PhotoFile& file : set.photographs) {
+    const std::string stem = file.path.stem().string();
+    std::smatch match;
+    if (!std::regex_search(stem, match, kName)) {
+      set.is_described = false;
+      break;
+    }
+    file.position = std::stoi(match[1].str());
+    file.camera = "c" + match[2].str();
+  }
+  if (set.is_described) return;
+  for (std::size_t i = 0; i < set.photographs.size(); ++i) {
+    set.photographs[i].camera = "camera";
+    set.photographs[i].position = static_cast<int>(i);
+  }
+}
+
+void read_description(const fs::path& path, const fs::path& folder, PhotoSet& set) {
+  const std::string name = path.string();
+  try {
+    const Json json = Json::parse(read_file(path));
+    if (json.contains("board")) {
+      const Json& board = json.at("board");
+      set.board.squares = board.value("squares", set.board.squares);
+      set.board.square = board.value("square_mm", set.board.square);
+      set.board.marker = board.value("marker_mm", set.board.marker);
+    }
+    if (!json.contains("photographs")) return;
+    for (const Json& one : json.at("photographs")) {
+      PhotoFile file{folder / one.at("file").get<std::string>(),
+                     one.value("camera", std::string("camera")), one.at("position").get<int>()};
+      if (!fs::is_regular_file(file.path)) {
+        throw InputError(name + ": photograph " + file.path.string() + " isn't there");
+      }
+      set.photographs.push_back(std::move(file));
+    }
+    set.is_described = !set.photographs.empty();
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": " + error.what());
+  }
+  try {
+    set.board.check();
+  } catch (const UsageError& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+PhotoSet read_photo_set(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string() + ": a folder of photographs is expected");
+  }
+  PhotoSet set;
+  const fs::path description = folder / "photos.json";
+  if (fs::exists(description)) read_description(description, folder, set);
+  if (set.photographs.empty()) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file() && is_photograph(entry.path())) {
+        set.photographs.push_back({entry.path(), "", 0});
+      }
+    }
+    std::sort(set.photographs.begin(), set.photographs.end(),
+              [](const PhotoFile& a, const PhotoFile& b) { return a.path < b.path; });
+    describe_by_names(set);
+  }
+  if (set.photographs.empty()) {
+    throw InputError(folder.string() + ": no photograph (.png, .jpg, .jpeg) in it");
+  }
+  std::stable_sort(
+      set.photographs.begin(), set.photographs.end(), [](const PhotoFile& a, const PhotoFile& b) {
+        return a.position != b.position ? a.position < b.position : a.camera < b.camera;
+      });
+  // Positions from 0 without gaps.
+  std::set<int> positions;
+  for (const PhotoFile& file : set.photographs) positions.insert(file.position);
+  for (PhotoFile& file : set.photographs) {
+    file.position =
+        static_cast<int>(std::distance(positions.begin(), positions.find(file.position)));
+  }
+  return set;
+}
+
+PhotoLenses read_lenses(const fs::path& path) {
+  const std::string name = path.string();
+  PhotoLenses lenses;
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const auto& [camera, one] : json.at("cameras").items()) {
+      LensCalibration calibration;
+      calibration.lens = {.width = one.at("width_px").get<int>(),
+                          .height = one.at("height_px").get<int>(),
+                          .focal_x = one.at("focal_x_px").get<double>(),
+                          .focal_y = one.at("focal_y_px").get<double>(),
+                          .centre_x = one.at("centre_x_px").get<double>(),
+                          .centre_y = one.at("centre_y_px").get<double>(),
+                          .k1 = one.value("k1", 0.0),
+                          .k2 = one.value("k2", 0.0)};
+      calibration.rms = one.value("rms_px", 0.0);
+      calibration.focal_deviation = one.value("focal_deviation_px", 0.0);
+      calibration.centre_deviation = one.value("centre_deviation_px", 0.0);
+      calibration.photographs = one.value("photographs", 0);
+      calibration.lens.check(name + ": camera " + camera);
+      lenses[camera] = std::move(calibration);
+    }
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": " + error.what());
+  }
+  return lenses;
+}
+
+std::string format_lenses(const PhotoLenses& lenses) {
+  Json cameras = Json::object();
+  for (const auto& [camera, one] : lenses) {
+    cameras[camera] = {{"width_px", one.lens.width},
+                       {"height_px", one.lens.height},
+                       {"focal_x_px", one.lens.focal_x},
+                       {"focal_y_px", one.lens.focal_y},
+                       {"centre_x_px", one.lens.centre_x},
+                       {"centre_y_px", one.lens.centre_y},
+                       {"k1", one.lens.k1},
+                       {"k2", one.lens.k2},
+                       {"rms_px", one.rms},
+                       {"focal_deviation_px", one.focal_deviation},
+                       {"centre_deviation_px", one.centre_deviation},
+                       {"photographs", one.photographs}};
+  }
+  return Json{{"pixel_origin", "centre of the upper left pixel"}, {"cameras", cameras}}.dump(2) +
+         "\n";
+}
+
+}  // namespace palmar

@@ -1,0 +1,43 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "palmar/photo/board_pattern.h"
+#include "palmar/photo/lens_calibration.h"
+
+namespace palmar {
+
+/// A photograph of a set, as the set describes it.
+struct PhotoFile {
+  std::filesystem::path path;
+  std::string camera;  ///< photographs of one camera have one lens
+  int position = 0;    ///< of the rig: those of one were taken together; from 0 without gaps
+};
+
+struct PhotoSet {
+  std::vector<PhotoFile> photographs;  ///< by position, then by camera
+  BoardPattern board;
+  bool is_described = false;  ///< by photos.json or by the files' names
+};
+
+/// The photographs in a folder: what photos.json says,
+///
+///     {"board": {"squares": 11, "square_mm": 36, "marker_mm": 27},
+///      "photographs": [{"file": "a.jpg", "camera": "left", "position": 0}, ...]}
+///
+/// or else every .png, .jpg and .jpeg file. Names like p3_c2.jpg say position and camera (any
+/// other text may stand before, between them and behind); without such names all are of one camera,
+/// each in a position of its own. Throws InputError naming folder or entry.
+PhotoSet read_photo_set(const std::filesystem::path& folder);
+
+/// Lenses by camera, as `palmar photos calibrate` writes them.
+using PhotoLenses = std::map<std::string, LensCalibration>;
+PhotoLenses read_lenses(const std::filesystem::path& path);
+std::string format_lenses(const PhotoLenses& lenses);
+
+}  // namespace palmar
