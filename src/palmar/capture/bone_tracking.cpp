@@ -124,7 +124,7 @@ class BoneTracker {
   std::optional<Found> find_in_palm(const ScannedBone& bone) const;
   std::vector<std::pair<std::string, std::optional<Found>>> find_ray(Finger finger) const;
   std::optional<Found> find_distal(const ScannedBone& bone, const ScannedBone* proximal,
-                                   const Rigid3& motion, bool is_next) const;
+                                   const Rigid3& motion, bool is_next, double slack) const;
   std::optional<Found> seen_in_image(const ScannedBone& bone, std::optional<Found> found,
                                      const std::function<double(const Rigid3&)>& gap_of,
                                      const std::function<std::vector<Rigid3>()>& starts) const;
@@ -250,16 +250,16 @@ std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rig
   return turns;
 }
 
-/// A bone's small turns and shifts about where the palm's motion has it.
-std::vector<Rigid3> places_in_palm(const Vec3& centre, const Rigid3& palm) {
+/// A bone's small turns and shifts about where another one's motion has it.
+std::vector<Rigid3> places_near(const Vec3& centre, const Rigid3& carrier) {
   constexpr double kTurn = 0.17, kShift = 2.0;  // rad, mm
   std::vector<Rigid3> places;
   for (int k = 0; k < 27; ++k) {
     const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    const Vec3 middle = palm * centre;
+    const Vec3 middle = carrier * centre;
     const double turn = kTurn * step.norm();
     const Quat q = turn > 0.0 ? Quat(Eigen::AngleAxisd(turn, step.normalized())) : Quat::Identity();
-    const Rigid3 turned = Rigid3{q, middle - q * middle} * palm;
+    const Rigid3 turned = Rigid3{q, middle - q * middle} * carrier;
     for (int n = 0; n < 7; ++n) {
       Rigid3 place = turned;
       if (n < 6) place.translation[n % 3] += n < 3 ? kShift : -kShift;
@@ -353,7 +353,7 @@ std::optional<Found> BoneTracker::find_in_palm(const ScannedBone& bone) const {
   if (is_forearm) return best;
   return seen_in_image(
       bone, best, [&](const Rigid3& motion) { return (motion * centre - palm_ * centre).norm(); },
-      [&] { return places_in_palm(centre, palm_); });
+      [&] { return places_near(centre, palm_); });
 }
 
 std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
@@ -364,11 +364,15 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
   const ScannedBone* proximal =
       finger == Finger::kThumb ? bone_named(reference_, "trapezium") : nullptr;
   bool is_next = true;  // the bone before this one has been found
+  double slack = 0.0;   // or its joint lies that near to where the palm has it, mm
   for (const std::string& name : names) {
     const ScannedBone* bone = bone_named(reference_, name);
     if (is_palm_bone(name)) {
+      slack = kLargestShift;
       for (const auto& [found_name, found] : found_) {
-        if (found_name == name) motion = found.motion();
+        if (found_name != name) continue;
+        motion = found.motion();
+        slack = 0.0;
       }
       proximal = bone;
       continue;
@@ -377,17 +381,21 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
       is_next = false;
       continue;
     }
-    const std::optional<Found> found = find_distal(*bone, proximal, motion, is_next);
+    const std::optional<Found> found = find_distal(*bone, proximal, motion, is_next, slack);
     ray.emplace_back(name, found);
     proximal = bone;
     is_next = found.has_value();
-    if (found) motion = found->motion();
+    if (found) {
+      motion = found->motion();
+      slack = 0.0;
+    }
   }
   return ray;
 }
 
 std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const ScannedBone* proximal,
-                                              const Rigid3& motion, bool is_next) const {
+                                              const Rigid3& motion, bool is_next,
+                                              double slack) const {
   const Vec3 centre = centre_of_volume(bone.mesh);
   const Vec3 extents = extents_of(bone.mesh);
   const bool has_joint = proximal != nullptr && surface_area(proximal->mesh) > 0.0;
@@ -432,7 +440,7 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
       // One of another name must fit well: neighbours are nearly alike.
       const double limit = target.bone->name == bone.name ? kPoorMean : kAliasMean;
       found.is_plausible =
-          found.fit.overlap > 0.3 && found.fit.mean < limit && found.gap < kLargestGap;
+          found.fit.overlap > 0.3 && found.fit.mean < limit && found.gap < kLargestGap + slack;
       if (found.is_plausible && (!best || found.cost() < best->cost())) best = found;
       if (is_next && found.fit.mean < kGoodMean) return;
     }
@@ -452,10 +460,23 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
   return seen_in_image(
       bone, best,
       [&](const Rigid3& place) {
-        return has_joint && is_next ? (place * joint - seat).norm() : 0.0;
+        return has_joint && is_next ? std::max(0.0, (place * joint - seat).norm() - slack) : 0.0;
       },
       [&] {
-        return has_joint && is_next ? turns_about(joint, centre, motion) : std::vector<Rigid3>{};
+        // Behind a gap in the chain it may have gone along with the last bone that was found.
+        if (!has_joint || !is_next) return places_near(centre, motion);
+        std::vector<Rigid3> starts = turns_about(joint, centre, motion);
+        if (slack > 0.0) {
+          const std::size_t count = starts.size();
+          for (int k = 0; k < 6; ++k) {
+            const double step = (k < 3 ? 0.6 : -0.6) * slack;
+            for (std::size_t n = 0; n < count; ++n) {
+              starts.push_back(starts[n]);
+              starts.back().translation[k % 3] += step;
+            }
+          }
+        }
+        return starts;
       });
 }
 

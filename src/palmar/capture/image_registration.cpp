@@ -17,6 +17,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh_distance.h"
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/statistics/correlation.h"
 
@@ -33,7 +34,9 @@ using Tone = Eigen::Matrix<double, 5, 1>;  // gain, its slopes, offset
 
 constexpr double kFineBlur = 0.6;    // mm; finer detail is noise and the grid's own pattern
 constexpr double kCoarseBlur = 1.5;  // mm; half a bone's shell and marrow: a start may be 3 mm off
-constexpr double kPerVoxel = 0.6;    // of the voxels' mean edge, if that is more
+constexpr double kSmallVolume = 150.0;  // mm^3
+constexpr double kSmallLayer = 2.0;     // mm
+constexpr double kPerVoxel = 0.6;       // of the voxels' mean edge, if that is more
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -157,6 +160,7 @@ void ImageFitOptions::check() const {
 struct BoneImage::Place {
   Rigid3 motion;
   Tone tone = Tone::Zero();
+  double limit = std::numeric_limits<double>::infinity();  ///< residuals beyond it have no weight
   double turn_error = std::numeric_limits<double>::infinity();
   double shift_error = std::numeric_limits<double>::infinity();
   bool has_converged = false;
@@ -277,13 +281,13 @@ void BoneImage::refine(const ImageLevels::Level& level, bool is_fine, Place& pla
     if (rows.size() < 3 * kUnknowns) return;
     // Tone at this place, first by all samples alike, then by their weights.
     Equations sums;
-    double limit = std::numeric_limits<double>::infinity();
+    place.limit = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 3; ++pass) {
       sums = {};
       double total = 0.0;
       for (const Row& row : rows) {
         const double residual = row.residual(place.tone);
-        const double ratio = residual / limit;
+        const double ratio = residual / place.limit;
         const double weight = std::abs(ratio) < 1.0 ? std::pow(1.0 - ratio * ratio, 2) : 0.0;
         sums.A.noalias() += weight * row.slope * row.slope.transpose();
         sums.held.noalias() +=
@@ -304,7 +308,7 @@ void BoneImage::refine(const ImageLevels::Level& level, bool is_fine, Place& pla
       sizes.reserve(rows.size());
       for (const Row& row : rows) sizes.push_back(std::abs(row.residual(tone)));
       constexpr double kPerMedian = 1.4826;  // standard deviation of a normal distribution
-      limit = 4.685 * kPerMedian * median(std::move(sizes)) + 1e-9 * std::abs(tone[0]);
+      place.limit = 4.685 * kPerMedian * median(std::move(sizes)) + 1e-9 * std::abs(tone[0]);
     }
     // Held a little where the intensities don't hold it.
     sums.A.topLeftCorner<6, 6>().diagonal().array() += 1e-6 * sums.A.topLeftCorner<6, 6>().trace();
@@ -337,13 +341,14 @@ ImageFit BoneImage::finished(const ImageLevels& other, Place place) const {
   fit.has_converged = place.has_converged;
   const std::vector<Row> rows = rows_at(other.fine, true, place);
   fit.overlap = static_cast<double>(rows.size()) / static_cast<double>(samples_.size());
-  if (rows.size() < 3 || !(place.tone[0] > 0.0)) return fit;
+  if (rows.size() < 3 * kUnknowns || !(place.tone[0] > 0.0)) return fit;
   std::vector<double> mine, theirs;
   for (const Row& row : rows) {
+    if (std::abs(row.residual(place.tone)) > place.limit) continue;
     mine.push_back(-row.slope[6]);
     theirs.push_back(row.intensity);
   }
-  fit.correlation = pearson(mine, theirs).r;
+  if (mine.size() >= 3) fit.correlation = pearson(mine, theirs).r;
   return fit;
 }
 
@@ -395,7 +400,11 @@ BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& imag
     const ScannedBone& bone = surfaces.bones[at(b)];
     if (bone.name.empty()) return;
     try {
-      made[at(b)].emplace(bone.mesh, image, options);
+      ImageFitOptions fitting = options;
+      if (signed_volume(bone.mesh) < kSmallVolume) {
+        fitting.layer = std::max(fitting.layer, kSmallLayer);
+      }
+      made[at(b)].emplace(bone.mesh, image, fitting);
     } catch (const InputError&) {
       // Too small to be compared; its surface counts.
     }

@@ -36,8 +36,10 @@ struct ImageFitOptions {
 /// How a bone of one image was laid on another image.
 struct ImageFit {
   Rigid3 fixed_from_moving;
-  double correlation = 0.0;  ///< of the two images' intensities over the samples, [-1, 1]
-  double overlap = 0.0;      ///< share of the samples that lie within the other image
+  /// Of the two images' intensities over the samples that have a weight, [-1, 1]: what lies wrong
+  /// in the bone's own surface doesn't lower it.
+  double correlation = 0.0;
+  double overlap = 0.0;  ///< share of the samples that lie within the other image
   /// Standard errors by the normal equations, noise of neighbours taken for correlated as far as
   /// the blur makes it: of the turn (root of the summed variances about three axes), rad, and of
   /// the shift of the samples' middle, mm. Gradients of one image are multiplied by those of the
@@ -99,7 +101,9 @@ class BoneImage {
 
 /// By the bones' names.
 using BoneImages = std::map<std::string, BoneImage>;
-/// Of all bones that have a name and hold enough voxels.
+/// Of all bones that have a name and hold enough voxels. A bone of less than 150 mm^3 (a distal
+/// phalanx of which a part was cut out) can't tell its turn by itself: the tissue round it, 2 mm,
+/// counts as well, most of which goes with it.
 BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& image,
                            const ImageFitOptions& options = {});
 
