@@ -49,16 +49,18 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   };
   std::vector<Part> measures(parts.voxels.size());
   const double step = 1.01 * grid.spacing.maxCoeff();
+  // Below what the air's partial volume darkens.
+  const double shallow = std::max(1.5, 0.5 + grid.spacing.maxCoeff());
   for (std::size_t v = 0; v < count; ++v) {
     if (parts.part[v] < 0) continue;
     Part& part = measures[static_cast<std::size_t>(parts.part[v])];
     const auto depth = static_cast<double>(to_air[v]), value = static_cast<double>(smooth.value[v]);
     part.farthest = std::max(part.farthest, static_cast<double>(to_fat[v]));
     if (depth <= step) part.open += 1.0;
-    if (depth > 1.5 && depth < 2.5) {
+    if (depth > shallow && depth < shallow + 1.0) {
       part.shallow += value;
       part.shallow_voxels += 1.0;
-    } else if (depth > 3.5) {
+    } else if (depth > shallow + 2.0) {
       part.deep += value;
       part.deep_voxels += 1.0;
       part.squares += value * value;
