@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +25,7 @@ struct PhotosBoardArguments {
 };
 
 /// The board in millimetres, with a ruler of 100 mm to check the print with. One path of dark runs,
-/// row by row of the cells.
+/// rows of cells by rows.
 std::string board_svg(const BoardPattern& board, const BoardPicture& picture) {
   constexpr double kMargin = 12.0;  // mm
   const double edge = board.edge(), pixel = edge / picture.pixels;
@@ -34,16 +35,26 @@ std::string board_svg(const BoardPattern& board, const BoardPicture& picture) {
     return picture.grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.pixels) +
                         static_cast<std::size_t>(x)] < 128;
   };
-  for (int y = 0; y < picture.pixels; ++y) {
+  for (int y = 0; y < picture.pixels;) {
+    // Rows that are alike are one: no seams in print.
+    const auto row = picture.grey.begin() + static_cast<long>(y) * picture.pixels;
+    int below = y + 1;
+    while (below < picture.pixels &&
+           std::equal(row, row + picture.pixels,
+                      picture.grey.begin() + static_cast<long>(below) * picture.pixels)) {
+      ++below;
+    }
     for (int x = 0; x < picture.pixels;) {
       int end = x;
       while (end < picture.pixels && at(end, y)) ++end;
       if (end > x) {
-        path += fmt::format("M{:.4g} {:.4g}h{:.4g}v{:.4g}h{:.4g}z", kMargin + x * pixel,
-                            kMargin + y * pixel, (end - x) * pixel, pixel, (x - end) * pixel);
+        path += fmt::format("M{:.7g} {:.7g}h{:.7g}v{:.7g}h{:.7g}z", kMargin + x * pixel,
+                            kMargin + y * pixel, (end - x) * pixel, (below - y) * pixel,
+                            (x - end) * pixel);
       }
       x = std::max(end, x + 1);
     }
+    y = below;
   }
   const double ruler = width + 2.0;
   return fmt::format(

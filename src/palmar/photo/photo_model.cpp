@@ -44,6 +44,19 @@ TriangleMesh largest_part(const TriangleMesh& mesh) {
   return weld(kept, {.drops_duplicates = false}).mesh;
 }
 
+/// What lies above a height; a little higher where the plane grazes the surface.
+TriangleMesh cut_above(const TriangleMesh& mesh, double height) {
+  constexpr int kTries = 12;
+  constexpr double kShift = 0.23, kSnap = 0.05;  // mm
+  for (int i = 0;; ++i) {
+    try {
+      return cut_by_plane(mesh, Vec3(0, 0, height + i * kShift), Vec3::UnitZ(), kSnap).mesh;
+    } catch (const InputError&) {
+      if (i == kTries) throw;
+    }
+  }
+}
+
 /// How many pixels of a photograph are hand, have a depth, and have one that others agree with.
 PhotoUse use_of(const PhotoMask& mask, const DepthMap& map) {
   PhotoUse use;
@@ -179,8 +192,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   progress.update(0.93, "covering it with triangles");
   TriangleMesh mesh = largest_part(iso_surface(field.field, 0.0));
-  mesh = cut_by_plane(mesh, Vec3(0, 0, options.cut), Vec3::UnitZ(), 0.05).mesh;
-  mesh = largest_part(mesh);
+  mesh = largest_part(cut_above(mesh, options.cut));
   progress.update(0.95, "colouring it");
   VertexColours colours = colour_vertices(mesh, photographs, options.colours);
   for (std::size_t v = 0; v < count; ++v) model.photographs[v].gain = colours.gain[v];
