@@ -34,20 +34,18 @@ struct PhantomPhotosArguments {
   bool no_hand = false;
 };
 
-/// Fingers up, wrist through the board; from the hand frame.
-constexpr double kBelow = 15.0;  // mm of the forearm below the board
-
+/// Fingers up, the forearm through the board, the wrist joint (origin of the hand frame) above it.
 Rigid3 board_from_hand_frame(const ColouredMesh& hand) {
-  double lowest = std::numeric_limits<double>::infinity();
-  Vec3 low = Vec3::Constant(lowest), high = -low;
+  constexpr double kWrist = 25.0, kBelow = 5.0;  // mm
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& vertex : hand.mesh.vertices) {
     low = low.cwiseMin(vertex);
     high = high.cwiseMax(vertex);
   }
   Eigen::Matrix3d turn;
   turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-  return {Quat(turn),
-          Vec3(-0.5 * (low.x() + high.x()), 0.5 * (low.z() + high.z()), -low.y() - kBelow)};
+  return {Quat(turn), Vec3(-0.5 * (low.x() + high.x()), 0.5 * (low.z() + high.z()),
+                           std::min(kWrist, -low.y() - kBelow))};
 }
 
 Image picture_of(const RgbImage& photograph) {

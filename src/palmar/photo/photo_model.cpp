@@ -132,6 +132,15 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   progress.update(0.09, "carving the outline");
   const VisualHull hull = make_visual_hull(views, masks, options.box, options.hull);
   model.hull_volume = signed_volume(hull.surface);
+  const Box3 filled = bounding_box(hull.surface);
+  const double edge = 1.5 * options.hull.spacing;
+  if (filled.max().z() > options.box.max().z() - edge ||
+      (filled.min().head<2>().array() < options.box.min().head<2>().array() + edge).any() ||
+      (filled.max().head<2>().array() > options.box.max().head<2>().array() - edge).any()) {
+    model.warnings.push_back(
+        "something reaches the border of the space that is searched, which cuts it off there; a "
+        "larger one may be needed (--box-mm), or a plain backdrop");
+  }
   PatchMatchOptions stereo = options.stereo;
   if (model.has_background) {
     constexpr double kDeep = 120.0;  // mm: a hand's breadth and what is in front of it
