@@ -60,7 +60,7 @@ TEST(Documents, EveryShownCommandWorks) {
     if (command.rfind("phantom mri ", 0) == 0) {
       shortened += " --pixel-mm 1.2 --slice-mm 1.4 --slices 90 --no-fixture";
     }
-    if (command.rfind("hand from-mri ", 0) == 0) shortened += " --no-report";
+    if (command.rfind("hand from-", 0) == 0) shortened += " --no-report";
     // So do many hands and candidates; what comes of them is tested with the redesigns.
     if (command.rfind("redesign ", 0) == 0) {
       const std::string many = " --hands 30";
