@@ -61,6 +61,14 @@ TEST(HandFromScan, NamesScansThatCannotBe) {
   expect_refused("hand from-scan a.obj --out a.hand.glb", folder, 3, "no hand found");
 }
 
+// A table beside it, larger than the hand, does no harm, nor do corners that fall together.
+TEST(HandFromScan, LeavesTheTableOut) {
+  const std::string table = "v 5000 0 0\nv 6000 0 0\nv 5000 1000 0\nf 5 6 7\n";
+  const std::string collapsed = "v 0 0 0\nf 1 8 2\n";
+  const std::string folder = folder_with("a.obj", tetrahedron(200) + table + collapsed);
+  expect_refused("hand from-scan a.obj --out a.hand.glb", folder, 3, "no hand found");
+}
+
 TEST(PhantomScan, NamesWrongArguments) {
   const std::string folder = temporary_folder();
   expect_refused("phantom scan --out p --format stl", folder, 2, "neither ply");

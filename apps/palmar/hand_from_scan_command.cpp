@@ -20,6 +20,7 @@
 #include "palmar/io/hand_from_scan_json.h"
 #include "palmar/report/hand_scan_report.h"
 #include "scan_surface.h"
+#include "side_argument.h"
 
 namespace palmar::cli {
 namespace {
@@ -118,12 +119,7 @@ std::string text_of(const HandFromScan& made) {
 int run_from_scan(const FromScanArguments& arguments, const Context& context) {
   check_hand_output(arguments.out);
   std::optional<Side> side;
-  if (!arguments.side.empty()) {
-    if (arguments.side != "right" && arguments.side != "left") {
-      throw UsageError("--side: \"" + arguments.side + "\" is neither right nor left");
-    }
-    side = arguments.side == "left" ? Side::kLeft : Side::kRight;
-  }
+  if (!arguments.side.empty()) side = parse_side(arguments.side);
   SkinMarkOptions inks;
   inks.crease = parse_colour("--crease-colour", arguments.crease);
   inks.dot = parse_colour("--dot-colour", arguments.dot);
@@ -133,7 +129,7 @@ int run_from_scan(const FromScanArguments& arguments, const Context& context) {
   const std::string work =
       arguments.work.empty() ? beside_hand(arguments.out, ".scan") : arguments.work;
   for (const auto& [posture, path] : files) refuse_same_file(path, arguments.out);
-  if (!arguments.no_report) {
+  if (!arguments.no_report && !arguments.work.empty()) {
     create_folder(work);
     require_writable(work);
   }

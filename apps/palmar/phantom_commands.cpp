@@ -17,8 +17,10 @@
 #include "palmar/phantom/mri_subject.h"
 #include "palmar/phantom/scan_grid.h"
 #include "phantom_commands.h"
+#include "phantom_output.h"
 #include "phantom_photos_command.h"
 #include "phantom_scan_command.h"
+#include "side_argument.h"
 
 namespace palmar::cli {
 namespace {
@@ -99,10 +101,7 @@ int run_mri(PhantomArguments arguments, const Context& context) {
   person.seed = context.common.seed;
   person.has_fixture = !arguments.no_fixture;
   person.markers = arguments.no_markers ? 0 : arguments.markers;
-  if (arguments.side != "right" && arguments.side != "left") {
-    throw UsageError("--side: \"" + arguments.side + "\" is neither right nor left");
-  }
-  person.side = arguments.side == "left" ? Side::kLeft : Side::kRight;
+  person.side = parse_side(arguments.side);
   arguments.grid.oblique = arguments.oblique_deg * std::numbers::pi / 180.0;
   arguments.grid.offset = parse_vector("--offset-mm", arguments.offset);
   arguments.grid.check();
@@ -153,17 +152,7 @@ int run_mri(PhantomArguments arguments, const Context& context) {
   const std::string truth = (out / "truth").string();
   write_mri_subject(truth, subject, series, person.seed);
   finish_progress();
-  if (context.common.json) {
-    print(Json{{"subject", subject.name},
-               {"seed", person.seed},
-               {"side", arguments.side},
-               {"scans", scans},
-               {"truth", truth + "/subject.json"}}
-              .dump(2) +
-          "\n");
-  } else {
-    print(text + fmt::format("truth: {}/subject.json\n", truth));
-  }
+  print_made_scans(context, subject.name, person.side, scans, text, truth + "/subject.json");
   return 0;
 }
 

@@ -19,6 +19,8 @@
 #include "palmar/phantom/painted_hand.h"
 #include "palmar/phantom/photographs.h"
 #include "palmar/report/image.h"
+#include "phantom_output.h"
+#include "side_argument.h"
 
 namespace palmar::cli {
 namespace {
@@ -90,9 +92,7 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   arguments.photographs.seed = context.common.seed;
   arguments.photographs.check();
   arguments.board.check();
-  if (arguments.side != "right" && arguments.side != "left") {
-    throw UsageError("--side: \"" + arguments.side + "\" is neither right nor left");
-  }
+  const Side side = parse_side(arguments.side);
   if (arguments.calibration < 0 || arguments.calibration > 200) {
     throw UsageError(fmt::format("--calibration {}; 0 to 200 is allowed", arguments.calibration));
   }
@@ -101,7 +101,7 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   progress.update(0.0, "painting the person");
   PaintedHandOptions person;
   person.seed = context.common.seed;
-  person.side = arguments.side == "left" ? Side::kLeft : Side::kRight;
+  person.side = side;
   person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
   const PaintedHand hand = make_painted_hand(*load_hand(arguments.base), {posture}, person);
   ColouredMesh surface = surface_of(hand, posture);

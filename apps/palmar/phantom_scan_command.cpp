@@ -11,10 +11,13 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/cluster_vertices.h"
 #include "palmar/io/coloured_mesh_file.h"
+#include "palmar/io/file.h"
 #include "palmar/io/painted_hand_file.h"
 #include "palmar/phantom/painted_hand.h"
 #include "palmar/phantom/scan_defects.h"
 #include "palmar/product/product.h"
+#include "phantom_output.h"
+#include "side_argument.h"
 
 namespace palmar::cli {
 namespace {
@@ -31,10 +34,7 @@ struct PhantomScanArguments {
 PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::uint64_t seed) {
   PaintedHandOptions options;
   options.seed = seed;
-  if (arguments.side != "right" && arguments.side != "left") {
-    throw UsageError("--side: \"" + arguments.side + "\" is neither right nor left");
-  }
-  options.side = arguments.side == "left" ? Side::kLeft : Side::kRight;
+  options.side = parse_side(arguments.side);
   options.paint.skin = parse_colour("--skin-colour", arguments.skin);
   options.paint.crease = parse_colour("--crease-colour", arguments.crease);
   options.paint.dot = parse_colour("--dot-colour", arguments.dot);
@@ -75,7 +75,7 @@ int run_phantom_scan(PhantomScanArguments arguments, const Context& context) {
                                           ScanPosture::kFingerAbduction};
   const PaintedHand hand = make_painted_hand(*load_hand(arguments.base), postures, options);
   const std::filesystem::path out(arguments.out);
-  std::filesystem::create_directories(out / "scan");
+  create_folder(out / "scan");
   std::map<ScanPosture, PaintedHandPlace> places;
   nlohmann::ordered_json scans = nlohmann::ordered_json::array();
   std::string text;
@@ -101,17 +101,7 @@ int run_phantom_scan(PhantomScanArguments arguments, const Context& context) {
   const std::string truth = (out / "truth").string();
   write_painted_hand(truth, hand, context.common.seed, places);
   finish_progress();
-  if (context.common.json) {
-    print(nlohmann::ordered_json{{"subject", hand.name},
-                                 {"seed", context.common.seed},
-                                 {"side", arguments.side},
-                                 {"scans", scans},
-                                 {"truth", truth + "/subject.json"}}
-              .dump(2) +
-          "\n");
-  } else {
-    print(text + fmt::format("truth: {}/subject.json\n", truth));
-  }
+  print_made_scans(context, hand.name, hand.side, scans, text, truth + "/subject.json");
   return 0;
 }
 
@@ -147,7 +137,8 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
   verb->add_flag("--no-creases", o->no_creases, "No lines are drawn");
   verb->add_flag("--no-dots", o->no_dots, "No dots are drawn");
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");
-  verb->add_flag("--mirrored", o->mirrored, "Mirror the scans, as a wrong export does");
+  verb->add_flag("--mirrored", o->mirrored,
+                 "Mirror the scans, as a wrong export does; the truth stays");
   verb->add_option("--base", o->base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

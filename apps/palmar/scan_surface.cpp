@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,30 +63,85 @@ LengthUnit unit_of(const std::string& path, double extent, std::optional<LengthU
       fmt::format("{}: is {:.4g} long, which may be {}; --unit says which", path, extent, names));
 }
 
-/// The piece with the largest area, without what else was scanned.
+void drop_unused_vertices(TriangleMesh& mesh, SurfaceColours& colours) {
+  constexpr int kUnused = -1;
+  std::vector<int> renumbered(mesh.vertices.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) renumbered[static_cast<std::size_t>(v)] = 0;
+  }
+  std::size_t used = 0;
+  for (std::size_t v = 0; v < renumbered.size(); ++v) {
+    if (renumbered[v] == kUnused) continue;
+    renumbered[v] = static_cast<int>(used);
+    mesh.vertices[used] = mesh.vertices[v];
+    if (!colours.vertex.empty()) colours.vertex[used] = colours.vertex[v];
+    ++used;
+  }
+  mesh.vertices.resize(used);
+  if (!colours.vertex.empty()) colours.vertex.resize(used);
+  for (Triangle& t : mesh.triangles) {
+    for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
+  }
+}
+
+/// The piece with the largest area that isn't flat, as a table is: whose least extent (root of the
+/// least moment of its area) is a twentieth of its largest one or more. All flat: the largest.
+int largest_solid(const TriangleMesh& mesh, const std::vector<int>& piece, int pieces) {
+  struct Moments {
+    double area = 0.0;
+    Vec3 first = Vec3::Zero();
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  };
+  std::vector<Moments> all(static_cast<std::size_t>(pieces));
+  for (std::size_t t = 0; t < piece.size(); ++t) {
+    if (piece[t] < 0) continue;
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
+    }
+    Moments& m = all[static_cast<std::size_t>(piece[t])];
+    const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    m.area += area;
+    for (const Vec3& v : p) {
+      m.first += area / 3.0 * v;
+      m.second += area / 3.0 * v * v.transpose();
+    }
+  }
+  int best = 0, best_solid = -1;
+  for (int k = 0; k < pieces; ++k) {
+    const Moments& m = all[static_cast<std::size_t>(k)];
+    if (m.area > all[static_cast<std::size_t>(best)].area) best = k;
+    if (!(m.area > 0.0)) continue;
+    const Vec3 centre = m.first / m.area;
+    const Vec3 moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.second / m.area -
+                                                                        centre * centre.transpose())
+                             .eigenvalues();
+    constexpr double kFlat = 0.05;
+    const bool is_flat = !(moments[0] > kFlat * kFlat * moments[2]);
+    if (is_flat) continue;
+    if (best_solid < 0 || m.area > all[static_cast<std::size_t>(best_solid)].area) best_solid = k;
+  }
+  return best_solid < 0 ? best : best_solid;
+}
+
+/// Keeps the hand's piece, without what else was scanned.
 void keep_largest_piece(const std::string& path, TriangleMesh& mesh, SurfaceColours& colours,
                         std::vector<std::string>& notes) {
   // Scanning programs leave vertices double along seams.
   WeldOptions options;
   options.drops_duplicates = false;
   options.drops_unused_vertices = false;
-  const TriangleMesh joined = weld(mesh, options).mesh;
-  if (joined.triangle_count() != mesh.triangle_count()) return;
-  const std::vector<int> piece = triangle_components(joined, build_topology(joined));
-  std::vector<double> area(piece.size() + 1, 0.0);
+  const WeldResult joined = weld(mesh, options);
+  const std::vector<int> piece_of_joined =
+      triangle_components(joined.mesh, build_topology(joined.mesh));
+  std::vector<int> piece(mesh.triangles.size(), -1);  // -1: collapses
   int pieces = 0;
-  for (std::size_t t = 0; t < piece.size(); ++t) {
-    if (piece[t] < 0) continue;
-    pieces = std::max(pieces, piece[t] + 1);
-    const Triangle& c = mesh.triangles[t];
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(c[0])];
-    area[static_cast<std::size_t>(piece[t])] +=
-        0.5 * (mesh.vertices[static_cast<std::size_t>(c[1])] - a)
-                  .cross(mesh.vertices[static_cast<std::size_t>(c[2])] - a)
-                  .norm();
+  for (std::size_t t = 0; t < piece_of_joined.size(); ++t) {
+    piece[static_cast<std::size_t>(joined.old_triangle_of_new[t])] = piece_of_joined[t];
+    pieces = std::max(pieces, piece_of_joined[t] + 1);
   }
   if (pieces < 2) return;
-  const int largest = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
+  const int largest = largest_solid(mesh, piece, pieces);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < piece.size(); ++t) {
     if (piece[t] != largest) continue;
@@ -102,6 +159,7 @@ void keep_largest_piece(const std::string& path, TriangleMesh& mesh, SurfaceColo
     colours.texture.resize(kept);
     colours.place.resize(kept);
   }
+  drop_unused_vertices(mesh, colours);
 }
 
 double mean_edge(const TriangleMesh& mesh) {

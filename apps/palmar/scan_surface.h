@@ -13,7 +13,8 @@ namespace palmar::cli {
 
 /// A scan made ready to look for a hand in.
 struct ReadSurface {
-  ColouredMesh surface;  ///< mm; the largest piece, oriented outwards; colours may be empty
+  ColouredMesh surface;  ///< mm; the largest piece that is no table, oriented outwards;
+                         ///< colours may be empty
   LengthUnit unit = LengthUnit::kMillimetre;
   std::vector<std::string> notes;  ///< "FILE: ..."
 };

@@ -47,8 +47,7 @@ std::vector<float> misfits(const LayerProfile& profile, const LayerSearch& searc
       for (std::size_t s = 0; s < samples; ++s) {
         const double past_inner = normal_distribution((place(s) - a) / profile.blur);
         const double m = 1.0 - past_inner;
-        const double x =
-            search.known == LayerSearch::Known::kShell ? beyond[s] : past_inner - beyond[s];
+        const double x = beyond[s];
         const double r = profile.value[s] - profile.known;
         mm += m * m;
         mo += m * x;

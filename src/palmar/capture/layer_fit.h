@@ -15,16 +15,14 @@ struct LayerProfile {
   double step = 0.25;         ///< between samples, mm
   std::vector<double> value;  ///< samples; none: this vertex tells nothing
   double blur = 0.4;          ///< standard deviation of the image's blur along the normal, mm
-  double known = 0.0;         ///< signal of the layer that is known
+  double known = 0.0;         ///< signal of the layer itself
 };
 
 /// Where a thin layer between two others is looked for. Places in mm along the normal.
 struct LayerSearch {
-  enum class Known { kShell, kOutside };
-  Known known = Known::kShell;  ///< the layer whose signal the profiles bring along
-  double bright = 1.0;          ///< signal that the inside is expected to have
-  double usual = 0.5;           ///< signal that the other unknown layer is expected to have
-  double scale = 0.05;          ///< misfit of one sample that is expected: noise and model
+  double bright = 1.0;  ///< signal that the inside is expected to have
+  double usual = 0.5;   ///< signal that the outside is expected to have
+  double scale = 0.05;  ///< misfit of one sample that is expected: noise and model
   double outer_first = -1.6, outer_step = 0.2;  ///< candidates for the shell's outer side
   int outers = 19;
   double thickness_first = 0.2, thickness_step = 0.2;  ///< for its thickness
@@ -51,12 +49,12 @@ struct LayerFit {
 ///
 /// with P the normal distribution, I_1 the inside, I_2 the layer, I_3 the outside, a and b the
 /// inner and outer side of the layer and h the blur. A layer thinner than a voxel shows as a dip
-/// whose depth, not its width, tells its thickness; knowing one of the signals, both sides are
-/// still found. The other two are solved for each (a, b) (linear, tied weakly to what is
-/// expected), the misfit is tabulated over a grid of (a, b), summed over a vertex and its
-/// neighbours, and its least value taken; the thickness is found twice, first nearly free, then
-/// near the median of the surroundings, as where the outside is as dark as the layer only the
-/// inner side can be seen. Deterministic.
+/// whose depth, not its width, tells its thickness; knowing I_2, both sides are still found. I_1
+/// and I_3 are solved for each (a, b) (linear, tied weakly to what is expected), the misfit is
+/// tabulated over a grid of (a, b), summed over a vertex and its neighbours, and its least value
+/// taken; the thickness is found twice, first nearly free, then near the median of the
+/// surroundings, as where the outside is as dark as the layer only the inner side can be seen.
+/// Deterministic.
 LayerFit fit_layers(const TriangleMesh& near, const LayerSearch& search,
                     const std::function<LayerProfile(int vertex, const Vec3& normal)>& profile_at);
 

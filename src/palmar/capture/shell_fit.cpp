@@ -90,7 +90,6 @@ void keep_nearest_layers(Samples& samples, const ShellImage& shell) {
 LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage& shell) {
   const double contrast = shell.bright - shell.dark;
   LayerSearch search;
-  search.known = LayerSearch::Known::kShell;
   search.bright = shell.bright;
   search.usual = shell.dark + kUsualOutside * contrast;
   search.scale = std::hypot(shell.noise, kMisfit * contrast);
