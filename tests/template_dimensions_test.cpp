@@ -1,10 +1,12 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <map>
 
 #include "palmar/geometry/remesh.h"
 #include "palmar/geometry/subdivide.h"
 #include "palmar/hand/dimensions.h"
+#include "palmar/hand/tape_measures.h"
 #include "template_fixture.h"
 
 namespace palmar {
@@ -101,6 +103,61 @@ TEST_F(TemplateDimensions, HardlyDependOnTheMesh) {
     EXPECT_NEAR(a.segment[s].length, b.segment[s].length, 0.25);
     EXPECT_NEAR(a.segment[s].width, b.segment[s].width, 0.15);
     EXPECT_NEAR(a.segment[s].thickness, b.segment[s].thickness, 0.15);
+  }
+}
+
+/// The same surface, its triangles cut into four.
+TriangleMesh quartered(const TriangleMesh& mesh) {
+  TriangleMesh fine{mesh.vertices, {}};
+  std::map<std::pair<int, int>, int> middle;
+  const auto between = [&](int a, int b) {
+    const auto [place, is_new] = middle.try_emplace(std::minmax(a, b), fine.vertex_count());
+    if (is_new) {
+      fine.vertices.push_back(0.5 * (mesh.vertices[static_cast<std::size_t>(a)] +
+                                     mesh.vertices[static_cast<std::size_t>(b)]));
+    }
+    return place->second;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const int ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    fine.triangles.insert(fine.triangles.end(),
+                          {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+  return fine;
+}
+
+TEST_F(TemplateDimensions, TapeIsNoShorterThanTheStraightLine) {
+  const HandDimensions d = measure_hand(hand());
+  const HandCreases creases(hand().skin, hand().skeleton);
+  const HandTape tape = measure_with_tape(hand().skin, hand().skeleton, creases);
+  EXPECT_GE(tape.palmar_hand_length, d.hand_length);
+  EXPECT_GE(tape.dorsal_hand_length, d.hand_length);
+  EXPECT_LT(tape.dorsal_hand_length, 1.15 * d.hand_length);
+  for (int k = 0; k < kSegmentCount; ++k) {
+    const auto segment = static_cast<Segment>(k);
+    const SegmentDimensions& s = of(d, segment);
+    const SegmentTape& t = tape.segment[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(t.palmar_width + t.dorsal_width, t.girth, 0.05) << name_of(segment);  // mm
+    EXPECT_GE(t.palmar_width, s.width) << name_of(segment);
+    EXPECT_GE(t.dorsal_width, s.width) << name_of(segment);
+    EXPECT_GE(t.palmar_length, s.length - 1e-9) << name_of(segment);
+    // A convex curve is longer than twice its diagonal, and shorter than its rectangle.
+    EXPECT_GT(t.girth, 2.0 * std::hypot(s.width, s.thickness)) << name_of(segment);
+    EXPECT_GT(t.dorsal_length, 8.0) << name_of(segment);
+  }
+  EXPECT_DOUBLE_EQ(tape.segment[0].girth, d.hand_circumference);
+}
+
+TEST_F(TemplateDimensions, TapeIsTheSameOnALeftHandAndAnotherMesh) {
+  const HandCreases creases(hand().skin, hand().skeleton);
+  const auto values = values_of(measure_with_tape(hand().skin, hand().skeleton, creases));
+  const Hand left = mirrored(hand());
+  const auto other =
+      values_of(measure_with_tape(left.skin, left.skeleton, HandCreases(left.skin, left.skeleton)));
+  const auto fine = values_of(measure_with_tape(quartered(hand().skin), hand().skeleton, creases));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    EXPECT_NEAR(values[k].value, other[k].value, 1e-6) << values[k].quantity;
+    EXPECT_NEAR(values[k].value, fine[k].value, 0.05) << values[k].quantity;  // mm
   }
 }
 

@@ -7,7 +7,9 @@
 #include "hand_from_scan_command.h"
 #include "hand_pose_command.h"
 #include "hand_scale_command.h"
+#include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/skeleton.h"
+#include "palmar/hand/tape_measures.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/hand_asset.h"
 #include "palmar/io/hand_file.h"
@@ -21,6 +23,11 @@ namespace palmar::cli {
 namespace {
 
 constexpr const char* kHandHelp = "\"template\" or a .hand.glb file";
+
+/// The creases seen on the hand that load_hand() loads by this name.
+DrawnCreases drawn_creases(const std::string& name) {
+  return name == "template" ? DrawnCreases() : read_drawn_creases(name);
+}
 
 void add_template(CLI::App& hand, Context& context) {
   struct Options {
@@ -87,13 +94,18 @@ void add_tissue(CLI::App& hand, Context& context) {
 
 void add_measure(CLI::App& hand, Context& context) {
   const auto name = std::make_shared<std::string>("template");
-  CLI::App* verb = add_verb(hand, "measure", "Dimensions of a hand as CSV, mm",
-                            "palmar hand measure template > dimensions.csv");
+  CLI::App* verb =
+      add_verb(hand, "measure", "Dimensions of a hand as CSV, mm: straight and along the skin",
+               "palmar hand measure template > dimensions.csv");
   verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
   verb->callback([&context, name] {
     context.run = [&context, name] {
       const auto loaded = load_hand(*name);
-      print(context.common.json ? hand_info_json(*loaded) + "\n" : dimensions_csv(*loaded));
+      const HandTape tape =
+          measure_with_tape(loaded->skin, loaded->skeleton,
+                            creases_of(loaded->skin, loaded->skeleton, drawn_creases(*name)));
+      print(context.common.json ? hand_measures_json(*loaded, tape) + "\n"
+                                : dimensions_csv(*loaded, tape));
       return 0;
     };
   });
@@ -111,7 +123,7 @@ void add_mirror(CLI::App& hand, Context& context) {
   verb->callback([&context, o] {
     context.run = [&context, o] {
       const Hand other = mirrored(*load_hand(o->hand));
-      write_hand(o->out, other);
+      write_hand(o->out, other, mirrored(drawn_creases(o->hand)));
       note(context.common, fmt::format("wrote {} ({} hand)", o->out, name_of(other.side)));
       return 0;
     };

@@ -156,7 +156,7 @@ void make_hand_of_surfaces(const ScanHandArguments& arguments, const std::string
   made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
   Hand& hand = made.scanned.hand;
   hand.name = arguments.name.empty() ? hand_name_of(arguments.out) : arguments.name;
-  write_hand(arguments.out, hand);
+  write_hand(arguments.out, hand, made.creases.plane);
   if (!arguments.no_report) {
     write_hand_scan_report(work, made, shown, part_of(progress, 0.9, 1.0));
   }

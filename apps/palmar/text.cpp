@@ -99,7 +99,7 @@ std::string hand_text(const Hand& hand) {
   return text + "\n" + hand.provenance + "\n";
 }
 
-std::string dimensions_csv(const Hand& hand) {
+std::string dimensions_csv(const Hand& hand, const HandTape& tape) {
   const HandDimensions& d = hand.dimensions;
   std::string text = "quantity,segment,value_mm\n";
   text += fmt::format(
@@ -111,6 +111,10 @@ std::string dimensions_csv(const Hand& hand) {
     const auto name = name_of(static_cast<Segment>(s));
     text += fmt::format("length,{0},{1:.2f}\nwidth,{0},{2:.2f}\nthickness,{0},{3:.2f}\n", name,
                         size.length, size.width, size.thickness);
+  }
+  for (const TapeValue& value : values_of(tape)) {
+    text += fmt::format("{},{},{:.2f}\n", value.quantity,
+                        value.segment ? name_of(*value.segment) : "", value.value);
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
+#include "palmar/hand/tape_measures.h"
 
 namespace palmar::cli {
 
@@ -17,7 +18,7 @@ std::string hand_text(const Hand& hand);
 /// Both tissue models per group of regions that share one, with ranges and sources.
 std::string tissue_text(const Tissue& tissue);
 /// Dimensions as CSV, one row per quantity: quantity,segment,value_mm.
-std::string dimensions_csv(const Hand& hand);
+std::string dimensions_csv(const Hand& hand, const HandTape& tape);
 /// Status, what stopped each segment, angles.
 std::string grasp_text(const Grasp& grasp);
 /// The grasp and its runners-up, one line each: score, place, forearm's direction.

@@ -18,6 +18,7 @@
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/cluster_vertices.h"
 #include "palmar/hand/dimensions.h"
+#include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/hand_points.h"
 #include "palmar/hand/template_hand.h"
 
@@ -313,15 +314,9 @@ HandFromScan make_hand_from_scans(const Hand& model,
 
   result.scanned = register_model(base, scan, joints, part_of(progress, 1.0 - unit, 1.0));
   Hand& hand = result.scanned.hand;
-  HandCreases creases(hand.skin, hand.skeleton);
-  for (const auto& [segment, plane] : result.creases.plane) {
-    if (segment == Segment::kPalm) {
-      creases.set_wrist(plane);
-    } else {
-      creases.set_proximal_crease(segment, plane);
-    }
-  }
+  const HandCreases creases = creases_of(hand.skin, hand.skeleton, result.creases.plane);
   hand.dimensions = measure_hand(hand.skin, hand.skeleton, creases);
+  result.tape = measure_with_tape(hand.skin, hand.skeleton, creases);
   measure_distances(scan, result);
   result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
   return result;

@@ -13,6 +13,7 @@
 #include "palmar/capture/skin_marks.h"
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
+#include "palmar/hand/tape_measures.h"
 
 namespace palmar {
 
@@ -37,6 +38,7 @@ struct DottedJoint {
 struct HandFromScan {
   ScannedHand scanned;          ///< its dimensions are those between the person's creases
   FoundCreases creases;         ///< hand frame
+  HandTape tape;                ///< along the skin between these creases
   std::map<Segment, int> dots;  ///< seen in the reference scan
   std::vector<DottedJoint> joints;
   std::map<ScanPosture, MeshFit> fits;           ///< of the hand in the other scans

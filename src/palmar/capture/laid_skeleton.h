@@ -9,7 +9,7 @@
 
 #include "palmar/capture/skin_marks.h"
 #include "palmar/core/progress.h"
-#include "palmar/hand/creases.h"
+#include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/hand.h"
 #include "palmar/hand/posture_from_mesh.h"
 
@@ -17,7 +17,7 @@ namespace palmar {
 
 /// Creases of a person found in a scan.
 struct FoundCreases {
-  std::map<Segment, CreasePlane> plane;  ///< proximal creases, of the palm the wrist's; hand frame
+  DrawnCreases plane;
   std::map<Segment, double>
       shift;                     ///< distal of where the joints would put them, at the middle, mm
   std::vector<Segment> missing;  ///< not drawn, or not found

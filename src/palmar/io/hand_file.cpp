@@ -232,15 +232,48 @@ Hand read_exact(const Reader& reader, const Json& json) {
   return hand;
 }
 
-Glb make_glb(const Hand& hand) {
+Json creases_to_json(const DrawnCreases& creases) {
+  Json json = Json::object();
+  for (const auto& [segment, plane] : creases) {
+    const Vec3 &p = plane.point, &n = plane.normal;
+    json[std::string(name_of(segment))] = {{"point_mm", {p.x(), p.y(), p.z()}},
+                                           {"normal", {n.x(), n.y(), n.z()}}};
+  }
+  return json;
+}
+
+DrawnCreases creases_from_json(const Reader& reader, const Json& json) {
+  DrawnCreases creases;
+  const auto vector = [&](const Json& numbers) {
+    const Vec3 v(numbers.at(0).get<double>(), numbers.at(1).get<double>(),
+                 numbers.at(2).get<double>());
+    if (!v.allFinite()) reader.fail("a drawn crease is not finite");
+    return v;
+  };
+  for (const auto& [name, entry] : json.items()) {
+    const auto segment = segment_named(name);
+    if (!segment) reader.fail("drawn crease of an unknown segment \"" + name + "\"");
+    CreasePlane& plane = creases[*segment];
+    plane = {vector(entry.at("point_mm")), vector(entry.at("normal"))};
+    if (!(std::abs(plane.normal.norm() - 1.0) < 1e-6)) {
+      reader.fail("drawn crease of \"" + name + "\": its normal is no unit vector");
+    }
+  }
+  return creases;
+}
+
+Glb make_glb(const Hand& hand, const DrawnCreases& creases = {}) {
   Glb glb = make_hand_scene(hand);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion;
   Json exact = write_exact(glb, hand);
+  if (!creases.empty()) exact["drawn_creases"] = creases_to_json(creases);
   glb.json["extras"]["palmar_hand"] = std::move(exact);
   return glb;
 }
 
-Hand hand_of(const Glb& glb, const std::string& path) {
+/// What `read` makes of the hand's own data in a file; throws as read_hand().
+template <class Read>
+auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
   const auto extras = glb.json.find("extras");
   if (extras == glb.json.end() || !extras->is_object() ||
       !extras->contains("palmar_hand_version") ||
@@ -257,7 +290,7 @@ Hand hand_of(const Glb& glb, const std::string& path) {
   }
   const Reader reader(glb, path);
   try {
-    return read_exact(reader, extras->at("palmar_hand"));
+    return read(reader, extras->at("palmar_hand"));
   } catch (const Json::exception& e) {
     reader.fail(e.what());
   } catch (const InputError& e) {
@@ -266,9 +299,20 @@ Hand hand_of(const Glb& glb, const std::string& path) {
   }
 }
 
+Hand hand_of(const Glb& glb, const std::string& path) { return read_extras(glb, path, read_exact); }
+
 }  // namespace
 
-void write_hand(const std::string& path, const Hand& hand) { write_glb(make_glb(hand), path); }
+void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& creases) {
+  write_glb(make_glb(hand, creases), path);
+}
+
+DrawnCreases read_drawn_creases(const std::string& path) {
+  return read_extras(read_glb(path), path, [](const Reader& reader, const Json& json) {
+    const auto drawn = json.find("drawn_creases");
+    return drawn == json.end() ? DrawnCreases() : creases_from_json(reader, *drawn);
+  });
+}
 
 Hand read_hand(const std::string& path) { return hand_of(read_glb(path), path); }
 

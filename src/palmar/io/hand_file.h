@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {
@@ -22,12 +23,15 @@ inline constexpr int kHandFileVersion = 2;
 /// precision (mm, rad); so read_hand() gives back the very value that write_hand() was given.
 ///
 /// Throws OutputError if the file can't be written in full.
-void write_hand(const std::string& path, const Hand& hand);
+/// `creases`: where this person's were seen, kept beside the hand.
+void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& creases = {});
 
 /// Throws InputError naming the file for: missing, truncated, no glTF, a glTF that is no Palmar
 /// hand, a newer version than kHandFileVersion, and data that contradict themselves (counts,
 /// indices, weights outside [0, 1], numbers that are not finite).
 Hand read_hand(const std::string& path);
+/// The creases that were seen on this hand; none if nothing was written of them.
+DrawnCreases read_drawn_creases(const std::string& path);
 
 /// The bytes of such a file, the same for the same hand; and back, `name` standing for the path.
 std::string format_hand(const Hand& hand);

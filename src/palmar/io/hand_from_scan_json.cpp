@@ -19,6 +19,10 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string text(std::string_view name) { return std::string(name); }
 
+std::string tape_name(const TapeValue& value) {
+  return (value.segment ? text(name_of(*value.segment)) + "_" : "") + text(value.quantity);
+}
+
 Json scan_joints(const HandFromScan& made) {
   const Rigid3& scan = made.scanned.patient_from_hand;
   Json list = Json::array();
@@ -47,6 +51,8 @@ std::string hand_from_scan_json(const HandFromScan& made) {
   for (const HandDimension& d : all_hand_dimensions()) {
     dimensions[text(name_of(d)) + "_mm"] = value_of(hand.dimensions, d);
   }
+  Json tape = Json::object();
+  for (const TapeValue& value : values_of(made.tape)) tape[tape_name(value) + "_mm"] = value.value;
   Json scans = Json::object();
   for (const auto& [name, posture] : made.postures) {
     Json one = Json::object();
@@ -85,6 +91,7 @@ std::string hand_from_scan_json(const HandFromScan& made) {
   const Json json = {{"hand", hand.name},
                      {"side", text(name_of(hand.side))},
                      {"dimensions", std::move(dimensions)},
+                     {"along_the_skin", std::move(tape)},
                      {"skin_mean_mm", made.scanned.registration_mean},
                      {"skin_p95_mm", made.scanned.registration_p95},
                      {"joints", scan_joints(made)},
@@ -97,10 +104,13 @@ std::string hand_from_scan_json(const HandFromScan& made) {
   return json.dump(2);
 }
 
-CsvTable dimension_csv(const HandDimensions& dimensions) {
+CsvTable dimension_csv(const HandDimensions& dimensions, const HandTape& tape) {
   CsvTable table{{"dimension", "value_mm"}, {}};
   for (const HandDimension& d : all_hand_dimensions()) {
     table.rows.push_back({text(name_of(d)), fmt::format("{:.3f}", value_of(dimensions, d))});
+  }
+  for (const TapeValue& value : values_of(tape)) {
+    table.rows.push_back({tape_name(value), fmt::format("{:.3f}", value.value)});
   }
   return table;
 }

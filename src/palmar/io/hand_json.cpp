@@ -24,9 +24,7 @@ Json dof_json(const JointDof& dof) {
           {"source", dof.source}};
 }
 
-}  // namespace
-
-std::string hand_info_json(const Hand& hand) {
+Json info_of(const Hand& hand) {
   const HandDimensions& d = hand.dimensions;
   Json segments = Json::object();
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -46,21 +44,37 @@ std::string hand_info_json(const Hand& hand) {
   }
   Json bones = Json::array();
   for (const Bone& bone : hand.bones) bones.push_back(bone.name);
-  const Json info = {{"name", hand.name},
-                     {"side", name_of(hand.side)},
-                     {"vertices", hand.skin.vertex_count()},
-                     {"triangles", hand.skin.triangle_count()},
-                     {"hand_length_mm", d.hand_length},
-                     {"hand_circumference_mm", d.hand_circumference},
-                     {"hand_width_mm", d.hand_width},
-                     {"hand_thickness_mm", d.hand_thickness},
-                     {"segments", std::move(segments)},
-                     {"degree_of_freedom_count", dof_count},
-                     {"joints", std::move(joints)},
-                     {"bones", std::move(bones)},
-                     {"tissue_source", hand.tissue.source},
-                     {"provenance", hand.provenance}};
-  return info.dump(2, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
+  return Json{{"name", hand.name},
+              {"side", name_of(hand.side)},
+              {"vertices", hand.skin.vertex_count()},
+              {"triangles", hand.skin.triangle_count()},
+              {"hand_length_mm", d.hand_length},
+              {"hand_circumference_mm", d.hand_circumference},
+              {"hand_width_mm", d.hand_width},
+              {"hand_thickness_mm", d.hand_thickness},
+              {"segments", std::move(segments)},
+              {"degree_of_freedom_count", dof_count},
+              {"joints", std::move(joints)},
+              {"bones", std::move(bones)},
+              {"tissue_source", hand.tissue.source},
+              {"provenance", hand.provenance}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);  // names may be no UTF-8
+}
+
+}  // namespace
+
+std::string hand_info_json(const Hand& hand) { return text_of(info_of(hand)); }
+
+std::string hand_measures_json(const Hand& hand, const HandTape& tape) {
+  Json json = info_of(hand);
+  for (const TapeValue& value : values_of(tape)) {
+    Json& place = value.segment ? json["segments"][std::string(name_of(*value.segment))] : json;
+    place[std::string(value.quantity) + "_mm"] = value.value;
+  }
+  return text_of(json);
 }
 
 std::string tissue_json(const Tissue& tissue) {

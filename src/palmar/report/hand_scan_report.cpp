@@ -208,7 +208,8 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
   const std::filesystem::path base(folder);
   create_folder(base);
   write_file(base / "scan.json", hand_from_scan_json(made) + "\n");
-  write_file(base / "dimensions.csv", format_csv(dimension_csv(made.scanned.hand.dimensions)));
+  write_file(base / "dimensions.csv",
+             format_csv(dimension_csv(made.scanned.hand.dimensions, made.tape)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
   const Hand& hand = made.scanned.hand;

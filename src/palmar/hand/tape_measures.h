@@ -1,0 +1,55 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "palmar/geometry/section.h"
+#include "palmar/hand/creases.h"
+#include "palmar/hand/hand.h"
+
+namespace palmar {
+
+/// What a tape measures along the skin, mm. A tape is taut: it follows what bulges and spans
+/// hollows, so it is no shorter than the straight line, and the skin's roughness hardly counts.
+struct SegmentTape {
+  double girth = 0.0;          ///< round the segment half way; of the palm: hand circumference
+  double palmar_length = 0.0;  ///< between the ends of its length, over the palmar skin
+  double dorsal_length = 0.0;  ///< the same over the back
+  double palmar_width = 0.0;   ///< half way, from the radial to the ulnar edge over the palmar skin
+  double dorsal_width = 0.0;   ///< the same over the back; with it the girth
+};
+
+struct HandTape {
+  double palmar_hand_length = 0.0;  ///< wrist crease to tip of the middle finger, over the palm
+  double dorsal_hand_length = 0.0;  ///< the same over the back
+  std::array<SegmentTape, kSegmentCount> segment;  ///< of the palm: width over the metacarpal heads
+};
+
+/// Lays a tape along the skin where measure_hand() measures straight: lengths in the plane through
+/// both ends that holds the palmar direction half way, from crease to crease or to the fingertip
+/// (dorsal ends: straight dorsal of the creases' centres); widths in the same sections as those.
+/// Thickness has no tape. `creases`: as for measure_hand(). Throws InputError naming the segment if
+/// a section misses the skin or its ends lie on different parts of it.
+HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
+                           const HandCreases& creases);
+
+/// Length of a tape held taut over a closed curve, from its point nearest to `a` to that nearest to
+/// `b`, on the side that unit vector `over` points to: upper convex hull of the curve's part there,
+/// seen along the line a b. `over` lies in the plane of the curve. 0 for a curve of fewer than
+/// three points, or if a and b are the same.
+double taut_length(const SectionCurve& curve, const Vec3& a, const Vec3& b, const Vec3& over);
+
+/// A value with its name and, for those of segments, the segment: as in tables, in their order:
+/// "hand_length_palmar", "length_dorsal", "girth" ...
+struct TapeValue {
+  std::string_view quantity;
+  std::optional<Segment> segment;
+  double value = 0.0;  ///< mm
+};
+std::vector<TapeValue> values_of(const HandTape& tape);
+
+}  // namespace palmar
