@@ -4,6 +4,7 @@
 
 #include "cli.h"
 #include "hand_from_mri_command.h"
+#include "hand_from_photos_command.h"
 #include "hand_from_scan_command.h"
 #include "hand_pose_command.h"
 #include "hand_scale_command.h"
@@ -167,6 +168,7 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_template(*hand, context);
   add_from_mri(*hand, context);
   add_from_scan(*hand, context);
+  add_from_photos(*hand, context);
   add_info(*hand, context);
   add_tissue(*hand, context);
   add_measure(*hand, context);

@@ -12,6 +12,7 @@
 #include "palmar/io/file.h"
 #include "palmar/io/photo_set.h"
 #include "palmar/io/photo_worker.h"
+#include "photo_lenses.h"
 
 namespace palmar::cli {
 namespace {
@@ -96,29 +97,8 @@ struct PhotosCalibrateArguments {
 int run_calibrate(const PhotosCalibrateArguments& arguments, const Context& context) {
   const PhotoSet set = read_photo_set(arguments.folder);
   const Progress progress = make_progress(context.common);
-  std::vector<fs::path> files;
-  std::map<std::string, std::vector<std::size_t>> by_camera;
-  for (std::size_t i = 0; i < set.photographs.size(); ++i) {
-    files.push_back(set.photographs[i].path);
-    by_camera[set.photographs[i].camera].push_back(i);
-  }
-  const std::vector<BoardSighting> seen = find_boards(set.board, files, progress);
-  PhotoLenses lenses;
-  for (const auto& [camera, photographs] : by_camera) {
-    std::vector<std::vector<BoardCorner>> corners;
-    const BoardSighting& first = seen[photographs.front()];
-    for (const std::size_t i : photographs) {
-      if (seen[i].width != first.width || seen[i].height != first.height) {
-        throw InputError(fmt::format("{}: {} x {} pixels; {} has {} x {}, one camera's are alike",
-                                     files[i].string(), seen[i].width, seen[i].height,
-                                     files[photographs.front()].string(), first.width,
-                                     first.height));
-      }
-      corners.push_back(seen[i].corners);
-    }
-    lenses[camera] =
-        calibrate_lens(first.width, first.height, corners, arguments.folder + ": camera " + camera);
-  }
+  const PhotoLenses lenses =
+      calibrate_lenses(set, find_boards(set.board, paths_of(set), progress), arguments.folder);
   write_file(arguments.out, format_lenses(lenses));
   finish_progress();
   if (context.common.json) {
@@ -133,12 +113,10 @@ int run_calibrate(const PhotosCalibrateArguments& arguments, const Context& cont
         "photographs\n",
         camera, one.lens.focal_x, one.focal_deviation, one.lens.centre_x, one.lens.centre_y,
         one.centre_deviation, one.rms, one.photographs);
-    constexpr double kLoose = 3.0;  // pixels
-    if (one.centre_deviation > kLoose) {
-      note(context.common, fmt::format("camera {}: its centre is known to {:.1f} px only; add "
-                                       "photographs with the board tilted in other ways",
-                                       camera, one.centre_deviation));
-    }
+  }
+  for (const std::string& loose :
+       loose_lenses(lenses, "add photographs with the board tilted in other ways")) {
+    note(context.common, loose);
   }
   print(text + "lenses: " + arguments.out + "\n");
   return 0;

@@ -111,6 +111,20 @@ PhotoSet read_photo_set(const fs::path& folder) {
   return set;
 }
 
+bool holds_photographs(const fs::path& folder) {
+  if (fs::exists(folder / "photos.json")) return true;
+  const fs::directory_iterator files(folder);
+  return std::any_of(begin(files), end(files), [](const fs::directory_entry& entry) {
+    return entry.is_regular_file() && is_photograph(entry.path());
+  });
+}
+
+std::vector<fs::path> paths_of(const PhotoSet& set) {
+  std::vector<fs::path> paths;
+  for (const PhotoFile& file : set.photographs) paths.push_back(file.path);
+  return paths;
+}
+
 PhotoLenses read_lenses(const fs::path& path) {
   const std::string name = path.string();
   PhotoLenses lenses;

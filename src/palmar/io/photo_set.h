@@ -34,6 +34,10 @@ struct PhotoSet {
 /// other text may stand before, between them and behind); without such names all are of one camera,
 /// each in a position of its own. Throws InputError naming folder or entry.
 PhotoSet read_photo_set(const std::filesystem::path& folder);
+/// Whether a folder has photographs right in it.
+bool holds_photographs(const std::filesystem::path& folder);
+/// Where its photographs are, in their order.
+std::vector<std::filesystem::path> paths_of(const PhotoSet& set);
 
 /// Lenses by camera, as `palmar photos calibrate` writes them.
 using PhotoLenses = std::map<std::string, LensCalibration>;
