@@ -130,9 +130,9 @@ TEST_F(TemplateDimensions, TapeIsNoShorterThanTheStraightLine) {
   const HandDimensions d = measure_hand(hand());
   const HandCreases creases(hand().skin, hand().skeleton);
   const HandTape tape = measure_with_tape(hand().skin, hand().skeleton, creases);
-  EXPECT_GE(tape.palmar_hand_length, d.hand_length);
-  EXPECT_GE(tape.dorsal_hand_length, d.hand_length);
-  EXPECT_LT(tape.dorsal_hand_length, 1.15 * d.hand_length);
+  EXPECT_GE(tape.palmar_hand_length().value(), d.hand_length);
+  EXPECT_GE(tape.dorsal_hand_length().value(), d.hand_length);
+  EXPECT_LT(tape.dorsal_hand_length().value(), 1.15 * d.hand_length);
   for (int k = 0; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
     const SegmentDimensions& s = of(d, segment);
@@ -140,10 +140,10 @@ TEST_F(TemplateDimensions, TapeIsNoShorterThanTheStraightLine) {
     EXPECT_NEAR(t.palmar_width + t.dorsal_width, t.girth, 0.05) << name_of(segment);  // mm
     EXPECT_GE(t.palmar_width, s.width) << name_of(segment);
     EXPECT_GE(t.dorsal_width, s.width) << name_of(segment);
-    EXPECT_GE(t.palmar_length, s.length - 1e-9) << name_of(segment);
+    EXPECT_GE(t.palmar_length.value(), s.length - 1e-9) << name_of(segment);
     // A convex curve is longer than twice its diagonal, and shorter than its rectangle.
     EXPECT_GT(t.girth, 2.0 * std::hypot(s.width, s.thickness)) << name_of(segment);
-    EXPECT_GT(t.dorsal_length, 8.0) << name_of(segment);
+    EXPECT_GT(t.dorsal_length.value(), 8.0) << name_of(segment);
   }
   EXPECT_DOUBLE_EQ(tape.segment[0].girth, d.hand_circumference);
 }

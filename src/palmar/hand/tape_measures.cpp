@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include "palmar/core/error.h"
 #include "palmar/hand/hand_sections.h"
 
 namespace palmar {
@@ -92,26 +90,33 @@ double upper_hull_length(const std::vector<Vec3>& part, const Vec3& along, const
   return sum;
 }
 
-/// A tape along the skin from a to b, in the plane that holds `over`.
-double tape(const TriangleMesh& skin, const Vec3& a, const Vec3& b, const Vec3& over,
-            const std::string& object) {
+/// A tape along the skin from a to b, in the plane that holds `over`; nothing if one curve doesn't
+/// pass both.
+std::optional<double> tape(const TriangleMesh& skin, const Vec3& a, const Vec3& b,
+                           const Vec3& over) {
   const Vec3 normal = (b - a).cross(over).normalized();
-  const SectionCurve* best = nullptr;
   constexpr double kOn = 3.0;  // mm: fingertips may lie a little off a mesh that was smoothed
   double least = kOn;
-  const std::vector<SectionCurve> curves = plane_section(skin, a, normal);
-  for (const SectionCurve& curve : curves) {
+  std::optional<double> length;
+  for (const SectionCurve& curve : plane_section(skin, a, normal)) {
     const double off = std::max(nearest_on(curve, a).distance, nearest_on(curve, b).distance);
     if (off >= least) continue;
     least = off;
-    best = &curve;
+    length = taut_length(curve, a, b, over);
   }
-  if (best == nullptr) {
-    throw InputError(object +
-                     ": no tape can be laid along it: its ends lie on different parts of "
-                     "the skin");
+  return length;
+}
+
+std::optional<double> along_middle_finger(const HandTape& tape,
+                                          std::optional<double> SegmentTape::*length) {
+  double sum = 0.0;
+  for (const Segment segment :
+       {Segment::kPalm, Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal}) {
+    const auto& part = tape.segment[static_cast<std::size_t>(segment)].*length;
+    if (!part) return {};
+    sum += *part;
   }
-  return taut_length(*best, a, b, over);
+  return sum;
 }
 
 /// From edge to edge of a section, over one side and over the other.
@@ -136,30 +141,34 @@ double taut_length(const SectionCurve& curve, const Vec3& a, const Vec3& b, cons
   return upper_hull_length(is_one ? one : other, along, up);
 }
 
+std::optional<double> HandTape::palmar_hand_length() const {
+  return along_middle_finger(*this, &SegmentTape::palmar_length);
+}
+
+std::optional<double> HandTape::dorsal_hand_length() const {
+  return along_middle_finger(*this, &SegmentTape::dorsal_length);
+}
+
 HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases) {
   const HandSections sections = hand_sections(skin, skeleton, creases);
   HandTape result;
-  const Vec3& tip = skeleton.fingertips[static_cast<std::size_t>(Finger::kMiddle)];
   const Vec3 palmar = Vec3::UnitZ();
-  result.palmar_hand_length = tape(skin, sections.wrist_palmar, tip, palmar, "hand");
-  result.dorsal_hand_length = tape(skin, sections.wrist_dorsal, tip, -palmar, "hand");
   const SegmentSection& base = sections.segment[static_cast<std::size_t>(Segment::kMiddleProximal)];
-  SegmentTape& palm = result.segment[static_cast<std::size_t>(Segment::kPalm)];
-  palm.girth = girth(sections.heads.point, sections.normal);
-  palm.palmar_length = tape(skin, sections.wrist_palmar, base.from_palmar, palmar, "palm");
-  palm.dorsal_length = tape(skin, sections.wrist_dorsal, base.from_dorsal, -palmar, "palm");
   const auto over_heads = widths(sections.heads, sections.radial, sections.palmar);
-  palm.palmar_width = over_heads[0];
-  palm.dorsal_width = over_heads[1];
+  result.segment[static_cast<std::size_t>(Segment::kPalm)] = {
+      .girth = girth(sections.heads.point, sections.normal),
+      .palmar_length = tape(skin, sections.wrist_palmar, base.from_palmar, palmar),
+      .dorsal_length = tape(skin, sections.wrist_dorsal, base.from_dorsal, -palmar),
+      .palmar_width = over_heads[0],
+      .dorsal_width = over_heads[1]};
   for (int k = 1; k < kSegmentCount; ++k) {
     const SegmentSection& s = sections.segment[static_cast<std::size_t>(k)];
-    const std::string object = "segment \"" + std::string(name_of(static_cast<Segment>(k))) + "\"";
     const auto half_way = widths(s.middle, s.across, s.palmar);
     result.segment[static_cast<std::size_t>(k)] = {
         .girth = girth(s.middle.point, s.along),
-        .palmar_length = tape(skin, s.from_palmar, s.to_palmar, s.palmar, object),
-        .dorsal_length = tape(skin, s.from_dorsal, s.to_dorsal, -s.palmar, object),
+        .palmar_length = tape(skin, s.from_palmar, s.to_palmar, s.palmar),
+        .dorsal_length = tape(skin, s.from_dorsal, s.to_dorsal, -s.palmar),
         .palmar_width = half_way[0],
         .dorsal_width = half_way[1]};
   }
@@ -167,16 +176,21 @@ HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
 }
 
 std::vector<TapeValue> values_of(const HandTape& tape) {
-  std::vector<TapeValue> values{{"hand_length_palmar", {}, tape.palmar_hand_length},
-                                {"hand_length_dorsal", {}, tape.dorsal_hand_length}};
+  std::vector<TapeValue> values;
+  const auto add = [&](std::string_view quantity, std::optional<Segment> segment,
+                       std::optional<double> value) {
+    if (value) values.push_back({quantity, segment, *value});
+  };
+  add("hand_length_palmar", {}, tape.palmar_hand_length());
+  add("hand_length_dorsal", {}, tape.dorsal_hand_length());
   for (int k = 0; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
     const SegmentTape& s = tape.segment[static_cast<std::size_t>(k)];
-    values.push_back({"girth", segment, s.girth});
-    values.push_back({"length_palmar", segment, s.palmar_length});
-    values.push_back({"length_dorsal", segment, s.dorsal_length});
-    values.push_back({"width_palmar", segment, s.palmar_width});
-    values.push_back({"width_dorsal", segment, s.dorsal_width});
+    add("girth", segment, s.girth);
+    add("length_palmar", segment, s.palmar_length);
+    add("length_dorsal", segment, s.dorsal_length);
+    add("width_palmar", segment, s.palmar_width);
+    add("width_dorsal", segment, s.dorsal_width);
   }
   return values;
 }

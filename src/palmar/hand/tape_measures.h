@@ -16,24 +16,26 @@ namespace palmar {
 /// What a tape measures along the skin, mm. A tape is taut: it follows what bulges and spans
 /// hollows, so it is no shorter than the straight line, and the skin's roughness hardly counts.
 struct SegmentTape {
-  double girth = 0.0;          ///< round the segment half way; of the palm: hand circumference
-  double palmar_length = 0.0;  ///< between the ends of its length, over the palmar skin
-  double dorsal_length = 0.0;  ///< the same over the back
-  double palmar_width = 0.0;   ///< half way, from the radial to the ulnar edge over the palmar skin
-  double dorsal_width = 0.0;   ///< the same over the back; with it the girth
+  double girth = 0.0;  ///< round the segment half way; of the palm: hand circumference
+  /// Between the ends of its length over the palmar skin, and over the back; nothing if the ends
+  /// lie on different parts of the skin.
+  std::optional<double> palmar_length, dorsal_length;
+  double palmar_width = 0.0;  ///< half way, from the radial to the ulnar edge over the palmar skin
+  double dorsal_width = 0.0;  ///< the same over the back; with it the girth
 };
 
 struct HandTape {
-  double palmar_hand_length = 0.0;  ///< wrist crease to tip of the middle finger, over the palm
-  double dorsal_hand_length = 0.0;  ///< the same over the back
   std::array<SegmentTape, kSegmentCount> segment;  ///< of the palm: width over the metacarpal heads
+  /// Wrist crease to tip of the middle finger: palm and its three phalanges.
+  std::optional<double> palmar_hand_length() const;
+  std::optional<double> dorsal_hand_length() const;
 };
 
 /// Lays a tape along the skin where measure_hand() measures straight: lengths in the plane through
 /// both ends that holds the palmar direction half way, from crease to crease or to the fingertip
 /// (dorsal ends: straight dorsal of the creases' centres); widths in the same sections as those.
 /// Thickness has no tape. `creases`: as for measure_hand(). Throws InputError naming the segment if
-/// a section misses the skin or its ends lie on different parts of it.
+/// a section misses the skin.
 HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases);
 
