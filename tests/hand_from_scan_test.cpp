@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -129,6 +130,54 @@ TEST_F(HandFromScanTest, FindsCreasesAndDots) {
   }
   EXPECT_GE(found, 0.96 * static_cast<double>(truth.dots.size()));
   EXPECT_LE(marks.dots.size(), truth.dots.size());
+}
+
+/// A line of ink points across the palmar side of a finger, `off` mm distal of its crease.
+InkLine line_at(const HandCreases& creases, Segment segment, double off) {
+  const CreasePlane& plane = creases.proximal_crease(segment);
+  const Finger finger = *finger_of(segment);
+  const auto chain = segments_of(finger);
+  const int node =
+      static_cast<int>(std::find(chain.begin(), chain.end(), segment) - chain.begin()) +
+      (finger == Finger::kThumb ? 2 : 1);
+  const Vec3 palmar = creases.palmar_direction(finger, node);
+  const Vec3 aside = plane.normal.cross(palmar).normalized();
+  const Vec3 out = aside.cross(plane.normal);
+  InkLine line;
+  for (int k = -6; k <= 6; ++k) {
+    line.point.push_back(plane.point + off * plane.normal + 6.0 * out + k * aside);
+    line.weight.push_back(1.0);
+  }
+  return line;
+}
+
+// Where the skin alone misjudges a finger by half a phalanx, the order of the lines tells which
+// crease is which; a line that is nearer to the next crease than to its own was lost before.
+TEST_F(HandFromScanTest, CreasesAreToldByTheirOrder) {
+  const HandCreases creases(hand().skin, hand().skeleton);
+  SkinMarks marks;
+  const std::array<std::pair<Segment, double>, 3> drawn{{{Segment::kMiddleProximal, 1.0},
+                                                         {Segment::kMiddleMiddle, 7.0},
+                                                         {Segment::kMiddleDistal, 10.0}}};
+  for (const auto& [segment, off] : drawn) marks.lines.push_back(line_at(creases, segment, off));
+  FoundCreases found = find_creases(marks, {}, creases);
+  for (const auto& [segment, off] : drawn) {
+    EXPECT_NEAR(found.shift.at(segment), off, 1e-6) << name_of(segment);
+  }
+  EXPECT_EQ(found.missing.size(), std::size_t{kSegmentCount - 3});
+  // Somebody who says that the last line is none is believed, and what that person calls it.
+  const Vec3 last = marks.lines[2].point[6];
+  marks.crease_labels = {{last, {}, "m.csv:2"}};
+  EXPECT_FALSE(find_creases(marks, {}, creases).plane.contains(Segment::kMiddleDistal));
+  marks.crease_labels = {{last, Segment::kRingDistal, "m.csv:2"}};
+  EXPECT_TRUE(find_creases(marks, {}, creases).plane.contains(Segment::kRingDistal));
+  marks.crease_labels.push_back({last, Segment::kMiddleDistal, "m.csv:3"});
+  try {
+    find_creases(marks, {}, creases);
+    FAIL() << "one line has two names";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("m.csv:3: m.csv:2 gives the same line another name"));
+  }
 }
 
 TEST_F(HandFromScanTest, KnowsTheOtherSideAndWhatIsNoHand) {

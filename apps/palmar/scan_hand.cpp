@@ -16,6 +16,7 @@
 #include "palmar/io/file.h"
 #include "palmar/io/hand_file.h"
 #include "palmar/io/hand_from_scan_json.h"
+#include "palmar/io/mark_label_file.h"
 #include "side_argument.h"
 
 namespace palmar::cli {
@@ -68,6 +69,9 @@ void ScanHandArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_option("--dot-colour", dot, "Ink of the dots")->capture_default_str();
   verb.add_option("--dot-mm", dot_mm, "Diameter of the dots")->capture_default_str();
+  verb.add_option("--marks", marks,
+                  "Names of drawn creases and dots, those to leave out and to add: marks.csv of an "
+                  "earlier run, edited");
   verb.add_option("--model", model,
                   "Hand whose segments, regions and joints are laid over the surface")
       ->capture_default_str();
@@ -90,6 +94,7 @@ void ScanHandArguments::check_outputs(const std::string& work_folder) const {
     require_writable(work_folder);
   }
   require_writable(folder_of(out));
+  if (!marks.empty()) read_mark_labels(marks);
 }
 
 std::map<ScanPosture, std::string> files_by_posture(const std::vector<std::string>& paths,
@@ -149,9 +154,12 @@ void make_hand_of_surfaces(const ScanHandArguments& arguments, const std::string
   std::optional<Side> side;
   if (!arguments.side.empty()) side = parse_side(arguments.side);
   std::map<ScanPosture, SurfaceScan> scans;
+  std::map<ScanPosture, SkinMarks*> marks;
   for (const auto& [posture, one] : shown) {
     scans[posture] = {one.file, one.surface.mesh, one.marks};
+    marks[posture] = &scans[posture].marks;
   }
+  if (!arguments.marks.empty()) apply_mark_labels(read_mark_labels(arguments.marks), marks);
   HandFromScan made = make_hand_from_scans(*model, scans, side, part_of(progress, 0.0, 0.9));
   made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
   Hand& hand = made.scanned.hand;

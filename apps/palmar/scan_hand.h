@@ -17,7 +17,7 @@ namespace palmar::cli {
 
 /// Options of making a hand of surfaces, whether they were scanned or photographed.
 struct ScanHandArguments {
-  std::string out, work, model = "template", name, side;
+  std::string out, work, model = "template", name, side, marks;
   std::string crease = "green", dot = "blue";
   double dot_mm = SkinMarkOptions{}.dot_diameter;
   bool no_report = false;
@@ -25,7 +25,8 @@ struct ScanHandArguments {
   void add_to(CLI::App& verb);
   /// Throws UsageError naming the option.
   SkinMarkOptions inks() const;
-  /// Refuses what can't be written to, before the long work. `work` is made if there is a report.
+  /// Refuses what can't be written to and a file of marks that can't be read, before the long work.
+  /// `work` is made if there is a report.
   void check_outputs(const std::string& work_folder) const;
 };
 

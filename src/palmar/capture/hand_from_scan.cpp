@@ -49,7 +49,7 @@ std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
     BoundDot bound;
     bound.point = hand_from_scan * dot.point;
     bound.on_hand = skin_point_near(hand, bound.point);
-    bound.segment = hand.segment[at(*bound.on_hand.vertex)];
+    bound.segment = dot.segment ? *dot.segment : hand.segment[at(*bound.on_hand.vertex)];
     dots.push_back(std::move(bound));
   }
   return dots;
@@ -104,16 +104,38 @@ class DotReader {
     for (const BoundDot& dot : dots_) points.push_back(dot.on_hand);
     std::vector<Vec3> expected = PosablePoints(hand_, points).pose(fit.posture);
     for (Vec3& p : expected) p = fit.mesh_from_hand * p;
-    std::vector<Vec3> seen;
-    for (const InkDot& dot : scan.marks.dots) seen.push_back(dot.point);
     std::vector<std::optional<Vec3>> found(dots_.size());
-    if (seen.empty() || expected.empty()) return found;
-    MarkerMatchOptions options;
-    options.gate = 10.0;
-    options.last_gate = 4.0;
-    const auto match = match_markers(expected, seen, options);
-    for (std::size_t k = 0; k < match.size(); ++k) {
-      if (match[k]) found[k] = seen[at(*match[k])];
+    std::vector<std::optional<Segment>> taken(scan.marks.dots.size());
+    const auto match = [&](std::optional<Segment> segment, double gate, double last_gate) {
+      std::vector<std::size_t> of_expected, of_seen;
+      std::vector<Vec3> a, b;
+      for (std::size_t k = 0; k < dots_.size(); ++k) {
+        if (found[k] || (segment && dots_[k].segment != *segment)) continue;
+        of_expected.push_back(k);
+        a.push_back(expected[k]);
+      }
+      for (std::size_t k = 0; k < taken.size(); ++k) {
+        if (scan.marks.dots[k].segment != segment) continue;
+        of_seen.push_back(k);
+        b.push_back(scan.marks.dots[k].point);
+      }
+      if (a.empty() || b.empty()) return;
+      MarkerMatchOptions options;
+      options.gate = gate;
+      options.last_gate = last_gate;
+      const auto pairs = match_markers(a, b, options);
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (!pairs[k]) continue;
+        const std::size_t seen = of_seen[at(*pairs[k])];
+        found[of_expected[k]] = scan.marks.dots[seen].point;
+        taken[seen] = dots_[of_expected[k]].segment;
+      }
+    };
+    // Whose segment somebody told first: they may lie farther off.
+    for (int s = 0; s < kSegmentCount; ++s) match(static_cast<Segment>(s), 25.0, 12.0);
+    match({}, 10.0, 4.0);
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      result_.marks.push_back({name_, MarkLabel::Kind::kDot, taken[k], scan.marks.dots[k].point});
     }
     return found;
   }
@@ -208,20 +230,13 @@ std::string listed(const std::vector<Segment>& segments) {
   return text;
 }
 
-std::vector<InkLine> moved(std::vector<InkLine> lines, const Rigid3& motion) {
-  for (InkLine& line : lines) {
-    for (Vec3& p : line.point) p = motion * p;
-  }
-  return lines;
-}
-
 /// Finds the person's creases by where the joints suggest them, and moves joints to them.
 void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& result) {
   const Hand& hand = result.scanned.hand;
   const HandCreases suggested(hand.skin, hand.skeleton);
   FoundCreases& found = result.creases;
   const Rigid3 before = laid.scan_from_hand;
-  found = find_creases(moved(scan.marks.lines, before.inverse()), suggested);
+  found = find_creases(scan.marks, before.inverse(), suggested);
   shift_to_creases(laid, found);
   const Rigid3 turn = laid.scan_from_hand.inverse() * before;
   for (auto& [segment, plane] : found.plane) {
@@ -266,7 +281,7 @@ HandFromScan make_hand_from_scans(const Hand& model,
   const Hand base = laid.side == model.side ? model : mirrored(model);
   MeasuredJoints joints = joints_of(laid);
   result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
-  if (!scan.marks.lines.empty()) {
+  if (!scan.marks.lines.empty() || !scan.marks.added_lines.empty()) {
     take_creases(scan, laid, result);
     joints = joints_of(laid);
     // The same skin, seen from the frame that the creases moved.
@@ -281,7 +296,15 @@ HandFromScan make_hand_from_scans(const Hand& model,
   // Joints by dots, seen from the hand that the skin gave.
   const Hand& by_skin = result.scanned.hand;
   const std::vector<BoundDot> dots = bind_dots(by_skin, scan.marks, hand_from_scan);
-  for (const BoundDot& dot : dots) ++result.dots[dot.segment];
+  for (const CreaseMark& mark : result.creases.marks) {
+    result.marks.push_back(
+        {ScanPosture::kReference, MarkLabel::Kind::kCrease, mark.crease, mark.point});
+  }
+  for (const BoundDot& dot : dots) {
+    ++result.dots[dot.segment];
+    result.marks.push_back({ScanPosture::kReference, MarkLabel::Kind::kDot, dot.segment,
+                            laid.scan_from_hand * dot.point});
+  }
   result.postures[ScanPosture::kReference] = reference_posture(joints.skeleton);
   result.scan_from_hand[ScanPosture::kReference] = laid.scan_from_hand;
   DotReader reader(by_skin, dots, joints, result);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "palmar/capture/laid_skeleton.h"
+#include "palmar/capture/mark_labels.h"
 #include "palmar/capture/scan_posture.h"
 #include "palmar/capture/scanned_hand.h"
 #include "palmar/capture/skin_marks.h"
@@ -36,10 +37,11 @@ struct DottedJoint {
 };
 
 struct HandFromScan {
-  ScannedHand scanned;          ///< its dimensions are those between the person's creases
-  FoundCreases creases;         ///< hand frame
-  HandTape tape;                ///< along the skin between these creases
-  std::map<Segment, int> dots;  ///< seen in the reference scan
+  ScannedHand scanned;           ///< its dimensions are those between the person's creases
+  FoundCreases creases;          ///< hand frame
+  HandTape tape;                 ///< along the skin between these creases
+  std::map<Segment, int> dots;   ///< seen in the reference scan
+  std::vector<TakenMark> marks;  ///< of all scans
   std::vector<DottedJoint> joints;
   std::map<ScanPosture, MeshFit> fits;           ///< of the hand in the other scans
   std::map<ScanPosture, Posture> postures;       ///< angles of every scan

@@ -2,34 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "palmar/capture/skin_marks.h"
+#include "palmar/capture/found_creases.h"
 #include "palmar/core/progress.h"
-#include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/hand.h"
 #include "palmar/hand/posture_from_mesh.h"
 
 namespace palmar {
-
-/// Creases of a person found in a scan.
-struct FoundCreases {
-  DrawnCreases plane;
-  std::map<Segment, double>
-      shift;                     ///< distal of where the joints would put them, at the middle, mm
-  std::vector<Segment> missing;  ///< not drawn, or not found
-  int stray = 0;                 ///< drawn vertices that no crease is near
-};
-
-/// Takes drawn lines for creases: each of their points belongs to the finger whose bones are
-/// nearest and to that of its creases which lies nearest, within 8 mm. A crease is the plane
-/// through its points that stays square to the finger's palmar direction: offset and slope across
-/// the finger by least squares. Lines that cover less than a third of the finger's breadth count as
-/// missing. `creases`: where the joints suggest them.
-FoundCreases find_creases(const std::vector<InkLine>& lines, const HandCreases& creases);
 
 /// Joints of a person of whom a scan shows the skin.
 struct LaidSkeleton {

@@ -191,7 +191,7 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
         if (blot.area < dot_area / 3.0 || blot.area > 3.0 * dot_area) {
           ++odd;
         } else {
-          marks.dots.push_back({sum / weights, blot.area});
+          marks.dots.push_back({sum / weights, blot.area, {}});
         }
       } else if (blot.area > 0.7) {
         marks.lines.push_back(std::move(blot));

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "palmar/geometry/textured_mesh.h"
+#include "palmar/hand/anatomy.h"
 
 namespace palmar {
 
@@ -22,19 +24,32 @@ struct SkinMarkOptions {
 struct InkDot {
   Vec3 point = Vec3::Zero();  ///< centre, mm
   double area = 0.0;          ///< mm^2
+  std::optional<Segment>
+      segment;  ///< if somebody said which it lies on; the back of the hand: palm
 };
 
 /// A connected piece of a drawn line.
 struct InkLine {
-  std::vector<Vec3> point;     ///< vertices under the ink
-  std::vector<double> weight;  ///< of each: area times share of ink, mm^2
-  double area = 0.0;           ///< mm^2
+  std::vector<Vec3> point;                       ///< vertices under the ink
+  std::vector<double> weight;                    ///< of each: area times share of ink, mm^2
+  double area = 0.0;                             ///< mm^2
+  std::optional<Segment> crease = std::nullopt;  ///< if somebody said so; see CreaseLabel
+};
+
+/// What somebody said of the line nearest to a point: the proximal crease of a segment, of the
+/// palm: the wrist's; none: no crease.
+struct CreaseLabel {
+  Vec3 point = Vec3::Zero();  ///< mm
+  std::optional<Segment> crease;
+  std::string place;  ///< where it is written: "file:line"
 };
 
 struct SkinMarks {
   Srgb skin = Srgb::Zero();  ///< middle colour of the bare skin
   std::vector<InkDot> dots;
   std::vector<InkLine> lines;
+  std::vector<InkLine> added_lines;  ///< without ink: points somebody gave for a crease
+  std::vector<CreaseLabel> crease_labels;
   std::vector<char> is_ink;  ///< per vertex: drawn on
   std::vector<std::string> notes;
 };

@@ -18,6 +18,7 @@
 #include "palmar/hand/skinning.h"
 #include "palmar/io/file.h"
 #include "palmar/io/hand_from_scan_json.h"
+#include "palmar/io/mark_label_file.h"
 #include "palmar/report/colormap.h"
 #include "palmar/report/colour_bar.h"
 #include "palmar/report/html_page.h"
@@ -210,6 +211,7 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
   write_file(base / "scan.json", hand_from_scan_json(made) + "\n");
   write_file(base / "dimensions.csv",
              format_csv(dimension_csv(made.scanned.hand.dimensions, made.tape)));
+  write_file(base / "marks.csv", format_csv(mark_table(made.marks)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
   const Hand& hand = made.scanned.hand;

@@ -20,7 +20,7 @@ struct ShownScan {
 
 /// Writes into `folder`: report.html (works offline: what was scanned and found in it, with
 /// pictures; how far the hand lies from the scan; joints and dimensions; notes), scan.json,
-/// dimensions.csv, joints_by_dots.csv. Same input, same bytes. Throws OutputError, Cancelled.
+/// dimensions.csv, joints_by_dots.csv, marks.csv. Same input, same bytes. Throws OutputError, Cancelled.
 void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::map<ScanPosture, ShownScan>& scans,
                             const Progress& progress = {});
