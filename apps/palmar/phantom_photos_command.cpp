@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,10 +13,12 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/io/exif.h"
 #include "palmar/io/file.h"
 #include "palmar/io/json_values.h"
 #include "palmar/io/painted_hand_file.h"
 #include "palmar/io/photo_worker.h"
+#include "palmar/io/texture_file.h"
 #include "palmar/phantom/painted_hand.h"
 #include "palmar/phantom/photographs.h"
 #include "palmar/report/image.h"
@@ -33,6 +36,7 @@ struct PhantomPhotosArguments {
   PhotographsOptions photographs;
   BoardPattern board;
   int calibration = 12;
+  int jpeg = 0;  ///< quality; 0: PNG
   bool no_hand = false;
 };
 
@@ -56,6 +60,24 @@ Image picture_of(const RgbImage& photograph) {
     image.pixels[p] = {photograph.rgb[3 * p], photograph.rgb[3 * p + 1], photograph.rgb[3 * p + 2]};
   }
   return image;
+}
+
+/// The file of a photograph; a JPEG says of itself what cameras do: the lens' focal length as it is
+/// sold, rounded, on a sensor of 1.4 micrometres a pixel.
+std::string encoded(const RgbImage& photograph, const PhotoShot& shot,
+                    const PhantomPhotosArguments& arguments) {
+  if (arguments.jpeg == 0) return encode_png(picture_of(photograph));
+  constexpr double kPixelsPerMm = 1.0 / 0.0014;
+  const double focal = arguments.photographs.focal * photograph.height;
+  PhotoExif exif;
+  exif.camera = fmt::format("Phantom c{}", shot.camera);
+  exif.focal_mm = std::round(100.0 * focal / kPixelsPerMm) / 100.0;
+  exif.focal_35mm =
+      std::round(focal * std::hypot(36.0, 24.0) / std::hypot(photograph.width, photograph.height));
+  exif.pixels_per_mm = kPixelsPerMm;
+  exif.width = photograph.width;
+  exif.height = photograph.height;
+  return format_jpeg(photograph, arguments.jpeg, format_exif(exif));
 }
 
 Json json_of(const Rigid3& rigid) {
@@ -96,6 +118,9 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   if (arguments.calibration < 0 || arguments.calibration > 200) {
     throw UsageError(fmt::format("--calibration {}; 0 to 200 is allowed", arguments.calibration));
   }
+  if (arguments.jpeg < 0 || arguments.jpeg > 100) {
+    throw UsageError(fmt::format("--jpeg {}; 0 (PNG) to 100 is allowed", arguments.jpeg));
+  }
   const ScanPosture posture = posture_named(arguments.posture);
   const Progress progress = make_progress(context.common);
   progress.update(0.0, "painting the person");
@@ -124,12 +149,13 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
     std::error_code ignored;
     fs::remove_all(out / folder, ignored);
   }
+  const char* const ending = arguments.jpeg == 0 ? ".png" : ".jpg";
   Json cameras = Json::array();
   int number = 0;
   const auto take = [&](const PhotographsStage& from, const PhotoShot& shot, const Rigid3& moved,
                         const std::string& file) {
     progress.update(0.05 + 0.9 * number / static_cast<double>(count), "photographing");
-    write_file(out / file, encode_png(picture_of(from.take(shot, moved, number++))));
+    write_file(out / file, encoded(from.take(shot, moved, number++), shot, arguments));
     cameras.push_back(json_of(shot, file));
   };
   create_folder(out);
@@ -137,11 +163,12 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   create_folder(out / "truth");
   for (const PhotoShot& shot : shoot.shots) {
     take(stage, shot, shoot.board_from_hand[static_cast<std::size_t>(shot.position)],
-         fmt::format("photos/p{:02d}_c{}.png", shot.position, shot.camera));
+         fmt::format("photos/p{:02d}_c{}{}", shot.position, shot.camera, ending));
   }
   if (!tilted.empty()) create_folder(out / "calibration");
   for (const PhotoShot& shot : tilted) {
-    take(empty, shot, {}, fmt::format("calibration/p{:02d}_c{}.png", shot.position, shot.camera));
+    take(empty, shot, {},
+         fmt::format("calibration/p{:02d}_c{}{}", shot.position, shot.camera, ending));
   }
   progress.update(0.97, "writing the truth");
   const Json board_json = {{"squares", arguments.board.squares},
@@ -191,6 +218,9 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--width-px", p.width, "Of a photograph")->capture_default_str();
   verb->add_option("--height-px", p.height, "Of a photograph")->capture_default_str();
   verb->add_option("--calibration", o->calibration, "Photographs of the tilted board per camera")
+      ->capture_default_str();
+  verb->add_option("--jpeg", o->jpeg,
+                   "JPEG of this quality (1 to 100) with what cameras say of themselves; 0: PNG")
       ->capture_default_str();
   verb->add_option("--texture", p.texture, "Unevenness of the skin's colour, as a share")
       ->capture_default_str();

@@ -22,6 +22,7 @@ namespace palmar::cli {
 namespace {
 
 constexpr double kShortest = 140.0, kLongest = 480.0;  // mm; hand, hand with forearm
+constexpr double kShortestBent = 70.0;                 // mm; a small fist, where the unit is known
 
 double extent_of(const TriangleMesh& mesh) {
   Box3 box;
@@ -35,12 +36,13 @@ LengthUnit unit_of(const std::string& path, double extent, std::optional<LengthU
     return size >= kShortest && size <= kLongest;
   };
   if (stated) {
-    if (!fits(*stated)) {
+    const double size = extent * millimetres_per(*stated);
+    if (!(size >= kShortestBent && size <= kLongest)) {
       throw InputError(
-          fmt::format("{}: is {:.4g} {} long; a hand with or without a forearm has {:g} to {:g} "
-                      "mm. --unit says "
-                      "what the numbers mean, or the scan holds more than a hand",
-                      path, extent, name_of(*stated), kShortest, kLongest));
+          fmt::format("{}: is {:.4g} {} long; a hand with or without a forearm has {:g} (bent) to "
+                      "{:g} mm. --unit says what the numbers mean, or the scan holds more than a "
+                      "hand",
+                      path, extent, name_of(*stated), kShortestBent, kLongest));
     }
     return *stated;
   }

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/io/photo_set.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -40,8 +44,39 @@ void describe_by_names(PhotoSet& set) {
   }
   if (set.is_described) return;
   for (std::size_t i = 0; i < set.photographs.size(); ++i) {
-    set.photographs[i].camera = "camera";
-    set.photographs[i].position = static_cast<int>(i);
+    PhotoFile& file = set.photographs[i];
+    file.camera = file.exif && !file.exif->camera.empty() ? file.exif->camera : "camera";
+    file.position = static_cast<int>(i);
+  }
+}
+
+void read_exif_data(PhotoSet& set) {
+  constexpr std::size_t kBeginning = 1 << 17;
+  for (PhotoFile& file : set.photographs) {
+    file.exif = read_exif(read_ends(file.path, kBeginning).head);
+  }
+}
+
+/// One camera with one zoom takes what is said to be of one.
+void check_cameras(const PhotoSet& set) {
+  std::map<std::string, const PhotoFile*> first;
+  for (const PhotoFile& file : set.photographs) {
+    if (!file.exif) continue;
+    const PhotoFile& other = *first.try_emplace(file.camera, &file).first->second;
+    if (file.exif->camera != other.exif->camera) {
+      throw InputError(fmt::format(
+          "{} was taken with \"{}\", {} with \"{}\"; they are said to be of one camera (\"{}\")",
+          other.path.string(), other.exif->camera, file.path.string(), file.exif->camera,
+          file.camera));
+    }
+    constexpr double kAlike = 0.01;
+    if (std::abs(file.exif->focal_mm - other.exif->focal_mm) > kAlike * other.exif->focal_mm) {
+      throw InputError(fmt::format(
+          "{} was taken at a focal length of {:g} mm, {} of {:g} mm: the zoom of a camera must "
+          "stay "
+          "as it is, or their names must say that they are of several cameras",
+          other.path.string(), other.exif->focal_mm, file.path.string(), file.exif->focal_mm));
+    }
   }
 }
 
@@ -58,7 +93,9 @@ void read_description(const fs::path& path, const fs::path& folder, PhotoSet& se
     if (!json.contains("photographs")) return;
     for (const Json& one : json.at("photographs")) {
       PhotoFile file{folder / one.at("file").get<std::string>(),
-                     one.value("camera", std::string("camera")), one.at("position").get<int>()};
+                     one.value("camera", std::string("camera")),
+                     one.at("position").get<int>(),
+                     {}};
       if (!fs::is_regular_file(file.path)) {
         throw InputError(name + ": photograph " + file.path.string() + " isn't there");
       }
@@ -87,12 +124,15 @@ PhotoSet read_photo_set(const fs::path& folder) {
   if (set.photographs.empty()) {
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (entry.is_regular_file() && is_photograph(entry.path())) {
-        set.photographs.push_back({entry.path(), "", 0});
+        set.photographs.push_back({entry.path(), "", 0, {}});
       }
     }
     std::sort(set.photographs.begin(), set.photographs.end(),
               [](const PhotoFile& a, const PhotoFile& b) { return a.path < b.path; });
+    read_exif_data(set);
     describe_by_names(set);
+  } else {
+    read_exif_data(set);
   }
   if (set.photographs.empty()) {
     throw InputError(folder.string() + ": no photograph (.png, .jpg, .jpeg) in it");
@@ -101,6 +141,7 @@ PhotoSet read_photo_set(const fs::path& folder) {
       set.photographs.begin(), set.photographs.end(), [](const PhotoFile& a, const PhotoFile& b) {
         return a.position != b.position ? a.position < b.position : a.camera < b.camera;
       });
+  check_cameras(set);
   // Positions from 0 without gaps.
   std::set<int> positions;
   for (const PhotoFile& file : set.photographs) positions.insert(file.position);

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "palmar/io/exif.h"
 #include "palmar/photo/board_pattern.h"
 #include "palmar/photo/lens_calibration.h"
 
@@ -17,6 +19,7 @@ struct PhotoFile {
   std::filesystem::path path;
   std::string camera;  ///< photographs of one camera have one lens
   int position = 0;    ///< of the rig: those of one were taken together; from 0 without gaps
+  std::optional<PhotoExif> exif;  ///< what the camera says, if it does
 };
 
 struct PhotoSet {
@@ -31,8 +34,10 @@ struct PhotoSet {
 ///      "photographs": [{"file": "a.jpg", "camera": "left", "position": 0}, ...]}
 ///
 /// or else every .png, .jpg and .jpeg file. Names like p3_c2.jpg say position and camera (any
-/// other text may stand before, between them and behind); without such names all are of one camera,
-/// each in a position of its own. Throws InputError naming folder or entry.
+/// other text may stand before, between them and behind); without such names each is in a position
+/// of its own, and of the camera that it says it was taken with. Throws InputError naming folder or
+/// entry, also if photographs of one camera say that they were taken with unlike cameras or focal
+/// lengths.
 PhotoSet read_photo_set(const std::filesystem::path& folder);
 /// Whether a folder has photographs right in it.
 bool holds_photographs(const std::filesystem::path& folder);

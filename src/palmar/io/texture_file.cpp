@@ -9,6 +9,7 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 // After stdio, which it needs and doesn't include.
 #include <jpeglib.h>
 
@@ -105,6 +106,34 @@ RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
   return image;
 }
 
+// As decode_jpeg().
+bool encode_jpeg(const RgbImage& image, int quality, const std::string& exif,
+                 jpeg_compress_struct& encoder, JpegErrors& errors, unsigned char*& bytes,
+                 unsigned long& size) {
+  if (setjmp(errors.back) != 0) return false;
+  jpeg_create_compress(&encoder);
+  jpeg_mem_dest(&encoder, &bytes, &size);
+  encoder.image_width = static_cast<JDIMENSION>(image.width);
+  encoder.image_height = static_cast<JDIMENSION>(image.height);
+  encoder.input_components = 3;
+  encoder.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&encoder);
+  jpeg_set_quality(&encoder, quality, TRUE);
+  if (!exif.empty()) encoder.write_JFIF_header = FALSE;
+  jpeg_start_compress(&encoder, TRUE);
+  if (!exif.empty()) {
+    jpeg_write_marker(&encoder, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(exif.data()),
+                      static_cast<unsigned int>(exif.size()));
+  }
+  while (encoder.next_scanline < encoder.image_height) {
+    JSAMPROW row = const_cast<JSAMPROW>(image.rgb.data()) +
+                   std::size_t{3} * encoder.image_width * encoder.next_scanline;
+    jpeg_write_scanlines(&encoder, &row, 1);
+  }
+  jpeg_finish_compress(&encoder);
+  return true;
+}
+
 }  // namespace
 
 RgbImage read_texture(std::string_view bytes, const std::string& name) {
@@ -127,6 +156,26 @@ std::string format_png(const RgbImage& image) {
   }
   bytes.resize(size);
   return bytes;
+}
+
+std::string format_jpeg(const RgbImage& image, int quality, const std::string& exif) {
+  if (quality < 1 || quality > 100) {
+    throw UsageError(fmt::format("JPEG quality {}; 1 to 100 is allowed", quality));
+  }
+  if (image.rgb.empty()) throw UsageError("an image without pixels can't be written");
+  jpeg_compress_struct encoder{};
+  JpegErrors errors{};
+  encoder.err = jpeg_std_error(&errors.base);
+  errors.base.error_exit = leave_jpeg;
+  errors.base.emit_message = keep_silent;
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const bool is_written = encode_jpeg(image, quality, exif, encoder, errors, bytes, size);
+  std::string result(reinterpret_cast<const char*>(bytes), is_written ? size : 0);
+  jpeg_destroy_compress(&encoder);
+  std::free(bytes);
+  if (!is_written) throw Error(std::string("can't make a JPEG: ") + errors.message.data());
+  return result;
 }
 
 }  // namespace palmar

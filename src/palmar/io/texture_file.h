@@ -20,4 +20,8 @@ RgbImage read_texture(std::string_view bytes, const std::string& name);
 /// The image as a PNG.
 std::string format_png(const RgbImage& image);
 
+/// The image as a JPEG of a quality from 1 to 100, `exif` (exif.h) as its segment APP1 if not
+/// empty. Throws UsageError for another quality or an image without pixels.
+std::string format_jpeg(const RgbImage& image, int quality, const std::string& exif = "");
+
 }  // namespace palmar

@@ -76,6 +76,10 @@ class Adjustment {
   std::vector<Corners> corners;  ///< per pose
   bool lens_is_free = false;
   Eigen::MatrixXd lens_information;  ///< of the last solve, 6 x 6
+  using LensVector = Eigen::Matrix<double, kLensSize, 1>;
+  LensVector expected = LensVector::Zero();  ///< what the lens is like without photographs,
+  Eigen::Matrix<double, kLensSize, kLensSize> certainty =
+      Eigen::Matrix<double, kLensSize, kLensSize>::Zero();  ///< and how surely, 1 / pixels^2
 
   /// Residuals of a view and their derivatives by lens (6) and place (3 turn, 3 shift).
   void view(std::size_t v, Eigen::VectorXd& r, Eigen::MatrixXd* by_lens,
@@ -112,7 +116,7 @@ class Adjustment {
     }
   }
 
-  double cost() const {
+  double residuals() const {
     double sum = 0.0;
     Eigen::VectorXd r;
     for (std::size_t v = 0; v < poses.size(); ++v) {
@@ -121,9 +125,34 @@ class Adjustment {
     }
     return sum;
   }
+  double cost() const {
+    const LensVector off = numbers() - expected;
+    return residuals() + off.dot(certainty * off);
+  }
 
-  /// Sum of squares of the residuals at the end.
-  double solve() {
+  LensVector numbers() const {
+    LensVector all;
+    all << lens.focal_x, lens.focal_y, lens.centre_x, lens.centre_y, lens.k1, lens.k2;
+    return all;
+  }
+
+  /// Beside residuals of a tenth of a pixel.
+  void expect(const LensExpectation& what, double focal) {
+    constexpr double kNoise = 0.1;  // pixels
+    const auto weight = [](double deviation) { return std::pow(kNoise / deviation, 2); };
+    expected << focal, focal, lens.centre_x, lens.centre_y, 0.0, 0.0;
+    certainty.setZero();
+    const double size = std::max(lens.width, lens.height);
+    certainty(2, 2) = certainty(3, 3) = weight(what.centre_deviation * size);
+    if (what.focal) certainty(0, 0) = certainty(1, 1) = 0.5 * weight(what.focal_deviation * focal);
+    const double square = weight(what.square_deviation * focal);  // of f_x - f_y
+    certainty(0, 0) += square;
+    certainty(1, 1) += square;
+    certainty(0, 1) -= square;
+    certainty(1, 0) -= square;
+  }
+
+  void solve() {
     double damping = 1e-3, sum = cost();
     constexpr int kRounds = 100;
     for (int round = 0; round < kRounds; ++round) {
@@ -137,7 +166,9 @@ class Adjustment {
       std::vector<View> views(poses.size());
       Eigen::VectorXd r;
       Eigen::MatrixXd l, p;
-      lens_information = Eigen::MatrixXd::Zero(kLensSize, kLensSize);
+      lens_information = certainty;
+      a += certainty;
+      g += certainty * (numbers() - expected);
       for (std::size_t v = 0; v < poses.size(); ++v) {
         view(v, r, &l, &p);
         View& one = views[v];
@@ -186,7 +217,6 @@ class Adjustment {
         if (damping > 1e8) break;
       }
     }
-    return sum;
   }
 
   std::size_t count() const {
@@ -194,8 +224,8 @@ class Adjustment {
     for (const Corners& c : corners) n += c.size();
     return n;
   }
-  double rms(double sum) const {
-    return std::sqrt(sum / (2.0 * static_cast<double>(std::max<std::size_t>(1, count()))));
+  double rms() const {
+    return std::sqrt(residuals() / (2.0 * static_cast<double>(std::max<std::size_t>(1, count()))));
   }
 
   /// Leaves out corners farther off than `limit`.
@@ -213,11 +243,13 @@ class Adjustment {
 
   /// With what doesn't fit left out step by step; the rms.
   double settle() {
-    double error = rms(solve());
+    solve();
+    double error = rms();
     for (const double least : {2.0, 1.0}) {
       constexpr double kTimes = 4.0;
       drop(std::max(least, kTimes * error));
-      error = rms(solve());
+      solve();
+      error = rms();
     }
     return error;
   }
@@ -266,7 +298,7 @@ std::optional<BoardPose> find_board_pose(const PhotoLens& lens,
 
 LensCalibration calibrate_lens(int width, int height,
                                const std::vector<std::vector<BoardCorner>>& photographs,
-                               const std::string& name, std::optional<double> known_focal) {
+                               const std::string& name, const LensExpectation& expected) {
   const Vec2 centre(0.5 * (width - 1), 0.5 * (height - 1));
   std::vector<Corners> seen;
   for (const Corners& corners : photographs) {
@@ -280,7 +312,7 @@ LensCalibration calibrate_lens(int width, int height,
                     name, seen.size(), photographs.size()));
   }
   const double size = std::max(width, height);
-  double focal = known_focal ? *known_focal : focal_from(seen, centre).value_or(1.2 * size);
+  double focal = expected.focal ? *expected.focal : focal_from(seen, centre).value_or(1.2 * size);
   focal = std::clamp(focal, 0.4 * size, 10.0 * size);
   Adjustment adjustment;
   adjustment.lens = {.width = width,
@@ -297,6 +329,7 @@ LensCalibration calibrate_lens(int width, int height,
   }
   adjustment.solve();
   adjustment.lens_is_free = true;
+  adjustment.expect(expected, focal);
   LensCalibration result;
   result.rms = adjustment.settle();
   result.lens = adjustment.lens;

@@ -34,14 +34,23 @@ struct LensCalibration {
   int photographs = 0;                          ///< that were used
 };
 
+/// What is known of a lens before any photograph; deviations as shares.
+struct LensExpectation {
+  std::optional<double> focal;      ///< what the camera says of it, pixels
+  double focal_deviation = 0.04;    ///< of that: lenses say round numbers, focusing changes them
+  double centre_deviation = 0.01;   ///< of the centre from the picture's, of the larger side
+  double square_deviation = 0.003;  ///< of the pixels' height over width from 1
+};
+
 /// All numbers of a lens and its places from photographs of the board with this one camera, focus
 /// and zoom untouched. Photographs should show the board tilted every way: a camera that goes round
 /// a flat board at one height can't tell its centre from its tilt (the deviations then say so).
-/// `known_focal`: pixels, from elsewhere, to begin with. Throws InputError naming `name` if fewer
-/// than three photographs show 8 corners or more, or no lens fits.
+/// What lenses are like (LensExpectation) counts for as much as it is certain: nothing beside good
+/// photographs, but it holds what these can't tell. Throws InputError naming `name` if fewer than
+/// three photographs show 8 corners or more, or no lens fits.
 /// Source: Zhang 2000, "A flexible new technique for camera calibration".
 LensCalibration calibrate_lens(int width, int height,
                                const std::vector<std::vector<BoardCorner>>& photographs,
-                               const std::string& name, std::optional<double> known_focal = {});
+                               const std::string& name, const LensExpectation& expected = {});
 
 }  // namespace palmar
