@@ -76,11 +76,11 @@ void drop_unused_vertices(TriangleMesh& mesh, SurfaceColours& colours) {
     if (renumbered[v] == kUnused) continue;
     renumbered[v] = static_cast<int>(used);
     mesh.vertices[used] = mesh.vertices[v];
-    if (!colours.vertex.empty()) colours.vertex[used] = colours.vertex[v];
+    colours.copy_vertex(v, used);
     ++used;
   }
   mesh.vertices.resize(used);
-  if (!colours.vertex.empty()) colours.vertex.resize(used);
+  colours.keep_vertices(used);
   for (Triangle& t : mesh.triangles) {
     for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
   }
@@ -198,7 +198,8 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
           "texture, or with more triangles",
           path, mean_edge(mesh)));
     }
-    result.surface = {std::move(mesh), std::move(file.colours.vertex)};
+    result.surface = {std::move(mesh), std::move(file.colours.vertex),
+                      std::move(file.colours.is_guess)};
   }
   const OrientResult oriented = orient_outwards(result.surface.mesh);
   if (!oriented.flipped_triangles.empty()) {

@@ -104,6 +104,22 @@ std::vector<std::vector<int>> patches(const std::vector<std::vector<int>>& neigh
   return result;
 }
 
+/// Share of a patch's neighbours that are guesses.
+double rim_unseen(const std::vector<int>& patch, const std::vector<char>& is_in,
+                  const std::vector<std::vector<int>>& neighbours,
+                  const std::vector<char>& is_guess) {
+  if (is_guess.empty()) return 0.0;
+  int rim = 0, unseen = 0;
+  for (const int v : patch) {
+    for (const int n : neighbours[at(v)]) {
+      if (is_in[at(n)]) continue;
+      ++rim;
+      if (is_guess[at(n)]) ++unseen;
+    }
+  }
+  return rim == 0 ? 0.0 : static_cast<double>(unseen) / rim;
+}
+
 void check_inks(const Skin& skin, const std::string& name, const SkinMarkOptions& options) {
   constexpr double kAlike = 0.05;
   const Vec2 crease = chromaticity(options.crease), dot = chromaticity(options.dot);
@@ -143,26 +159,35 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
     throw InputError(name + ": has no colours; creases and dots can't be seen");
   }
   SkinMarks marks;
-  std::vector<Vec2> chroma;
+  const auto is_guess = [&](std::size_t v) { return !mesh.is_guess.empty() && mesh.is_guess[v]; };
+  std::vector<Vec2> chroma, seen;
   chroma.reserve(mesh.colour.size());
-  for (const Srgb& c : mesh.colour) chroma.push_back(chromaticity(c));
-  for (int k = 0; k < 3; ++k) {
-    std::vector<double> channel;
-    for (const Srgb& c : mesh.colour) channel.push_back(c[k]);
-    marks.skin[k] = static_cast<float>(median(std::move(channel)));
+  std::array<std::vector<double>, 3> channel;
+  for (std::size_t v = 0; v < mesh.colour.size(); ++v) {
+    chroma.push_back(chromaticity(mesh.colour[v]));
+    if (is_guess(v)) continue;
+    seen.push_back(chroma.back());
+    for (std::size_t k = 0; k < 3; ++k) channel[k].push_back(mesh.colour[v][static_cast<int>(k)]);
   }
+  if (seen.empty()) throw InputError(name + ": no part of it was seen by any photograph");
+  for (int k = 0; k < 3; ++k) marks.skin[k] = static_cast<float>(median(channel[at(k)]));
   Skin skin;
   for (int k = 0; k < 2; ++k) {
     std::vector<double> part;
-    for (const Vec2& c : chroma) part.push_back(c[k]);
+    for (const Vec2& c : seen) part.push_back(c[k]);
     skin.chroma[k] = median(std::move(part));
   }
   std::vector<double> off;
-  for (const Vec2& c : chroma) off.push_back((c - skin.chroma).norm());
+  for (const Vec2& c : seen) off.push_back((c - skin.chroma).norm());
   skin.spread = median(std::move(off));
   check_inks(skin, name, options);
 
-  const auto share = ink_shares(chroma, skin, options);
+  auto share = ink_shares(chroma, skin, options);
+  for (auto& of_ink : share) {
+    for (std::size_t v = 0; v < of_ink.size(); ++v) {
+      if (is_guess(v)) of_ink[v] = 0.0;
+    }
+  }
   const MeshTopology topology = build_topology(mesh.mesh);
   const auto neighbours = vertex_neighbours(topology);
   const std::vector<double> area = vertex_areas(mesh.mesh);
@@ -173,9 +198,14 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       is_in[v] = share[ink][v] >= options.least_share ? 1 : 0;
       if (is_in[v]) marks.is_ink[v] = 1;
     }
+    constexpr double kMuch = 0.4;  // of what lies round a mark may be a guess
     const double dot_area = 0.25 * std::numbers::pi * options.dot_diameter * options.dot_diameter;
-    int odd = 0;
+    int odd = 0, unseen = 0;
     for (const std::vector<int>& patch : patches(neighbours, is_in)) {
+      if (rim_unseen(patch, is_in, neighbours, mesh.is_guess) > kMuch) {
+        ++unseen;
+        continue;
+      }
       InkLine blot;
       Vec3 sum = Vec3::Zero();
       double weights = 0.0;
@@ -196,6 +226,12 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       } else if (blot.area > 0.7) {
         marks.lines.push_back(std::move(blot));
       }
+    }
+    if (unseen > 0) {
+      marks.notes.push_back(fmt::format(
+          "{} blots in the {} colour end where no photograph saw the skin, as the backdrop's "
+          "colour does, and are left out.",
+          unseen, kInkName[ink] + std::string("s'")));
     }
     if (odd > 0) {
       marks.notes.push_back(fmt::format(

@@ -64,7 +64,8 @@ struct SkinMarks {
 /// direction. Connected vertices with a share of `least_share` or more make one mark; a dot's
 /// centre is the mean by area and share.
 ///
-/// `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws InputError "`name`: ..."
+/// Vertices that are guesses bear no ink, and what is drawn as far as where guesses begin is taken
+/// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws InputError "`name`: ..."
 /// if an ink can't be told from this skin or from the other ink, or the mesh is too coarse.
 SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
                           const SkinMarkOptions& options = {});

@@ -78,6 +78,25 @@ TEST(SkinMarks, BareSkinHasNone) {
   EXPECT_TRUE(marks.lines.empty());
 }
 
+// The lower half was seen by no photograph and has the backdrop's blue; a blot of it reaches into
+// what was seen. Neither hides the marks above nor makes any.
+TEST(SkinMarks, WhatNobodySawBearsNone) {
+  ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
+  for (std::size_t v = 0; v < ball.colour.size(); ++v) {
+    const Vec3& p = ball.mesh.vertices[v];
+    const bool is_unseen = p.z() < -10.0;
+    ball.is_guess.push_back(is_unseen ? 1 : 0);
+    const bool is_bled = p.z() < -9.2 && std::abs(std::atan2(p.y(), p.x())) < 0.1;
+    if (is_unseen || is_bled) ball.colour[v] = Srgb(0.2F, 0.3F, 0.7F);
+  }
+  const SkinMarks marks = find_skin_marks(ball, "ball");
+  expect_marks(marks);
+  ASSERT_FALSE(marks.notes.empty());
+  EXPECT_THAT(marks.notes.back(), HasSubstr("1 blots in the dots' colour end where no photograph"));
+  ball.is_guess.clear();
+  EXPECT_NE(find_skin_marks(ball, "ball").notes, marks.notes);
+}
+
 TEST(SkinMarks, NamesInksThatCannotBeTold) {
   const Srgb skin{0.80F, 0.60F, 0.50F};
   const ColouredMesh ball = painted_ball(skin, {}, 0.9);

@@ -163,6 +163,16 @@ class Refiner {
 
 }  // namespace
 
+void SurfaceColours::copy_vertex(std::size_t from, std::size_t to) {
+  if (!vertex.empty()) vertex[to] = vertex[from];
+  if (!is_guess.empty()) is_guess[to] = is_guess[from];
+}
+
+void SurfaceColours::keep_vertices(std::size_t count) {
+  if (!vertex.empty()) vertex.resize(count);
+  if (!is_guess.empty()) is_guess.resize(count);
+}
+
 Srgb colour_at(const RgbImage& image, const Eigen::Vector2f& place) {
   if (image.rgb.empty() || !place.allFinite()) return Srgb::Zero();
   const auto within = [](float x) { return x - std::floor(x); };

@@ -18,6 +18,8 @@ using Srgb = Eigen::Vector3f;
 struct ColouredMesh {
   TriangleMesh mesh;
   std::vector<Srgb> colour;  ///< per vertex
+  /// Per vertex: nothing saw it, its place and colour are guesses; empty: all were seen.
+  std::vector<char> is_guess = {};
 };
 
 /// Rows from the top, three bytes a pixel, sRGB.
@@ -29,7 +31,8 @@ struct RgbImage {
 /// Colours of a mesh's surface as scanning programs write them: images laid on its triangles,
 /// colours at its vertices, or both.
 struct SurfaceColours {
-  std::vector<Srgb> vertex;  ///< per vertex; empty: none
+  std::vector<Srgb> vertex;    ///< per vertex; empty: none
+  std::vector<char> is_guess;  ///< per vertex, see ColouredMesh; empty: none
   /// Per triangle and corner: place in the texture, from 0 to 1 to the right and down, going round
   /// beyond; empty: none.
   std::vector<std::array<Eigen::Vector2f, 3>> place;
@@ -37,6 +40,10 @@ struct SurfaceColours {
   std::vector<RgbImage> textures;  ///< an image without pixels gives no colour
 
   bool empty() const { return vertex.empty() && textures.empty(); }
+  /// Gives vertex `to` what vertex `from` has, where vertices have anything.
+  void copy_vertex(std::size_t from, std::size_t to);
+  /// Forgets all vertices behind the first `count`.
+  void keep_vertices(std::size_t count);
 };
 
 /// Colour of an image at a place, bilinear between the centres of its pixels.

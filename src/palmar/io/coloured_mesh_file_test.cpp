@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/error.h"
@@ -15,6 +16,7 @@
 namespace palmar {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// A PNG of 2 x 2 pixels: red, green over blue, white.
@@ -90,6 +92,27 @@ TEST(ColouredMeshFile, VertexColoursOfObjAndPlyReadBack) {
   for (std::size_t v = 0; v < 3; ++v) {
     EXPECT_LT((file.colours.vertex[v] - mesh.colour[v]).norm(), 0.003);
   }
+}
+
+TEST(ColouredMeshFile, WhatNoPhotographSawIsAGuess) {
+  const TestFolder folder;
+  const auto guesses = [&](const std::string& property, const std::string& values) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+        "float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
+        property + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::array<const char*, 4> place{"9 9 9", "0 0 0", "1 0 0",
+                                           "0 1 0"};  // the first: unused
+    for (std::size_t v = 0; v < 4; ++v) {
+      text += std::string(place[v]) + " 1 2 3 " + (values.empty() ? "" : values.substr(2 * v, 1)) +
+              "\n";
+    }
+    write_file(folder / "a.ply", text + "3 1 2 3\n");
+    return read_coloured_mesh(folder / "a.ply").colours.is_guess;
+  };
+  EXPECT_THAT(guesses("property uchar measured\n", "0 1 0 1"), ElementsAre(0, 1, 0));
+  EXPECT_THAT(guesses("property uchar views\n", "0 1 2 3"), ElementsAre(1, 0, 0));
+  EXPECT_TRUE(guesses("", "").empty());
 }
 
 TEST(ColouredMeshFile, UnusedVerticesTakeTheirColoursAlong) {

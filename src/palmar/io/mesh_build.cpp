@@ -213,14 +213,14 @@ void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colour
   for (std::size_t v = 0; v < renumbered.size(); ++v) {
     if (renumbered[v] < 0) continue;
     renumbered[v] = static_cast<int>(used);
-    if (colours != nullptr && !colours->vertex.empty()) colours->vertex[used] = colours->vertex[v];
+    if (colours != nullptr) colours->copy_vertex(v, used);
     mesh.vertices[used++] = mesh.vertices[v];
   }
   if (used == mesh.vertices.size()) return;
   file.notes.push_back(std::to_string(mesh.vertices.size() - used) +
                        " vertices that belong to no triangle dropped");
   mesh.vertices.resize(used);
-  if (colours != nullptr && !colours->vertex.empty()) colours->vertex.resize(used);
+  if (colours != nullptr) colours->keep_vertices(used);
   for (Triangle& t : mesh.triangles) {
     for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
   }

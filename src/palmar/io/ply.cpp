@@ -323,6 +323,24 @@ class BodyReader {
     return {};
   }
 
+  /// Property that tells which vertices were seen, as `palmar photos mesh` writes it: less than
+  /// `least`, and it is a guess.
+  struct Sight {
+    std::size_t property = 0;
+    double least = 0.0;
+  };
+  static std::optional<Sight> sight_property(const Element& element) {
+    constexpr std::array<std::pair<std::string_view, double>, 2> kNames{
+        {{"measured", 1.0}, {"views", 2.0}}};
+    for (const auto& [name, least] : kNames) {
+      for (std::size_t k = 0; k < element.properties.size(); ++k) {
+        const Property& property = element.properties[k];
+        if (!property.count_type && property.name == name) return Sight{k, least};
+      }
+    }
+    return {};
+  }
+
   void read_vertices(const Element& element) {
     std::array<bool, 3> has{};
     std::vector<int> axis;
@@ -344,6 +362,7 @@ class BodyReader {
     }
     check_triangle_count(name_, element.count / 3);
     const std::vector<int> channel = colours_ == nullptr ? std::vector<int>() : channels(element);
+    const std::optional<Sight> sight = channel.empty() ? std::nullopt : sight_property(element);
     file_.mesh.vertices.reserve(file_.mesh.vertices.size() + element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       Vec3 p = Vec3::Zero();
@@ -356,6 +375,9 @@ class BodyReader {
           const bool is_fraction = type == Type::kFloat || type == Type::kDouble;
           colour[channel[k]] =
               static_cast<float>(value(type, element, row) / (is_fraction ? 1.0 : 255.0));
+        } else if (sight && sight->property == k) {
+          const double count = value(element.properties[k].type, element, row);
+          colours_->is_guess.push_back(count < sight->least ? 1 : 0);
         } else {
           skip_property(element.properties[k], element, row);
         }

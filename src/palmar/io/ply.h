@@ -24,7 +24,8 @@ bool is_ply(std::string_view bytes);
 /// Source: Turk, The PLY Polygon File Format, Stanford, 1994.
 MeshFile parse_ply(std::string_view bytes, const std::string& name);
 /// The same with the colours of the vertices (red, green, blue; whole numbers to 255 or fractions
-/// to 1), if it has any.
+/// to 1), if it has any, and with them which were seen: property measured (0: a guess), else views
+/// (less than 2).
 MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours);
 
 /// Binary little-endian PLY in double precision.
