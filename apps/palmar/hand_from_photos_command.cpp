@@ -90,7 +90,7 @@ int run_from_photos(FromPhotosArguments arguments, const Context& context) {
       arguments.hand.work.empty() ? beside_hand(out, ".photos") : arguments.hand.work;
   create_folder(work);
   require_writable(work);
-  require_writable(folder_of(out));
+  arguments.hand.check_outputs(work);
   const Progress progress = make_progress(context.common);
 
   std::optional<PhotoLenses> lenses;

@@ -10,15 +10,18 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/io/exif.h"
 #include "palmar/io/file.h"
 #include "palmar/io/json_values.h"
+#include "palmar/io/mesh_file.h"
 #include "palmar/io/painted_hand_file.h"
 #include "palmar/io/photo_worker.h"
 #include "palmar/io/texture_file.h"
+#include "palmar/phantom/block.h"
 #include "palmar/phantom/painted_hand.h"
 #include "palmar/phantom/photographs.h"
 #include "palmar/report/image.h"
@@ -36,7 +39,8 @@ struct PhantomPhotosArguments {
   PhotographsOptions photographs;
   BoardPattern board;
   int calibration = 12;
-  int jpeg = 0;  ///< quality; 0: PNG
+  int jpeg = 0;       ///< quality; 0: PNG
+  std::string block;  ///< edges; empty: the hand
   bool no_hand = false;
 };
 
@@ -52,6 +56,18 @@ Rigid3 board_from_hand_frame(const ColouredMesh& hand) {
   turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   return {Quat(turn), Vec3(-0.5 * (low.x() + high.x()), 0.5 * (low.z() + high.z()),
                            std::min(kWrist, -low.y() - kBelow))};
+}
+
+/// The block that stands in the hand's place, turned a little; nothing if it is a hand.
+ColouredMesh block_of(const PhantomPhotosArguments& arguments) {
+  if (arguments.block.empty()) return {};
+  const Vec3 edges = parse_vector("--block-mm", arguments.block);
+  ColouredMesh block = make_block(edges);
+  constexpr double kTurn = 25.0 * std::numbers::pi / 180.0;
+  const Rigid3 place(Quat(Eigen::AngleAxisd(kTurn, Vec3::UnitZ())),
+                     Vec3(0.0, 0.0, 0.5 * edges.z()));
+  for (Vec3& vertex : block.mesh.vertices) vertex = place * vertex;
+  return block;
 }
 
 Image picture_of(const RgbImage& photograph) {
@@ -123,15 +139,21 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   }
   const ScanPosture posture = posture_named(arguments.posture);
   const Progress progress = make_progress(context.common);
-  progress.update(0.0, "painting the person");
-  PaintedHandOptions person;
-  person.seed = context.common.seed;
-  person.side = side;
-  person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
-  const PaintedHand hand = make_painted_hand(*load_hand(arguments.base), {posture}, person);
-  ColouredMesh surface = surface_of(hand, posture);
-  const Rigid3 board_from_hand = board_from_hand_frame(surface);
-  for (Vec3& vertex : surface.mesh.vertices) vertex = board_from_hand * vertex;
+  progress.update(0.0, "painting what is photographed");
+  const ColouredMesh block = block_of(arguments);
+  std::optional<PaintedHand> hand;
+  ColouredMesh surface = block;
+  Rigid3 board_from_hand;
+  if (block.mesh.triangles.empty()) {
+    PaintedHandOptions person;
+    person.seed = context.common.seed;
+    person.side = side;
+    person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
+    hand = make_painted_hand(*load_hand(arguments.base), {posture}, person);
+    surface = surface_of(*hand, posture);
+    board_from_hand = board_from_hand_frame(surface);
+    for (Vec3& vertex : surface.mesh.vertices) vertex = board_from_hand * vertex;
+  }
 
   constexpr int kPixelsPerSquare = 180;
   const BoardPicture picture = draw_board(arguments.board, kPixelsPerSquare);
@@ -174,8 +196,12 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
   const Json board_json = {{"squares", arguments.board.squares},
                            {"square_mm", arguments.board.square},
                            {"marker_mm", arguments.board.marker}};
-  write_painted_hand((out / "truth").string(), hand, context.common.seed,
-                     {{posture, {"photos", board_from_hand}}});
+  if (hand) {
+    write_painted_hand((out / "truth").string(), *hand, context.common.seed,
+                       {{posture, {"photos", board_from_hand}}});
+  } else {
+    write_mesh(out / "truth" / "block.ply", surface.mesh);
+  }
   Json motions = Json::array();
   for (const Rigid3& motion : shoot.board_from_hand) motions.push_back(json_of(motion));
   const Json truth = {{"board", board_json}, {"motions", motions}, {"photographs", cameras}};
@@ -241,6 +267,8 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_flag("--light-on-rig", p.light_on_rig, "The lamps go round with the cameras");
   verb->add_flag("--clutter", p.clutter, "Warm things behind the hand, no cloth");
   verb->add_flag("--one-ring", p.one_ring, "All cameras at the lower height");
+  verb->add_option("--block-mm", o->block,
+                   "A cardboard box of these edges instead of the hand: width,depth,height");
   verb->add_flag("--no-hand", o->no_hand, "The board alone");
   verb->add_option("--base", o->base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")

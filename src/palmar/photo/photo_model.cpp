@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -16,7 +15,10 @@
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/plane_cut.h"
 #include "palmar/geometry/weld.h"
+#include "palmar/imaging/distance_transform.h"
 #include "palmar/imaging/iso_surface.h"
+#include "palmar/photo/outline_by_depth.h"
+#include "palmar/photo/over_views.h"
 
 namespace palmar {
 namespace {
@@ -69,18 +71,21 @@ PhotoUse use_of(const PhotoMask& mask, const DepthMap& map) {
   return use;
 }
 
-/// Steps over many views at once, with what is done of them told.
-template <typename Body>
-void over_views(std::size_t count, const Progress& progress, const char* what, Body&& body) {
-  std::atomic<int> done{0};
-  progress.update(0.0, what);
-  parallel_for(static_cast<int>(count), [&](int i) {
-    progress.throw_if_cancelled();
-    body(static_cast<std::size_t>(i));
-    ++done;
-    if (progress.report)
-      progress.report(static_cast<double>(done) / static_cast<double>(count), what);
+/// Masks without what was added round the hand, and a little less: what lies on the very edge is
+/// mixed with what is behind.
+std::vector<PhotoOutline> outlines_of(const std::vector<PhotoView>& views,
+                                      const std::vector<PhotoMask>& masks,
+                                      const PhotoMaskOptions& options) {
+  constexpr double kMixed = 0.5;  // mm
+  std::vector<PhotoOutline> outlines(views.size());
+  parallel_for(static_cast<int>(views.size()), [&](int i) {
+    const auto v = static_cast<std::size_t>(i);
+    VolumeGrid grid;
+    grid.size = {views[v].width(), views[v].height(), 1};
+    outlines[v] = {views[v].camera,
+                   eroded(grid, masks[v].inside, (options.grow + kMixed) / masks[v].pixel_size)};
   });
+  return outlines;
 }
 
 }  // namespace
@@ -129,7 +134,16 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   std::nth_element(shares.begin(), shares.begin() + static_cast<long>(count / 2), shares.end());
   constexpr double kTellsLittle = 0.6;
   model.has_background = shares[count / 2] > kTellsLittle;
-  progress.update(0.09, "carving the outline");
+  double begin = 0.12;  // of the fine stereo
+  if (model.has_background) {
+    begin = 0.4;
+    narrow_by_depth(photographs, views, options, masks, part_of(progress, 0.08, begin));
+    model.warnings.push_back(
+        "the hand's colour doesn't tell it from what is behind it; its outline was found by "
+        "comparing photographs, which takes longer and is less sure: a plain blue or grey backdrop "
+        "helps");
+  }
+  progress.update(model.has_background ? begin : 0.09, "carving the outline");
   const VisualHull hull = make_visual_hull(views, masks, options.box, options.hull);
   model.hull_volume = signed_volume(hull.surface);
   const Box3 filled = bounding_box(hull.surface);
@@ -141,16 +155,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "something reaches the border of the space that is searched, which cuts it off there; a "
         "larger one may be needed (--box-mm), or a plain backdrop");
   }
-  PatchMatchOptions stereo = options.stereo;
-  if (model.has_background) {
-    constexpr double kDeep = 120.0;  // mm: a hand's breadth and what is in front of it
-    stereo.behind = std::max(stereo.behind, kDeep);
-    stereo.iterations += 2;
-    model.warnings.push_back(
-        "the hand could hardly be told from what is behind it; a plain blue or grey backdrop "
-        "helps");
-  }
-
+  const PatchMatchOptions& stereo = options.stereo;
   const Vec3 centre = bounding_box(hull.surface).center();
   const std::vector<std::vector<int>> sources = choose_sources(views, centre, stereo);
   const auto lonely = static_cast<std::size_t>(std::count_if(
@@ -163,7 +168,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   const RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
-  over_views(count, part_of(progress, 0.12, 0.75), "comparing photographs", [&](std::size_t v) {
+  over_views(count, part_of(progress, begin, 0.75), "comparing photographs", [&](std::size_t v) {
     maps[v] = match_patches(views, packs, static_cast<int>(v), masks[v], sources[v], bound,
                             hull.surface, stereo);
   });
@@ -187,6 +192,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "between them, or its skin shows nothing but gloss",
         model.points));
   }
+  const std::vector<PhotoOutline> outlines = outlines_of(views, masks, options.mask);
   views = {};
   packs = {};
   maps = {};
@@ -203,7 +209,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   TriangleMesh mesh = largest_part(iso_surface(field.field, 0.0));
   mesh = largest_part(cut_above(mesh, options.cut));
   progress.update(0.95, "colouring it");
-  VertexColours colours = colour_vertices(mesh, photographs, options.colours);
+  VertexColours colours = colour_vertices(mesh, photographs, outlines, options.colours);
   for (std::size_t v = 0; v < count; ++v) model.photographs[v].gain = colours.gain[v];
 
   std::vector<float> density(mesh.vertices.size());

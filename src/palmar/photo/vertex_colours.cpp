@@ -22,8 +22,9 @@ struct Sighting {
 
 class Sightings {
  public:
-  Sightings(const TriangleMesh& mesh, const std::vector<Photograph>& photographs, double least)
-      : mesh_(mesh), photographs_(photographs), least_(least), query_(mesh) {
+  Sightings(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+            const std::vector<PhotoOutline>& outlines, double least)
+      : mesh_(mesh), photographs_(photographs), outlines_(outlines), least_(least), query_(mesh) {
     normals_ = vertex_normals(mesh);
     for (const Photograph& photograph : photographs) {
       centres_.push_back(photograph.camera.centre());
@@ -45,6 +46,7 @@ class Sightings {
           pixel->y() > camera.lens.height - 2.0) {
         continue;
       }
+      if (!outlines_.empty() && !outlines_[p].holds(point)) continue;
       constexpr double kLift = 0.3;  // mm; the skin round the vertex itself is no obstacle
       if (query_.first_hit(point + kLift * normals_[vertex], way / distance, kLift, distance)) {
         continue;
@@ -59,6 +61,7 @@ class Sightings {
  private:
   const TriangleMesh& mesh_;
   const std::vector<Photograph>& photographs_;
+  const std::vector<PhotoOutline>& outlines_;
   double least_;
   RayQuery query_;
   std::vector<Vec3> normals_;
@@ -124,10 +127,22 @@ void VertexColourOptions::check() const {
   }
 }
 
+bool PhotoOutline::holds(const Vec3& world) const {
+  const auto pixel = camera.project(world);
+  if (!pixel) return false;
+  const auto x = std::lround(pixel->x()), y = std::lround(pixel->y());
+  if (x < 0 || y < 0 || x >= camera.lens.width || y >= camera.lens.height) return false;
+  return inside[static_cast<std::size_t>(y * camera.lens.width + x)] != 0;
+}
+
 VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+                              const std::vector<PhotoOutline>& outlines,
                               const VertexColourOptions& options) {
   options.check();
-  const Sightings sightings(mesh, photographs, options.least_cosine);
+  if (!outlines.empty() && outlines.size() != photographs.size()) {
+    throw UsageError("one outline per photograph is required");
+  }
+  const Sightings sightings(mesh, photographs, outlines, options.least_cosine);
   const std::size_t count = mesh.vertices.size();
   VertexColours result;
   result.gain = gains_of(sightings, count, photographs);

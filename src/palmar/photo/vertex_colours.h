@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "palmar/photo/photo_view.h"
@@ -21,10 +22,20 @@ struct VertexColours {
   std::vector<double> gain;             ///< per photograph: its values were multiplied by this
 };
 
+/// Where a photograph shows the hand, by pixels of a view of it (photo_view.h).
+struct PhotoOutline {
+  PhotoCamera camera;  ///< of the view
+  std::vector<std::uint8_t> inside;
+  bool holds(const Vec3& world) const;
+};
+
 /// The colour of a vertex is the mean of the photographs that it faces best and that see it (a ray
-/// to the camera meets no other skin). Photographs of different exposure are brought together
-/// first: gains that make what they say about the same vertices equal, their geometric mean 1.
+/// to the camera meets no other skin, and ends inside of the photograph's outline, if there are
+/// any: where the surface lies a little outside, photographs show what is behind the hand).
+/// Photographs of different exposure are brought together first: gains that make what they say
+/// about the same vertices equal, their geometric mean 1.
 VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+                              const std::vector<PhotoOutline>& outlines = {},
                               const VertexColourOptions& options = {});
 
 }  // namespace palmar
