@@ -51,8 +51,13 @@ std::string some_names(const PhotoSet& set, const std::vector<std::size_t>& whic
 }
 
 void find_poses(PosedPhotographs& work, const std::string& folder) {
-  std::vector<std::size_t> lost, blurred;
+  constexpr double kBlurred = 0.12, kMuchBlurred = 0.05;
   std::vector<double> sharpness;
+  for (const BoardSighting& one : work.seen) sharpness.push_back(one.sharpness);
+  std::nth_element(sharpness.begin(), sharpness.begin() + static_cast<long>(sharpness.size() / 2),
+                   sharpness.end());
+  const double typical = sharpness[sharpness.size() / 2];
+  std::vector<std::size_t> lost, blurred;
   for (std::size_t i = 0; i < work.set.photographs.size(); ++i) {
     const PhotoLens& lens = work.lenses.at(work.set.photographs[i].camera).lens;
     std::optional<BoardPose> pose = find_board_pose(lens, work.seen[i].corners);
@@ -60,13 +65,19 @@ void find_poses(PosedPhotographs& work, const std::string& folder) {
     if (pose && pose->rms > kWorst) pose.reset();
     if (pose) {
       work.used.push_back(i);
-      sharpness.push_back(work.seen[i].sharpness);
     } else {
       lost.push_back(i);
     }
     work.pose.push_back(pose);
   }
   const std::size_t count = work.set.photographs.size();
+  if (typical < kMuchBlurred) {
+    throw InputError(
+        fmt::format("{}: the photographs are blurred, or empty: edges are spread over {:.0f} "
+                    "pixels or more; the "
+                    "board is seen in {} of {}",
+                    folder, 1.0 / std::max(typical, 0.01), work.used.size(), count));
+  }
   if (2 * lost.size() > count) {
     throw InputError(fmt::format(
         "{}: the board isn't seen in {} of {} photographs ({}): it is covered, blurred, or another "
@@ -80,18 +91,8 @@ void find_poses(PosedPhotographs& work, const std::string& folder) {
                     "left out: {}",
                     lost.size(), count, some_names(work.set, lost)));
   }
-  std::vector<double> sorted = sharpness;
-  std::sort(sorted.begin(), sorted.end());
-  constexpr double kBlurred = 0.12, kMuchBlurred = 0.05;
-  const double typical = sorted[sorted.size() / 2];
-  if (typical < kMuchBlurred) {
-    throw InputError(
-        fmt::format("{}: the photographs are blurred: edges of the print are spread over "
-                    "about {:.0f} pixels",
-                    folder, 1.0 / std::max(typical, 0.01)));
-  }
-  for (std::size_t k = 0; k < work.used.size(); ++k) {
-    if (sharpness[k] < std::min(kBlurred, 0.6 * typical)) blurred.push_back(work.used[k]);
+  for (const std::size_t i : work.used) {
+    if (work.seen[i].sharpness < std::min(kBlurred, 0.6 * typical)) blurred.push_back(i);
   }
   if (!blurred.empty()) {
     work.warnings.push_back(fmt::format("{} photographs are blurred: {}", blurred.size(),

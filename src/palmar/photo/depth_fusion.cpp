@@ -23,12 +23,14 @@ struct PosedMap {
   Eigen::Matrix3f world_from_camera;  ///< rotation
   Eigen::Matrix3f ray;                ///< world direction of z = 1 from a pixel: R^T K^-1
   Vec3f centre;
+  PhotoLens lens;
 
   PosedMap(const PhotoView& view, const DepthMap& depths) : map(&depths), camera(view.camera) {
     const Eigen::Matrix3d r = view.camera.camera_from_world.rotation.toRotationMatrix();
     world_from_camera = r.transpose().cast<float>();
     ray = (r.transpose() * Pinhole::matrix_of(view.camera.lens).inverse()).cast<float>();
     centre = view.camera.centre().cast<float>();
+    lens = view.camera.lens;
   }
   SurfacePoint point_at(int x, int y, std::size_t at) const {
     return {
@@ -36,6 +38,12 @@ struct PosedMap {
         world_from_camera * map->normal[at], 1};
   }
 };
+
+/// No two lenses have the same numbers.
+bool is_one_camera(const PhotoLens& a, const PhotoLens& b) {
+  return a.width == b.width && a.height == b.height && a.focal_x == b.focal_x &&
+         a.focal_y == b.focal_y && a.centre_x == b.centre_x && a.centre_y == b.centre_y;
+}
 
 }  // namespace
 
@@ -47,6 +55,7 @@ void DepthFusionOptions::check() const {
   require(agree > 0 && agree <= 20, "agree", agree, "0 to 20 mm");
   require(agree_angle > 0 && agree_angle <= 90, "agree_angle", agree_angle, "0 to 90 deg");
   require(least_views >= 1 && least_views <= 100, "least_views", least_views, "1 to 100");
+  require(still >= 0 && still <= 50, "still", still, "0 to 50 pixels");
   require(widest_angle > 0 && widest_angle <= 180, "widest_angle", widest_angle, "0 to 180 deg");
 }
 
@@ -84,6 +93,11 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
           const int u = static_cast<int>(std::lround(q.x() / q.z()));
           const int w = static_cast<int>(std::lround(q.y() / q.z()));
           if (u < 0 || w < 0 || u >= other.map->width || w >= other.map->height) continue;
+          if (is_one_camera(own.lens, other.lens) &&
+              std::hypot(q.x() / q.z() - static_cast<float>(x),
+                         q.y() / q.z() - static_cast<float>(y)) < options.still) {
+            continue;
+          }
           const std::size_t there = views[o].at(u, w);
           if (other.map->depth[there] <= 0.0F) continue;
           const SurfacePoint theirs = other.point_at(u, w, there);

@@ -13,7 +13,12 @@ struct DepthFusionOptions {
   double agree_angle = 40;   ///< largest angle between their normals, deg
   int least_views = 3;       ///< that must agree, the one with the pixel among them
   double widest_angle = 70;  ///< deg between views that are compared
-  void check() const;        ///< throws UsageError: field, value, allowed range
+  /// Two views of one lens that show a point within so many pixels of the same pixel don't count
+  /// for each other: what is far behind the board and goes round with the camera (or stands still
+  /// with it while the board turns) stays where it is in the picture, which looks like a surface
+  /// round the axis. 0: they count.
+  double still = 0.0;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 /// A point of the surface with its normal, and how many views agree about it.

@@ -133,6 +133,7 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
              });
   DepthFusionOptions fusion = options.fusion;
   fusion.agree *= kCoarser;
+  fusion.still = 3.0;
   const FusedDepths fused = fuse_depths(coarse, maps, options.box.center(), fusion);
   constexpr double kRadius = 6.0;  // mm: two cells
   if (!narrow_to_points(fused.points, views, kRadius, masks)) {

@@ -88,6 +88,17 @@ std::vector<PhotoOutline> outlines_of(const std::vector<PhotoView>& views,
   return outlines;
 }
 
+/// Share of the hand's pixels that show a lamp's mirror image, or are overexposed.
+double glare_share(const PhotoView& view, const PhotoOutline& outline) {
+  constexpr float kWhite = 247.0F;
+  double inside = 0.0, bright = 0.0;
+  for (std::size_t p = 0; p < outline.inside.size(); ++p) {
+    inside += outline.inside[p];
+    bright += outline.inside[p] != 0 && view.grey[p] > kWhite ? 1.0 : 0.0;
+  }
+  return inside > 0.0 ? bright / inside : 0.0;
+}
+
 }  // namespace
 
 void PhotoModelOptions::check() const {
@@ -177,14 +188,26 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   constexpr std::size_t kSparse = 18;
   if (count <= kSparse) fusion.least_views = std::min(fusion.least_views, 2);
   FusedDepths fused = fuse_depths(views, maps, centre, fusion);
+  const std::vector<PhotoOutline> outlines = outlines_of(views, masks, options.mask);
   for (std::size_t v = 0; v < count; ++v) {
     PhotoUse use = use_of(masks[v], maps[v]);
+    use.glare_share = glare_share(views[v], outlines[v]);
     const auto deep = static_cast<double>(std::count_if(maps[v].depth.begin(), maps[v].depth.end(),
                                                         [](float d) { return d > 0.0F; }));
     use.kept_share = deep == 0.0 ? 0.0 : static_cast<double>(fused.kept[v]) / deep;
     model.photographs.push_back(use);
   }
   model.points = fused.points.size();
+  std::vector<double> glare;
+  for (const PhotoUse& use : model.photographs) glare.push_back(use.glare_share);
+  std::nth_element(glare.begin(), glare.begin() + static_cast<long>(count / 2), glare.end());
+  constexpr double kMuchGlare = 0.003;
+  if (glare[count / 2] > kMuchGlare) {
+    model.warnings.push_back(fmt::format(
+        "the hand mirrors lamps or is overexposed ({:.1f} % of its pixels are white): shapes and "
+        "marks are uncertain there; dry or powdered skin and soft light help",
+        100.0 * glare[count / 2]));
+  }
   constexpr std::size_t kFewPoints = 5000;
   if (model.points < kFewPoints) {
     throw InputError(fmt::format(
@@ -192,7 +215,6 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "between them, or its skin shows nothing but gloss",
         model.points));
   }
-  const std::vector<PhotoOutline> outlines = outlines_of(views, masks, options.mask);
   views = {};
   packs = {};
   maps = {};

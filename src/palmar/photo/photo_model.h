@@ -34,6 +34,7 @@ struct PhotoModelOptions {
 /// What became of one photograph.
 struct PhotoUse {
   double mask_share = 0.0;   ///< of the box' outline that may be hand
+  double glare_share = 0.0;  ///< of the hand's pixels that are as bright as can be
   double depth_share = 0.0;  ///< of the hand's pixels that got a depth
   double kept_share = 0.0;   ///< of those, depths that other photographs agree with
   double gain = 1.0;         ///< its exposure, made good
