@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/core/nearest_name.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/io/dicom.h"
 #include "palmar/io/file.h"
@@ -70,30 +69,6 @@ void note_cut(const std::string& name, const std::vector<Vec3>& skin, const Volu
   if (outside == 0) return;
   note(context.common, fmt::format("{}: {} of {} vertices of the skin lie outside of the image",
                                    name, outside, skin.size()));
-}
-
-std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) {
-  std::vector<std::string> all;
-  for (int p = 0; p < kScanPostureCount; ++p) {
-    all.emplace_back(name_of(static_cast<ScanPosture>(p)));
-  }
-  std::vector<ScanPosture> chosen;
-  for (const std::string& name : names.empty() ? all : names) {
-    const auto found = std::find(all.begin(), all.end(), name);
-    if (found == all.end()) {
-      const std::string nearest = nearest_name(name, all);
-      throw UsageError(fmt::format("--postures: \"{}\" is no posture; {}", name,
-                                   nearest.empty()
-                                       ? fmt::format("{} are allowed", fmt::join(all, ", "))
-                                       : "did you mean " + nearest + "?"));
-    }
-    const auto posture = static_cast<ScanPosture>(found - all.begin());
-    if (std::find(chosen.begin(), chosen.end(), posture) == chosen.end()) {
-      chosen.push_back(posture);
-    }
-  }
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
 }
 
 int run_mri(PhantomArguments arguments, const Context& context) {

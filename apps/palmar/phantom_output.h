@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli.h"
+#include "palmar/capture/scan_posture.h"
 
 namespace palmar::cli {
 
@@ -14,5 +16,9 @@ namespace palmar::cli {
 void print_made_scans(const Context& context, const std::string& subject, Side side,
                       const nlohmann::ordered_json& scans, const std::string& text,
                       const std::string& truth);
+
+/// Postures of the given names in the order of the enumeration, each once; all without names.
+/// Throws UsageError naming --postures and the nearest name.
+std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names);
 
 }  // namespace palmar::cli

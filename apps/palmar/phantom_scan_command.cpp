@@ -28,6 +28,7 @@ struct PhantomScanArguments {
   double ink = SkinPaint{}.coverage;
   ScanDefects defects;
   int texture_side = 4096;
+  std::vector<std::string> postures{"reference", "finger_flexion", "finger_abduction"};
   bool no_creases = false, no_dots = false, ideal = false, mirrored = false;
 };
 
@@ -71,8 +72,7 @@ int run_phantom_scan(PhantomScanArguments arguments, const Context& context) {
   arguments.defects.check();
   const Progress progress = make_progress(context.common);
   progress.update(0.0, "making the person");
-  const std::vector<ScanPosture> postures{ScanPosture::kReference, ScanPosture::kFingerFlexion,
-                                          ScanPosture::kFingerAbduction};
+  const std::vector<ScanPosture> postures = chosen_postures(arguments.postures);
   const PaintedHand hand = make_painted_hand(*load_hand(arguments.base), postures, options);
   const std::filesystem::path out(arguments.out);
   create_folder(out / "scan");
@@ -81,7 +81,9 @@ int run_phantom_scan(PhantomScanArguments arguments, const Context& context) {
   std::string text;
   for (const ScanPosture posture : postures) {
     const std::string name(name_of(posture));
-    progress.update(0.3 + 0.2 * static_cast<double>(places.size()), name);
+    progress.update(
+        0.3 + 0.6 * static_cast<double>(places.size()) / static_cast<double>(postures.size()),
+        name);
     ScanDefects defects = arguments.defects;
     defects.seed = 16 * context.common.seed + static_cast<std::uint64_t>(posture);
     ScannedSurface scan = scanned_surface(surface_of(hand, posture), 0.0, defects);
@@ -109,16 +111,22 @@ int run_phantom_scan(PhantomScanArguments arguments, const Context& context) {
 
 void add_phantom_scan(CLI::App& phantom, Context& context) {
   const auto o = std::make_shared<PhantomScanArguments>();
-  CLI::App* verb = add_verb(phantom, "scan",
-                            "Coloured surface scans of a synthetic person's painted hand in three "
-                            "postures, with the truth beside them; --seed chooses the person",
-                            "palmar phantom scan --seed 3 --out subject3");
+  CLI::App* verb =
+      add_verb(phantom, "scan",
+               "Coloured surface scans of a synthetic person's painted hand in several "
+               "postures, with the truth beside them; --seed chooses the person",
+               "palmar phantom scan --seed 3 --out subject3");
   verb->add_option("--out", o->out, "Folder; scan/POSTURE and truth/ go into it")->required();
   verb->add_option("--side", o->side, "right or left")->capture_default_str();
   verb->add_option("--format", o->format, "ply: colours at the vertices; obj: a texture")
       ->capture_default_str();
   verb->add_option("--texture-px", o->texture_side, "Side of that texture")->capture_default_str();
   verb->add_option("--unit", o->unit, "Of the files: mm, cm, m or inch")->capture_default_str();
+  verb->add_option("--postures", o->postures,
+                   "Which, with commas: reference, finger_flexion, finger_abduction (these by "
+                   "default), the thumb's limits thumb_flexion, thumb_extension, thumb_abduction, "
+                   "thumb_adduction, grasp")
+      ->delimiter(',');
   verb->add_option("--skin-colour", o->skin, "#rrggbb")->capture_default_str();
   verb->add_option("--crease-colour", o->crease,
                    "Ink of the lines: green, blue, red, black, purple, orange or #rrggbb")

@@ -17,6 +17,7 @@
 #include "palmar/io/hand_file.h"
 #include "palmar/io/hand_from_scan_json.h"
 #include "palmar/io/mark_label_file.h"
+#include "palmar/io/painted_hand_file.h"
 #include "side_argument.h"
 
 namespace palmar::cli {
@@ -32,6 +33,13 @@ std::optional<ScanPosture> posture_in_name(const std::string& path) {
   const auto look = [&](std::string_view word, ScanPosture posture) {
     if (name.find(word) != std::string::npos && !found) found = posture;
   };
+  if (name.find("thumb") != std::string::npos) {
+    look("flex", ScanPosture::kThumbFlexion);
+    look("ext", ScanPosture::kThumbExtension);
+    look("abd", ScanPosture::kThumbAbduction);
+    look("add", ScanPosture::kThumbAdduction);
+    return found;
+  }
   look("natural", ScanPosture::kReference);
   look("open", ScanPosture::kReference);
   look("flex", ScanPosture::kFingerFlexion);
@@ -72,6 +80,8 @@ void ScanHandArguments::add_to(CLI::App& verb) {
   verb.add_option("--marks", marks,
                   "Names of drawn creases and dots, those to leave out and to add: marks.csv of an "
                   "earlier run, edited");
+  verb.add_option("--truth", truth,
+                  "subject.json of a synthetic person: how far the hand is off, in the report");
   verb.add_option("--model", model,
                   "Hand whose segments, regions and joints are laid over the surface")
       ->capture_default_str();
@@ -95,6 +105,7 @@ void ScanHandArguments::check_outputs(const std::string& work_folder) const {
   }
   require_writable(folder_of(out));
   if (!marks.empty()) read_mark_labels(marks);
+  if (!truth.empty()) read_scan_truth(truth);
 }
 
 std::map<ScanPosture, std::string> files_by_posture(const std::vector<std::string>& paths,
@@ -117,7 +128,8 @@ std::map<ScanPosture, std::string> files_by_posture(const std::vector<std::strin
         cut == std::string::npos ? std::nullopt : posture_in_name(text.substr(cut + 1));
     if (!posture) {
       throw UsageError("--posture: \"" + text +
-                       "\" isn't FILE=reference, finger_flexion or finger_abduction");
+                       "\" isn't FILE=reference, finger_flexion, finger_abduction, thumb_flexion, "
+                       "thumb_extension, thumb_abduction or thumb_adduction");
     }
     const std::string file = text.substr(0, cut);
     if (std::find(paths.begin(), paths.end(), file) == paths.end()) {
@@ -166,7 +178,9 @@ void make_hand_of_surfaces(const ScanHandArguments& arguments, const std::string
   hand.name = arguments.name.empty() ? hand_name_of(arguments.out) : arguments.name;
   write_hand(arguments.out, hand, made.creases.plane);
   if (!arguments.no_report) {
-    write_hand_scan_report(work, made, shown, part_of(progress, 0.9, 1.0));
+    std::optional<ScanErrors> errors;
+    if (!arguments.truth.empty()) errors = scan_errors(made, read_scan_truth(arguments.truth));
+    write_hand_scan_report(work, made, shown, errors, part_of(progress, 0.9, 1.0));
   }
   finish_progress();
   for (const std::string& text : made.notes) note(context.common, text);

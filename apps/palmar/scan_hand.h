@@ -17,7 +17,7 @@ namespace palmar::cli {
 
 /// Options of making a hand of surfaces, whether they were scanned or photographed.
 struct ScanHandArguments {
-  std::string out, work, model = "template", name, side, marks;
+  std::string out, work, model = "template", name, side, marks, truth;
   std::string crease = "green", dot = "blue";
   double dot_mm = SkinMarkOptions{}.dot_diameter;
   bool no_report = false;

@@ -12,6 +12,7 @@
 
 #include "palmar/capture/bone_chain.h"
 #include "palmar/capture/dotted_joints.h"
+#include "palmar/capture/dotted_thumb.h"
 #include "palmar/capture/marker_matching.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
@@ -62,12 +63,16 @@ MeasuredJoints joints_of(const LaidSkeleton& laid) {
   return joints;
 }
 
-ScannedHand register_model(const Hand& model, const SurfaceScan& scan, const MeasuredJoints& joints,
-                           const Progress& progress) {
+ScanSurfaces surfaces_of(const SurfaceScan& scan, const Hand& model) {
   ScanSurfaces surfaces;
   surfaces.skin = looked_up(scan.skin);
   surfaces.side = model.side;
-  return make_scanned_hand(model, {{ScanPosture::kReference, std::move(surfaces)}}, joints,
+  return surfaces;
+}
+
+ScannedHand register_model(const Hand& model, const SurfaceScan& scan, const MeasuredJoints& joints,
+                           const Progress& progress) {
+  return make_scanned_hand(model, {{ScanPosture::kReference, surfaces_of(scan, model)}}, joints,
                            progress);
 }
 
@@ -84,20 +89,41 @@ class DotReader {
     const auto found = find_dots(scan, fit);
     const Rigid3 palm = palm_motion(found, fit);
     result_.scan_from_hand[name] = palm;
-    // The thumb's metacarpal has no dots of its own: its motion is that of the fitted skin.
-    const PosedSkeleton posed = pose_skeleton(hand_.skeleton, fit.posture);
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
-      Rigid3 before = finger == Finger::kThumb ? fit.mesh_from_hand * posed.thumb_metacarpal : palm;
-      for (const auto& segment : segments_of(finger)) {
-        if (!segment) continue;
-        before = before * read_joint(*segment, before, found);
+    read_thumb_of(palm, found);
+    for (int f = 1; f < kFingerCount && !is_thumb_limit(name); ++f) {
+      Rigid3 before = palm;
+      for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+        if (segment) before = before * read_joint(*segment, before, found);
       }
     }
     result_.postures[name] = posture_;
   }
 
  private:
+  /// The thumb, whose metacarpal has no dots of its own.
+  void read_thumb_of(const Rigid3& palm, const std::vector<std::optional<Vec3>>& found) {
+    ThumbDots dots;
+    const Rigid3 in_hand = palm.inverse();
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (!found[k]) continue;
+      if (dots_[k].segment == Segment::kThumbProximal) {
+        dots.x_proximal.push_back(dots_[k].point);
+        dots.y_proximal.push_back(in_hand * *found[k]);
+      } else if (dots_[k].segment == Segment::kThumbDistal) {
+        dots.x_distal.push_back(dots_[k].point);
+        dots.y_distal.push_back(in_hand * *found[k]);
+      }
+    }
+    const ThumbReading reading = read_thumb(dots, hand_.skeleton, posture_);
+    posture_[Dof::kThumbMpFlexion] = reading.mp;
+    posture_[Dof::kThumbIpFlexion] = reading.ip;
+    result_.thumb[name_] = reading;
+    Rigid3 before = palm * reading.metacarpal;
+    for (const Segment segment : {Segment::kThumbProximal, Segment::kThumbDistal}) {
+      before = before * read_joint(segment, before, found);
+    }
+  }
+
   /// Where each dot is in the scan.
   std::vector<std::optional<Vec3>> find_dots(const SurfaceScan& scan, const MeshFit& fit) {
     std::vector<HandPoint> points;
@@ -213,9 +239,11 @@ class DotReader {
 };
 
 /// Ends of the ranges that were scanned as such.
-void take_ranges(const std::map<ScanPosture, Posture>& postures, Skeleton& skeleton) {
+void take_ranges(const std::map<ScanPosture, Posture>& postures, bool has_cmc, Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) {
     for (JointDof& dof : joint.dofs) {
+      // The CMC joint's ranges are its limit postures.
+      if (has_cmc && joint.id == JointId::kThumbCmc) continue;
       for (const auto& [name, posture] : postures) {
         dof.lower = std::min(dof.lower, posture[dof.dof]);
         dof.upper = std::max(dof.upper, posture[dof.dof]);
@@ -323,8 +351,14 @@ HandFromScan make_hand_from_scans(const Hand& model,
     result.fits[name] = fit;
     reader.read(name, other, fit);
   }
-  take_ranges(result.postures, joints.skeleton);
   joints.postures = result.postures;
+  take_thumb_readings(by_skin, result.thumb, joints);
+  result.postures = joints.postures;
+  result.notes.insert(result.notes.end(), joints.notes.begin(), joints.notes.end());
+  const bool has_cmc = joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcFlexion)] ||
+                       joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcAbduction)];
+  take_ranges(result.postures, has_cmc, joints.skeleton);
+  joints.patient_from_hand_in = result.scan_from_hand;
   if (done == 0) {
     result.notes.emplace_back(
         "Only the reference posture was scanned: joints' axes are the model's, as the skin carries "
@@ -335,7 +369,11 @@ HandFromScan make_hand_from_scans(const Hand& model,
         "carries them.");
   }
 
-  result.scanned = register_model(base, scan, joints, part_of(progress, 1.0 - unit, 1.0));
+  std::map<ScanPosture, ScanSurfaces> surfaces{{ScanPosture::kReference, surfaces_of(scan, base)}};
+  for (const auto& [name, reading] : result.thumb) {
+    if (is_thumb_limit(name)) surfaces[name] = surfaces_of(scans.at(name), base);
+  }
+  result.scanned = make_scanned_hand(base, surfaces, joints, part_of(progress, 1.0 - unit, 1.0));
   Hand& hand = result.scanned.hand;
   const HandCreases creases = creases_of(hand.skin, hand.skeleton, result.creases.plane);
   hand.dimensions = measure_hand(hand.skin, hand.skeleton, creases);
@@ -343,6 +381,28 @@ HandFromScan make_hand_from_scans(const Hand& model,
   measure_distances(scan, result);
   result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
   return result;
+}
+
+PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture) {
+  const Skeleton& skeleton = made.scanned.hand.skeleton;
+  const PosedSkeleton posed = pose_skeleton(skeleton, made.postures.at(posture));
+  const Rigid3& scan_from_hand = made.scan_from_hand.at(posture);
+  PlacedJoints placed;
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    Rigid3 before =
+        finger == Finger::kThumb ? scan_from_hand * posed.thumb_metacarpal : scan_from_hand;
+    Segment last = Segment::kPalm;
+    for (const auto& segment : segments_of(finger)) {
+      if (!segment) continue;
+      const JointDof& bends = skeleton.joint(joint_of(*segment)).dofs.back();
+      placed.joint[*segment] = {before.rotation * bends.axis, before * bends.centre};
+      before = scan_from_hand * posed.segment[static_cast<std::size_t>(*segment)];
+      last = *segment;
+    }
+    placed.fingertip[last] = before * skeleton.fingertips[static_cast<std::size_t>(f)];
+  }
+  return placed;
 }
 
 }  // namespace palmar

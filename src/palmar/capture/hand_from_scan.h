@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/capture/dotted_thumb.h"
 #include "palmar/capture/laid_skeleton.h"
 #include "palmar/capture/mark_labels.h"
 #include "palmar/capture/scan_posture.h"
@@ -43,12 +44,25 @@ struct HandFromScan {
   std::map<Segment, int> dots;   ///< seen in the reference scan
   std::vector<TakenMark> marks;  ///< of all scans
   std::vector<DottedJoint> joints;
+  std::map<ScanPosture, ThumbReading> thumb;     ///< in every other scan
   std::map<ScanPosture, MeshFit> fits;           ///< of the hand in the other scans
   std::map<ScanPosture, Posture> postures;       ///< angles of every scan
   std::map<ScanPosture, Rigid3> scan_from_hand;  ///< where the palm lies in every scan
   std::vector<double> distance;  ///< per skin vertex: to the reference scan, mm; -1: no scan there
   std::vector<std::string> notes;
 };
+
+/// Where joints and fingertips are in one scan, mm.
+struct PlacedJoints {
+  struct Place {
+    Vec3 axis = Vec3::UnitX(), centre = Vec3::Zero();  ///< of flexion
+  };
+  std::map<Segment, Place> joint;     ///< the one proximal of it
+  std::map<Segment, Vec3> fingertip;  ///< of the last segments
+};
+/// The hand's joints as it was fitted to a scan, in that scan's frame. `posture`: one of
+/// made.postures.
+PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
 
 /// Makes a person's hand of surface scans: the reference posture (natural, fingers apart) at least;
 /// finger_flexion and finger_abduction tell joints if dots were drawn (Xie 2014, chapter 4).
@@ -63,7 +77,9 @@ struct HandFromScan {
 ///    and p0 the skin's; s = 1 mm (skin slides over bones), a = 4 degrees, b = 1.5 mm. Xie 2014
 ///    takes the dots alone; three dots close together on sliding skin tell an axis to four degrees
 ///    only.
-/// 5. The hand anew with these joints; flexion and abduction scanned are the ends of the ranges.
+/// 5. The thumb's limit postures give its CMC joint by four transforms (dotted_thumb.h) and correct
+///    the thumb ball.
+/// 6. The hand anew with these joints; flexion and abduction scanned are the ends of the ranges.
 ///
 /// `model` may be of either side; `side`: as for lay_skeleton(). Creases and dots that lack are
 /// named and done without, a scan in which this hand isn't found as well. Throws InputError without

@@ -73,6 +73,8 @@ struct MeasuredJoints {
   std::array<bool, kDofCount>
       is_measured{};  ///< axis and range come from the scans; others from the model
   std::map<ScanPosture, Posture> postures;  ///< angles of every posture
+  /// Where the palm is in other scans, as far as something else than its bones told.
+  std::map<ScanPosture, Rigid3> patient_from_hand_in = {};
   std::vector<BoneError> errors;
   std::vector<std::string> notes;  ///< what is lost for want of a posture or bone: sentences
 };

@@ -84,6 +84,11 @@ std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
     const auto scan = scans.find(kThumbLimits[l]);
     const auto posture = joints.postures.find(kThumbLimits[l]);
     if (scan == scans.end() || posture == joints.postures.end()) continue;
+    if (const auto known = joints.patient_from_hand_in.find(kThumbLimits[l]);
+        known != joints.patient_from_hand_in.end()) {
+      limits[l] = ThumbLimitScan{posture->second, skin_scan(scan->second, known->second.inverse())};
+      continue;
+    }
     const auto moved_palm = place_palm(reference, scan->second);
     if (!moved_palm) {
       notes.push_back(

@@ -66,6 +66,20 @@ std::string hand_from_scan_json(const HandFromScan& made) {
       one["fit_p95_mm"] = fit->second.percentile_95;
       one["skin_share_seen"] = fit->second.partner_share;
     }
+    Json axes = Json::array();
+    for (const auto& [segment, joint] : joints_in_scan(made, name).joint) {
+      axes.push_back({{"segment", text(name_of(segment))},
+                      {"axis", vector3(joint.axis)},
+                      {"centre_mm", vector3(joint.centre)}});
+    }
+    one["flexion_axes"] = std::move(axes);
+    if (const auto limit = made.thumb.find(name); limit != made.thumb.end()) {
+      const Eigen::AngleAxisd turn(limit->second.metacarpal.rotation);
+      one["thumb_metacarpal"] = {{"turn_deg", turn.angle() * kDegrees},
+                                 {"axis", vector3(turn.axis())},
+                                 {"residual_mm", limit->second.residual},
+                                 {"dots", limit->second.dots}};
+    }
     scans[text(name_of(name))] = std::move(one);
   }
   Json creases = Json::object();
@@ -125,6 +139,20 @@ CsvTable dotted_joint_csv(const HandFromScan& made) {
                           fmt::format("{:.3f}", joint.residual),
                           fmt::format("{:.2f}", joint.axis_change * kDegrees),
                           fmt::format("{:.3f}", joint.centre_change), std::to_string(joint.dots)});
+  }
+  return table;
+}
+
+CsvTable truth_error_csv(const ScanErrors& errors) {
+  CsvTable table{{"what", "posture", "segment", "difference_mm", "axis_deg"}, {}};
+  for (const HandDimension& d : all_hand_dimensions()) {
+    table.rows.push_back(
+        {text(name_of(d)), "", "", fmt::format("{:.3f}", value_of(errors.difference, d)), ""});
+  }
+  for (const PlaceError& e : errors.places) {
+    table.rows.push_back({e.axis ? "joint" : "fingertip", text(name_of(e.posture)),
+                          text(name_of(e.segment)), fmt::format("{:.3f}", e.place),
+                          e.axis ? fmt::format("{:.2f}", *e.axis * kDegrees) : ""});
   }
   return table;
 }

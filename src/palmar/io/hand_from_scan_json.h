@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/capture/hand_from_scan.h"
+#include "palmar/capture/scan_truth.h"
 #include "palmar/io/csv.h"
 
 namespace palmar {
@@ -20,5 +20,9 @@ CsvTable dimension_csv(const HandDimensions& dimensions, const HandTape& tape);
 /// One row per joint and scan that dots told: segment, posture, turn_deg, residual_mm,
 /// axis_change_deg, centre_change_mm, dots.
 CsvTable dotted_joint_csv(const HandFromScan& made);
+
+/// One row per dimension (found less true), joint (the one proximal of the segment) and fingertip
+/// in each scan: what, posture, segment, difference_mm, axis_deg.
+CsvTable truth_error_csv(const ScanErrors& errors);
 
 }  // namespace palmar

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "palmar/core/error.h"
 #include "palmar/hand/hand_dimension.h"
 #include "palmar/io/file.h"
 #include "palmar/io/json_values.h"
@@ -45,6 +46,11 @@ void write_painted_hand(const std::string& folder, const PaintedHand& hand, std:
                         {"centre_mm", vector3(to * joint.centre)}});
     }
     one["flexion_axes"] = std::move(joints);
+    Json tips = Json::object();
+    for (const auto& [segment, tip] : posture.fingertip) {
+      tips[std::string(name_of(segment))] = vector3(to * tip);
+    }
+    one["fingertips_mm"] = std::move(tips);
     Json dots = Json::array();
     for (const PaintedDot& dot : posture.dots) {
       dots.push_back(
@@ -65,6 +71,44 @@ void write_painted_hand(const std::string& folder, const PaintedHand& hand, std:
   }
   json["postures"] = std::move(postures);
   write_file(root / "subject.json", json.dump(1) + "\n");
+}
+
+ScanTruth read_scan_truth(const std::string& path) {
+  using Json = nlohmann::json;
+  const auto vector = [](const Json& v) {
+    return Vec3(v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>());
+  };
+  const auto segment = [&](const std::string& name) {
+    const auto known = segment_named(name);
+    if (!known) throw InputError(path + ": segment \"" + name + "\" is unknown");
+    return *known;
+  };
+  ScanTruth truth;
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const HandDimension& dimension : all_hand_dimensions()) {
+      set_value(truth.dimensions, dimension,
+                json.at("dimensions").at(std::string(name_of(dimension)) + "_mm").get<double>());
+    }
+    for (const auto& [name, one] : json.at("postures").items()) {
+      const auto posture = scan_posture_in(name);
+      if (!posture) throw InputError(path + ": \"" + name + "\" is no posture");
+      PlacedJoints& placed = truth.postures[*posture];
+      for (const Json& joint : one.at("flexion_axes")) {
+        placed.joint[segment(joint.at("segment").get<std::string>())] = {
+            vector(joint.at("axis")), vector(joint.at("centre_mm"))};
+      }
+      if (!one.contains("fingertips_mm")) continue;
+      for (const auto& [tip, point] : one.at("fingertips_mm").items()) {
+        placed.fingertip[segment(tip)] = vector(point);
+      }
+    }
+  } catch (const Json::exception& error) {
+    throw InputError(path + ": isn't the truth of a synthetic person's scans: " + error.what());
+  }
+  const auto skin = std::filesystem::path(path).parent_path() / "reference.ply";
+  if (std::filesystem::exists(skin)) truth.skin = read_mesh(skin).mesh;
+  return truth;
 }
 
 }  // namespace palmar

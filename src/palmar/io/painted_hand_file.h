@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "palmar/capture/scan_truth.h"
 #include "palmar/phantom/painted_hand.h"
 
 namespace palmar {
@@ -22,5 +23,9 @@ struct PaintedHandPlace {
 /// Throws OutputError.
 void write_painted_hand(const std::string& folder, const PaintedHand& hand, std::uint64_t seed,
                         const std::map<ScanPosture, PaintedHandPlace>& places);
+
+/// What such a folder's subject.json (and reference.ply beside it, if there) tells of the person.
+/// Throws InputError naming the file and what is wrong or lacks.
+ScanTruth read_scan_truth(const std::string& path);
 
 }  // namespace palmar

@@ -278,6 +278,17 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
   if (is_left) {
     for (Triangle& t : hand.triangles) std::swap(t[1], t[2]);
   }
+  std::map<Segment, int> tips;  // vertex
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto chain = segments_of(static_cast<Finger>(f));
+    const auto nearer = [&](const Vec3& a, const Vec3& b) {
+      const Vec3& tip = person.skeleton.fingertips[at(f)];
+      return (a - tip).squaredNorm() < (b - tip).squaredNorm();
+    };
+    const auto& v = reference.vertices;
+    tips[*chain[chain[2] ? 2 : 1]] =
+        static_cast<int>(std::min_element(v.begin(), v.end(), nearer) - v.begin());
+  }
   for (const ScanPosture name : postures) {
     const Posture& posture = person.postures.at(name);
     TriangleMesh skin = person.skin;
@@ -292,6 +303,9 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
       for (const SkinPlace& place : places) {
         result.crease[segment].push_back(side(place.in(skin.vertices, reference.triangles)));
       }
+    }
+    for (const auto& [segment, vertex] : tips) {
+      result.fingertip[segment] = side(skin.vertices[at(vertex)]);
     }
     const auto motion = body_motions(person.joints, posture);
     for (int body = 1; body < kSegmentCount; ++body) {

@@ -53,6 +53,7 @@ struct PaintedPosture {
     Vec3 axis = Vec3::UnitX(), centre = Vec3::Zero();
   };
   std::map<Segment, TrueJoint> joint;
+  std::map<Segment, Vec3> fingertip;       ///< of the last segments: point of the skin
   std::array<double, kDofCount> angles{};  ///< rad
 };
 

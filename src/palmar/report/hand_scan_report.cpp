@@ -178,6 +178,55 @@ std::string crease_section(const HandFromScan& made) {
                     {"Crease", "Distal of it, mm"}, rows);
 }
 
+/// Xie 2014: 4.5 and tables 4-1, 4-2 of this hand.
+std::string truth_section(const ScanErrors& errors) {
+  const auto row = [](const std::string& head, std::initializer_list<std::optional<double>> values,
+                      int decimals) {
+    std::string cells;
+    for (const auto& value : values) cells += number_cell(value, decimals);
+    return "<tr>" + row_head(head) + cells + "</tr>";
+  };
+  const auto mm = [](const std::optional<MeanPlaceError>& e) {
+    return e ? std::optional(e->place) : std::nullopt;
+  };
+  const auto degrees = [](const std::optional<MeanPlaceError>& e) {
+    return e && e->axis ? std::optional(*e->axis * kDegrees) : std::nullopt;
+  };
+  std::string rows;
+  for (const auto& [posture, words] :
+       {std::pair{ScanPosture::kReference, "Natural extended posture"},
+        std::pair{ScanPosture::kFingerFlexion, "Limit bended posture, full flexion"},
+        std::pair{ScanPosture::kFingerAbduction, "Limit bended posture, full abduction"}}) {
+    const auto pip = mean_error(errors, posture, FingerPlace::kPip);
+    const auto dip = mean_error(errors, posture, FingerPlace::kDip);
+    const auto tip = mean_error(errors, posture, FingerPlace::kTip);
+    if (!pip) continue;
+    rows += row(words, {mm(pip), degrees(pip), mm(dip), degrees(dip), mm(tip)}, 1);
+  }
+  std::string limits;
+  for (const PlaceError& e : errors.places) {
+    if (!is_thumb_limit(e.posture) || e.segment != Segment::kThumbProximal) continue;
+    limits += row(words_of(e.posture), {e.place, *e.axis * kDegrees}, 1);
+  }
+  return "<h2>Against the truth</h2>\n" +
+         html_table("Dimensions of the 15 segments: differences (Xie 2014: 1.2, 1.1, 1.0 mm)",
+                    {"", "Mean, mm", "Largest, mm"},
+                    row("x (breadth)", {errors.x.mean, errors.x.largest}, 2) +
+                        row("y (length)", {errors.y.mean, errors.y.largest}, 2) +
+                        row("z (thickness)", {errors.z.mean, errors.z.largest}, 2)) +
+         html_table("Fingers II to V in the mean (Xie 2014, tables 4-1 and 4-2)",
+                    {"", "PIP, mm", "PIP axis, deg", "DIP, mm", "DIP axis, deg", "Fingertip, mm"},
+                    rows) +
+         (limits.empty() ? std::string()
+                         : html_table("MP joint of the thumb where its metacarpal carries it",
+                                      {"", "Place, mm", "Axis, deg"}, limits)) +
+         (errors.skin_p95 > 0.0
+              ? fmt::format("<p>Skin: {:.2f} mm from the true one in the mean, 95 % within {:.2f} "
+                            "mm.</p>\n",
+                            errors.skin_mean, errors.skin_p95)
+              : std::string());
+}
+
 std::string found_section(const HandFromScan& made, const std::map<ScanPosture, ShownScan>& scans) {
   std::string rows;
   for (const auto& [posture, scan] : scans) {
@@ -205,12 +254,13 @@ std::string found_section(const HandFromScan& made, const std::map<ScanPosture, 
 
 void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::map<ScanPosture, ShownScan>& scans,
-                            const Progress& progress) {
+                            const std::optional<ScanErrors>& errors, const Progress& progress) {
   const std::filesystem::path base(folder);
   create_folder(base);
   write_file(base / "scan.json", hand_from_scan_json(made) + "\n");
   write_file(base / "dimensions.csv",
              format_csv(dimension_csv(made.scanned.hand.dimensions, made.tape)));
+  if (errors) write_file(base / "truth_errors.csv", format_csv(truth_error_csv(*errors)));
   write_file(base / "marks.csv", format_csv(mark_table(made.marks)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
@@ -227,6 +277,7 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
       base / "report.html",
       html_page("Hand from a scan: " + hand.name, summary,
                 pictures_html(pictures, {"hand_", "distance_"}) +
+                    (errors ? truth_section(*errors) : std::string()) +
                     notes_section("What to know about this hand", made.notes) +
                     found_section(made, scans) + dimensions_section(hand) + crease_section(made) +
                     dots_section(made) + titled("Every scan", pictures_html(pictures, {"scan_"}))));

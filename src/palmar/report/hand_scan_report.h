@@ -3,9 +3,10 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
-#include "palmar/capture/hand_from_scan.h"
+#include "palmar/capture/scan_truth.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/textured_mesh.h"
 
@@ -20,9 +21,12 @@ struct ShownScan {
 
 /// Writes into `folder`: report.html (works offline: what was scanned and found in it, with
 /// pictures; how far the hand lies from the scan; joints and dimensions; notes), scan.json,
-/// dimensions.csv, joints_by_dots.csv, marks.csv. Same input, same bytes. Throws OutputError, Cancelled.
+/// dimensions.csv, joints_by_dots.csv, marks.csv, and with
+/// `errors` against a truth truth_errors.csv. Same input, same bytes. Throws OutputError,
+/// Cancelled.
 void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::map<ScanPosture, ShownScan>& scans,
+                            const std::optional<ScanErrors>& errors = {},
                             const Progress& progress = {});
 
 }  // namespace palmar
