@@ -25,10 +25,9 @@ namespace {
 
 constexpr std::size_t kFewest = 6;  // photographs
 
-/// The part of a mesh with the largest area.
-TriangleMesh largest_part(const TriangleMesh& mesh) {
-  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
-  std::vector<double> area;
+/// Which of the parts that triangles belong to has the largest area.
+int largest(const TriangleMesh& mesh, const std::vector<int>& part) {
+  std::vector<double> area(1, 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto p = static_cast<std::size_t>(std::max(0, part[t]));
     if (p >= area.size()) area.resize(p + 1, 0.0);
@@ -37,13 +36,55 @@ TriangleMesh largest_part(const TriangleMesh& mesh) {
                              mesh.vertices[static_cast<std::size_t>(b)],
                              mesh.vertices[static_cast<std::size_t>(c)]);
   }
-  if (area.size() <= 1) return mesh;
-  const auto best = static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
+  return static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
+}
+
+TriangleMesh largest_part(const TriangleMesh& mesh) {
+  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
+  if (std::all_of(part.begin(), part.end(), [](int p) { return p <= 0; })) return mesh;
+  const int best = largest(mesh, part);
   TriangleMesh kept{mesh.vertices, {}};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (part[t] == best) kept.triangles.push_back(mesh.triangles[t]);
   }
   return weld(kept, {.drops_duplicates = false}).mesh;
+}
+
+/// Leaves out what is a guess, and pieces that then hang loose: what is behind a hand makes
+/// surfaces of its own where it isn't told from the hand.
+void keep_measured(PhotoModel& model) {
+  TriangleMesh& mesh = model.skin.mesh;
+  const auto is_measured = [&model](int v) {
+    return model.measured[static_cast<std::size_t>(v)] != 0;
+  };
+  std::erase_if(mesh.triangles,
+                [&](const Triangle& t) { return !std::all_of(t.begin(), t.end(), is_measured); });
+  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
+  const int best = largest(mesh, part);
+  std::vector<int> renumbered(mesh.vertices.size(), -1);
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (part[t] != best) continue;
+    kept.push_back(mesh.triangles[t]);
+    for (const int v : kept.back()) renumbered[static_cast<std::size_t>(v)] = 0;
+  }
+  std::size_t used = 0;
+  for (std::size_t v = 0; v < renumbered.size(); ++v) {
+    if (renumbered[v] < 0) continue;
+    renumbered[v] = static_cast<int>(used);
+    mesh.vertices[used] = mesh.vertices[v];
+    model.skin.colour[used] = model.skin.colour[v];
+    model.views[used] = model.views[v];
+    model.measured[used++] = model.measured[v];
+  }
+  mesh.vertices.resize(used);
+  model.skin.colour.resize(used);
+  model.views.resize(used);
+  model.measured.resize(used);
+  for (Triangle& t : kept) {
+    for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
+  }
+  mesh.triangles = std::move(kept);
 }
 
 /// What lies above a height; a little higher where the plane grazes the surface.
@@ -253,6 +294,13 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   model.measured_share = area > 0.0 ? measured / area : 0.0;
   model.views = std::move(colours.views);
   model.skin = {std::move(mesh), std::move(colours.colour)};
+  if (model.has_background && measured < area) {
+    keep_measured(model);
+    model.warnings.push_back(
+        fmt::format("{:.0f} % of the surface was a guess and is left out: the mesh has holes there",
+                    100.0 * (1.0 - model.measured_share)));
+    model.measured_share = 1.0;
+  }
   progress.update(1.0, "done");
   return model;
 }

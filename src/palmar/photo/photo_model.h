@@ -51,7 +51,8 @@ struct PhotoModel {
   std::size_t points = 0;       ///< that photographs agreed about
   double hull_volume = 0.0;     ///< mm^3
   double measured_share = 0.0;  ///< of the area
-  bool has_background = false;  ///< masks tell little: what is behind the hand looks like skin
+  bool has_background = false;  ///< masks tell little: what is behind the hand looks like skin;
+                                ///< what wasn't measured is left out then
   std::vector<std::string> warnings;
 };
 
