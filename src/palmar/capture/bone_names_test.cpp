@@ -1,10 +1,11 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/bone_names.h"
+#include "palmar/capture/bone_pairing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "palmar/capture/scan_surfaces.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/primitive_meshes.h"
 

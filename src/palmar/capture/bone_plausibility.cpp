@@ -8,7 +8,7 @@
 #include <array>
 #include <limits>
 
-#include "palmar/capture/bone_names.h"
+#include "palmar/capture/bone_outline.h"
 #include "palmar/geometry/closest_point.h"
 
 namespace palmar {

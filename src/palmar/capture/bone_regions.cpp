@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unordered_set>
 
 #include "palmar/core/parallel.h"
+#include "palmar/core/random.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/remesh.h"
 #include "palmar/geometry/smooth.h"
@@ -29,6 +31,7 @@ constexpr double kMostMarrow = 60.0e3;  // mm^3: that of the radius with much of
 constexpr float kSkin = 1.0F;           // mm below the surface: too near for a bone's shell
 constexpr double kLeastDepth = 1.4;     // mm below the skin
 constexpr double kMostShallow = 0.2;    // share of voxels nearer to it
+constexpr double kOpen = 0.8;           // the same, where nothing dark lies outside
 constexpr double kDarkestShell = 0.62;  // share of the way from dark to the region's own level
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -40,11 +43,19 @@ struct Nearest {
 
 Nearest nearest_voxels(const MarrowRegion& a, const MarrowRegion& b) {
   Nearest nearest;
+  double least = std::numeric_limits<double>::infinity();
   // Every third voxel is near enough.
-  for (std::size_t i = 0; i < a.voxels.size(); i += 3) {
-    for (std::size_t j = 0; j < b.voxels.size(); j += 3) {
-      const double d = (a.voxels[i] - b.voxels[j]).norm();
-      if (d < nearest.distance) nearest = {d, a.voxels[i], b.voxels[j]};
+  constexpr std::size_t kStep = 3;
+  Box3 box;
+  for (std::size_t j = 0; j < b.voxels.size(); j += kStep) box.extend(b.voxels[j]);
+  for (std::size_t i = 0; i < a.voxels.size(); i += kStep) {
+    const Vec3& p = a.voxels[i];
+    if (box.squaredExteriorDistance(p) >= least) continue;
+    for (std::size_t j = 0; j < b.voxels.size(); j += kStep) {
+      const double d = (p - b.voxels[j]).squaredNorm();
+      if (d >= least) continue;
+      least = d;
+      nearest = {std::sqrt(d), p, b.voxels[j]};
     }
   }
   return nearest;
@@ -65,10 +76,30 @@ VoxelMask without_leaks(const VolumeGrid& grid, const VoxelMask& mask) {
 
 namespace {
 
+double convexity_of(const VolumeGrid& grid, const std::vector<std::size_t>& voxels) {
+  constexpr int kPairs = 400;
+  const auto nx = at(grid.size[0]), ny = at(grid.size[1]);
+  const std::unordered_set<std::size_t> inside(voxels.begin(), voxels.end());
+  RandomStream random(1, 0);
+  int count = 0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const std::size_t a = voxels[random.below(voxels.size())],
+                      b = voxels[random.below(voxels.size())];
+    // Where the middle falls between voxels, either will do.
+    const auto middle = [&](std::size_t up) {
+      return (a % nx + b % nx + up) / 2 + nx * ((a / nx % ny + b / nx % ny + up) / 2) +
+             nx * ny * ((a / nx / ny + b / nx / ny + up) / 2);
+    };
+    if (inside.contains(middle(0)) || inside.contains(middle(1))) ++count;
+  }
+  return static_cast<double>(count) / kPairs;
+}
+
 std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRegions& regions) {
   const VolumeGrid& grid = scan.image.grid;
   struct Sums {
-    double bright = 0.0, voxels = 0.0, shell = 0.0, faces = 0.0, shallow = 0.0, core = 0.0;
+    double bright = 0.0, voxels = 0.0, shell = 0.0, faces = 0.0, border = 0.0, open = 0.0,
+           shallow = 0.0, core = 0.0;
     bool is_cut = false;
   };
   std::vector<Sums> sums(at(regions.count()));
@@ -109,12 +140,15 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
             }
             std::size_t w = way > 0 ? v + stride[axis] : v - stride[axis];
             if (is_core(w, r)) continue;
+            s.border += 1.0;
             // Air behind the skin is no shell.
             float least = std::numeric_limits<float>::max();
             for (int step = 0; step < std::min(room, 3) && scan.depth[w] > kSkin; ++step) {
               least = std::min(least, scan.smooth.value[w]);
               w = way > 0 ? w + stride[axis] : w - stride[axis];
             }
+            const double level = dark + (limit_of(r) - dark) / kCore;
+            if (static_cast<double>(least) > dark + kOpen * (level - dark)) s.open += 1.0;
             if (least == std::numeric_limits<float>::max()) continue;
             s.shell += static_cast<double>(least);
             s.faces += 1.0;
@@ -137,6 +171,7 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
     region.regions = {static_cast<std::int32_t>(r)};
     region.level = level;
     region.shell = s.shell / s.faces;
+    region.open = s.open / s.border;
     region.volume = volume;
     region.is_cut = s.is_cut;
     found.push_back(region);
@@ -152,6 +187,7 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
       }
     }
   }
+  for (MarrowRegion& region : found) region.convexity = convexity_of(grid, region.index);
   return found;
 }
 
@@ -217,6 +253,8 @@ MarrowRegion joined(const MarrowRegion& a, const MarrowRegion& b) {
   both.index.insert(both.index.end(), b.index.begin(), b.index.end());
   both.level = (a.level * a.volume + b.level * b.volume) / (a.volume + b.volume);
   both.shell = (a.shell * a.volume + b.shell * b.volume) / (a.volume + b.volume);
+  both.open = (a.open * a.volume + b.open * b.volume) / (a.volume + b.volume);
+  both.convexity = (a.convexity * a.volume + b.convexity * b.volume) / (a.volume + b.volume);
   both.volume += b.volume;
   both.is_cut = a.is_cut || b.is_cut;
   return both;

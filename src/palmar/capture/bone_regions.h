@@ -18,7 +18,11 @@ struct MarrowRegion {
   std::vector<std::size_t> index;  ///< of the same voxels in the image
   double level = 0.0;              ///< mean signal
   double shell = 0.0;  ///< mean of the darkest signal within three voxels outwards: that of a shell
-  double volume = 0.0;    ///< of the voxels, mm^3
+  double volume = 0.0;  ///< of the voxels, mm^3
+  double open = 0.0;    ///< share of its border with nothing dark outside, or with skin at once
+  /// Share of pairs of voxels whose middle lies in the region as well: nearly 1 for marrow, less
+  /// for fat, which bends round bones. Of joined regions, the mean of the parts.
+  double convexity = 1.0;
   bool is_cut = false;    ///< touches the border of the image
   bool is_leaky = false;  ///< larger than the bone it stands for: its thin parts are leaks
 };

@@ -274,7 +274,9 @@ void BoneMaker::make_ray(int f) {
     if (is_last) {
       const Vec3 along = (tip - node[at(k)]).normalized();
       const double tuft = 0.15 * w * build * varied(0.05);
-      shape.head = tip - (kTipTissue[at(f)] * scale_ + tuft) * along;
+      // The tuft lies close under the nail, where the finger is thick enough for it.
+      shape.head = sunk(skin_, tip - (kTipTissue[at(f)] * scale_ + tuft) * along,
+                        shape.lateral.cross(along), kLeastSkinCover + tuft, 3.0);
       shape.condyles = {tuft, 0.25 * w * build * varied(0.05), 0.0};
       shape.waist_half_width = 0.19 * w * build * varied(0.05);
       shape.waist_half_depth = 0.15 * w * build * varied(0.05);

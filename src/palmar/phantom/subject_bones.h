@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "palmar/phantom/skin_cover.h"
 #include "palmar/phantom/subject_person.h"
 
 namespace palmar {
 
 inline constexpr double kLeastBoneGap = 1.0;    ///< between two bones in every posture, mm
-inline constexpr double kLeastSkinCover = 2.0;  ///< over bone at the reference posture, mm
 
 /// A bone with its marrow; hand frame, reference posture.
 struct SubjectBone {

@@ -15,6 +15,7 @@
 #include "palmar/hand/hand_instance.h"
 #include "palmar/hand/skeleton_in_posture.h"
 #include "palmar/hand/skinning.h"
+#include "palmar/phantom/skin_cover.h"
 
 namespace palmar {
 namespace {
@@ -155,6 +156,7 @@ Vec3 tilted(const Vec3& axis, RandomStream& random, double deviation) {
 // Joints that don't turn as Hand's do, at places and about axes a little off those of the base.
 void make_joints(SubjectPerson& person, std::uint64_t seed) {
   RandomStream random(seed, kJoints);
+  const MeshDistance skin(person.skin);
   Skeleton& skeleton = person.skeleton;
   for (int f = 0; f < kFingerCount; ++f) {
     const auto segments = segments_of(static_cast<Finger>(f));
@@ -167,13 +169,15 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
     person.finger_width[at(f)] =
         finger_width(person.skin, node[1], second.dofs.back().axis, finger);
     // Joints of bones lie up to 1 mm dorsal of those of the base, or elsewhere by half a
-    // millimetre.
+    // millimetre, but so deep that there's room for the bones between them and the skin.
+    const double least = 0.25 * person.finger_width[at(f)] + kLeastSkinCover;
     for (int k = 0; k < count; ++k) {
       const Joint& joint = skeleton.joint(joint_of(*segments[at(k)]));
       const Vec3 along = (node[at(k + 1)] - node[at(k)]).normalized();
       const Vec3 palmar = joint.dofs.back().axis.cross(along);
       const double dorsal = 0.5 + spread(random, 0.25), distal = spread(random, 0.5);
       node[at(k)] += distal * along - dorsal * palmar;
+      if (k > 0) node[at(k)] = sunk(skin, node[at(k)], palmar, least, 3.0);
     }
     for (int k = 0; k < count; ++k) {
       const Segment segment = *segments[at(k)];
@@ -350,6 +354,14 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   };
   const auto thumb = [&](double flexion, double abduction, double mp, double ip) {
     Posture p = reference;
+    // Fingers never come to lie as they lay.
+    for (int f = 0; f < 4; ++f) {
+      constexpr std::array<double, 4> kDeviation{3.0, 1.5, 3.0, 2.0};
+      const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
+      for (int k = 0; k < 4; ++k) {
+        turned(p, static_cast<Dof>(first + k), 0.0, kDeviation[at(k)]);
+      }
+    }
     turned(p, Dof::kThumbCmcFlexion, flexion, 1.5);
     turned(p, Dof::kThumbCmcAbduction, abduction, 1.5);
     turned(p, Dof::kThumbMpFlexion, mp, 2.0);
