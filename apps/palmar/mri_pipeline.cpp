@@ -108,7 +108,7 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::option
   SurfaceOptions how = options.surfaces;
   if (!how.side && reference) {
     how.side = reference;
-    how.doubted_below = 0.67;
+    how.doubted_below = 0.75;
   }
   scan.surfaces =
       find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));

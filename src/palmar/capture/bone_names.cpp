@@ -125,7 +125,7 @@ BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLeve
     names.notes.push_back(
         fmt::format("{} of {} bones not found: {}", missing.size(), model.bones.size(), list));
   }
-  if (!known.side && names.other_misfit < 1.5 * names.misfit) {
+  if (!known.side && names.other_misfit < 1.2 * names.misfit) {
     names.notes.push_back(fmt::format(
         "the bones fit a {} hand little better than the other one ({:.1f} against {:.1f}): check "
         "the side",
