@@ -24,7 +24,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadians = std::numbers::pi / 180.0;
 
 class PostureMeshTest : public TemplateTest {};
 
@@ -93,8 +93,8 @@ TriangleMesh blended_skin(const Hand& hand, const Posture& posture) {
   return skin;
 }
 
-const Rigid3 kPlace{Quat(Eigen::AngleAxisd(1.9, Vec3(-0.5, 0.7, 0.51).normalized())),
-                    Vec3(-300, 120, 55)};
+const Rigid3 kMeshPlace{Quat(Eigen::AngleAxisd(1.9, Vec3(-0.5, 0.7, 0.51).normalized())),
+                        Vec3(-300, 120, 55)};
 
 TriangleMesh placed(TriangleMesh mesh, const Rigid3& place, double noise, unsigned seed) {
   std::mt19937 random(seed);
@@ -115,7 +115,7 @@ AngleError angle_error(const Posture& found, const Posture& truth) {
   int count = 0;
   for (int d = static_cast<int>(Dof::kThumbCmcFlexion); d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
-    const double e = std::abs(found[dof] - truth[dof]) / kDegree;
+    const double e = std::abs(found[dof] - truth[dof]) / kRadians;
     error.rms += e * e;
     ++count;
     if (e > error.worst) error.worst = e;
@@ -127,11 +127,11 @@ AngleError angle_error(const Posture& found, const Posture& truth) {
 
 /// Another triangulation, coarser than the hand's.
 TriangleMesh scanned(const TriangleMesh& skin, double noise, unsigned seed) {
-  return placed(remesh(skin, {.edge_length = 4.0, .rounds = 4}).mesh, kPlace, noise, seed);
+  return placed(remesh(skin, {.edge_length = 4.0, .rounds = 4}).mesh, kMeshPlace, noise, seed);
 }
 
 /// Angles drawn between two postures that people take: fingers don't run through each other.
-Posture drawn_posture(const Hand& hand, unsigned seed) {
+Posture drawn_mesh_posture(const Hand& hand, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const Posture flat = *named_posture(hand.skeleton, "flat");
@@ -145,23 +145,23 @@ Posture drawn_posture(const Hand& hand, unsigned seed) {
 
 TEST_F(PostureMeshTest, TheSameSkinIsFoundVertexForVertex) {
   Posture truth = *named_posture(hand().skeleton, "tripod");
-  truth[Dof::kWristFlexion] = 20 * kDegree;
+  truth[Dof::kWristFlexion] = 20 * kRadians;
   const TriangleMesh mesh =
-      placed({pose_skin(hand(), truth), hand().skin.triangles}, kPlace, 0.0, 1);
+      placed({pose_skin(hand(), truth), hand().skin.triangles}, kMeshPlace, 0.0, 1);
   const MeshFit fit = fit_posture_to_mesh(hand(), mesh);
   EXPECT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
   EXPECT_TRUE(fit.is_vertex_to_vertex);
   EXPECT_GT(fit.partner_share, 0.99);
   EXPECT_LT(fit.percentile_95, 0.01);  // mm; the prior of 10 rad pulls by less
   for (std::size_t d = 0; d < kDofCount; ++d) {
-    EXPECT_NEAR(fit.posture.angle[d] / kDegree, truth.angle[d] / kDegree, 0.05);
+    EXPECT_NEAR(fit.posture.angle[d] / kRadians, truth.angle[d] / kRadians, 0.05);
   }
-  EXPECT_LT((fit.mesh_from_hand.translation - kPlace.translation).norm(), 0.05);
+  EXPECT_LT((fit.mesh_from_hand.translation - kMeshPlace.translation).norm(), 0.05);
 }
 
 TEST_F(PostureMeshTest, AnglesOfAnotherSkinningComeOutWithinAFewDegrees) {
   for (const unsigned seed : {1U, 2U}) {
-    const Posture truth = drawn_posture(hand(), seed);
+    const Posture truth = drawn_mesh_posture(hand(), seed);
     const MeshFit fit =
         fit_posture_to_mesh(hand(), scanned(blended_skin(hand(), truth), 0.3, seed));
     ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
@@ -176,7 +176,7 @@ TEST_F(PostureMeshTest, AnglesOfAnotherSkinningComeOutWithinAFewDegrees) {
 }
 
 TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
-  const Posture truth = drawn_posture(hand(), 5);
+  const Posture truth = drawn_mesh_posture(hand(), 5);
   TriangleMesh mesh = blended_skin(hand(), truth);
   // The forearm goes on for 200 mm as a tube of the wrist's girth, beside the stub's cut.
   const int first = mesh.vertex_count();
@@ -203,7 +203,7 @@ TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
     if (!is_lost) kept.push_back(t);
   }
   mesh.triangles = kept;
-  const MeshFit fit = fit_posture_to_mesh(hand(), placed(mesh, kPlace, 0.2, 2));
+  const MeshFit fit = fit_posture_to_mesh(hand(), placed(mesh, kMeshPlace, 0.2, 2));
   ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
   const AngleError error = angle_error(fit.posture, truth);
   EXPECT_LT(error.rms, 3.0) << error.text;
@@ -214,7 +214,7 @@ TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
 
 TEST_F(PostureMeshTest, AnotherSizeIsFoundIfAskedFor) {
   const Hand large = scaled(hand(), 1.1);
-  const Posture truth = drawn_posture(large, 6);
+  const Posture truth = drawn_mesh_posture(large, 6);
   const MeshFit fit = fit_posture_to_mesh(hand(), scanned(blended_skin(large, truth), 0.2, 1),
                                           {.fits_scale = true});
   ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
@@ -224,9 +224,9 @@ TEST_F(PostureMeshTest, AnotherSizeIsFoundIfAskedFor) {
 
 TEST_F(PostureMeshTest, TheOtherHandIsRecognised) {
   const Hand left = mirrored(hand());
-  const Posture truth = drawn_posture(left, 3);
+  const Posture truth = drawn_mesh_posture(left, 3);
   const TriangleMesh skin{pose_skin(left, truth), left.skin.triangles};
-  const MeshFit by_vertex = fit_posture_to_mesh(hand(), placed(skin, kPlace, 0.0, 1));
+  const MeshFit by_vertex = fit_posture_to_mesh(hand(), placed(skin, kMeshPlace, 0.0, 1));
   EXPECT_EQ(by_vertex.status, PostureFitStatus::kMirrored) << by_vertex.message;
   const MeshFit by_shape = fit_posture_to_mesh(hand(), scanned(skin, 0.2, 1));
   EXPECT_EQ(by_shape.status, PostureFitStatus::kMirrored) << by_shape.message;

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kDegrees = std::numbers::pi / 180.0;
 
 class Reach : public TemplateTest {
  protected:
@@ -116,7 +116,7 @@ TEST_F(Reach, LessJointRangeNeverImprovesReach) {
     }
     int reached_free = 0, reached_stiff = 0;
     for (int i = 0; i < 36; ++i) {
-      const double angle = 70.0 * kDeg * i, along = held().grip_point.z() + 7.0 * (i % 9 - 4);
+      const double angle = 70.0 * kDegrees * i, along = held().grip_point.z() + 7.0 * (i % 9 - 4);
       const Vec3 point(9.0 * std::cos(angle), 9.0 * std::sin(angle), along);
       const ButtonReach wide = press(hand(), point)[0], narrow = press(stiff, point)[0];
       for (std::size_t f = 0; f < 5; ++f) {

@@ -38,8 +38,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kPi = std::numbers::pi;
-
 /// A plain STEP file as another program would write it, in a unit of the kernel's writer.
 void write_plain(const std::filesystem::path& path, const TopoDS_Shape& shape,
                  const char* unit = "MM") {
@@ -144,7 +142,7 @@ TEST(ReadStep, UnitOfTheFileIsHeededAndTold) {
     const CadFile file = read_step(folder / "c.step");
     EXPECT_EQ(file.unit, name);
     EXPECT_NEAR(file.millimetres_per_unit, millimetres, 1e-9);
-    EXPECT_NEAR(volume_of(file.model), kPi * 256.0 * 120.0, 1e-3) << unit;
+    EXPECT_NEAR(volume_of(file.model), std::numbers::pi * 256.0 * 120.0, 1e-3) << unit;
   }
 }
 
@@ -153,7 +151,7 @@ TEST(ReadStep, UnitOfTheUserWins) {
   write_plain(folder / "c.step", BRepPrimAPI_MakeCylinder(1.0, 4.0).Shape());
   const CadFile file = read_step(folder / "c.step", {.millimetres_per_unit = 25.4});
   EXPECT_EQ(file.unit, "millimetre");  // what the file says, for the user to be told
-  EXPECT_NEAR(volume_of(file.model), kPi * 4.0 * 25.4 * 25.4 * 25.4, 1e-3);
+  EXPECT_NEAR(volume_of(file.model), std::numbers::pi * 4.0 * 25.4 * 25.4 * 25.4, 1e-3);
 }
 
 /// "drill" of a handle, two screws (one turned by 90 degrees about x) and a "head" of a box.
@@ -179,7 +177,7 @@ void write_assembly(const std::filesystem::path& path) {
   const TDF_Label drill = shapes->NewShape();
   TDataStd_Name::Set(drill, TCollection_ExtendedString("drill"));
   gp_Trsf turn;
-  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)), kPi / 2);
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)), std::numbers::pi / 2);
   shapes->AddComponent(drill, handle, TopLoc_Location());
   shapes->AddComponent(drill, screw, TopLoc_Location(at(100, 0, 0)));
   shapes->AddComponent(drill, screw, TopLoc_Location(at(200, 0, 0) * turn));
@@ -197,7 +195,8 @@ TEST(ReadStep, AssemblyBecomesBodiesWhereTheirInstancesAre) {
   EXPECT_THAT(body_names(file.model), ElementsAre("drill / handle", "drill / screw",
                                                   "drill / screw (2)", "drill / head / box"));
   EXPECT_EQ(file.solids, 4);
-  EXPECT_NEAR(volume_of(file.model), kPi * (256.0 * 120.0 + 2 * 4.0 * 10.0) + 60000.0, 1e-3);
+  EXPECT_NEAR(volume_of(file.model), std::numbers::pi * (256.0 * 120.0 + 2 * 4.0 * 10.0) + 60000.0,
+              1e-3);
   const Tessellation mesh = tessellate(file.model);
   std::map<std::string, Box3> boxes;
   for (int t = 0; t < mesh.mesh.triangle_count(); ++t) {

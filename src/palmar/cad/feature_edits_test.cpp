@@ -25,7 +25,6 @@ namespace palmar {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double kPi = std::numbers::pi;
 constexpr double kLength = 130, kWidth = 35;  // mm; the prism of Xie 2014
 
 CadModel box() {
@@ -44,7 +43,7 @@ CadModel cylinder(double radius, double length) {
 
 /// V = L (w^2 - (4 - pi) r^2)
 double prism_volume(double radius, double width = kWidth) {
-  return kLength * (width * width - (4 - kPi) * radius * radius);
+  return kLength * (width * width - (4 - std::numbers::pi) * radius * radius);
 }
 
 EditedModel fillet(const CadModel& model, const std::string& edges, double radius) {
@@ -86,7 +85,7 @@ TEST(EditFeatures, OneOfFourFilletsChangesAlone) {
   ASSERT_EQ(all.rounded.size(), 4U);
   EXPECT_TRUE(all.sharp.empty());
   const EditedModel one = fillet(r3, "face=" + std::to_string(all.rounded.front()), 10);
-  const double expected = kLength * (kWidth * kWidth - (4 - kPi) * (3 * 9 + 100) / 4);
+  const double expected = kLength * (kWidth * kWidth - (4 - std::numbers::pi) * (3 * 9 + 100) / 4);
   EXPECT_NEAR(one.volume, expected, 1e-6 * expected);
 }
 
@@ -94,8 +93,8 @@ TEST(EditFeatures, AFullyRoundedBoxIsRolledAnewDownToItsCorners) {
   // Volume of a box rounded all over by r (Steiner): core + 6 slabs + quarter cylinders + a ball.
   const auto steiner = [](double r) {
     const double a = kWidth - 2 * r, l = kLength - 2 * r;
-    return a * a * l + 2 * r * (a * a + 2 * a * l) + kPi * r * r * (2 * a + l) +
-           4 * kPi / 3 * r * r * r;
+    return a * a * l + 2 * r * (a * a + 2 * a * l) + std::numbers::pi * r * r * (2 * a + l) +
+           4 * std::numbers::pi / 3 * r * r * r;
   };
   const EditedModel r3 = fillet(box(), "convex", 3);
   EXPECT_NEAR(r3.volume, steiner(3), 1e-6 * steiner(3));
@@ -105,9 +104,9 @@ TEST(EditFeatures, AFullyRoundedBoxIsRolledAnewDownToItsCorners) {
 
 TEST(EditFeatures, OffsetOfACylindersSideChangesItsDiameter) {
   const EditedModel thicker = edit_features(cylinder(16, 100), {.offsets = {{"sides", 2.0}}});
-  EXPECT_NEAR(thicker.volume, kPi * 18 * 18 * 100, 1e-6 * thicker.volume);
+  EXPECT_NEAR(thicker.volume, std::numbers::pi * 18 * 18 * 100, 1e-6 * thicker.volume);
   const EditedModel thinner = edit_features(cylinder(16, 100), {.offsets = {{"sides", -3.5}}});
-  EXPECT_NEAR(thinner.volume, kPi * 12.5 * 12.5 * 100, 1e-6 * thicker.volume);
+  EXPECT_NEAR(thinner.volume, std::numbers::pi * 12.5 * 12.5 * 100, 1e-6 * thicker.volume);
 }
 
 TEST(EditFeatures, AFaceThatMovesTakesItsFilletsWithIt) {
@@ -131,7 +130,7 @@ TEST(EditFeatures, FacesThatRunIntoOneAnotherMoveTogetherOrNotAtAll) {
   const CadModel rounded = make_cad_model(whole.Shape(), "bar");
   ASSERT_EQ(rounded.face_count(), 6);
   const EditedModel thicker = edit_features(rounded, {.offsets = {{"sides", 1.0}}});
-  const double expected = 100 * (40 * 22 + kPi * 11 * 11);
+  const double expected = 100 * (40 * 22 + std::numbers::pi * 11 * 11);
   EXPECT_NEAR(thicker.volume, expected, 1e-6 * expected);
 }
 
@@ -144,7 +143,7 @@ TEST(EditFeatures, RoundedRimsOfAHandleComeBackAfterItsDiameterChanged) {
 
 TEST(EditFeatures, TaperedSidesMakeAFrustum) {
   // Square frustum about its middle: V = L (w^2 + (L tan a)^2 / 3).
-  const double angle = 3 * kPi / 180;
+  const double angle = 3 * std::numbers::pi / 180;
   const EditedModel frustum = edit_features(box(), {.tapers = {{.angle = angle}}});
   const double lean = kLength * std::tan(angle);
   const double expected = kLength * (kWidth * kWidth + lean * lean / 3);
@@ -155,7 +154,7 @@ TEST(EditFeatures, TaperedSidesMakeAFrustum) {
 
 TEST(EditFeatures, TaperedSidesKeepTheirFillets) {
   const CadModel r3 = fillet(box(), "long", 3).model;
-  const EditedModel tapered = edit_features(r3, {.tapers = {{.angle = kPi / 180}}});
+  const EditedModel tapered = edit_features(r3, {.tapers = {{.angle = std::numbers::pi / 180}}});
   EXPECT_EQ(tapered.model.face_count(), 10);
   EXPECT_EQ(choose_edges(tapered.model, "long").rounded.size(), 4U);
 }
@@ -170,7 +169,7 @@ TEST(EditFeatures, ARingGrooveTakesAwayWhatPappusSays) {
   const double centroid = 2 * R * std::pow(std::sin(half), 3) /
                           (3 * (half - std::sin(half) * std::cos(half)));  // from the centre
   const double from_axis = r - d + R - centroid;
-  const double expected = kPi * r * r * 100 - 2 * kPi * from_axis * area;
+  const double expected = std::numbers::pi * r * r * 100 - 2 * std::numbers::pi * from_axis * area;
   EXPECT_NEAR(grooved.volume, expected, 1e-6 * expected);
   GrooveEdit rounded = groove;
   rounded.rim = 2.0;
@@ -187,8 +186,8 @@ TEST(EditFeatures, ARingFindsTheAxisOfATurnedBodyWhoseBoxLiesAskew) {
   // About that of a cylinder of its mean radius.
   const double half = std::acos(8.5 / 10);
   const double segment = 100 * (half - std::sin(half) * std::cos(half));
-  EXPECT_NEAR(grooved.volume_before - grooved.volume, 2 * kPi * 16 * segment,
-              0.05 * 2 * kPi * 16 * segment);
+  EXPECT_NEAR(grooved.volume_before - grooved.volume, 2 * std::numbers::pi * 16 * segment,
+              0.05 * 2 * std::numbers::pi * 16 * segment);
 }
 
 TEST(EditFeatures, AGrooveThatIsLongerByATakesAwayASegmentTimesAMore) {

@@ -26,7 +26,6 @@ namespace palmar {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kPi = std::numbers::pi;
 
 CadModel prism() {
   const ParametricKind& kind = parametric_kind("prism");
@@ -40,7 +39,7 @@ NamedCurve circle() {
   NamedCurve curve{
       .name = "outline palm, half of 30 hands, 1", .colour = {0.2F, 0.4F, 0.7F}, .points = {}};
   for (int i = 0; i < 63; ++i) {
-    const double a = 2.0 * kPi * i / 63;
+    const double a = 2.0 * std::numbers::pi * i / 63;
     curve.points.emplace_back(17.5, 10.0 * std::cos(a), 10.0 * std::sin(a));
   }
   return curve;
@@ -55,13 +54,13 @@ NamedSurface patch(bool with_outline) {
                        .outline = {}};
   for (int i = 0; i <= 12; ++i) {
     for (int j = 0; j <= 20; ++j) {
-      const double a = (i / 12.0 - 0.5) * kPi / 3.0;
+      const double a = (i / 12.0 - 0.5) * std::numbers::pi / 3.0;
       surface.points.emplace_back(15.0 * std::cos(a), 15.0 * std::sin(a), 2.0 * j - 20.0);
     }
   }
   for (int i = 0; with_outline && i < 80; ++i) {
     // An ellipse on the sheet of the unrolled cylinder, semi-axes 7 and 18 mm.
-    const double t = 2.0 * kPi * i / 80, a = 7.0 / 15.0 * std::cos(t);
+    const double t = 2.0 * std::numbers::pi * i / 80, a = 7.0 / 15.0 * std::cos(t);
     surface.outline.emplace_back(16.0 * std::cos(a), 16.0 * std::sin(a), 18.0 * std::sin(t));
   }
   return surface;
@@ -92,16 +91,17 @@ TEST(RegionModel, WiresAreClosedSmoothAndWhereThePointsAre) {
   const RegionModel region = make_region_model(CadModel(), {circle()}, {});
   ASSERT_EQ(region.curves.size(), 1U);
   EXPECT_TRUE(region.curves[0].is_closed);
-  EXPECT_LT(region.curves[0].deviation, 0.02);                   // mm
-  EXPECT_NEAR(region.curves[0].length, 2.0 * kPi * 10.0, 0.01);  // cubic through 32 points
+  EXPECT_LT(region.curves[0].deviation, 0.02);  // mm
+  EXPECT_NEAR(region.curves[0].length, 2.0 * std::numbers::pi * 10.0,
+              0.01);  // cubic through 32 points
 }
 
 TEST(RegionModel, FacesEndWhereTheyShould) {
   const RegionModel region = make_region_model(CadModel(), {}, {patch(false), patch(true)});
   EXPECT_FALSE(region.surfaces[0].ends_at_outline);
-  EXPECT_NEAR(region.surfaces[0].area, 15.0 * kPi / 3.0 * 40.0, 1e-6);
+  EXPECT_NEAR(region.surfaces[0].area, 15.0 * std::numbers::pi / 3.0 * 40.0, 1e-6);
   EXPECT_TRUE(region.surfaces[1].ends_at_outline);
-  EXPECT_NEAR(region.surfaces[1].area, kPi * 7.0 * 18.0, 0.5);
+  EXPECT_NEAR(region.surfaces[1].area, std::numbers::pi * 7.0 * 18.0, 0.5);
   EXPECT_TRUE(check_cad(region.model).is_valid);
 }
 
@@ -138,7 +138,7 @@ RidgeRelief corner(double radius) {
   relief.end = Vec3(17.5 - radius, 17.5 - radius, 20);
   relief.outward = Vec3(1, 1, 0).normalized();
   relief.radius = radius;
-  relief.half_angle = 0.25 * kPi;
+  relief.half_angle = 0.25 * std::numbers::pi;
   relief.run_out = 40.0;
   relief.depth = (radius - 3.0) * (std::sqrt(2.0) - 1.0);
   return relief;
@@ -172,7 +172,7 @@ TEST(CutReliefs, AllAlongAnEdgeEqualsALargerFillet) {
   relief.end.z() = 65.0;
   const RelievedModel cut = cut_reliefs(prism(), {relief});
   // (1 - pi / 4)(14^2 - 3^2) mm^2 of the section over 130 mm.
-  const double removed = (1.0 - 0.25 * kPi) * 187.0 * 130.0;
+  const double removed = (1.0 - 0.25 * std::numbers::pi) * 187.0 * 130.0;
   EXPECT_NEAR(cut.volume_before - cut.volume_after, removed, 1e-3 * removed);
   EXPECT_TRUE(check_cad(cut.model).is_good());
   EXPECT_EQ(cut.model.face_count(), 10);  // the old fillet is gone, the new one is there
@@ -183,7 +183,7 @@ TEST(CutReliefs, LeavesAValidSolidOfSimpleFacesAndSaysWhichAreNew) {
   const RelievedModel cut = cut_reliefs(prism(), {corner(14.0)});
   const CadCheck check = check_cad(cut.model);
   EXPECT_TRUE(check.is_good()) << testing::PrintToString(check.findings);
-  const double straight = (1.0 - 0.25 * kPi) * 187.0 * 50.0;
+  const double straight = (1.0 - 0.25 * std::numbers::pi) * 187.0 * 50.0;
   EXPECT_GT(cut.volume_before - cut.volume_after, straight);
   EXPECT_LT(cut.volume_before - cut.volume_after, 2.0 * straight);
   write_step(folder.file("redesign.step"), cut.model);

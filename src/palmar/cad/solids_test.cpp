@@ -25,7 +25,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Given = std::vector<std::pair<std::string, double>>;
 
 CadModel make(const std::string& kind, const Given& given = {}) {
@@ -50,8 +49,8 @@ Vec3 size_of(const CadModel& model) {
 /// area - perimeter d + pi d^2 (Steiner), and the integrals of d and d^2 are r^2 (1 - pi / 4) and
 /// r^3 (5 / 3 - pi / 2).
 double rounded_bar(double area, double perimeter, double length, double r) {
-  return area * length - 2.0 * perimeter * r * r * (1.0 - kPi / 4.0) +
-         2.0 * kPi * r * r * r * (5.0 / 3.0 - kPi / 2.0);
+  return area * length - 2.0 * perimeter * r * r * (1.0 - std::numbers::pi / 4.0) +
+         2.0 * std::numbers::pi * r * r * r * (5.0 / 3.0 - std::numbers::pi / 2.0);
 }
 
 TEST(KindSolids, HaveTheVolumesOfTheirClosedForms) {
@@ -59,34 +58,39 @@ TEST(KindSolids, HaveTheVolumesOfTheirClosedForms) {
   const auto expect = [&](double found, double truth) {
     EXPECT_NEAR(found / truth, 1.0, exact) << found << " for " << truth;
   };
-  expect(volume("cylinder", {{"diameter_mm", 35}, {"length_mm", 120}}), kPi / 4 * 35 * 35 * 120);
+  expect(volume("cylinder", {{"diameter_mm", 35}, {"length_mm", 120}}),
+         std::numbers::pi / 4 * 35 * 35 * 120);
   expect(volume("cylinder", {{"diameter_mm", 36}, {"length_mm", 120}, {"end_fillet_mm", 5}}),
-         rounded_bar(kPi * 18 * 18, kPi * 36, 120, 5));
+         rounded_bar(std::numbers::pi * 18 * 18, std::numbers::pi * 36, 120, 5));
   expect(volume("elliptic_handle",
                 {{"width_mm", 28}, {"depth_mm", 40}, {"length_mm", 110}, {"end_fillet_mm", 0}}),
-         kPi / 4 * 28 * 40 * 110);
-  const double thin = 20 - 130 * std::tan(3 * kPi / 180);
+         std::numbers::pi / 4 * 28 * 40 * 110);
+  const double thin = 20 - 130 * std::tan(3 * std::numbers::pi / 180);
   expect(volume("tapered_handle",
                 {{"diameter_mm", 40}, {"length_mm", 130}, {"taper_deg", 3}, {"end_fillet_mm", 0}}),
-         kPi * 130 / 3 * (20 * 20 + 20 * thin + thin * thin));
+         std::numbers::pi * 130 / 3 * (20 * 20 + 20 * thin + thin * thin));
   expect(
       volume("prism", {{"width_mm", 40}, {"depth_mm", 30}, {"length_mm", 150}, {"fillet_mm", 6}}),
-      150 * (40 * 30 - (4 - kPi) * 36));
+      150 * (40 * 30 - (4 - std::numbers::pi) * 36));
   expect(volume("prism", {{"width_mm", 40},
                           {"depth_mm", 30},
                           {"length_mm", 150},
                           {"fillet_mm", 6},
                           {"end_fillet_mm", 4}}),
-         rounded_bar(40 * 30 - (4 - kPi) * 36, 140 - (8 - 2 * kPi) * 6, 150, 4));
-  expect(volume("bicycle_grip", {{"end_fillet_mm", 0}}), kPi / 4 * (32 * 32 - 22 * 22) * 136);
+         rounded_bar(40 * 30 - (4 - std::numbers::pi) * 36, 140 - (8 - 2 * std::numbers::pi) * 6,
+                     150, 4));
+  expect(volume("bicycle_grip", {{"end_fillet_mm", 0}}),
+         std::numbers::pi / 4 * (32 * 32 - 22 * 22) * 136);
   expect(volume("phone", {{"width_mm", 70},
                           {"height_mm", 140},
                           {"thickness_mm", 8},
                           {"corner_mm", 10},
                           {"fillet_mm", 3}}),
-         rounded_bar(70 * 140 - (4 - kPi) * 100, 420 - (8 - 2 * kPi) * 10, 8, 3));
-  expect(volume("sphere", {{"diameter_mm", 60}}), kPi / 6 * 60 * 60 * 60);
-  expect(volume("ellipsoid", {{"x_mm", 50}, {"y_mm", 60}, {"z_mm", 120}}), kPi / 6 * 50 * 60 * 120);
+         rounded_bar(70 * 140 - (4 - std::numbers::pi) * 100, 420 - (8 - 2 * std::numbers::pi) * 10,
+                     8, 3));
+  expect(volume("sphere", {{"diameter_mm", 60}}), std::numbers::pi / 6 * 60 * 60 * 60);
+  expect(volume("ellipsoid", {{"x_mm", 50}, {"y_mm", 60}, {"z_mm", 120}}),
+         std::numbers::pi / 6 * 50 * 60 * 120);
 }
 
 TEST(KindSolids, AScrewdriverWithoutNeckAndFlutesIsARoundedBar) {
@@ -97,7 +101,7 @@ TEST(KindSolids, AScrewdriverWithoutNeckAndFlutesIsARoundedBar) {
                                             {"flute_depth_mm", 0},
                                             {"length_mm", 110},
                                             {"end_fillet_mm", 5}}) /
-                  rounded_bar(kPi * 15 * 15, kPi * 30, 110, 5),
+                  rounded_bar(std::numbers::pi * 15 * 15, std::numbers::pi * 30, 110, 5),
               1.0, 2e-4);
 }
 

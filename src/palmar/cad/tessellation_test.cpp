@@ -19,8 +19,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
 CadModel model_of(const TopoDS_Shape& shape) { return make_cad_model(shape, "part"); }
 
 void expect_closed(const TriangleMesh& mesh) {
@@ -40,10 +38,10 @@ TEST(Tessellate, SphereIsClosedOutwardsAndWithinTheChordalError) {
     for (const Vec3& v : result.mesh.vertices) EXPECT_NEAR(v.norm(), radius, 1e-9);
     // Triangles cut corners off, so the volume is smaller; a shell of the error's thickness at most
     // (twice it, for triangles are tested along their edges).
-    const double exact = 4.0 / 3.0 * kPi * std::pow(radius, 3);
+    const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
     const double volume = signed_volume(result.mesh);
     EXPECT_LT(volume, exact);
-    EXPECT_GT(volume, 4.0 / 3.0 * kPi * std::pow(radius - 2.0 * error, 3));
+    EXPECT_GT(volume, 4.0 / 3.0 * std::numbers::pi * std::pow(radius - 2.0 * error, 3));
   }
 }
 
@@ -53,8 +51,9 @@ TEST(Tessellate, RoundedBoxHasItsVolumeFacesAndFillets) {
   const Tessellation result = tessellate(model_of(rounded_box(40, 30, 120, r)));
   expect_closed(result.mesh);
   // Steiner's formula for the box of a, b, c grown by r.
-  const double volume = a * b * c + 2 * r * (a * b + b * c + c * a) + kPi * r * r * (a + b + c) +
-                        4.0 / 3.0 * kPi * r * r * r;
+  const double volume = a * b * c + 2 * r * (a * b + b * c + c * a) +
+                        std::numbers::pi * r * r * (a + b + c) +
+                        4.0 / 3.0 * std::numbers::pi * r * r * r;
   EXPECT_NEAR(signed_volume(result.mesh), volume, 1e-3 * volume);
   std::map<FaceKind, int> kinds, fillets;
   std::map<FaceKind, double> area;
@@ -73,8 +72,8 @@ TEST(Tessellate, RoundedBoxHasItsVolumeFacesAndFillets) {
   EXPECT_EQ(fillets[FaceKind::kCylinder], 12);
   EXPECT_EQ(fillets[FaceKind::kSphere], 8);
   EXPECT_NEAR(area[FaceKind::kPlane], 2 * (a * b + b * c + c * a), 1e-6);
-  EXPECT_NEAR(area[FaceKind::kCylinder], 2 * kPi * r * (a + b + c), 1e-6);
-  EXPECT_NEAR(area[FaceKind::kSphere], 4 * kPi * r * r, 1e-6);
+  EXPECT_NEAR(area[FaceKind::kCylinder], 2 * std::numbers::pi * r * (a + b + c), 1e-6);
+  EXPECT_NEAR(area[FaceKind::kSphere], 4 * std::numbers::pi * r * r, 1e-6);
   // Every triangle's corners lie on its face: areas by face agree.
   std::vector<double> meshed(result.faces.face.size(), 0.0);
   ASSERT_EQ(result.faces.face_of_triangle.size(), result.mesh.triangles.size());
@@ -109,7 +108,7 @@ TEST(DescribeFaces, TellsOuterAndInnerEdgesOfAStep) {
                                     [](const ProductEdge& e) { return !e.is_convex; });
   EXPECT_EQ(hollow, 1);
   for (const ProductEdge& edge : faces.edge) {
-    EXPECT_NEAR(edge.angle, kPi / 2, 1e-9);
+    EXPECT_NEAR(edge.angle, std::numbers::pi / 2, 1e-9);
     EXPECT_FALSE(edge.is_smooth);
     EXPECT_TRUE(edge.is_convex || std::abs(edge.length - 100.0) < 1e-9);
   }

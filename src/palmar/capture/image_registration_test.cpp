@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kMarrow = 200.0;
 
 struct Scanner {
@@ -86,7 +86,7 @@ class ImageRegistration : public ::testing::Test {
   }
 
   static Rigid3 truth() {
-    return {Quat(Eigen::AngleAxisd(40.0 * kDeg, Vec3(1.0, 2.0, -0.5).normalized())),
+    return {Quat(Eigen::AngleAxisd(40.0 * kRadians, Vec3(1.0, 2.0, -0.5).normalized())),
             Vec3(7.0, -3.0, 12.0)};
   }
 
@@ -115,13 +115,13 @@ TEST_F(ImageRegistration, MotionsAreFoundToAFractionOfAVoxelDespiteNoise) {
   for (const double noise : {0.0, 8.0, 20.0}) {
     const BoneImage bone = reference({.noise = noise, .seed = 3});
     const ImageLevels other = blurred_levels(image_of(truth(), {.noise = noise, .seed = 4}));
-    const ImageFit fit = bone.fit(other, near_truth(10.0 * kDeg, Vec3(1.5, -1.5, 1.0)));
+    const ImageFit fit = bone.fit(other, near_truth(10.0 * kRadians, Vec3(1.5, -1.5, 1.0)));
     EXPECT_TRUE(fit.has_converged) << noise;
     EXPECT_EQ(fit.overlap, 1.0);
     // Two images' noise of 4 % each: what the normal equations expect, and no more.
-    EXPECT_LT(turn_off(fit), std::max(0.3 * kDeg, 3.0 * fit.turn_error)) << noise;
+    EXPECT_LT(turn_off(fit), std::max(0.3 * kRadians, 3.0 * fit.turn_error)) << noise;
     EXPECT_LT(shift_off(fit), std::max(0.05, 3.0 * fit.shift_error)) << noise;
-    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * kDeg : 1.5 * kDeg) << noise;
+    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * kRadians : 1.5 * kRadians) << noise;
     EXPECT_GT(fit.correlation, noise > 10.0 ? 0.85 : 0.95) << noise;
   }
 }
@@ -130,20 +130,20 @@ TEST_F(ImageRegistration, GainFieldAndOffsetDontMatter) {
   const BoneImage bone = reference({.seed = 5});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.noise = 12.0, .gain = 1.6, .slope = 0.006, .offset = 25.0, .seed = 6}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDeg, Vec3(1.0, 1.0, -1.0)));
-  EXPECT_LT(turn_off(fit), 1.0 * kDeg);
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * kRadians, Vec3(1.0, 1.0, -1.0)));
+  EXPECT_LT(turn_off(fit), 1.0 * kRadians);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_GT(fit.correlation, 0.95);
 }
 
 TEST_F(ImageRegistration, ObliqueThickSlicesOfBothImagesServe) {
-  const Quat oblique(Eigen::AngleAxisd(25.0 * kDeg, Vec3(1.0, 1.0, 0.3).normalized()));
+  const Quat oblique(Eigen::AngleAxisd(25.0 * kRadians, Vec3(1.0, 1.0, 0.3).normalized()));
   const BoneImage bone = reference({.spacing = Vec3(0.6, 0.6, 1.8), .seed = 7});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.spacing = Vec3(0.9, 0.7, 1.5), .turn = oblique, .seed = 8}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDeg, Vec3(1.0, 1.0, -1.0)));
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * kRadians, Vec3(1.0, 1.0, -1.0)));
   // The blur of a slice lies otherwise in the bone then: a fifth of a voxel.
-  EXPECT_LT(turn_off(fit), 1.5 * kDeg);
+  EXPECT_LT(turn_off(fit), 1.5 * kRadians);
   EXPECT_LT(shift_off(fit), 0.2);
 }
 
@@ -154,8 +154,8 @@ TEST_F(ImageRegistration, ABoneFarFromItsStartIsFoundByTrying) {
   const Vec3 end(-16.0, 0.0, 0.0);  // stays: a joint
   for (int k = -9; k <= 9; ++k) {
     for (int n = -9; n <= 9; ++n) {
-      const Quat turn = Quat(Eigen::AngleAxisd(10.0 * k * kDeg + 0.08, Vec3::UnitZ())) *
-                        Quat(Eigen::AngleAxisd(10.0 * n * kDeg + 0.08, Vec3::UnitY()));
+      const Quat turn = Quat(Eigen::AngleAxisd(10.0 * k * kRadians + 0.08, Vec3::UnitZ())) *
+                        Quat(Eigen::AngleAxisd(10.0 * n * kRadians + 0.08, Vec3::UnitY()));
       Rigid3 start;
       start.rotation = truth().rotation * turn;
       start.translation = truth() * end - start.rotation * end + Vec3(0.5, -0.5, 0.5);
@@ -163,7 +163,7 @@ TEST_F(ImageRegistration, ABoneFarFromItsStartIsFoundByTrying) {
     }
   }
   const ImageFit fit = bone.find(other, starts);
-  EXPECT_LT(turn_off(fit), 1.0 * kDeg);
+  EXPECT_LT(turn_off(fit), 1.0 * kRadians);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_EQ(fit.fixed_from_moving.translation,
             bone.find(other, starts).fixed_from_moving.translation);
@@ -183,10 +183,10 @@ TEST_F(ImageRegistration, ATurnThatTheShapeDoesntHoldIsSaid) {
   const BoneImage bone = reference({.seed = 13});
   const ImageLevels other = blurred_levels(image_of(truth(), {.seed = 14}));
   const ImageFit fit = bone.fit(other, truth());
-  EXPECT_GT(fit.turn_error, 5.0 * kDeg);
+  EXPECT_GT(fit.turn_error, 5.0 * kRadians);
   const Vec3 along = fit.fixed_from_moving.rotation * Vec3::UnitX();
   const Vec3 wanted = truth().rotation * Vec3::UnitX();
-  EXPECT_LT(along.cross(wanted).norm(), 1.0 * kDeg);
+  EXPECT_LT(along.cross(wanted).norm(), 1.0 * kRadians);
   EXPECT_LT(shift_off(fit), 0.1);
 }
 
@@ -195,9 +195,10 @@ TEST_F(ImageRegistration, WhatLiesOutsideTheImageIsLeftOut) {
   Volume image = image_of(truth(), {.seed = 16});
   image.grid.size[2] = image.grid.size[2] / 2 + 4;
   image.value.resize(image.grid.count());
-  const ImageFit fit = bone.fit(blurred_levels(image), near_truth(4.0 * kDeg, Vec3(1.0, 0.0, 0.0)));
+  const ImageFit fit =
+      bone.fit(blurred_levels(image), near_truth(4.0 * kRadians, Vec3(1.0, 0.0, 0.0)));
   EXPECT_LT(fit.overlap, 0.9);
-  EXPECT_LT(turn_off(fit), 2.0 * kDeg);
+  EXPECT_LT(turn_off(fit), 2.0 * kRadians);
   Rigid3 away = truth();
   away.translation.x() += 500.0;
   const ImageFit none = bone.fit(blurred_levels(image), away);

@@ -24,7 +24,6 @@ using contact_test::HalfSpace;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 10.0;  // mm
 
 /// A ball of skin whose lower half belongs to two regions that meet under its lowest point.
@@ -321,7 +320,7 @@ TEST(Coating, ThinCoverUnderHardSkinIsTheBondedLayer) {
     ASSERT_EQ(contact.status, ContactStatus::kSolved);
     EXPECT_TRUE(contact.message.empty()) << contact.message;
     EXPECT_NEAR(contact.total.force / hertz, force_ratio, 0.06 * force_ratio) << chi;
-    const double width = std::sqrt(contact.total.area / kPi);
+    const double width = std::sqrt(contact.total.area / std::numbers::pi);
     EXPECT_NEAR(width / std::sqrt(radius * depth), radius_ratio, 0.08 * radius_ratio) << chi;
   }
 }

@@ -17,8 +17,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(TangentialResponse, DirectedPartIsTheIntegralOverTheDisc) {
   // cos(2 phi) / (4 pi s) averaged over a disc of radius 1 in polar rings about its centre.
   const auto by_quadrature = [](double r) {
@@ -27,31 +25,34 @@ TEST(TangentialResponse, DirectedPartIsTheIntegralOverTheDisc) {
     for (int i = 0; i < kRings; ++i) {
       const double rho = (i + 0.5) / kRings;
       for (int k = 0; k < kAngles; ++k) {
-        const double angle = 2.0 * kPi * (k + 0.5) / kAngles;
+        const double angle = 2.0 * std::numbers::pi * (k + 0.5) / kAngles;
         const double x = rho * std::cos(angle) - r, y = rho * std::sin(angle);
         const double s2 = x * x + y * y;
         sum += rho * (x * x - y * y) / (s2 * std::sqrt(s2));
       }
     }
-    return sum * (2.0 * kPi / kAngles / kRings) / (4.0 * kPi * kPi);
+    return sum * (2.0 * std::numbers::pi / kAngles / kRings) /
+           (4.0 * std::numbers::pi * std::numbers::pi);
   };
   for (const double r : {0.3, 0.7, 0.95, 1.05, 1.5, 3.0, 8.0}) {
-    EXPECT_NEAR(directed_disc_response(r, 1.0) * 4.0 * kPi, by_quadrature(r) * 4.0 * kPi, 4e-3)
+    EXPECT_NEAR(directed_disc_response(r, 1.0) * 4.0 * std::numbers::pi,
+                by_quadrature(r) * 4.0 * std::numbers::pi, 4e-3)
         << r;
   }
   EXPECT_EQ(directed_disc_response(0.0, 2.0), 0.0);
-  EXPECT_NEAR(directed_disc_response(300.0, 1.0), 1.0 / (4.0 * kPi * 300.0), 1e-8);
+  EXPECT_NEAR(directed_disc_response(300.0, 1.0), 1.0 / (4.0 * std::numbers::pi * 300.0), 1e-8);
   EXPECT_DOUBLE_EQ(directed_disc_response(1.4, 0.5), directed_disc_response(2.8, 1.0) * 2.0);
 }
 
 TEST(TangentialResponse, FarAwayIsCerruti) {
   const Eigen::Matrix3d far = tangential_response(Vec3(30, 40, 0), 0.5, 0.7);
-  const double unit = 1.0 / (4.0 * kPi * 50.0);
+  const double unit = 1.0 / (4.0 * std::numbers::pi * 50.0);
   EXPECT_NEAR(far(0, 0), unit * 1.36, 1e-4 * unit);
   EXPECT_NEAR(far(1, 1), unit * 1.64, 1e-4 * unit);
   EXPECT_NEAR(far(0, 1), unit * 0.48, 1e-4 * unit);
   // Under the middle of an evenly rubbed disc: q a (2 - nu) / 2 G (Johnson 1985, section 3.6).
-  EXPECT_NEAR(tangential_response(Vec3::Zero(), 2.0, 2.0)(0, 0), 0.75 * 2.0 / (4.0 * kPi), 1e-5);
+  EXPECT_NEAR(tangential_response(Vec3::Zero(), 2.0, 2.0)(0, 0),
+              0.75 * 2.0 / (4.0 * std::numbers::pi), 1e-5);
 }
 
 /// Hertz contact of radius a with mean friction limits mu p, on a triangular lattice in z = 0.
@@ -80,7 +81,7 @@ std::vector<RubbingPatch> hertz_patches(const Hertz& hertz, double spacing) {
     patches.push_back({.position = v,
                        .normal = Vec3::UnitZ(),
                        .limit = mean,
-                       .radius = std::sqrt(cell / kPi),
+                       .radius = std::sqrt(cell / std::numbers::pi),
                        .shear_modulus = hertz.modulus,
                        .rest = v});
     sum += mean;
@@ -150,7 +151,8 @@ TEST(HoldingLimitOfFriction, TorsionOfAHertzContact) {
   const auto patches = hertz_patches(hertz, 0.4);
   const HoldingLimit limit = holding_limit(patches, {Vec3::Zero(), Vec3(0, 0, 1)});
   EXPECT_TRUE(limit.has_converged);
-  EXPECT_NEAR(limit.factor / (3.0 * kPi / 16.0 * hertz.friction_force * hertz.radius), 1.0, 0.005);
+  EXPECT_NEAR(limit.factor / (3.0 * std::numbers::pi / 16.0 * hertz.friction_force * hertz.radius),
+              1.0, 0.005);
   // It turns about its middle, the rim fastest.
   EXPECT_LT(limit.slip.at(Vec3::Zero()).norm(), 0.02);
   EXPECT_GT(limit.slip.rotation.z(), 0.0);

@@ -23,7 +23,6 @@ using contact_test::ball_hand;
 using contact_test::HalfSpace;
 using contact_test::Sheet;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 10.0;  // mm, of the ball of skin
 
 /// A ball of skin with 1 300 vertices (edges of 1.4 mm), prepared once.
@@ -46,7 +45,7 @@ TEST(HandContact, BallOnPlaneMeetsHertz) {
     ASSERT_EQ(contact.status, ContactStatus::kSolved);
     const double force = 16.0 / 3.0 * 0.05 * std::sqrt(kRadius) * std::pow(depth, 1.5);
     EXPECT_NEAR(contact.total.force, force, 0.03 * force);
-    const double area = kPi * kRadius * depth;
+    const double area = std::numbers::pi * kRadius * depth;
     EXPECT_NEAR(contact.total.area, area, 0.10 * area);
     // The skin pushes the product down, against its outward normal.
     EXPECT_NEAR(contact.total.force_vector.z(), -contact.total.force, 1e-12);
@@ -130,7 +129,7 @@ TEST(HandContact, RigidMotionOfHandAndProductChangesNothing) {
 TEST(HandContact, TheDorsumTouchesToo) {
   // From above, where the skin is dorsum; its distances are not prepared.
   const PreparedHand& hand = prepared_ball();
-  const Rigid3 upside_down = Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), kPi);
+  const Rigid3 upside_down = Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), std::numbers::pi);
   ContactOptions options;
   options.shear_modulus = 0.05;
   const ContactResult contact = solve_hand_contact(hand, hand.hand().skin.vertices, upside_down,

@@ -18,8 +18,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// M(x) as printed, hyperbolic functions and all.
 double printed_m(double nu, double x) {
   if (nu == 0.5) {
@@ -48,7 +46,7 @@ double by_quadrature(double nu, double r, double a, double h) {
     layer += weight * printed_m(nu, x) * disc * wave;
     half_space += weight * disc * wave;
   }
-  const double scale = (1.0 - nu) / (2.0 * kPi * h);
+  const double scale = (1.0 - nu) / (2.0 * std::numbers::pi * h);
   return scale * (layer - half_space) + 2.0 * (1.0 - nu) * disc_response(r, a);
 }
 
@@ -83,7 +81,7 @@ TEST(LayeredResponse, WidePressureSquashesTheLayerLikeAnOedometer) {
   // table and beyond it.
   const double nu = 0.3;
   for (const double a : {3.5, 20.0}) {
-    const double expected = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) / (kPi * a * a);
+    const double expected = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)) / (std::numbers::pi * a * a);
     EXPECT_NEAR(layered_response(layer_kernel(nu), 0.0, a, 1.0), expected, 0.01 * expected) << a;
   }
 }
@@ -98,7 +96,7 @@ TEST(LayeredResponse, IncompressibleLayerKeepsItsVolume) {
     double pushed = 0.0;
     const double step = 0.002;
     for (double r = 0.5 * step; r < 22.0; r += step) {
-      const double ring = 2.0 * kPi * r * step * layered_response(kernel, r, 1.0, h);
+      const double ring = 2.0 * std::numbers::pi * r * step * layered_response(kernel, r, 1.0, h);
       volume += ring;
       pushed += std::abs(ring);
     }
@@ -145,7 +143,7 @@ TEST(LayeredResponse, MatricesOnLatticesArePositiveDefinite) {
     for (const double spacing : {0.4, 1.0, 2.5}) {
       for (const double h : {1.0, 3.0, 20.0}) {
         constexpr int kSide = 14;
-        const double a = spacing * std::sqrt(std::sqrt(3.0) / 2.0 / kPi);
+        const double a = spacing * std::sqrt(std::sqrt(3.0) / 2.0 / std::numbers::pi);
         const LayerSource source(layer_kernel(nu), a, h);
         Eigen::MatrixXd R(kSide * kSide, kSide * kSide);
         for (int i = 0; i < kSide * kSide; ++i) {

@@ -14,8 +14,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 PressOptions sphere_on_plane(double radius, double spacing) {
   PressOptions options;
   options.indenter = {PressIndenter::Kind::kSphere, radius};
@@ -35,7 +33,7 @@ TEST(Press, SphereOnHalfSpaceMeetsHertz) {
     ASSERT_EQ(steps.size(), 3U);
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(steps[i].force, force[i], 0.02 * force[i]) << spacing << " mm";
-      const double area = kPi * 20.0 * options.depths[i];
+      const double area = std::numbers::pi * 20.0 * options.depths[i];
       EXPECT_NEAR(steps[i].area, area, 0.10 * area) << spacing << " mm";
       EXPECT_LT(steps[i].relative_residual, 1e-9);
     }
@@ -52,7 +50,7 @@ TEST(Press, HertzHoldsAtAnySpacing) {
       options.depths = {depth};
       const PressStep step = press(options).front();
       const double force = 16.0 / 3.0 * 0.05 * std::sqrt(20.0) * std::pow(depth, 1.5);
-      const double area = kPi * 20.0 * depth;
+      const double area = std::numbers::pi * 20.0 * depth;
       EXPECT_NEAR(step.force, force, 0.005 * force) << spacing << " mm, depth " << depth;
       EXPECT_NEAR(step.area, area, 0.01 * area) << spacing << " mm, depth " << depth;
       EXPECT_NEAR(step.peak_pressure, 1.5 * force / area, 0.03 * 1.5 * force / area);
@@ -84,7 +82,7 @@ TEST(Press, FlatPunchHasTheStiffnessOfTheClosedForm) {
     options.depths = {1.0};
     const PressStep step = press(options).front();
     EXPECT_NEAR(step.force, 2.0, 0.002 * 2.0) << spacing << " mm";
-    EXPECT_NEAR(step.area, 25.0 * kPi, 0.01 * 25.0 * kPi);
+    EXPECT_NEAR(step.area, 25.0 * std::numbers::pi, 0.01 * 25.0 * std::numbers::pi);
   }
 }
 
@@ -92,7 +90,7 @@ TEST(Press, TiltedPunchTouchesWithItsEdgeFirst) {
   // Once all of it touches, the force is that of its centre's depth: 8 G a (depth - a tan(tilt)).
   PressOptions options = sphere_on_plane(5.0, 1.0);
   options.indenter.kind = PressIndenter::Kind::kPunch;
-  options.tilt = 2.0 * kPi / 180.0;
+  options.tilt = 2.0 * std::numbers::pi / 180.0;
   options.depths = {0.05, 1.0};
   const std::vector<PressStep> steps = press(options);
   EXPECT_LT(steps[0].area, 10.0);  // a sliver
@@ -122,9 +120,9 @@ TEST(Press, EllipticContactMeetsTheClosedForm) {
   options.spacing = 0.8;
   options.depths = {ratio * b * K};
   const PressStep step = press(options).front();
-  const double force = 2.0 / 3.0 * kPi * a * b * p0;
+  const double force = 2.0 / 3.0 * std::numbers::pi * a * b * p0;
   EXPECT_NEAR(step.force, force, 0.01 * force);
-  EXPECT_NEAR(step.area, kPi * a * b, 0.05 * kPi * a * b);
+  EXPECT_NEAR(step.area, std::numbers::pi * a * b, 0.05 * std::numbers::pi * a * b);
   EXPECT_NEAR(step.peak_pressure, p0, 0.02 * p0);
 }
 
@@ -147,7 +145,8 @@ TEST(Press, SphereOnABondedLayerMeetsTheTable) {
       options.layer_thickness = length / row.chi;
       const PressStep step = press(options).front();
       EXPECT_NEAR(step.force, row.force * hertz, 0.01 * row.force * hertz) << row.chi;
-      EXPECT_NEAR(std::sqrt(step.area / kPi), row.radius * length, 0.01 * row.radius * length);
+      EXPECT_NEAR(std::sqrt(step.area / std::numbers::pi), row.radius * length,
+                  0.01 * row.radius * length);
       EXPECT_NEAR(step.peak_pressure / step.mean_pressure, row.peak, 0.02 * row.peak) << row.chi;
       EXPECT_LT(step.relative_residual, 1e-9);
     }
@@ -182,10 +181,10 @@ TEST(Press, ThinCompressibleLayerIsABedOfSprings) {
   options.layer_thickness = 0.5;
   options.poisson = 0.2;
   const double modulus = 2.0 * 0.05 * 0.8 / 0.6;
-  const double force = kPi * 50.0 * 0.25 * modulus / 0.5;
+  const double force = std::numbers::pi * 50.0 * 0.25 * modulus / 0.5;
   const PressStep step = press(options).front();
   EXPECT_NEAR(step.force, force, 0.06 * force);  // the edge, h / a = 0.07 wide, adds
-  EXPECT_NEAR(step.area, kPi * 50.0, 0.06 * kPi * 50.0);
+  EXPECT_NEAR(step.area, std::numbers::pi * 50.0, 0.06 * std::numbers::pi * 50.0);
 }
 
 /// Two flat punches of radius 1 in one holder, their axes d apart: force of each over that of a
@@ -202,18 +201,19 @@ double two_punches(double d) {
   double A[2][2] = {};
   for (int i = 0; i < kSteps; ++i) {
     // r = sin t takes the root out of the integral.
-    const double t = (i + 0.5) * kPi / 2.0 / kSteps;
+    const double t = (i + 0.5) * std::numbers::pi / 2.0 / kSteps;
     for (int j = 0; j < kSteps; ++j) {
-      const double phi = (j + 0.5) * 2.0 * kPi / kSteps;
+      const double phi = (j + 0.5) * 2.0 * std::numbers::pi / kSteps;
       const double x = std::sin(t) * std::cos(phi);
       const double y = std::sin(t) * std::sin(phi);
       const double from_other = d - x;  // mirrored, so that both lean the same way
       const double rho = std::hypot(from_other, y);
-      const double u[] = {2.0 / kPi * std::asin(1.0 / rho),
-                          2.0 / kPi * from_other *
+      const double u[] = {2.0 / std::numbers::pi * std::asin(1.0 / rho),
+                          2.0 / std::numbers::pi * from_other *
                               (std::asin(1.0 / rho) - std::sqrt(rho * rho - 1.0) / (rho * rho))};
-      const double p[] = {1.0 / kPi, 2.0 * x / kPi};
-      const double weight = std::sin(t) * kPi / 2.0 / kSteps * 2.0 * kPi / kSteps;
+      const double p[] = {1.0 / std::numbers::pi, 2.0 * x / std::numbers::pi};
+      const double weight =
+          std::sin(t) * std::numbers::pi / 2.0 / kSteps * 2.0 * std::numbers::pi / kSteps;
       for (int a = 0; a < 2; ++a) {
         for (int b = 0; b < 2; ++b) A[a][b] += weight * p[a] * u[b];
       }
@@ -232,10 +232,10 @@ TEST(Press, TwoPunchesTakeForceFromEachOther) {
     const PressStep step = press(options).front();
     const double expected = two_punches(ratio);
     EXPECT_NEAR(step.force / 4.0, expected, 0.003 * expected) << ratio;
-    EXPECT_NEAR(step.area, 50.0 * kPi, 0.01 * 50.0 * kPi);
+    EXPECT_NEAR(step.area, 50.0 * std::numbers::pi, 0.01 * 50.0 * std::numbers::pi);
     // Far away each acts on the other like a point force: 1 / (1 + 2 a / (pi d)).
     if (ratio < 4.0) continue;
-    EXPECT_NEAR(step.force / 4.0, 1.0 / (1.0 + 2.0 / (kPi * ratio)), 0.003);
+    EXPECT_NEAR(step.force / 4.0, 1.0 / (1.0 + 2.0 / (std::numbers::pi * ratio)), 0.003);
   }
   // Three radii apart: 18 % of the force is lost.
   EXPECT_NEAR(two_punches(3.0), 0.82, 0.005);
@@ -249,7 +249,7 @@ TEST(Press, ThickCoverGivesWayInSeries) {
   const double force = 4.0 / 3.0 * modulus * std::sqrt(20.0) * std::pow(2.0, 1.5);
   const PressStep step = press(options).front();
   EXPECT_NEAR(step.force, force, 0.006 * force);
-  EXPECT_NEAR(step.area, kPi * 40.0, 0.02 * kPi * 40.0);
+  EXPECT_NEAR(step.area, std::numbers::pi * 40.0, 0.02 * std::numbers::pi * 40.0);
 }
 
 TEST(Press, CoverOnRigidSkinIsALayer) {
@@ -359,7 +359,7 @@ TEST(Press, HandRegionPressedByAPlateMeetsHertz) {
   options.indenter.kind = PressIndenter::Kind::kPlane;
   const PressStep step = press(options, &hand).front();
   EXPECT_NEAR(step.force, 3.3731, 0.03 * 3.3731);
-  EXPECT_NEAR(step.area, kPi * 40.0, 0.10 * kPi * 40.0);
+  EXPECT_NEAR(step.area, std::numbers::pi * 40.0, 0.10 * std::numbers::pi * 40.0);
 }
 
 TEST(Press, HandRegionPressedByABallMeetsHertz) {

@@ -16,14 +16,12 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(DiscResponse, MeetsTheClosedFormsOfUniformPressure) {
   // Johnson 1985, section 3.4 with E* = 4 G: under F on a disc of radius a the centre moves by
   // 2 p a / E* = F / (2 pi a G), the edge by 4 p a / (pi E*) = F / (pi^2 a G).
   for (const double a : {0.5, 1.3, 4.0}) {
-    EXPECT_NEAR(disc_response(0.0, a), 1.0 / (2.0 * kPi * a), 1e-9 / a);
-    EXPECT_NEAR(disc_response(a, a), 1.0 / (kPi * kPi * a), 1e-4 / a);
+    EXPECT_NEAR(disc_response(0.0, a), 1.0 / (2.0 * std::numbers::pi * a), 1e-9 / a);
+    EXPECT_NEAR(disc_response(a, a), 1.0 / (std::numbers::pi * std::numbers::pi * a), 1e-4 / a);
     EXPECT_NEAR(disc_response(100.0 * a, a) / point_response(100.0 * a), 1.0, 2e-5);
   }
 }
@@ -37,7 +35,7 @@ TEST(DiscResponse, MeanOverTheDiscIsThatOfTheClosedForm) {
     const double r = a * (i + 0.5) / n;
     mean += disc_response(r, a) * 2.0 * r / (a * a) * (a / n);
   }
-  EXPECT_NEAR(mean, 4.0 / (3.0 * kPi * kPi * a), 1e-5);
+  EXPECT_NEAR(mean, 4.0 / (3.0 * std::numbers::pi * std::numbers::pi * a), 1e-5);
 }
 
 TEST(DiscResponse, FallsSteadilyWithDistance) {
@@ -50,9 +48,9 @@ TEST(DiscResponse, FallsSteadilyWithDistance) {
 }
 
 TEST(PointResponse, IsHeldBelowHalfAMillimetre) {
-  EXPECT_EQ(point_response(0.0), 1.0 / (4.0 * kPi * 0.5));  // Xie 2014, eq. (3-2)
+  EXPECT_EQ(point_response(0.0), 1.0 / (4.0 * std::numbers::pi * 0.5));  // Xie 2014, eq. (3-2)
   EXPECT_EQ(point_response(0.5), point_response(0.1));
-  EXPECT_NEAR(point_response(2.0), 1.0 / (8.0 * kPi), 1e-15);
+  EXPECT_NEAR(point_response(2.0), 1.0 / (8.0 * std::numbers::pi), 1e-15);
 }
 
 TEST(ShearModulus, GrowsLinearlyToItsLimit) {
@@ -64,9 +62,10 @@ TEST(ShearModulus, GrowsLinearlyToItsLimit) {
 
 TEST(DiscOverlap, KnowsApartInsideAndHalfWay) {
   EXPECT_EQ(disc_overlap(3.0, 1.0, 2.0), 0.0);
-  EXPECT_NEAR(disc_overlap(0.5, 1.0, 2.0), kPi, 1e-12);
+  EXPECT_NEAR(disc_overlap(0.5, 1.0, 2.0), std::numbers::pi, 1e-12);
   // Two unit discs at distance 1 share 2 pi / 3 - sqrt(3) / 2.
-  EXPECT_NEAR(disc_overlap(1.0, 1.0, 1.0), 2.0 * kPi / 3.0 - std::sqrt(3.0) / 2.0, 1e-12);
+  EXPECT_NEAR(disc_overlap(1.0, 1.0, 1.0), 2.0 * std::numbers::pi / 3.0 - std::sqrt(3.0) / 2.0,
+              1e-12);
 }
 
 TEST(ResponseMatrix, IsSymmetricAndPositiveDefiniteOnIrregularSkin) {
@@ -106,7 +105,8 @@ TEST(ArcDistance, IsExactOnSphereAndCylinder) {
 TEST(VoronoiAreas, SumToTheSurface) {
   double sum = 0.0;
   for (const double a : voronoi_areas(make_icosphere(10.0, 4))) sum += a;
-  EXPECT_NEAR(sum, 400.0 * kPi, 0.004 * 400.0 * kPi);  // facets of an inscribed polyhedron
+  EXPECT_NEAR(sum, 400.0 * std::numbers::pi,
+              0.004 * 400.0 * std::numbers::pi);  // facets of an inscribed polyhedron
 }
 
 }  // namespace

@@ -21,8 +21,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
 /// The mesh without the triangles that `is_gone` of their centre.
 template <typename IsGone>
 TriangleMesh without(const TriangleMesh& mesh, const IsGone& is_gone) {
@@ -50,7 +48,7 @@ TEST(BoundaryLoops, OfATubeAreItsTwoRims) {
   EXPECT_EQ(found.loose_edges, 0);
   for (const BoundaryLoop& loop : found.loops) {
     EXPECT_EQ(loop.size(), 36);
-    EXPECT_NEAR(loop.perimeter, 36 * 2.0 * 10.0 * std::sin(kPi / 36), 1e-9);
+    EXPECT_NEAR(loop.perimeter, 36 * 2.0 * 10.0 * std::sin(std::numbers::pi / 36), 1e-9);
     EXPECT_NEAR(std::abs(loop.centre.z()), 50.0, 1e-9);
     EXPECT_NEAR(loop.centre.head<2>().norm(), 0.0, 1e-9);
   }
@@ -99,7 +97,7 @@ TEST(FillHoles, AFlatHoleIsFilledFlat) {
   EXPECT_EQ(report.euler_number, 1);
   // As fine as the surface round it, without needles.
   const std::vector<double> angles = smallest_angles(filled.mesh);
-  EXPECT_GT(*std::min_element(angles.begin(), angles.end()), 12.0 * kPi / 180.0);
+  EXPECT_GT(*std::min_element(angles.begin(), angles.end()), 12.0 * std::numbers::pi / 180.0);
   EXPECT_LT(edge_lengths(filled.mesh).longest, 2.3);
 }
 
@@ -115,7 +113,8 @@ TEST(FillHoles, OfABallGoOnRound) {
   EXPECT_EQ(report.euler_number, 2);
   // A flat lid would lie r (1 - cos 0.35) = 1.8 mm too deep.
   for (const Vec3& x : filled.mesh.vertices) EXPECT_NEAR(x.norm(), radius, 0.7);
-  EXPECT_NEAR(signed_volume(filled.mesh), 4.0 / 3.0 * kPi * std::pow(radius, 3), 400.0);
+  EXPECT_NEAR(signed_volume(filled.mesh), 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3),
+              400.0);
   EXPECT_TRUE(find_self_crossings(filled.mesh).empty());
 }
 
@@ -169,7 +168,7 @@ TEST(FillHoles, NamesOptionsOutOfRange) {
 std::vector<Vec3> star(int corners) {
   std::vector<Vec3> ring;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * kPi * i / corners, r = i % 2 == 0 ? 10.0 : 6.0;
+    const double angle = 2.0 * std::numbers::pi * i / corners, r = i % 2 == 0 ? 10.0 : 6.0;
     ring.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
   }
   return ring;
@@ -182,7 +181,8 @@ TEST(HolePatch, OfAStarHasTheStarsArea) {
     ASSERT_TRUE(patch) << corners;
     EXPECT_EQ(patch->triangle_count(), corners - 2);
     // Shoelace formula: n triangles from the middle.
-    EXPECT_NEAR(surface_area(*patch), corners * 0.5 * 10 * 6 * std::sin(2 * kPi / corners), 1e-6);
+    EXPECT_NEAR(surface_area(*patch),
+                corners * 0.5 * 10 * 6 * std::sin(2 * std::numbers::pi / corners), 1e-6);
   }
   EXPECT_FALSE(triangulate_ring(star(10), [](int, int) { return true; }));
   EXPECT_FALSE(triangulate_ring(star(3000), [](int, int) { return false; }));

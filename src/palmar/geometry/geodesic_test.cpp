@@ -20,8 +20,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double straight(const TriangleMesh& mesh, size_t i, size_t j) {
   return (mesh.vertices[i] - mesh.vertices[j]).norm();
 }
@@ -64,7 +62,7 @@ TEST(GeodesicSolver, ConvergesToGreatCirclesOnASphere) {
       const double cosine = mesh.vertices[v].dot(mesh.vertices[5]) / 400.0;
       sum += std::abs(d[v] - 20.0 * std::acos(std::clamp(cosine, -1.0, 1.0)));
     }
-    const double mean = sum / static_cast<double>(d.size()) / (10.0 * kPi);
+    const double mean = sum / static_cast<double>(d.size()) / (10.0 * std::numbers::pi);
     EXPECT_LT(mean, 0.75 * last);
     last = mean;
   }
@@ -76,7 +74,7 @@ TEST(GeodesicSolver, UnrollsACylinder) {
   const TriangleMesh mesh = make_cylinder(
       {.radius = 10.0, .length = 80.0, .segments = segments, .rings = rings, .is_capped = false});
   // The mesh is a prism: its own width unrolls exactly.
-  const double width = 2.0 * 10.0 * std::sin(kPi / segments);
+  const double width = 2.0 * 10.0 * std::sin(std::numbers::pi / segments);
   const std::vector<double> d = GeodesicSolver(mesh).distances(0);
   for (int k = 0; k <= rings; ++k) {
     for (int i = 0; i < segments; ++i) {

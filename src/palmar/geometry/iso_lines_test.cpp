@@ -17,8 +17,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::vector<double> field_of(const TriangleMesh& mesh, double (*f)(const Vec3&)) {
   std::vector<double> field;
   for (const Vec3& x : mesh.vertices) field.push_back(f(x));
@@ -43,7 +41,7 @@ TEST(IsoLoops, GoRoundASphereAtAHeightWithTheInsideOnTheLeft) {
   const auto loops = iso_loops(ball, height, 12.0);
   ASSERT_EQ(loops.size(), 1U);
   // Radius 16 mm; a polygon of some 100 corners is 0.1 % short.
-  EXPECT_NEAR(length_of(loops[0]), 2.0 * kPi * 16.0, 0.2);
+  EXPECT_NEAR(length_of(loops[0]), 2.0 * std::numbers::pi * 16.0, 0.2);
   double turn = 0.0;  // seen from outside (above): counter-clockwise, the cap is on the left
   for (std::size_t i = 0; i < loops[0].points.size(); ++i) {
     const Vec3 &a = loops[0].points[i], &b = loops[0].points[(i + 1) % loops[0].points.size()];
@@ -53,7 +51,7 @@ TEST(IsoLoops, GoRoundASphereAtAHeightWithTheInsideOnTheLeft) {
   EXPECT_GT(turn, 0.0);
   EXPECT_GE(ball.vertices[static_cast<std::size_t>(loops[0].inside_vertex)].z(), 12.0);
   // A cap of height h has the area 2 pi r h.
-  EXPECT_NEAR(sum_of(areas_above(ball, height, 12.0)), 2.0 * kPi * 20.0 * 8.0, 3.0);
+  EXPECT_NEAR(sum_of(areas_above(ball, height, 12.0)), 2.0 * std::numbers::pi * 20.0 * 8.0, 3.0);
 }
 
 TEST(IsoLoops, TwoSidesShareTheArea) {
@@ -81,7 +79,8 @@ TEST(IsoParts, AreWhatHangsTogetherWithItsArea) {
   ASSERT_EQ(parts.area.size(), 3U);  // two caps and the belt between them
   EXPECT_EQ(std::count(parts.is_inside.begin(), parts.is_inside.end(), 1), 2);
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_NEAR(parts.area[p], 2.0 * kPi * 20.0 * (parts.is_inside[p] != 0 ? 8.0 : 24.0), 20.0);
+    EXPECT_NEAR(parts.area[p],
+                2.0 * std::numbers::pi * 20.0 * (parts.is_inside[p] != 0 ? 8.0 : 24.0), 20.0);
   }
   EXPECT_NEAR(sum_of(parts.area), surface_area(ball), 1e-6);
 }

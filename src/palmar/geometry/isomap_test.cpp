@@ -21,8 +21,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
-
 MatrixXd straight_distances(const std::vector<Vec3>& points) {
   const auto n = static_cast<Index>(points.size());
   MatrixXd d(n, n);
@@ -80,7 +78,7 @@ TEST(Isomap, CylinderPatchUnrolls) {
   std::vector<Vec3> unrolled, on_cylinder;
   for (int i = 0; i <= 20; ++i) {
     for (int j = 0; j <= 24; ++j) {
-      const double angle = kPi * i / 20.0;
+      const double angle = std::numbers::pi * i / 20.0;
       unrolled.emplace_back(kRadius * angle, 1.5 * j, 0.0);
       on_cylinder.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), 1.5 * j);
     }
@@ -102,7 +100,7 @@ TEST(Isomap, SphereCapIsTooLongRoundItsRimAndTooShortAcross) {
   for (int ring = 1; ring <= kRings; ++ring) {
     const double t = 1.2 * ring / kRings;
     for (int k = 0; k < kAround; ++k) {
-      const double phi = 2.0 * kPi * k / kAround;
+      const double phi = 2.0 * std::numbers::pi * k / kAround;
       points.emplace_back(
           kRadius * Vec3(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), std::cos(t)));
     }

@@ -14,8 +14,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {{a, b, c}, {{0, 1, 2}}};
 }
@@ -125,15 +123,15 @@ TEST(SmallestAngles, OfAThreeFourFiveTriangle) {
 
 TEST(CornerAngle, SumsToPiInATriangle) {
   const TriangleMesh mesh = triangle({0.1, 0, 2}, {4, 1, 0}, {-1, 3, 1});
-  EXPECT_NEAR(corner_angle(mesh, 0, 0) + corner_angle(mesh, 0, 1) + corner_angle(mesh, 0, 2), kPi,
-              1e-14);
+  EXPECT_NEAR(corner_angle(mesh, 0, 0) + corner_angle(mesh, 0, 1) + corner_angle(mesh, 0, 2),
+              std::numbers::pi, 1e-14);
 }
 
 TEST(LargestFoldAngle, OfACubeIsARightAngleWhateverTheOrientation) {
   TriangleMesh mesh = make_box({1, 2, 3}, 3);
-  EXPECT_NEAR(largest_fold_angle(mesh), kPi / 2, 1e-14);
+  EXPECT_NEAR(largest_fold_angle(mesh), std::numbers::pi / 2, 1e-14);
   std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-  EXPECT_NEAR(largest_fold_angle(mesh), kPi / 2, 1e-14);
+  EXPECT_NEAR(largest_fold_angle(mesh), std::numbers::pi / 2, 1e-14);
   EXPECT_EQ(largest_fold_angle(make_grid_patch(3, 3, 1.0)), 0.0);
 }
 

@@ -16,8 +16,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(MakeIcosphere, HasTheCountsOfASubdividedIcosahedronOnTheSphere) {
   for (int level = 0; level <= 4; ++level) {
     const TriangleMesh mesh = make_icosphere(7.0, level);
@@ -32,7 +30,7 @@ TEST(MakeIcosphere, HasTheCountsOfASubdividedIcosahedronOnTheSphere) {
 }
 
 TEST(MakeIcosphere, VolumeAndAreaConvergeToTheSphereWithTheSquareOfTheEdge) {
-  const double volume = 4.0 / 3.0 * kPi, area = 4.0 * kPi;
+  const double volume = 4.0 / 3.0 * std::numbers::pi, area = 4.0 * std::numbers::pi;
   double volume_error = 1.0, area_error = 1.0;
   for (int level = 1; level <= 5; ++level) {
     const TriangleMesh mesh = make_icosphere(1.0, level);
@@ -100,9 +98,9 @@ TEST(MakeLatticePatch, WithARadiusOfOneSpacingIsAHexagon) {
 TEST(MakeCylinder, CappedHasTheVolumeOfThePrism) {
   const CylinderOptions options{.radius = 24.0, .length = 120.0, .segments = 37, .rings = 9};
   const TriangleMesh mesh = make_cylinder(options);
-  const double base = 0.5 * 37 * 24.0 * 24.0 * std::sin(2.0 * kPi / 37);
+  const double base = 0.5 * 37 * 24.0 * 24.0 * std::sin(2.0 * std::numbers::pi / 37);
   EXPECT_NEAR(signed_volume(mesh), base * 120.0, 1e-8);
-  const double side = 2.0 * 37 * 24.0 * std::sin(kPi / 37) * 120.0;
+  const double side = 2.0 * 37 * 24.0 * std::sin(std::numbers::pi / 37) * 120.0;
   EXPECT_NEAR(surface_area(mesh), side + 2.0 * base, 1e-8);
   const TopologyReport report = examine_topology(mesh);
   EXPECT_TRUE(report.is_closed && report.is_two_manifold && report.is_oriented);
@@ -134,7 +132,7 @@ TEST(MakeTorus, HasEulerNumberZeroAndTheVolumeOfPappus) {
   const TopologyReport report = examine_topology(mesh);
   EXPECT_TRUE(report.is_closed && report.is_two_manifold && report.is_oriented);
   EXPECT_EQ(report.euler_number, 0);
-  const double volume = 2.0 * kPi * kPi * 30.0 * 64.0;
+  const double volume = 2.0 * std::numbers::pi * std::numbers::pi * 30.0 * 64.0;
   EXPECT_NEAR(signed_volume(mesh) / volume, 1.0, 2e-3);
   EXPECT_LT(signed_volume(mesh), volume);
 }

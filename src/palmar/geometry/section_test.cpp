@@ -14,8 +14,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(PlaneSection, OfAPrismIsItsPolygon) {
   const int n = 48;
   const TriangleMesh prism = make_cylinder({.radius = 10.0, .length = 100.0, .segments = n});
@@ -25,7 +23,8 @@ TEST(PlaneSection, OfAPrismIsItsPolygon) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_TRUE(curves[0].is_closed);
   // Diagonals of the prism's sides add corners that lie on its edges or sides.
-  EXPECT_NEAR(curve_length(curves[0]), 2.0 * n * 10.0 * std::sin(kPi / n), 1e-9);  // mm, exact
+  EXPECT_NEAR(curve_length(curves[0]), 2.0 * n * 10.0 * std::sin(std::numbers::pi / n),
+              1e-9);  // mm, exact
   EXPECT_NEAR(girth(curves[0].point, Vec3::UnitZ()), curve_length(curves[0]), 1e-9);
   EXPECT_NEAR(extent(curves[0].point, Vec3::UnitX()), 20.0, 1e-9);
   EXPECT_NEAR((curve_centre(curves[0]) - Vec3(0.0, 0.0, 13.0)).norm(), 0.0, 1e-9);
@@ -47,7 +46,7 @@ TEST(PlaneSection, RunsCounterClockwiseAboutTheNormal) {
 
 TEST(PlaneSection, ObliqueThroughACylinderIsAnEllipse) {
   const TriangleMesh cylinder = make_cylinder({.radius = 10.0, .length = 100.0, .segments = 720});
-  const double tilt = kPi / 6.0;
+  const double tilt = std::numbers::pi / 6.0;
   const Vec3 normal(std::sin(tilt), 0.0, std::cos(tilt));
 
   const auto curves = plane_section(cylinder, Vec3::Zero(), normal);
@@ -66,7 +65,8 @@ TEST(PlaneSection, OfATorusAcrossItsRingIsTwoCurves) {
   if (extent(torus.vertices, Vec3::UnitX()) < 70.0) across = Vec3::UnitZ();
   const auto curves = plane_section(torus, Vec3(0.013, 0.017, 0.019), across);
   ASSERT_EQ(curves.size(), 2u);
-  for (const SectionCurve& c : curves) EXPECT_NEAR(curve_length(c), 2.0 * kPi * 8.0, 0.1);
+  for (const SectionCurve& c : curves)
+    EXPECT_NEAR(curve_length(c), 2.0 * std::numbers::pi * 8.0, 0.1);
 }
 
 TEST(PlaneSection, ThroughVerticesAndEdgesStaysClosed) {

@@ -3,7 +3,6 @@
 #include "palmar/io/assessment_json.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "palmar/core/version.h"
@@ -14,8 +13,6 @@ namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// File names may hold bytes that are no UTF-8; they must not stop the output.
 std::string dumped(const Json& json) {

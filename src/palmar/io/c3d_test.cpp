@@ -29,7 +29,7 @@ C3dTestFile sample() {
   return file;
 }
 
-std::string message_of(const std::string& bytes) {
+std::string c3d_message(const std::string& bytes) {
   try {
     parse_c3d(bytes, "take.c3d");
   } catch (const InputError& error) {
@@ -88,8 +88,8 @@ TEST(C3d, UnitsComeFromTheFileOrTheUser) {
   EXPECT_NEAR(parse_c3d(file.bytes(), "x", LengthUnit::kCentimetre).frames[0].position[0]->x(),
               1002.5, 1e-6);
   file.unit = "ell";
-  EXPECT_THAT(message_of(file.bytes()), HasSubstr("\"ell\""));
-  EXPECT_THAT(message_of(file.bytes()), HasSubstr("--unit"));
+  EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("\"ell\""));
+  EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("--unit"));
   EXPECT_NO_THROW(parse_c3d(file.bytes(), "x", LengthUnit::kMillimetre));
 }
 
@@ -125,17 +125,17 @@ TEST(C3d, WhatIsDoubtfulIsNoted) {
 
 TEST(C3d, BrokenFilesAreRefusedWithTheByte) {
   const std::string whole = sample().bytes();
-  EXPECT_THAT(message_of("no C3D"), HasSubstr("take.c3d: byte 0: no C3D header"));
-  EXPECT_THAT(message_of(whole.substr(0, 1024)), HasSubstr("the file ends within"));
+  EXPECT_THAT(c3d_message("no C3D"), HasSubstr("take.c3d: byte 0: no C3D header"));
+  EXPECT_THAT(c3d_message(whole.substr(0, 1024)), HasSubstr("the file ends within"));
   std::string processor = whole;
   processor[515] = 12;
-  EXPECT_THAT(message_of(processor), HasSubstr("byte 515: processor type 12"));
+  EXPECT_THAT(c3d_message(processor), HasSubstr("byte 515: processor type 12"));
   std::string empty = whole;
   empty[2] = 0;
-  EXPECT_THAT(message_of(empty), HasSubstr("no 3D points"));
+  EXPECT_THAT(c3d_message(empty), HasSubstr("no 3D points"));
   std::string no_data = whole;
   no_data[16] = no_data[17] = 0;
-  EXPECT_THAT(message_of(no_data), HasSubstr("start of the data"));
+  EXPECT_THAT(c3d_message(no_data), HasSubstr("start of the data"));
 }
 
 TEST(C3d, MutatedFilesNeitherCrashNorHang) {

@@ -57,7 +57,7 @@ std::string written(const std::string& text) {
   return path;
 }
 
-std::string message_of(const std::string& text) {
+std::string coordination_message(const std::string& text) {
   try {
     read_coordination(written(text), plain_skeleton());
   } catch (const InputError& error) {
@@ -79,18 +79,19 @@ TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
 }
 
 TEST(CoordinationFile, TooFewRowsAreNamed) {
-  EXPECT_THAT(message_of(header() + rows(29)),
+  EXPECT_THAT(coordination_message(header() + rows(29)),
               HasSubstr("palmar_natural_postures.csv: it has 29 postures; at least 30"));
 }
 
 TEST(CoordinationFile, MissingColumnIsNamed) {
-  EXPECT_THAT(message_of(header(19) + rows(40, 19)), HasSubstr("no little_dip_flexion_deg"));
+  EXPECT_THAT(coordination_message(header(19) + rows(40, 19)),
+              HasSubstr("no little_dip_flexion_deg"));
 }
 
 TEST(CoordinationFile, BadValueIsNamedWithItsPlace) {
   std::string text = header() + rows(40);
   text.replace(text.find('\n') + 1, 2, "xx");
-  const std::string message = message_of(text);
+  const std::string message = coordination_message(text);
   EXPECT_THAT(message, HasSubstr("palmar_natural_postures.csv:2"));
   EXPECT_THAT(message, HasSubstr("thumb_cmc_flexion_deg"));
   EXPECT_THAT(message, HasSubstr("xx"));

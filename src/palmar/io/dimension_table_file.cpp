@@ -18,7 +18,7 @@
 namespace palmar {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxTableBytes = std::uint64_t{64} << 20;
 constexpr double kLargestLength = 1e5;  // mm; stature and reach may stand beside hands
 
 std::string short_text(double value) {
@@ -160,7 +160,7 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   if (median < range->low || median > range->high) {
     std::string fitting;
     for (const char* unit : {"mm", "cm", "in", "m"}) {
-      const double size = median / factor * *length_unit(unit);
+      const double size = median / factor * *length_unit(std::string_view(unit));
       if (size >= range->low && size <= range->high && fitting.empty()) fitting = unit;
     }
     table.fail(
@@ -218,7 +218,7 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     }
     heading.quantity = Quantity::kLength;
     heading.unit = reading.unit;
-    heading.factor = *length_unit(reading.unit);
+    heading.factor = *length_unit(std::string_view(reading.unit));
   }
   column.quantity = heading.quantity;
   factor = heading.factor;
@@ -267,7 +267,7 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
 }  // namespace
 
 void TableReading::check() const {
-  if (!unit.empty() && !length_unit(unit)) {
+  if (!unit.empty() && !length_unit(std::string_view(unit))) {
     throw UsageError("unit \"" + unit + "\" is not known; mm, cm, m or in is allowed");
   }
 }
@@ -321,7 +321,7 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
 }
 
 DimensionTable read_dimension_table(const std::string& path, const TableReading& reading) {
-  return parse_dimension_table(read_file(path, kMaxBytes), path, reading);
+  return parse_dimension_table(read_file(path, kMaxTableBytes), path, reading);
 }
 
 }  // namespace palmar

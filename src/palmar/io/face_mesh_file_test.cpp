@@ -46,7 +46,7 @@ FaceMesh small_mesh() {
   return mesh;
 }
 
-std::string message_of(const std::string& bytes) {
+std::string face_mesh_message(const std::string& bytes) {
   try {
     face_mesh_from_bytes(bytes, "mesh.bin");
   } catch (const InputError& error) {
@@ -82,21 +82,21 @@ TEST(FaceMeshFile, MeshWithoutFacesIsOne) {
 TEST(FaceMeshFile, EveryCutAndEveryChangedByteIsFound) {
   const std::string bytes = face_mesh_bytes(small_mesh());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THAT(message_of(bytes.substr(0, size)), HasSubstr("mesh.bin is damaged")) << size;
+    EXPECT_THAT(face_mesh_message(bytes.substr(0, size)), HasSubstr("mesh.bin is damaged")) << size;
   }
   for (std::size_t place = 0; place < bytes.size(); ++place) {
     std::string changed = bytes;
     changed[place] = static_cast<char>(changed[place] ^ 0x10);
-    EXPECT_THAT(message_of(changed), HasSubstr("mesh.bin is damaged")) << place;
+    EXPECT_THAT(face_mesh_message(changed), HasSubstr("mesh.bin is damaged")) << place;
   }
-  EXPECT_THAT(message_of(bytes + "x"), HasSubstr("mesh.bin is damaged"));
+  EXPECT_THAT(face_mesh_message(bytes + "x"), HasSubstr("mesh.bin is damaged"));
 }
 
 TEST(FaceMeshFile, WhatCannotBeIsRefusedThoughItsChecksumIsRight) {
   const auto refused = [](auto change) {
     FaceMesh mesh = small_mesh();
     change(mesh);
-    return message_of(face_mesh_bytes(mesh));
+    return face_mesh_message(face_mesh_bytes(mesh));
   };
   EXPECT_THAT(refused([](FaceMesh& m) { m.mesh.triangles[0][1] = 4; }), HasSubstr("out of range"));
   EXPECT_THAT(refused([](FaceMesh& m) { m.mesh.triangles[0][1] = -1; }), HasSubstr("no corner"));

@@ -26,7 +26,7 @@ Glb small() {
   return glb;
 }
 
-std::string message_of(const std::vector<std::uint8_t>& bytes) {
+std::string glb_message(const std::vector<std::uint8_t>& bytes) {
   try {
     parse_glb(bytes, "a.glb");
   } catch (const InputError& e) {
@@ -77,17 +77,17 @@ TEST(Glb, EveryTruncationIsRefusedByName) {
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const std::vector<std::uint8_t> cut(whole.begin(),
                                         whole.begin() + static_cast<std::ptrdiff_t>(size));
-    EXPECT_THAT(message_of(cut), HasSubstr("a.glb")) << size << " bytes";
+    EXPECT_THAT(glb_message(cut), HasSubstr("a.glb")) << size << " bytes";
   }
 }
 
 TEST(Glb, AnotherVersionAndBrokenJsonAreRefused) {
   std::vector<std::uint8_t> bytes = format_glb(small());
   bytes[4] = 1;
-  EXPECT_THAT(message_of(bytes), HasSubstr("version"));
+  EXPECT_THAT(glb_message(bytes), HasSubstr("version"));
   bytes = format_glb(small());
   bytes[20] = 'x';  // first letter of the JSON
-  EXPECT_THAT(message_of(bytes), HasSubstr("JSON"));
+  EXPECT_THAT(glb_message(bytes), HasSubstr("JSON"));
 }
 
 TEST(Glb, AnAccessorBeyondItsBufferIsRefused) {

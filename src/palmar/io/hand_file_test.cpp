@@ -67,7 +67,7 @@ std::string temporary(const std::string& name) {
   return (std::filesystem::path(::testing::TempDir()) / ("palmar_hand_file_" + name)).string();
 }
 
-std::string message_of(const std::string& path) {
+std::string hand_message(const std::string& path) {
   try {
     read_hand(path);
   } catch (const InputError& e) {
@@ -150,7 +150,7 @@ TEST(HandFile, ANewerVersionIsRefusedByName) {
   Glb glb = read_glb(path);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion + 1;
   write_glb(glb, path);
-  EXPECT_THAT(message_of(path), HasSubstr("version 3; this program reads up to version 2"));
+  EXPECT_THAT(hand_message(path), HasSubstr("version 3; this program reads up to version 2"));
 }
 
 /// The tissue of a region as version 1 of the file has it.
@@ -190,13 +190,13 @@ TEST(HandFile, Version1HasTheStiffnessOfTheHalfSpaceAloneTheRestIsTheDefault) {
 
 TEST(HandFile, WrongFilesAreNamed) {
   const std::string path = temporary("wrong.hand.glb");
-  EXPECT_THAT(message_of(temporary("missing.hand.glb")), HasSubstr("missing.hand.glb"));
+  EXPECT_THAT(hand_message(temporary("missing.hand.glb")), HasSubstr("missing.hand.glb"));
   write_file(path, "solid not a glTF file at all\n");
-  EXPECT_THAT(message_of(path), HasSubstr("not a binary glTF file"));
+  EXPECT_THAT(hand_message(path), HasSubstr("not a binary glTF file"));
   Glb plain;
   plain.json["asset"]["version"] = "2.0";
   write_glb(plain, path);
-  EXPECT_THAT(message_of(path), HasSubstr("no Palmar hand"));
+  EXPECT_THAT(hand_message(path), HasSubstr("no Palmar hand"));
 }
 
 TEST(HandFile, EveryTruncationIsAnInputError) {
@@ -217,7 +217,7 @@ TEST(HandFile, DataThatContradictThemselvesAreInputErrors) {
     Glb glb = good;
     glb.json["extras"]["palmar_hand"][nlohmann::json::json_pointer(pointer)] = value;
     write_glb(glb, path);
-    return message_of(path);
+    return hand_message(path);
   };
   EXPECT_THAT(broken("/segment/count", 3), HasSubstr("bufferView"));
   EXPECT_THAT(broken("/side", "both"), HasSubstr("side \"both\""));

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "palmar/hand/hand_dimension.h"
 #include "palmar/io/json_values.h"
@@ -14,8 +13,6 @@ namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string text(std::string_view name) { return std::string(name); }
 

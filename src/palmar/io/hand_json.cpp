@@ -5,14 +5,11 @@
 #include "palmar/io/skeleton_json.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json dof_json(const JointDof& dof) {
   return {{"dof", name_of(dof.dof)},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "palmar/io/json_values.h"
 #include "palmar/io/text_scan.h"
 
 namespace palmar {
@@ -16,10 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON has no infinity.
-Json or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
 std::string or_empty(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? shortest(*value) : std::string();
 }
@@ -38,7 +35,7 @@ std::string padded(const std::string& text, std::size_t width) {
 
 nlohmann::ordered_json index_values(const GraspIndices& indices) {
   Json values = Json::object();
-  for (const GraspIndex& index : indices) values[index.key] = or_null(index.value);
+  for (const GraspIndex& index : indices) values[index.key] = finite_or_null(index.value);
   return values;
 }
 
@@ -48,10 +45,10 @@ nlohmann::ordered_json index_rows(const GraspIndices& indices) {
     rows.push_back({{"key", index.key},
                     {"name", index.name},
                     {"group", index.group},
-                    {"value", or_null(index.value)},
+                    {"value", finite_or_null(index.value)},
                     {"unit", index.unit},
-                    {"lowest", or_null(index.lowest)},
-                    {"highest", or_null(index.highest)},
+                    {"lowest", finite_or_null(index.lowest)},
+                    {"highest", finite_or_null(index.highest)},
                     {"better", name_of(index.better)},
                     {"definition", index.definition},
                     {"source", index.source},

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "palmar/geometry/types.h"
 
 namespace palmar {
+
+inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< of a radian
 
 /// [x, y, z].
 inline nlohmann::ordered_json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -16,6 +20,12 @@ inline nlohmann::ordered_json vector3(const Vec3& v) { return {v.x(), v.y(), v.z
 template <typename T>
 nlohmann::ordered_json or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+/// The same; null for what isn't finite, too, which JSON can't say.
+inline nlohmann::ordered_json finite_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)
+                                        : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace palmar

@@ -24,7 +24,7 @@ std::string with_text(const std::string& csv) {
 
 MeasuredCurves read(const std::string& csv) { return read_measured_curves(with_text(csv)); }
 
-std::string message_of(const std::string& csv) {
+std::string curves_message(const std::string& csv) {
   try {
     read(csv);
   } catch (const InputError& e) {
@@ -64,37 +64,40 @@ TEST(MeasuredCurves, SemicolonsTabsAndDeviationsAreRead) {
 }
 
 TEST(MeasuredCurves, BadHeadersSayWhatIsNeeded) {
-  EXPECT_THAT(message_of("depth_mm,forse_n\n1,2\n"),
+  EXPECT_THAT(curves_message("depth_mm,forse_n\n1,2\n"),
               HasSubstr("palmar_curves.csv:1: column force_n (or force_mn) is missing; the header "
                         "has depth_mm, forse_n (is forse_n meant?)"));
-  EXPECT_THAT(message_of("force_n\n2\n"), HasSubstr("column depth_mm is missing"));
-  EXPECT_THAT(message_of("depth,force_n\n1,2\n"),
+  EXPECT_THAT(curves_message("force_n\n2\n"), HasSubstr("column depth_mm is missing"));
+  EXPECT_THAT(curves_message("depth,force_n\n1,2\n"),
               HasSubstr("column \"depth\" has no unit; depth_mm is needed"));
-  EXPECT_THAT(message_of("depth_mm,force_kg\n1,2\n"),
+  EXPECT_THAT(curves_message("depth_mm,force_kg\n1,2\n"),
               HasSubstr("unit \"kg\" is not known; force_ with n or mn is allowed"));
-  EXPECT_THAT(message_of("depth_mm,force_MN\n1,2\n"), HasSubstr("meganewton"));
-  EXPECT_THAT(message_of("depth_mm,force_n,force_mn\n1,2,3\n"), HasSubstr("say the same"));
-  EXPECT_THAT(message_of("depth_mm,force_n,weight,force_sd_n\n1,2,3,4\n"), HasSubstr("exclude"));
+  EXPECT_THAT(curves_message("depth_mm,force_MN\n1,2\n"), HasSubstr("meganewton"));
+  EXPECT_THAT(curves_message("depth_mm,force_n,force_mn\n1,2,3\n"), HasSubstr("say the same"));
+  EXPECT_THAT(curves_message("depth_mm,force_n,weight,force_sd_n\n1,2,3,4\n"),
+              HasSubstr("exclude"));
 }
 
 TEST(MeasuredCurves, BadRowsAreNamedByLine) {
-  EXPECT_THAT(message_of("depth_mm,force_n\n1,2\n1,abc\n"),
+  EXPECT_THAT(curves_message("depth_mm,force_n\n1,2\n1,abc\n"),
               HasSubstr("palmar_curves.csv:3: force_n is \"abc\"; a number is needed"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n-1,2\n"),
+  EXPECT_THAT(curves_message("depth_mm,force_n\n-1,2\n"),
               HasSubstr(":2: depth_mm is -1; 0 or more is needed"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n1,-2\n"), HasSubstr("force_n is -2"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n1,nan\n"), HasSubstr("a number is needed"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n1,\n"), HasSubstr("force_n is \"\""));
-  EXPECT_THAT(message_of("depth_mm,force_n\n1\n"), HasSubstr("it has 1 cells; the header has 2"));
-  EXPECT_THAT(message_of("depth_mm;force_n\n0,5;1\n"), HasSubstr("with a decimal point"));
-  EXPECT_THAT(message_of("depth_mm,force_n,weight\n1,2,0\n"), HasSubstr("more than 0 is needed"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n\"1,2\n"), HasSubstr("a quote is not closed"));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n1,-2\n"), HasSubstr("force_n is -2"));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n1,nan\n"), HasSubstr("a number is needed"));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n1,\n"), HasSubstr("force_n is \"\""));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n1\n"),
+              HasSubstr("it has 1 cells; the header has 2"));
+  EXPECT_THAT(curves_message("depth_mm;force_n\n0,5;1\n"), HasSubstr("with a decimal point"));
+  EXPECT_THAT(curves_message("depth_mm,force_n,weight\n1,2,0\n"),
+              HasSubstr("more than 0 is needed"));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n\"1,2\n"), HasSubstr("a quote is not closed"));
 }
 
 TEST(MeasuredCurves, FilesWithoutReadingsAreRefused) {
-  EXPECT_THAT(message_of("# nothing\n"), HasSubstr("it has no header"));
-  EXPECT_THAT(message_of("depth_mm,force_n\n"), HasSubstr("it has no readings"));
-  EXPECT_THAT(message_of(std::string("depth\0mm", 8)), HasSubstr("no text"));
+  EXPECT_THAT(curves_message("# nothing\n"), HasSubstr("it has no header"));
+  EXPECT_THAT(curves_message("depth_mm,force_n\n"), HasSubstr("it has no readings"));
+  EXPECT_THAT(curves_message(std::string("depth\0mm", 8)), HasSubstr("no text"));
   EXPECT_THROW(read_measured_curves("/nowhere/curves.csv"), InputError);
 }
 

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Json pose_json(const Rigid3& pose) {
+Json placement_json(const Rigid3& pose) {
   const Quat& q = pose.rotation;
   return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
           {"translation_mm", vector_json(pose.translation)}};
@@ -57,7 +57,7 @@ void write_mri_subject(const std::string& folder, const MriSubject& subject,
     if (!series.contains(posture)) continue;
     const std::string name(name_of(posture));
     Json bones = Json::object();
-    for (const auto& [bone, pose] : state.bone) bones[bone] = pose_json(pose);
+    for (const auto& [bone, pose] : state.bone) bones[bone] = placement_json(pose);
     Json markers = Json::array();
     for (const Vec3& marker : state.markers) markers.push_back(vector_json(marker));
     Json entry = {{"series", series.at(posture)}};

@@ -22,12 +22,12 @@ std::string ply_error(const std::string& bytes) {
   return message_of<InputError>([&] { parse_ply(bytes, "x.ply"); });
 }
 
-std::string ascii(const std::string& rows, int vertices = 3, int faces = 1) {
+std::string ascii_ply(const std::string& rows, int vertices = 3, int faces = 1) {
   return "ply\nformat ascii 1.0\ncomment c\nelement vertex " + std::to_string(vertices) +
          "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
          std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
 }
-constexpr const char* kThree = "0 0 0\n1 0 0\n0 1 0\n";
+constexpr const char* kThreeCorners = "0 0 0\n1 0 0\n0 1 0\n";
 
 /// Appends a value in the given byte order.
 template <typename T>
@@ -47,7 +47,7 @@ TEST(Ply, BinaryReadsBackExactly) {
 }
 
 TEST(Ply, AsciiPolygonsAreSplit) {
-  const MeshFile file = ply(ascii("0 0 0\n2 0 0\n2 3 0\n0 3 0\n4 0 1 2 3\n", 4));
+  const MeshFile file = ply(ascii_ply("0 0 0\n2 0 0\n2 3 0\n0 3 0\n4 0 1 2 3\n", 4));
   EXPECT_EQ(file.mesh.triangle_count(), 2);
   EXPECT_DOUBLE_EQ(surface_area(file.mesh), 6.0);
   EXPECT_EQ(file.format, "ascii PLY");
@@ -97,16 +97,16 @@ TEST(Ply, FacesMayStandBeforeVertices) {
 }
 
 TEST(Ply, TruncatedDataNameTheElement) {
-  EXPECT_EQ(ply_error(ascii("0 0 0\n1 0 0\n")),
+  EXPECT_EQ(ply_error(ascii_ply("0 0 0\n1 0 0\n")),
             "x.ply: is truncated: the data end in vertex 3 of 3 (line 13)");
-  EXPECT_EQ(ply_error(ascii(std::string(kThree) + "3 0 1\n")),
+  EXPECT_EQ(ply_error(ascii_ply(std::string(kThreeCorners) + "3 0 1\n")),
             "x.ply: is truncated: the data end in face 1 of 1 (line 15)");
   const std::string whole = format_ply(box_mesh({1, 1, 1}));
   EXPECT_THAT(ply_error(whole.substr(0, whole.size() - 1)),
               HasSubstr("is truncated: the data end in face 12 of 12 (byte "));
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 3\n"),
               HasSubstr("no \"end_header\""));
-  EXPECT_THAT(ply_error(ascii(kThree, 2000000000)),
+  EXPECT_THAT(ply_error(ascii_ply(kThreeCorners, 2000000000)),
               HasSubstr("announces 2000000000 \"vertex\" elements, but only 18 bytes"));
 }
 
@@ -127,19 +127,20 @@ TEST(Ply, HeaderErrorsNameTheLine) {
 }
 
 TEST(Ply, BadValuesNameElementAndPlace) {
-  EXPECT_EQ(ply_error(ascii("0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n")),
+  EXPECT_EQ(ply_error(ascii_ply("0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n")),
             "x.ply: vertex 1 (line 12): y is nan; a finite number is required");
-  EXPECT_EQ(ply_error(ascii(std::string(kThree) + "3 0 1 3\n")),
+  EXPECT_EQ(ply_error(ascii_ply(std::string(kThreeCorners) + "3 0 1 3\n")),
             "x.ply: face 0 (line 14) names vertex 3; the file has 3 (from 0)");
-  EXPECT_THAT(ply_error(ascii(std::string(kThree) + "3 0 1 -2\n")), HasSubstr("names vertex -2"));
-  EXPECT_THAT(ply_error(ascii("0 0 0\n1 x 0\n")),
+  EXPECT_THAT(ply_error(ascii_ply(std::string(kThreeCorners) + "3 0 1 -2\n")),
+              HasSubstr("names vertex -2"));
+  EXPECT_THAT(ply_error(ascii_ply("0 0 0\n1 x 0\n")),
               HasSubstr("vertex 2 of 3 (line 12): \"x\" is no number"));
-  EXPECT_THAT(ply_error(ascii(std::string(kThree) + "4000000000 0 1 2\n")),
+  EXPECT_THAT(ply_error(ascii_ply(std::string(kThreeCorners) + "4000000000 0 1 2\n")),
               HasSubstr("a list of 4e+09 values can't stand in this file"));
 }
 
 TEST(Ply, PointCloudsAndStripsAreRefusedByName) {
-  EXPECT_EQ(ply_error(ascii(kThree, 3, 0)),
+  EXPECT_EQ(ply_error(ascii_ply(kThreeCorners, 3, 0)),
             "x.ply: holds 3 vertices but no faces; a surface mesh is required");
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
                         "y\nproperty float z\nelement tristrips 1\nproperty list int int "

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxPostureBytes = std::uint64_t{1} << 30;
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
@@ -244,7 +244,7 @@ PostureFile read_csv_postures(const CsvFile& csv, const Skeleton& skeleton) {
 }  // namespace
 
 PostureFile read_postures(const std::string& path, const Skeleton& skeleton) {
-  const std::string text = read_file(path, kMaxBytes);
+  const std::string text = read_file(path, kMaxPostureBytes);
   if (!looks_like_text(std::string_view(text).substr(0, 4096))) {
     throw InputError(path + ": no text; joint angles as JSON or CSV are needed");
   }

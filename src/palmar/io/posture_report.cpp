@@ -3,7 +3,6 @@
 #include "palmar/io/posture_report.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "palmar/io/csv.h"
 #include "palmar/io/json_values.h"
@@ -13,8 +12,6 @@ namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json placement_object(const Rigid3& placement) {
   const Quat& q = placement.rotation;

@@ -3,7 +3,6 @@
 #include "palmar/io/reach_json.h"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "palmar/io/json_values.h"
 #include "palmar/io/vtk.h"
@@ -12,8 +11,6 @@ namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json finger_object(const FingerReach& reach) {
   Json posture = Json::object();

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "palmar/io/hand_json.h"
 #include "palmar/io/json_values.h"
@@ -14,8 +13,6 @@ namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json name_json(std::string_view name) { return std::string(name); }
 

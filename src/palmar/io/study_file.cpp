@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxBytes = 1 << 20;
+constexpr std::uint64_t kMaxStudyBytes = 1 << 20;
 constexpr double kAny = 1e6;  // mm; bound of coordinates
 
 /// Runs `body`; what a module below complains of gets the file's line.
@@ -345,7 +345,7 @@ std::optional<Grip> asked_grip_named(const std::string& name) {
 }
 
 StudyRequest read_study_file(const std::string& path) {
-  const std::string text = read_file(path, kMaxBytes);
+  const std::string text = read_file(path, kMaxStudyBytes);
   const toml::table values = parse_toml(text, path);
   const TomlSection file(path, "", values);
   file.allow({"study", "population", "profile", "product", "settings", "setting", "limit"});

@@ -22,7 +22,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-DimensionTable parsed(const std::string& text) { return parse_dimension_table(text, "t.csv"); }
+DimensionTable parsed_table(const std::string& text) {
+  return parse_dimension_table(text, "t.csv");
+}
 
 /// The survey's own table, which isn't part of the repository.
 const DimensionTable* ansur2() {
@@ -196,7 +198,7 @@ TEST(TablePopulation, OfTheSurveyKeepsItsMoments) {
 
 TEST(TableStatistics, LeavesOutPairsThatAreNotComplete) {
   const DimensionTable table =
-      parsed("hand_length_mm,hand_width_mm\n180,80\n190,NA\n185,84\n,90\n200,92\n195,86\n");
+      parsed_table("hand_length_mm,hand_width_mm\n180,80\n190,NA\n185,84\n,90\n200,92\n195,86\n");
   const TableCorrelation c = correlate(table);
   EXPECT_EQ(c.pairs[0].pearson.n, 4);
   const auto r = regress(table, {"hand_length"});
@@ -205,9 +207,9 @@ TEST(TableStatistics, LeavesOutPairsThatAreNotComplete) {
 }
 
 TEST(TableStatistics, FewSubjectsAreDescribedButNotCorrelated) {
-  const DimensionTable two = parsed("hand_length_mm,hand_width_mm\n180,80\n190,80\n");
+  const DimensionTable two = parsed_table("hand_length_mm,hand_width_mm\n180,80\n190,80\n");
   EXPECT_DOUBLE_EQ(describe(two)[0].summary->mean, 185.0);
-  EXPECT_EQ(describe(parsed("hand_length_mm\n180\n"))[0].summary->n, 1);
+  EXPECT_EQ(describe(parsed_table("hand_length_mm\n180\n"))[0].summary->n, 1);
   EXPECT_THAT(message_of<InputError>([&] { correlate(two); }), HasSubstr("at least 3 are needed"));
   EXPECT_THAT(message_of<InputError>([&] { regress(two, {"hand_length"}); }),
               HasSubstr("at least 3 are needed"));
@@ -219,10 +221,10 @@ TEST(TableStatistics, FewSubjectsAreDescribedButNotCorrelated) {
 
 TEST(TableStatistics, ColumnsThatTellNothingAreNamed) {
   const auto fault = [](const std::string& text, const std::vector<std::string>& on) {
-    return message_of<InputError>([&] { regress(parsed(text), on); });
+    return message_of<InputError>([&] { regress(parsed_table(text), on); });
   };
   const std::string constant = "hand_length_mm,hand_width_mm\n180,85\n190,85\n185,85\n200,85\n";
-  EXPECT_THAT(message_of<InputError>([&] { correlate(parsed(constant)); }),
+  EXPECT_THAT(message_of<InputError>([&] { correlate(parsed_table(constant)); }),
               HasSubstr("t.csv:2: column 2 (hand_width_mm): all 4 values are 85 mm"));
   EXPECT_THAT(fault(constant, {"hand_width"}), HasSubstr("column 2 (hand_width_mm): all 4"));
   const std::string dependent =
@@ -230,24 +232,25 @@ TEST(TableStatistics, ColumnsThatTellNothingAreNamed) {
   EXPECT_THAT(fault(dependent, {"hand_length", "span"}),
               AllOf(HasSubstr("t.csv:1: column 2 (span_mm): the covariance is singular"),
                     HasSubstr("columns 1 (hand_length_mm), 2 (span_mm)")));
-  EXPECT_THAT(correlate(parsed(dependent)).notes, ElementsAre(HasSubstr("(span_mm) are linear")));
-  EXPECT_THAT(correlate(parsed("hand_length_mm,a,b\n180,3,85\n190,1,84\n185,4,88\n")).notes,
+  EXPECT_THAT(correlate(parsed_table(dependent)).notes,
+              ElementsAre(HasSubstr("(span_mm) are linear")));
+  EXPECT_THAT(correlate(parsed_table("hand_length_mm,a,b\n180,3,85\n190,1,84\n185,4,88\n")).notes,
               ElementsAre(HasSubstr("3 subjects for 3 columns")));
   EXPECT_THAT(
       fault("hand_length_mm,hand_width_mm\n180,85\n190,\n185,NA\n200,90\n", {"hand_length"}),
       HasSubstr("column 2 (hand_width_mm): 2 subjects have it; at least 3"));
-  EXPECT_THAT(message_of<UsageError>([&] { usual_predictors(parsed("a_mm\n1\n2\n3\n")); }),
+  EXPECT_THAT(message_of<UsageError>([&] { usual_predictors(parsed_table("a_mm\n1\n2\n3\n")); }),
               HasSubstr("--on"));
-  EXPECT_THAT(message_of<UsageError>([&] { correlate(parsed("a_mm\n1\n2\n4\n")); }),
+  EXPECT_THAT(message_of<UsageError>([&] { correlate(parsed_table("a_mm\n1\n2\n4\n")); }),
               HasSubstr("at least 2 are needed"));
   EXPECT_THAT(
-      message_of<UsageError>([&] { describe(parsed("a_mm,sex\n1,F\n2,F\n3,M\n"), {"sex"}); }),
+      message_of<UsageError>([&] { describe(parsed_table("a_mm,sex\n1,F\n2,F\n3,M\n"), {"sex"}); }),
       HasSubstr("holds text"));
 }
 
 TEST(TablePopulation, SmallAndMixedGroupsCarryCautions) {
   std::vector<std::string> notes;
-  const DimensionTable table = parsed(
+  const DimensionTable table = parsed_table(
       "sex,age,hand_length_mm,hand_circumference_mm,hand_width_mm\n"
       "F,20,170,180,76\nM,30,190,210,88\nF,40,175,183,77\nM,50,199,222,90\nF,30,181,190,82\n");
   const Population population = population_of_table(

@@ -31,7 +31,7 @@ MeshFile three_mf(const std::string& bytes) { return parse_three_mf(bytes, "x.3m
 std::string three_mf_error(const std::string& bytes) {
   return message_of<InputError>([&] { parse_three_mf(bytes, "x.3mf"); });
 }
-Box3 bounds(const TriangleMesh& mesh) {
+Box3 bounds_of(const TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
   return box;
@@ -64,7 +64,7 @@ TEST(ThreeMf, EveryUnitOfTheSpecificationIsKept) {
     const MeshFile file =
         three_mf(package(object_box("1", {2, 2, 2}), "<item objectid=\"1\"/>", one.text));
     EXPECT_EQ(file.unit, one.unit) << one.text;
-    EXPECT_DOUBLE_EQ(bounds(file.mesh).sizes().x(), one.size) << one.text;
+    EXPECT_DOUBLE_EQ(bounds_of(file.mesh).sizes().x(), one.size) << one.text;
   }
   EXPECT_THAT(three_mf_error(package(object_box("1", {2, 2, 2}), "<item objectid=\"1\"/>",
                                      "unit=\"furlong\"")),
@@ -79,8 +79,8 @@ TEST(ThreeMf, TransformsOfItemsAndComponentsMultiply) {
       "0\"/></components></object>";
   const MeshFile file = three_mf(
       package(resources, "<item objectid=\"2\" transform=\"0 1 0 -1 0 0 0 0 1 0 0 100\"/>"));
-  EXPECT_EQ(bounds(file.mesh).min(), Vec3(-2, 10, 100));
-  EXPECT_EQ(bounds(file.mesh).max(), Vec3(0, 11, 103));
+  EXPECT_EQ(bounds_of(file.mesh).min(), Vec3(-2, 10, 100));
+  EXPECT_EQ(bounds_of(file.mesh).max(), Vec3(0, 11, 103));
   EXPECT_DOUBLE_EQ(signed_volume(file.mesh), 6.0);
 }
 
@@ -98,7 +98,7 @@ TEST(ThreeMf, SeveralItemsAreJoinedAndSupportIsSkipped) {
       "<item objectid=\"1\"/><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/><item "
       "objectid=\"3\"/>"));
   EXPECT_EQ(file.mesh.triangle_count(), 24);
-  EXPECT_EQ(bounds(file.mesh).max(), Vec3(6, 1, 1));
+  EXPECT_EQ(bounds_of(file.mesh).max(), Vec3(6, 1, 1));
   EXPECT_THAT(file.notes,
               ElementsAre("2 build items joined into one mesh", "1 support structures skipped"));
 }
@@ -115,7 +115,7 @@ TEST(ThreeMf, ObjectsInOtherPartsAndOtherPlacesAreFound) {
   const MeshFile file = three_mf(zip_bytes(
       {{"_rels/.rels", relations}, {"3D/root.model", root}, {"3D/Objects/part.model", part}},
       true));
-  EXPECT_EQ(bounds(file.mesh).max(), Vec3(10, 10, 10));
+  EXPECT_EQ(bounds_of(file.mesh).max(), Vec3(10, 10, 10));
 }
 
 TEST(ThreeMf, HostilePackagesEndWithAMessage) {

@@ -17,17 +17,17 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string temporary(const std::string& name) {
+std::string temporary_tissue(const std::string& name) {
   return (std::filesystem::path(::testing::TempDir()) / ("palmar_tissue_" + name)).string();
 }
 
 Tissue read_text(const std::string& toml) {
-  const std::string path = temporary("text.toml");
+  const std::string path = temporary_tissue("text.toml");
   write_file(path, toml);
   return read_tissue(path, default_tissue());
 }
 
-std::string message_of(const std::string& toml) {
+std::string tissue_message(const std::string& toml) {
   try {
     read_text(toml);
   } catch (const InputError& e) {
@@ -40,7 +40,7 @@ const RegionTissue& of(const Tissue& tissue, Region region) {
   return tissue.region[static_cast<std::size_t>(region)];
 }
 
-void expect_same(const StiffeningLaw& a, const StiffeningLaw& b) {
+void expect_same_law(const StiffeningLaw& a, const StiffeningLaw& b) {
   constexpr double kUnits = 1e-15;  // relative; the change of unit and back rounds
   EXPECT_NEAR(a.g0, b.g0, kUnits * b.g0);
   EXPECT_NEAR(a.g_limit, b.g_limit, kUnits * b.g_limit);
@@ -55,7 +55,7 @@ TEST(TissueFile, ReadBackIsTheSameSet) {
   thumb.source = "thumb alone";
   thumb.swelling_width = 1.0 / 3.0;
   tissue.region[static_cast<std::size_t>(Region::kHypothenar)].poisson_layered = 0.45;
-  const std::string path = temporary("same.toml");
+  const std::string path = temporary_tissue("same.toml");
   write_tissue(path, tissue);
   const Tissue back = read_tissue(path, Tissue());  // nothing comes from the base
   EXPECT_EQ(back.source, tissue.source);
@@ -64,8 +64,8 @@ TEST(TissueFile, ReadBackIsTheSameSet) {
     const RegionTissue& a = back.region[static_cast<std::size_t>(r)];
     const RegionTissue& b = tissue.region[static_cast<std::size_t>(r)];
     for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
-      expect_same(law_at(a.half_space, level), law_at(b.half_space, level));
-      expect_same(law_at(a.layered, level), law_at(b.layered, level));
+      expect_same_law(law_at(a.half_space, level), law_at(b.half_space, level));
+      expect_same_law(law_at(a.layered, level), law_at(b.layered, level));
     }
     EXPECT_DOUBLE_EQ(a.poisson_layered, b.poisson_layered);
     EXPECT_DOUBLE_EQ(a.swelling_width, b.swelling_width);
@@ -111,51 +111,53 @@ TEST(TissueFile, AValueWithoutARangeHasNone) {
 }
 
 TEST(TissueFile, UnknownKeysNameTheNearestOne) {
-  EXPECT_THAT(message_of("[finger.half_space]\ng0_mpa = 5\n"),
+  EXPECT_THAT(tissue_message("[finger.half_space]\ng0_mpa = 5\n"),
               HasSubstr("text.toml:2: [finger.half_space]: key \"g0_mpa\" is not known; did you "
                         "mean \"g0_kpa\"?"));
-  EXPECT_THAT(message_of("[fingers]\n"), HasSubstr("did you mean \"finger\"?"));
-  EXPECT_THAT(message_of("[finger]\nswelling_hight_mm = 1\n"), HasSubstr("swelling_height_mm"));
-  EXPECT_THAT(message_of("[finger.halfspace]\ng0_kpa = 1\n"), HasSubstr("half_space"));
-  EXPECT_THAT(message_of("[region.index_tip]\n"), HasSubstr("index_distal"));
-  EXPECT_THAT(message_of("[palm]\nzzz = 1\n"), HasSubstr("allowed are source, half_space"));
+  EXPECT_THAT(tissue_message("[fingers]\n"), HasSubstr("did you mean \"finger\"?"));
+  EXPECT_THAT(tissue_message("[finger]\nswelling_hight_mm = 1\n"), HasSubstr("swelling_height_mm"));
+  EXPECT_THAT(tissue_message("[finger.halfspace]\ng0_kpa = 1\n"), HasSubstr("half_space"));
+  EXPECT_THAT(tissue_message("[region.index_tip]\n"), HasSubstr("index_distal"));
+  EXPECT_THAT(tissue_message("[palm]\nzzz = 1\n"), HasSubstr("allowed are source, half_space"));
 }
 
 TEST(TissueFile, WrongValuesNameKeyValueAndWhatIsAllowed) {
-  EXPECT_THAT(message_of("[finger.half_space]\n\ng0_kpa = -5\n"),
+  EXPECT_THAT(tissue_message("[finger.half_space]\n\ng0_kpa = -5\n"),
               HasSubstr("text.toml:3: [finger.half_space] g0_kpa is -5 kPa; 0.001 to 10000 kPa is "
                         "allowed"));
-  EXPECT_THAT(message_of("[finger.half_space]\ng0_kpa = \"5\"\n"),
+  EXPECT_THAT(tissue_message("[finger.half_space]\ng0_kpa = \"5\"\n"),
               HasSubstr("g0_kpa is no number; 0.001 to 10000 kPa is allowed"));
-  EXPECT_THAT(message_of("[finger.half_space]\ng0_kpa = nan\n"), HasSubstr("g0_kpa is nan"));
-  EXPECT_THAT(message_of("[finger.half_space]\nlimit_depth_mm = true\n"), HasSubstr("no number"));
-  EXPECT_THAT(message_of("[finger]\npoisson_layered = 0.7\n"),
+  EXPECT_THAT(tissue_message("[finger.half_space]\ng0_kpa = nan\n"), HasSubstr("g0_kpa is nan"));
+  EXPECT_THAT(tissue_message("[finger.half_space]\nlimit_depth_mm = true\n"),
+              HasSubstr("no number"));
+  EXPECT_THAT(tissue_message("[finger]\npoisson_layered = 0.7\n"),
               HasSubstr("poisson_layered is 0.7; 0 to 0.5 is allowed"));
-  EXPECT_THAT(message_of("[finger]\nsource = 7\n"), HasSubstr("source must be text in quotes"));
-  EXPECT_THAT(message_of("finger = 7\n"), HasSubstr("must be a table, as in [finger]"));
-  EXPECT_THAT(message_of("region = 7\n"), HasSubstr("must be a table"));
-  EXPECT_THAT(message_of("[region]\nthenar = 7\n"), HasSubstr("[region.thenar] must be a table"));
-  EXPECT_THAT(message_of("[finger]\nlayered = 7\n"), HasSubstr("must be a table"));
-  EXPECT_THAT(message_of("[finger.half_space]\ng0_kpa = 200\n"),
+  EXPECT_THAT(tissue_message("[finger]\nsource = 7\n"), HasSubstr("source must be text in quotes"));
+  EXPECT_THAT(tissue_message("finger = 7\n"), HasSubstr("must be a table, as in [finger]"));
+  EXPECT_THAT(tissue_message("region = 7\n"), HasSubstr("must be a table"));
+  EXPECT_THAT(tissue_message("[region]\nthenar = 7\n"),
+              HasSubstr("[region.thenar] must be a table"));
+  EXPECT_THAT(tissue_message("[finger]\nlayered = 7\n"), HasSubstr("must be a table"));
+  EXPECT_THAT(tissue_message("[finger.half_space]\ng0_kpa = 200\n"),
               HasSubstr("G_lim is 95 kPa, below G0, 200 kPa"));
-  EXPECT_THAT(message_of("[palm.half_space]\ng0_high_kpa = 10\n"),
+  EXPECT_THAT(tissue_message("[palm.half_space]\ng0_high_kpa = 10\n"),
               HasSubstr("ascending values are required"));
 }
 
 TEST(TissueFile, NewerVersionsAndBrokenFilesAreRefused) {
-  EXPECT_THAT(message_of("version = 2\n"), HasSubstr("version 2; this program reads up to"));
-  EXPECT_THAT(message_of("version = 0\n"), HasSubstr("whole number"));
-  EXPECT_THAT(message_of("[finger\ng0_kpa = 5\n"), HasSubstr("text.toml:1: no TOML: "));
-  EXPECT_THAT(message_of("[finger.half_space]\ng0_kpa = 5\ng0_kpa = 6\n"),
+  EXPECT_THAT(tissue_message("version = 2\n"), HasSubstr("version 2; this program reads up to"));
+  EXPECT_THAT(tissue_message("version = 0\n"), HasSubstr("whole number"));
+  EXPECT_THAT(tissue_message("[finger\ng0_kpa = 5\n"), HasSubstr("text.toml:1: no TOML: "));
+  EXPECT_THAT(tissue_message("[finger.half_space]\ng0_kpa = 5\ng0_kpa = 6\n"),
               HasSubstr(":3: no TOML"));
-  EXPECT_THROW(read_tissue(temporary("missing.toml"), default_tissue()), InputError);
+  EXPECT_THROW(read_tissue(temporary_tissue("missing.toml"), default_tissue()), InputError);
   EXPECT_THROW(read_tissue(::testing::TempDir(), default_tissue()), InputError);
 }
 
 TEST(TissueFile, EveryTruncationIsRefusedOrReadsAsPartOfTheSet) {
   const std::string whole = tissue_toml(default_tissue());
   for (std::size_t length = 1; length < whole.size(); length += 13) {
-    const std::string message = message_of(whole.substr(0, length));
+    const std::string message = tissue_message(whole.substr(0, length));
     if (message == "no error") continue;  // cut between two lines, or inside a number
     EXPECT_THAT(message, HasSubstr("text.toml")) << length;
   }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "palmar/core/version.h"
+#include "palmar/io/json_values.h"
 
 namespace palmar {
 namespace {
@@ -14,18 +15,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON knows no NaN.
-Json or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
 Json row_object(const ValidationRow& row) {
   return {{"quantity", row.quantity},
           {"unit", row.unit},
-          {"ours", or_null(row.ours)},
-          {"theirs", or_null(row.target.value)},
-          {"lowest_met", or_null(row.target.lowest)},
-          {"highest_met", or_null(row.target.highest)},
-          {"relative_difference", or_null(row.difference)},
+          {"ours", finite_or_null(row.ours)},
+          {"theirs", finite_or_null(row.target.value)},
+          {"lowest_met", finite_or_null(row.target.lowest)},
+          {"highest_met", finite_or_null(row.target.highest)},
+          {"relative_difference", finite_or_null(row.difference)},
           {"verdict", name_of(row.verdict)},
           {"source", row.target.source}};
 }

@@ -19,8 +19,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
+constexpr HandDimension kHandLength{DimensionKind::kHandLength};
+constexpr HandDimension kHandCircumference{DimensionKind::kHandCircumference};
 
 double value_of(const HandSample& sample, HandDimension dimension) {
   for (const SizedDimension& one : sample.dimensions) {
@@ -69,7 +69,7 @@ std::vector<HandSample> draw(const Population& population, SamplingDesign design
 Population one_normal(double rho) {
   Stratum stratum;
   stratum.name = "people";
-  stratum.driving = {{kLength, 184.0, 10.4, ""}, {kCircumference, 193.0, 14.0, ""}};
+  stratum.driving = {{kHandLength, 184.0, 10.4, ""}, {kHandCircumference, 193.0, 14.0, ""}};
   stratum.correlation = Eigen::Matrix2d{{1.0, rho}, {rho, 1.0}};
   return {"people", "People", {stratum}, "", {}};
 }
@@ -144,7 +144,7 @@ TEST(SampleHands, RegressedDimensionsHaveTheModelsMoments) {
 TEST(SampleHands, StrataTogetherMeetThePooledSurvey) {
   constexpr int kHands = 40000;
   const auto hands = draw(population_named("ansur2"), SamplingDesign::kRandom, kHands, 3);
-  const auto length = values_of(hands, kLength), girth = values_of(hands, kCircumference);
+  const auto length = values_of(hands, kHandLength), girth = values_of(hands, kHandCircumference);
   constexpr double kRoot = 200.0;  // of the number of hands
   EXPECT_NEAR(mean_of(length), 189.29, 4.0 * 11.506 / kRoot);
   EXPECT_NEAR(sd_of(length), 11.506, 4.0 * 11.506 / kRoot / std::numbers::sqrt2);
@@ -166,7 +166,7 @@ TEST(SampleHands, HandKIsTheSameWhateverTheOthers) {
     }
   }
   const auto others = draw(population, SamplingDesign::kRandom, 10, 43);
-  EXPECT_NE(value_of(few[0], kLength), value_of(others[0], kLength));
+  EXPECT_NE(value_of(few[0], kHandLength), value_of(others[0], kHandLength));
 }
 
 // Layers of the first dimension, and of what the second has beyond it.
@@ -176,8 +176,8 @@ TEST(LatinHypercube, EveryFactorHasOneHandInEveryLayer) {
   std::set<int> first, second;
   for (const HandSample& hand :
        draw(one_normal(kRho), SamplingDesign::kLatinHypercube, kHands, 4)) {
-    const double a = (value_of(hand, kLength) - 184.0) / 10.4;
-    const double b = (value_of(hand, kCircumference) - 193.0) / 14.0;
+    const double a = (value_of(hand, kHandLength) - 184.0) / 10.4;
+    const double b = (value_of(hand, kHandCircumference) - 193.0) / 14.0;
     const auto layer = [](double z) {
       return static_cast<int>(kHands * 0.5 * std::erfc(-z / std::numbers::sqrt2));
     };
@@ -190,22 +190,22 @@ TEST(LatinHypercube, EveryFactorHasOneHandInEveryLayer) {
 
 TEST(LatinHypercube, KeepsTheCorrelation) {
   const auto hands = draw(one_normal(0.6), SamplingDesign::kLatinHypercube, 5000, 8);
-  EXPECT_NEAR(
-      std::atanh(correlation_of(values_of(hands, kLength), values_of(hands, kCircumference))),
-      std::atanh(0.6), 4.0 / std::sqrt(5000.0));
+  EXPECT_NEAR(std::atanh(correlation_of(values_of(hands, kHandLength),
+                                        values_of(hands, kHandCircumference))),
+              std::atanh(0.6), 4.0 / std::sqrt(5000.0));
 }
 
 // Pairing at random would scatter by (1 - 0.36^2) / sqrt(29) = 0.16; three of these are 0.48.
 TEST(LatinHypercube, EvenThirtyHandsHaveThePopulationsCorrelation) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto hands = draw(one_normal(0.36), SamplingDesign::kLatinHypercube, 30, seed);
-    EXPECT_NEAR(correlation_of(values_of(hands, kLength), values_of(hands, kCircumference)), 0.36,
-                0.08);
+    EXPECT_NEAR(correlation_of(values_of(hands, kHandLength), values_of(hands, kHandCircumference)),
+                0.36, 0.08);
   }
 }
 
 TEST(LatinHypercube, MeansScatterFarLessThanThoseOfRandomDraws) {
-  for (const HandDimension dimension : {kLength, kCircumference}) {
+  for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
     const auto means = [&](SamplingDesign design) {
       std::vector<double> list;
       for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -216,7 +216,7 @@ TEST(LatinHypercube, MeansScatterFarLessThanThoseOfRandomDraws) {
     // The mean of a stratified sample of n falls off as n^-1.5 (McKay, Beckman, Conover 1979).
     const std::vector<double> layered = means(SamplingDesign::kLatinHypercube);
     EXPECT_LT(sd_of(layered), 0.2 * sd_of(means(SamplingDesign::kRandom)));
-    EXPECT_NEAR(mean_of(layered), dimension == kLength ? 184.0 : 193.0, 0.2);
+    EXPECT_NEAR(mean_of(layered), dimension == kHandLength ? 184.0 : 193.0, 0.2);
   }
 }
 
@@ -236,10 +236,10 @@ TEST(BoundaryHands, LieOnTheEllipseThatHoldsNinetyFivePercent) {
   const auto hands = sample_hands(one_normal(rho), options);
   ASSERT_EQ(hands.size(), 9U);
   EXPECT_EQ(hands[0].label, "mean");
-  EXPECT_DOUBLE_EQ(value_of(hands[0], kLength), 184.0);
+  EXPECT_DOUBLE_EQ(value_of(hands[0], kHandLength), 184.0);
   for (std::size_t k = 1; k < hands.size(); ++k) {
-    const double a = (value_of(hands[k], kLength) - 184.0) / 10.4;
-    const double b = (value_of(hands[k], kCircumference) - 193.0) / 14.0;
+    const double a = (value_of(hands[k], kHandLength) - 184.0) / 10.4;
+    const double b = (value_of(hands[k], kHandCircumference) - 193.0) / 14.0;
     const double distance = (a * a - 2.0 * rho * a * b + b * b) / (1.0 - rho * rho);
     EXPECT_NEAR(distance, 5.991464547107979, 1e-9);  // chi-square, 2 degrees of freedom, 95 %
   }
@@ -248,8 +248,8 @@ TEST(BoundaryHands, LieOnTheEllipseThatHoldsNinetyFivePercent) {
   int inside = 0;
   const auto people = draw(one_normal(rho), SamplingDesign::kRandom, 10000, 5);
   for (const HandSample& hand : people) {
-    const double a = (value_of(hand, kLength) - 184.0) / 10.4;
-    const double b = (value_of(hand, kCircumference) - 193.0) / 14.0;
+    const double a = (value_of(hand, kHandLength) - 184.0) / 10.4;
+    const double b = (value_of(hand, kHandCircumference) - 193.0) / 14.0;
     inside += (a * a - 2.0 * rho * a * b + b * b) / (1.0 - rho * rho) < 5.991464547107979 ? 1 : 0;
   }
   EXPECT_NEAR(inside, 9500, 4.0 * std::sqrt(10000.0 * 0.95 * 0.05));
@@ -261,9 +261,9 @@ TEST(PercentileHands, FifthWomanAndNinetyFifthMan) {
   const auto hands = sample_hands(population_named("ansur2"), options);
   ASSERT_EQ(hands.size(), 6U);
   EXPECT_EQ(hands[3].label, "P5 woman");
-  EXPECT_NEAR(value_of(hands[3], kLength), 181.08 - 1.6448536 * 10.056, 1e-3);
+  EXPECT_NEAR(value_of(hands[3], kHandLength), 181.08 - 1.6448536 * 10.056, 1e-3);
   EXPECT_EQ(hands[2].label, "P95 man");
-  EXPECT_NEAR(value_of(hands[2], kCircumference), 212.28 + 1.6448536 * 10.243, 1e-3);
+  EXPECT_NEAR(value_of(hands[2], kHandCircumference), 212.28 + 1.6448536 * 10.243, 1e-3);
   // Germans of 30 to 34 years, 165-169 cm: 33.7 kg (Steiber 2016).
   EXPECT_NEAR(hands[3].grip_strength, 33.7 * 9.80665, 1e-9);
 }
@@ -273,7 +273,7 @@ TEST(SampleHands, MiddleFingerKeepsAProximalSegment) {
   for (const Population& population : built_in_populations()) {
     if (population.strata.front().regressions.empty()) continue;
     for (const HandSample& hand : draw(population, SamplingDesign::kRandom, 10000, 6)) {
-      const double rest = value_of(hand, kLength) -
+      const double rest = value_of(hand, kHandLength) -
                           value_of(hand, {DimensionKind::kSegmentLength, Segment::kPalm}) -
                           value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleMiddle}) -
                           value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleDistal});
@@ -288,7 +288,8 @@ TEST(SampleHands, HandsAreNotBroaderThanTheirGirthAllows) {
     for (const int hands : {4, 30, 10000}) {
       for (const HandSample& hand :
            draw(population_named(name), SamplingDesign::kLatinHypercube, hands, 2)) {
-        ASSERT_GT(value_of(hand, kCircumference), 2.0 * value_of(hand, {DimensionKind::kHandWidth}))
+        ASSERT_GT(value_of(hand, kHandCircumference),
+                  2.0 * value_of(hand, {DimensionKind::kHandWidth}))
             << name << " " << hand.label;
       }
     }

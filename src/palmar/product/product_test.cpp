@@ -43,7 +43,7 @@ Box3 box_of(double longest) {
   return Box3(Vec3::Zero(), Vec3(0.3 * longest, longest, 0.2 * longest));
 }
 
-const UnitDecision kMm{LengthUnit::kMillimetre, UnitSource::kUser, ""};
+const UnitDecision kInMm{LengthUnit::kMillimetre, UnitSource::kUser, ""};
 
 bool has_note(const Product& product, const std::string& part) {
   for (const std::string& note : product.notes) {
@@ -125,7 +125,7 @@ TEST(MakeProduct, WeldsTrianglesThatShareNoVertices) {
     for (const int v : t) soup.vertices.push_back(whole.vertices[v].cast<float>().cast<double>());
     soup.triangles.push_back({n, n + 1, n + 2});
   }
-  const Product product = make_product("ball", soup, kMm, "ball.stl");
+  const Product product = make_product("ball", soup, kInMm, "ball.stl");
   EXPECT_EQ(product.mesh.vertex_count(), whole.vertex_count());
   EXPECT_TRUE(examine_topology(product.mesh).is_closed);
   EXPECT_TRUE(product.notes.empty());
@@ -134,36 +134,37 @@ TEST(MakeProduct, WeldsTrianglesThatShareNoVertices) {
 TEST(MakeProduct, TurnsAnInvertedMeshAndSaysSo) {
   TriangleMesh inverted = make_icosphere(30.0, 3);
   for (Triangle& t : inverted.triangles) std::swap(t[0], t[1]);
-  const Product product = make_product("ball", inverted, kMm, "ball.stl");
+  const Product product = make_product("ball", inverted, kInMm, "ball.stl");
   EXPECT_LT(product.distance->at(Vec3::Zero()).distance, 0.0);
   EXPECT_TRUE(has_note(product, "faced inwards"));
 }
 
 TEST(MakeProduct, TellsThatAMeshIsOpen) {
   const Product product = make_product(
-      "tube", make_cylinder({.radius = 20, .length = 100, .rings = 20, .is_capped = false}), kMm,
+      "tube", make_cylinder({.radius = 20, .length = 100, .rings = 20, .is_capped = false}), kInMm,
       "tube.stl");
   EXPECT_TRUE(has_note(product, "2 holes"));
   EXPECT_LT(product.distance->at(Vec3::Zero()).distance, 0.0);
 }
 
 TEST(MakeProduct, NamesWhatIsMissing) {
-  EXPECT_THAT(message_of<InputError>([] { make_product("x", {}, kMm, "x.stl"); }),
+  EXPECT_THAT(message_of<InputError>([] { make_product("x", {}, kInMm, "x.stl"); }),
               HasSubstr("x.stl: no triangles"));
   TriangleMesh one;
   one.vertices = {Vec3(0, 0, 0), Vec3(50, 0, 0), Vec3(0, 50, 0)};
   one.triangles = {{0, 1, 2}};
-  EXPECT_THAT(message_of<InputError>([&] { make_product("x", one, kMm, "x.stl"); }),
+  EXPECT_THAT(message_of<InputError>([&] { make_product("x", one, kInMm, "x.stl"); }),
               HasSubstr("only one triangle"));
   TriangleMesh bad = make_box(Vec3(50, 50, 50), 1);
   bad.vertices[4].z() = std::numeric_limits<double>::infinity();
-  const std::string message = message_of<InputError>([&] { make_product("x", bad, kMm, "x.stl"); });
+  const std::string message =
+      message_of<InputError>([&] { make_product("x", bad, kInMm, "x.stl"); });
   EXPECT_THAT(message, HasSubstr("vertex 4"));
   EXPECT_THAT(message, HasSubstr("inf"));
   TriangleMesh line;
   line.vertices = {Vec3(0, 0, 0), Vec3(50, 0, 0), Vec3(100, 0, 0), Vec3(70, 0, 0)};
   line.triangles = {{0, 1, 2}, {0, 1, 3}};
-  EXPECT_THAT(message_of<InputError>([&] { make_product("x", line, kMm, "x.stl"); }),
+  EXPECT_THAT(message_of<InputError>([&] { make_product("x", line, kInMm, "x.stl"); }),
               HasSubstr("no area"));
 }
 

@@ -30,7 +30,7 @@ using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 
 template <typename ErrorType, typename Function>
-std::string message_of(Function function) {
+std::string repair_message(Function function) {
   try {
     function();
   } catch (const ErrorType& error) {
@@ -94,7 +94,7 @@ void flip_and_double(TriangleMesh& mesh, std::mt19937& random) {
 }
 
 /// Every triangle with corners of its own, as STL has them.
-TriangleMesh soup_of(const TriangleMesh& mesh) {
+TriangleMesh repair_soup(const TriangleMesh& mesh) {
   TriangleMesh soup;
   for (const Triangle& t : mesh.triangles) {
     const int n = soup.vertex_count();
@@ -146,7 +146,7 @@ TEST(Repair, OfARuinedBallIsABall) {
   TriangleMesh ruined = ball;
   ASSERT_EQ(punch(ruined, 25, random), 25);
   flip_and_double(ruined, random);
-  ruined = soup_of(ruined);
+  ruined = repair_soup(ruined);
   for (int i = 0; i < 5; ++i) append(ruined, make_icosphere(0.2, 1), Vec3(33.0, 3.0 * i, 0));
   const ProductCheck before = check_mesh(ruined);
   EXPECT_GE(before.verdict, Severity::kWarning);
@@ -260,17 +260,17 @@ TEST(Repair, TellsWhatGoesThroughItself) {
 
 TEST(Repair, NamesWhatCannotBe) {
   TriangleMesh ball = make_icosphere(30, 2);
-  EXPECT_THAT(message_of<UsageError>([&] { repair_mesh(ball, {.weld = -1.0}); }),
+  EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.weld = -1.0}); }),
               HasSubstr("the weld's tolerance is -1 mm"));
-  EXPECT_THAT(message_of<UsageError>([&] { repair_mesh(ball, {.weld = 30.0}); }),
+  EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.weld = 30.0}); }),
               HasSubstr("up to 5.1"));
-  EXPECT_THAT(message_of<UsageError>([&] { repair_mesh(ball, {.hole = std::nan("")}); }),
+  EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.hole = std::nan("")}); }),
               HasSubstr("the longest hole is nan mm"));
-  EXPECT_THAT(message_of<UsageError>([&] { repair_mesh(ball, {.speck = 1e9}); }),
+  EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.speck = 1e9}); }),
               HasSubstr("the largest speck is 1e+09 mm"));
   ball.vertices[5].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(message_of<InputError>([&] { repair_mesh(ball); }), HasSubstr("vertex 5"));
-  EXPECT_THAT(message_of<InputError>([&] {
+  EXPECT_THAT(repair_message<InputError>([&] { repair_mesh(ball); }), HasSubstr("vertex 5"));
+  EXPECT_THAT(repair_message<InputError>([&] {
                 repair_mesh({{Vec3::Zero()}, {{0, 0, 7}}});
               }),
               HasSubstr("triangle 0 names vertex 7"));
@@ -292,7 +292,7 @@ TEST(Repair, OfRealProductsBringsBackTheirVolume) {
       TriangleMesh ruined = whole;
       punch(ruined, 8, random);
       flip_and_double(ruined, random);
-      const RepairResult repaired = repair_mesh(soup_of(ruined), {.hole = 100.0});
+      const RepairResult repaired = repair_mesh(repair_soup(ruined), {.hole = 100.0});
       const ProductCheck after = check_mesh(repaired.mesh);
       EXPECT_TRUE(after.is_closed) << name << "\n" << text_of(repaired.left);
       EXPECT_EQ(after.euler_number, examine_topology(whole).euler_number) << name;

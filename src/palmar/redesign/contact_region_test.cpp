@@ -16,8 +16,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Slab of 3 mm edges; `hands` of ten touch where `is_touched` says so.
 struct Touched {
   TriangleMesh map;
@@ -49,10 +47,12 @@ TEST(ContactRegion, OfADiscHasItsAreaAndOneSmoothOutlineOnTheSurface) {
   EXPECT_EQ(region.least_hands, 5);
   ASSERT_EQ(region.patches.size(), 1U);
   // Vertices 3 mm apart tell a circle to about half of that, evenly round it.
-  EXPECT_NEAR(region.area, kPi * radius * radius, 0.03 * kPi * radius * radius);
+  EXPECT_NEAR(region.area, std::numbers::pi * radius * radius,
+              0.03 * std::numbers::pi * radius * radius);
   ASSERT_EQ(region.patches[0].outline.size(), 1U);
   const RegionOutline& outline = region.patches[0].outline[0];
-  EXPECT_NEAR(outline.length, 2.0 * kPi * radius, 0.03 * 2.0 * kPi * radius);
+  EXPECT_NEAR(outline.length, 2.0 * std::numbers::pi * radius,
+              0.03 * 2.0 * std::numbers::pi * radius);
   double turn = 0.0;
   for (std::size_t i = 0; i < outline.points.size(); ++i) {
     const Vec3& x = outline.points[i];
@@ -109,7 +109,7 @@ TEST(ContactRegion, RoundAHandleHasTwoOutlines) {
   ASSERT_EQ(region.patches.size(), 1U);
   ASSERT_EQ(region.patches[0].outline.size(), 2U);
   for (const RegionOutline& outline : region.patches[0].outline) {
-    EXPECT_NEAR(outline.length, kPi * 40.0, 0.5);
+    EXPECT_NEAR(outline.length, std::numbers::pi * 40.0, 0.5);
   }
 }
 
@@ -176,7 +176,7 @@ TEST(FaceShares, SumToTheRegion) {
 TEST(ContactRegion, SaysWhatItNeeds) {
   const TriangleMesh map = product_map(slab().mesh);
   EXPECT_THAT([&] { start_count(map, -1.0); },
-              testing::ThrowsMessage<UsageError>(
+              ::testing::ThrowsMessage<UsageError>(
                   "contact region: pressure threshold is -1 MPa; 0 to 100 MPa is allowed"));
   EXPECT_THROW(contact_region(map, start_count(map)), UsageError);
   RegionOptions options;
@@ -184,7 +184,7 @@ TEST(ContactRegion, SaysWhatItNeeds) {
   ContactCount count = start_count(map);
   count.hands = 1;
   EXPECT_THAT([&] { contact_region(map, count, {}, options); },
-              testing::ThrowsMessage<UsageError>(
+              ::testing::ThrowsMessage<UsageError>(
                   "contact region: share of the hands is 1.5; 0 to 1 is allowed"));
 }
 

@@ -82,7 +82,7 @@ TEST(ImprintGauge, RefusesPointsWithoutDirections) {
       [] {
         ImprintGauge(make_box({1, 1, 1}), kPoints, {});
       },
-      testing::ThrowsMessage<UsageError>(testing::HasSubstr("3 points, 0 directions")));
+      ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("3 points, 0 directions")));
 }
 
 TEST(CombineImprints, HandsThatDontTouchCountAsZeroUnlessToldOtherwise) {

@@ -25,7 +25,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 12.0;  // of the ball, mm: about a thumb's
 constexpr double kDepth = 3.0;    // mm, to which the ball reaches into the plate
 
@@ -59,7 +58,9 @@ PressedShapeOptions plain(double share) {
   return options;
 }
 
-double cap_volume(double depth) { return kPi * depth * depth * (3.0 * kRadius - depth) / 3.0; }
+double cap_volume(double depth) {
+  return std::numbers::pi * depth * depth * (3.0 * kRadius - depth) / 3.0;
+}
 
 PressedShape press(const Product& product, const std::vector<TriangleMesh>& skins,
                    const PressedShapeOptions& options) {
@@ -286,17 +287,17 @@ TEST(PressShape, RefusesWhatCantBe) {
   options.share = 1.2;
   EXPECT_THAT(
       [&] { press(product, {ball_on_top()}, options); },
-      testing::ThrowsMessage<UsageError>(testing::HasSubstr("share (--share) is 1.2; 0 to 1")));
+      ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("share (--share) is 1.2; 0 to 1")));
   EXPECT_THAT([&] { press(product, {}, {}); },
-              testing::ThrowsMessage<UsageError>(testing::HasSubstr("no hands")));
+              ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("no hands")));
   options = {};
   options.keep_out.faces = {99};
   EXPECT_THAT([&] { press(product, {ball_on_top()}, options); },
-              testing::ThrowsMessage<UsageError>(testing::HasSubstr("no face 99")));
+              ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("no face 99")));
   Product bare = product;
   bare.faces = nullptr;
   EXPECT_THAT([&] { press(bare, {ball_on_top()}, options); },
-              testing::ThrowsMessage<UsageError>(testing::HasSubstr("without faces of CAD")));
+              ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("without faces of CAD")));
 }
 
 TEST(HeldBelow, HasNoKinkAndNeverReachesTheLimit) {

@@ -18,7 +18,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const double kCorner = std::sqrt(2.0) - 1.0;  // how far a square's corner stands off its circle
 
 Product prism() {
@@ -100,7 +99,7 @@ TEST(PlanReliefs, FindsTheRoundingThatTheImprintHasTheShapeOf) {
   const RidgeRelief& relief = plan.reliefs[0];
   EXPECT_DOUBLE_EQ(relief.radius, 12.0);
   EXPECT_NEAR(relief.depth, 9.0 * kCorner, 0.03);
-  EXPECT_NEAR(relief.half_angle, 0.25 * kPi, 1e-4);
+  EXPECT_NEAR(relief.half_angle, 0.25 * std::numbers::pi, 1e-4);
   EXPECT_NEAR(relief.start.x(), 5.5, 1e-4);
   EXPECT_NEAR(relief.start.y(), 5.5, 1e-4);
   EXPECT_NEAR(relief.start.z(), -23.0, 3.5);  // 3 mm margin, vertices 3 mm apart
@@ -129,7 +128,7 @@ TEST(RidgeRelief, RunsOutAlongAnArcAndLaysPointsOntoItself) {
   relief.end = Vec3(0, 0, 20);
   relief.outward = Vec3::UnitX();
   relief.radius = 10.0;
-  relief.half_angle = 0.25 * kPi;
+  relief.half_angle = 0.25 * std::numbers::pi;
   relief.run_out = 40.0;
   EXPECT_TRUE(is_cut(relief, Vec3(10.1, 0, 0)));
   EXPECT_FALSE(is_cut(relief, Vec3(9.9, 0, 0)));
@@ -155,12 +154,12 @@ TEST(RelievedMesh, LosesTheVolumeBetweenTwoRoundings) {
   relief.end = Vec3(5.5, 5.5, 30);
   relief.outward = Vec3(1, 1, 0).normalized();
   relief.radius = 12.0;
-  relief.half_angle = 0.25 * kPi;
+  relief.half_angle = 0.25 * std::numbers::pi;
   relief.run_out = 40.0;
   relief.is_open_start = relief.is_open_end = true;
   const Product product = prism();
   const TriangleMesh after = relieved_mesh(product.mesh, std::vector{relief});
-  const double removed = (1.0 - 0.25 * kPi) * 135.0 * 130.0;
+  const double removed = (1.0 - 0.25 * std::numbers::pi) * 135.0 * 130.0;
   EXPECT_NEAR(signed_volume(product.mesh) - signed_volume(after), removed, 0.01 * removed);
 }
 
@@ -169,14 +168,14 @@ TEST(PlanReliefs, RefusesByNameWhatHasNoRidge) {
       make_cylinder_product({.diameter = 35.0}), [](const Vec3& x) { return std::abs(x.z()) < 30; },
       [](const Vec3&) { return 2.0; });
   EXPECT_THAT([&] { plan_reliefs(s.map, s.region, s.region, s.imprint); },
-              testing::ThrowsMessage<UsageError>(
-                  testing::AllOf(testing::HasSubstr("has no ridge that is narrower than a disc"),
-                                 testing::HasSubstr("there is nothing to round"))));
+              ::testing::ThrowsMessage<UsageError>(::testing::AllOf(
+                  ::testing::HasSubstr("has no ridge that is narrower than a disc"),
+                  ::testing::HasSubstr("there is nothing to round"))));
   Situation empty = s;
   empty.region.patches.clear();
   empty.region.title = "half of 10 hands";
   EXPECT_THAT([&] { plan_reliefs(empty.map, empty.region, empty.region, empty.imprint); },
-              testing::ThrowsMessage<UsageError>(
+              ::testing::ThrowsMessage<UsageError>(
                   "relief: the region \"half of 10 hands\" is empty; a smaller share of the hands "
                   "has one"));
 }

@@ -15,8 +15,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Points of a patch with normals, turned and shifted, with noise along the normals.
 struct Patch {
   std::vector<Vec3> points, normals;
@@ -77,7 +75,7 @@ void expect_axis(const SimpleSurface& surface, double tolerance) {
 }
 
 TEST(FitSurface, FindsTheRadiusAndAxisOfACylinderFromASixthOfIt) {
-  const Patch patch = cylinder(17.5, kPi / 3.0, 40.0);
+  const Patch patch = cylinder(17.5, std::numbers::pi / 3.0, 40.0);
   for (const bool with_normals : {false, true}) {
     const SurfaceFit fit = fit_surface(FaceKind::kCylinder, patch.points,
                                        with_normals ? patch.normals : std::vector<Vec3>(), {});
@@ -90,14 +88,14 @@ TEST(FitSurface, FindsTheRadiusAndAxisOfACylinderFromASixthOfIt) {
 
 TEST(FitSurface, FindsAShortWideCylinderWhoseAxisIsTheShortestExtent) {
   const SurfaceFit fit =
-      fit_surface(FaceKind::kCylinder, cylinder(50.0, 2.0 * kPi, 10.0).points, {});
+      fit_surface(FaceKind::kCylinder, cylinder(50.0, 2.0 * std::numbers::pi, 10.0).points, {});
   EXPECT_NEAR(fit.surface.radius, 50.0, 1e-6);
   EXPECT_LT(fit.rms, 1e-8);
 }
 
 TEST(FitSurface, FindsASphereFromASmallCap) {
   const Patch patch = sampled([](double u, double v) {
-    const double a = 2.0 * kPi * u, b = 0.3 * std::sqrt(v);
+    const double a = 2.0 * std::numbers::pi * u, b = 0.3 * std::sqrt(v);
     const Vec3 normal(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b));
     return std::pair(Vec3(25.0 * normal), normal);
   });
@@ -109,9 +107,9 @@ TEST(FitSurface, FindsASphereFromASmallCap) {
 
 TEST(FitSurface, FindsAConesRadiusAndAngle) {
   // Radius 12 mm at the origin, half angle 5 degrees, a half of it.
-  const double slope = 5.0 * kPi / 180.0;
+  const double slope = 5.0 * std::numbers::pi / 180.0;
   const Patch patch = sampled([&](double u, double v) {
-    const double t = kPi * (u - 0.5), z = 60.0 * (v - 0.5);
+    const double t = std::numbers::pi * (u - 0.5), z = 60.0 * (v - 0.5);
     const Vec3 out(std::cos(t), std::sin(t), 0.0);
     return std::pair(Vec3((12.0 + z * std::tan(slope)) * out + z * Vec3::UnitZ()),
                      Vec3(std::cos(slope) * out - std::sin(slope) * Vec3::UnitZ()));
@@ -127,8 +125,9 @@ TEST(FitSurface, FindsAConesRadiusAndAngle) {
 }
 
 TEST(FitSurface, FindsATorusFromAnOuterAnInnerAndAWholePatch) {
-  for (const Patch& patch : {torus(120.0, 14.0, 0.5, 1.5), torus(120.0, 14.0, 0.5, 1.5, 0.0, kPi),
-                             torus(30.0, 8.0, 2.0 * kPi, 2.0 * kPi)}) {
+  for (const Patch& patch :
+       {torus(120.0, 14.0, 0.5, 1.5), torus(120.0, 14.0, 0.5, 1.5, 0.0, std::numbers::pi),
+        torus(30.0, 8.0, 2.0 * std::numbers::pi, 2.0 * std::numbers::pi)}) {
     const bool is_whole = patch.points.front().norm() < 100.0 && patch.points.size() == 900 &&
                           (patch.points.front() - patch.points.back()).norm() < 10.0;
     const SurfaceFit fit = fit_surface(FaceKind::kTorus, patch.points, patch.normals);
@@ -207,9 +206,10 @@ TEST(DistanceTo, IsOrthogonal) {
   EXPECT_NEAR(distance_to(ring, Vec3(10.0, 0.0, 3.0)), 1.0, 1e-12);
   EXPECT_NEAR(distance_to(ring, Vec3(0.0, 0.0, 0.0)), 8.0, 1e-12);
   // On a cone of half angle 30 degrees, 1 mm off along the normal.
-  const SimpleSurface cone{.kind = FaceKind::kCone, .radius = 5.0, .half_angle = kPi / 6.0};
-  const Vec3 on(5.0 + 4.0 * std::tan(kPi / 6.0), 0.0, 4.0);
-  const Vec3 normal(std::cos(kPi / 6.0), 0.0, -std::sin(kPi / 6.0));
+  const SimpleSurface cone{
+      .kind = FaceKind::kCone, .radius = 5.0, .half_angle = std::numbers::pi / 6.0};
+  const Vec3 on(5.0 + 4.0 * std::tan(std::numbers::pi / 6.0), 0.0, 4.0);
+  const Vec3 normal(std::cos(std::numbers::pi / 6.0), 0.0, -std::sin(std::numbers::pi / 6.0));
   EXPECT_NEAR(distance_to(cone, on), 0.0, 1e-12);
   EXPECT_NEAR(distance_to(cone, on + normal), 1.0, 1e-12);
 }
@@ -218,9 +218,9 @@ TEST(FitSurface, SaysWhatItNeeds) {
   const std::vector<Vec3> four = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), Vec3::Zero()};
   EXPECT_THAT(
       [&] { fit_surface(FaceKind::kCylinder, four, {}); },
-      testing::ThrowsMessage<UsageError>("surface fit: 4 points; a cylinder needs at least 5"));
+      ::testing::ThrowsMessage<UsageError>("surface fit: 4 points; a cylinder needs at least 5"));
   EXPECT_THAT([&] { fit_surface(FaceKind::kSphere, four, std::vector<Vec3>(3)); },
-              testing::ThrowsMessage<UsageError>("surface fit: 3 normals for 4 points"));
+              ::testing::ThrowsMessage<UsageError>("surface fit: 3 normals for 4 points"));
   const std::vector<Vec3> line = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0),
                                   Vec3(4, 0, 0)};
   EXPECT_EQ(choose_surface(line, {}).best().surface.kind, FaceKind::kPlane);

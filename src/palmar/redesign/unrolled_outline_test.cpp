@@ -14,8 +14,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 ContactRegion region_of(const std::vector<std::vector<Vec3>>& outlines) {
   ContactRegion region;
   region.title = "palm";
@@ -35,7 +33,7 @@ double length_of(const UnrolledLine& line) {
 TEST(Unroll, ACircleRoundACylinderBecomesAStraightLineOfItsCircumference) {
   std::vector<Vec3> circle;
   for (int i = 0; i < 360; ++i) {
-    const double a = i * kPi / 180.0;
+    const double a = i * std::numbers::pi / 180.0;
     circle.emplace_back(20.0 * std::cos(a), 20.0 * std::sin(a), 7.0);
   }
   // A region of no height can't tell where it lies: a second circle.
@@ -45,11 +43,11 @@ TEST(Unroll, ACircleRoundACylinderBecomesAStraightLineOfItsCircumference) {
       unroll(make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh,
              {region_of({circle, other})});
   // Chords of 0.01 mm sagitta are 0.02 % short.
-  EXPECT_NEAR(sheet.width, kPi * 40.0, 5e-4 * kPi * 40.0);
+  EXPECT_NEAR(sheet.width, std::numbers::pi * 40.0, 5e-4 * std::numbers::pi * 40.0);
   ASSERT_EQ(sheet.lines.size(), 2U);
   for (const UnrolledLine& line : sheet.lines) {
     EXPECT_FALSE(line.is_closed);
-    EXPECT_NEAR(length_of(line), kPi * 40.0, 5e-4 * kPi * 40.0);
+    EXPECT_NEAR(length_of(line), std::numbers::pi * 40.0, 5e-4 * std::numbers::pi * 40.0);
     for (const Eigen::Vector2d& p : line.points) {
       EXPECT_NEAR(p.y(), line.points.front().y(), 1e-9);
       EXPECT_GE(p.x(), -1e-9);
@@ -66,7 +64,7 @@ TEST(Unroll, KeepsLengthsOverTheFilletsOfAPrism) {
   std::vector<Vec3> up, loop;
   for (int i = 0; i <= 20; ++i) up.emplace_back(17.5, 4.5 + 0.5 * i, 0.0);
   for (int i = 1; i <= 30; ++i) {
-    const double a = 0.5 * kPi * i / 30;
+    const double a = 0.5 * std::numbers::pi * i / 30;
     up.emplace_back(14.5 + 3.0 * std::cos(a), 14.5 + 3.0 * std::sin(a), 0.0);
   }
   for (int i = 1; i <= 20; ++i) up.emplace_back(14.5 - 0.5 * i, 17.5, 0.0);
@@ -76,11 +74,11 @@ TEST(Unroll, KeepsLengthsOverTheFilletsOfAPrism) {
       make_prism_product({.width = 35.0, .depth = 35.0, .length = 130.0, .fillet_radius = 3.0})
           .mesh,
       {region_of({loop})});
-  const double across = 20.0 + 1.5 * kPi;
+  const double across = 20.0 + 1.5 * std::numbers::pi;
   ASSERT_EQ(sheet.lines.size(), 1U);
   EXPECT_TRUE(sheet.lines[0].is_closed);  // the cut is on the other side
   EXPECT_NEAR(length_of(sheet.lines[0]), 2.0 * (across + 40.0), 0.02);
-  EXPECT_NEAR(sheet.width, 4.0 * 29.0 + 6.0 * kPi, 0.02);
+  EXPECT_NEAR(sheet.width, 4.0 * 29.0 + 6.0 * std::numbers::pi, 0.02);
   ASSERT_EQ(sheet.edges.size(), 8U);  // both ends of four flat sides
   // Seen from outside with the axis upwards nothing is mirrored: y of the product's +x face grows
   // to the right there.
@@ -91,7 +89,7 @@ TEST(Unroll, KeepsLengthsOverTheFilletsOfAPrism) {
 TEST(Unroll, RefusesWhatIsNoCylinderOrPrism) {
   std::vector<Vec3> belt;
   for (int i = 0; i < 40; ++i) {
-    const double a = i * kPi / 20.0, z = i % 2 == 0 ? 8.0 : -2.0;
+    const double a = i * std::numbers::pi / 20.0, z = i % 2 == 0 ? 8.0 : -2.0;
     const double r = std::sqrt(900.0 - z * z);
     belt.emplace_back(r * std::cos(a), r * std::sin(a), z);
   }
@@ -99,17 +97,17 @@ TEST(Unroll, RefusesWhatIsNoCylinderOrPrism) {
       [&] {
         unroll(make_sphere_product({.diameter = 60.0}).mesh, {region_of({belt})}, Vec3::UnitZ());
       },
-      testing::ThrowsMessage<UsageError>(testing::AllOf(
-          testing::HasSubstr("sections of the product differ by"),
-          testing::HasSubstr("only a cylinder or a prism (up to 0.1 mm) can be unrolled"))));
+      ::testing::ThrowsMessage<UsageError>(::testing::AllOf(
+          ::testing::HasSubstr("sections of the product differ by"),
+          ::testing::HasSubstr("only a cylinder or a prism (up to 0.1 mm) can be unrolled"))));
   const TriangleMesh bar = make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh;
   EXPECT_THAT([&] { unroll(bar, {ContactRegion()}); },
-              testing::ThrowsMessage<UsageError>("unrolled outline: the region is empty"));
+              ::testing::ThrowsMessage<UsageError>("unrolled outline: the region is empty"));
   // Over the end face.
   const std::vector<Vec3> end = {{20, 0, 40}, {20, 1, 50}, {10, 0, 50}, {5, 5, 50}};
   EXPECT_THAT([&] { unroll(bar, {region_of({end})}); },
-              testing::ThrowsMessage<UsageError>(
-                  testing::HasSubstr("leaves the side of the product at (10.0, 0.0, 50.0) mm")));
+              ::testing::ThrowsMessage<UsageError>(
+                  ::testing::HasSubstr("leaves the side of the product at (10.0, 0.0, 50.0) mm")));
 }
 
 }  // namespace

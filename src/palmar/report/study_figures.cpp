@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kMostBracketed = 4;  // products whose every pair has a bracket
 constexpr int kLinePoints = 24;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string with_unit(const std::string& name, const std::string& unit) {
   return capitalised(name) + (unit.empty() ? "" : ", " + unit);
 }

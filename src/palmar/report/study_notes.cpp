@@ -12,8 +12,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string svg_bar(const ColourScale& scale, const std::string& key, bool is_shown) {
   constexpr int kTop = 40, kHeight = 380, kBands = 64;
   std::string svg = std::string("<svg data-bar=\"") + key + "\"" + (is_shown ? "" : " hidden") +

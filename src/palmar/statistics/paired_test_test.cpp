@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 /// Figures of R 4.2.2, tests/r/paired_tests.R: t.test(paired = TRUE), the interval of dz by
 /// uniroot() of pt() in its ncp, wilcox.test(paired = TRUE, conf.int = TRUE), t.test().
-struct InR {
+struct PairedInR {
   double difference, low, high, t, df, p;
   double dz, dz_low, dz_high;
   double v, v_p;
@@ -28,7 +28,8 @@ struct InR {
   double welch_t, welch_df, welch_p, welch_low, welch_high;
 };
 
-void expect_equals(const std::vector<double>& a, const std::vector<double>& b, const InR& in_r) {
+void expect_paired(const std::vector<double>& a, const std::vector<double>& b,
+                   const PairedInR& in_r) {
   const PairedTest t = paired_t_test(a, b);
   expect_as_in_r(t.difference, in_r.difference, "difference");
   expect_as_in_r(t.interval.low, in_r.low, "low");
@@ -65,7 +66,7 @@ void expect_equals(const std::vector<double>& a, const std::vector<double>& b, c
 
 TEST(PairedTests, EqualRWithAZeroAndATie) {
   // Student 1908, hours of sleep under two drugs.
-  expect_equals({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0, 2},
+  expect_paired({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0, 2},
                 {1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4},
                 {-1.5800000000000001,
                  -2.4598857632769824,
@@ -91,7 +92,7 @@ TEST(PairedTests, EqualRWithAZeroAndATie) {
 
 TEST(PairedTests, EqualROnDarwinsMaize) {
   // Fisher 1935, section 17: height of 15 pairs of plants.
-  expect_equals(
+  expect_paired(
       {23.5, 12, 21, 22, 19.125, 21.5, 22.125, 20.375, 18.25, 21.625, 23.25, 21, 22.125, 23, 12},
       {17.375, 20.375, 20, 20, 18.375, 18.625, 18.625, 15.25, 16.5, 18, 16.25, 18, 12.75, 15.5, 18},
       {2.6166666666666667,
@@ -118,7 +119,7 @@ TEST(PairedTests, EqualROnDarwinsMaize) {
 
 TEST(PairedTests, EqualRWithNineAndWithThreePairs) {
   // Hollander & Wolfe 1973, p. 29: depression scale factor before and after.
-  expect_equals({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30},
+  expect_paired({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30},
                 {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29},
                 {0.43188888888888888,
                  0.10377871227216852,
@@ -157,7 +158,7 @@ TEST(PairedTests, EqualRWithNineAndWithThreePairs) {
 TEST(PairedTests, EqualROnBothSidesOfTheExactDistribution) {
   const auto cosine = [](double i) { return std::cos(i); };
   const auto sine = [](double i) { return std::sin(i) + 0.3; };
-  expect_equals(series(49, sine), series(49, cosine),
+  expect_paired(series(49, sine), series(49, cosine),
                 {0.32828310290893054,
                  0.039071419275519999,
                  0.61749478654234102,
@@ -178,7 +179,7 @@ TEST(PairedTests, EqualROnBothSidesOfTheExactDistribution) {
                  0.025123589850475116,
                  0.04186416215751268,
                  0.61470204366034831});
-  expect_equals(series(50, sine), series(50, cosine),
+  expect_paired(series(50, sine), series(50, cosine),
                 {0.30317062320683108,
                  0.015490565411050669,
                  0.59085068100261151,
@@ -202,7 +203,7 @@ TEST(PairedTests, EqualROnBothSidesOfTheExactDistribution) {
 }
 
 TEST(PairedTests, EqualRWithTwoHundredPairsFarOut) {
-  expect_equals(series(200, [](double i) { return 3700 + 80 * std::sin(i) + 20; }),
+  expect_paired(series(200, [](double i) { return 3700 + 80 * std::sin(i) + 20; }),
                 series(200, [](double i) { return 3700 + 80 * std::cos(i * 1.7) - 30; }),
                 {49.946889503786558,
                  38.692163799348833,
@@ -227,7 +228,7 @@ TEST(PairedTests, EqualRWithTwoHundredPairsFarOut) {
 }
 
 TEST(PairedTests, EqualRWithManyTiesAndZeros) {
-  expect_equals(series(60, [](double i) { return std::fmod(i * 7, 11); }),
+  expect_paired(series(60, [](double i) { return std::fmod(i * 7, 11); }),
                 series(60, [](double i) { return std::fmod(i * 5, 13); }),
                 {-0.98333333333333328,
                  -2.2862972518382922,
