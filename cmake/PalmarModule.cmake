@@ -59,11 +59,15 @@ endif()
 
 # Sources of tests, commands and BATCHED modules are compiled six at a time, in the order of their list:
 # what GoogleTest, nlohmann_json and CLI11 put into each is made once for all of them, which halves their
-# time. Names in the anonymous namespaces of a batch have to differ. Eigen's templates hardly repeat from
-# source to source, so the other modules gain nothing.
+# time. Names in the anonymous namespaces of a batch have to differ; what is local may have the name of
+# something in another source (builds without batches still warn of shadows in one source). Eigen's
+# templates hardly repeat from source to source, so the other modules gain nothing.
+add_library(palmar_batch_warnings INTERFACE)  # linked last: after palmar::compiler's -Wshadow
+target_compile_options(palmar_batch_warnings INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 function(palmar_batches target)
   if(PALMAR_PRECOMPILE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    target_link_libraries(${target} PRIVATE palmar_batch_warnings)
   endif()
 endfunction()
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "run_program.h"
@@ -16,43 +18,61 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Indented lines "    palmar ..." of the README and of everything below docs/.
-std::vector<std::pair<std::string, std::string>> shown_commands() {
-  std::vector<fs::path> pages = {fs::path(PALMAR_SOURCE_DIR) / "README.md"};
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(PALMAR_SOURCE_DIR) / "docs")) {
-    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+/// README.md and the pages below docs/ that show commands.
+std::vector<std::string> pages() {
+  std::vector<std::string> all = {"README.md"};
+  const fs::path root(PALMAR_SOURCE_DIR);
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    if (read_text(entry.path().string()).find("\n    palmar ") == std::string::npos) continue;
+    all.push_back(fs::relative(entry.path(), root).string());
   }
-  std::sort(pages.begin(), pages.end());
-  std::vector<std::pair<std::string, std::string>> commands;
-  for (const fs::path& page : pages) {
-    std::istringstream text(read_text(page.string()));
-    for (std::string line; std::getline(text, line);) {
-      if (line.rfind("    palmar ", 0) != 0) continue;
-      // What follows "  #" explains the command.
-      commands.emplace_back(page.filename().string(), line.substr(11, line.find("  #") - 11));
-    }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Indented lines "    palmar ..." of a page.
+std::vector<std::string> shown_commands(const std::string& page) {
+  std::vector<std::string> commands;
+  std::istringstream text(read_text((fs::path(PALMAR_SOURCE_DIR) / page).string()));
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("    palmar ", 0) != 0) continue;
+    // What follows "  #" explains the command.
+    commands.push_back(line.substr(11, line.find("  #") - 11));
   }
   return commands;
 }
 
-TEST(Documents, EveryShownCommandWorks) {
-  const auto commands = shown_commands();
-  ASSERT_GE(commands.size(), 8U);
+/// A folder with the products that the pages name; made once.
+const std::string& stand_ins() {
+  static const std::string folder = [] {
+    const std::string made = temporary_folder();
+    fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(made) / "examples");
+    const ProgramRun prism = run_palmar(
+        "product make prism --width-mm 35 --depth-mm 35 --length-mm 130 --fillet-mm 3 "
+        "--out handle.step --out scan.stl",
+        made);
+    EXPECT_EQ(prism.exit_code, 0) << prism.err;
+    const ProgramRun cylinder =
+        run_palmar("product make cylinder --diameter-mm 40 --out handle.stl", made);
+    EXPECT_EQ(cylinder.exit_code, 0) << cylinder.err;
+    for (const char* name :
+         {"old-handle.stl", "new-handle.stl", "drill.stl", "old.stl", "new.stl"}) {
+      fs::copy(fs::path(made) / "handle.stl", fs::path(made) / name);
+    }
+    fs::copy(fs::path(made) / "handle.step", fs::path(made) / "handle.iges");  // read by content
+    fs::copy(fs::path(made) / "handle.step", fs::path(made) / "prism.step");
+    return made;
+  }();
+  return folder;
+}
+
+class Documents : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Documents, ShowCommandsThatWork) {
   const std::string folder = temporary_folder();
-  fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples");
-  for (const std::string name : {"handle", "old-handle", "new-handle", "drill", "old", "new"}) {
-    ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 40 --out " + name + ".stl", folder)
-                  .exit_code,
-              0);
-  }
-  ASSERT_EQ(run_palmar("product make prism --width-mm 35 --depth-mm 35 --length-mm 130 "
-                       "--fillet-mm 3 --out handle.step --out scan.stl",
-                       folder)
-                .exit_code,
-            0);
-  fs::copy(fs::path(folder) / "handle.step", fs::path(folder) / "handle.iges");  // read by content
-  fs::copy(fs::path(folder) / "handle.step", fs::path(folder) / "prism.step");
-  for (const auto& [page, command] : commands) {
+  fs::copy(stand_ins(), folder, fs::copy_options::recursive);
+  for (const std::string& command : shown_commands(GetParam())) {
     // Pictures take the time and are tested with the main job.
     std::string shortened = command;
     if (command.rfind("assess ", 0) == 0) shortened += " --no-pictures";
@@ -71,9 +91,16 @@ TEST(Documents, EveryShownCommandWorks) {
       if (searches) shortened += " --evaluations 3";
     }
     const ProgramRun run = run_palmar(shortened, folder);
-    EXPECT_EQ(run.exit_code, 0) << page << ": palmar " << command << "\n" << run.err;
+    EXPECT_EQ(run.exit_code, 0) << GetParam() << ": palmar " << command << "\n" << run.err;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Pages, Documents, ::testing::ValuesIn(pages()), [](const auto& page) {
+  std::string name = page.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace palmar::testing

@@ -122,7 +122,7 @@ Handle(Geom_BSplineSurface)
 
 }  // namespace
 
-double smooth_step(double t) {
+double smoother_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (10.0 + t * (6.0 * t - 15.0));
 }
@@ -132,7 +132,8 @@ double Undulation::operator()(double at) const {
   for (std::size_t k = 1; k < points_.size(); ++k) {
     const Point& a = points_[k - 1];
     const Point& b = points_[k];
-    if (at < b.at) return a.value + (b.value - a.value) * smooth_step((at - a.at) / (b.at - a.at));
+    if (at < b.at)
+      return a.value + (b.value - a.value) * smoother_step((at - a.at) / (b.at - a.at));
   }
   return points_.back().value;
 }

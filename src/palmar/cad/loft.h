@@ -11,7 +11,7 @@
 namespace palmar {
 
 /// Rises from 0 at t = 0 to 1 at t = 1 with no slope and no curvature at both; 0 before, 1 behind.
-double smooth_step(double t);
+double smoother_step(double t);
 
 /// A curve through points of given abscissa, ascending, with no slope at any of them: what is told
 /// by its highest and lowest points. Constant before the first and behind the last.

@@ -15,8 +15,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::string head(const std::vector<std::pair<std::string, bool>>& cells) {
   std::string html = "<thead><tr>";
   for (const auto& [text, is_number] : cells) {
@@ -36,7 +34,7 @@ std::string count_cell(int count) { return "<td class=\"n\">" + std::to_string(c
 std::string product_head(const StudyPlan& plan, int product) {
   return "<th scope=\"row\"><span class=\"swatch\" style=\"background:" +
          hex_colour(product_colour(product)) + "\"></span>" +
-         html_escaped(plan.products[at(product)].name) + "</th>";
+         html_escaped(plan.products[static_cast<std::size_t>(product)].name) + "</th>";
 }
 
 std::string share_cell(const Proportion& one) {
@@ -90,7 +88,8 @@ std::string comparison_table(const StudyPage& page, const ConditionAnalysis& one
       const std::string left_out = left_out_words(plan, pair);
       rows +=
           "<tr><th scope=\"row\">" + heading_of(comparison->quantity) + "</th>" +
-          cell(plan.products[at(pair.second)].name + " − " + plan.products[at(pair.first)].name) +
+          cell(plan.products[static_cast<std::size_t>(pair.second)].name + " − " +
+               plan.products[static_cast<std::size_t>(pair.first)].name) +
           "<td class=\"n\">" + std::to_string(pair.pairs) + " of " + std::to_string(pair.hands) +
           (left_out.empty() ? ""
                             : "<br><span class=\"range\">" + html_escaped(left_out) + "</span>") +
@@ -197,7 +196,7 @@ std::string accommodation_table(const StudyPage& page, const ConditionAnalysis& 
     limits += (limits.empty() ? "" : "; ") + words_of(page.results, limit);
   }
   std::string nails;
-  if (plan.profiles[at(one.condition.profile)].nail_length > 0.0) {
+  if (plan.profiles[static_cast<std::size_t>(one.condition.profile)].nail_length > 0.0) {
     nails =
         "<p>Exclusion by nails is an upper bound: hands close as if they had no nails, and a "
         "person "
@@ -236,8 +235,8 @@ std::string size_sections(const StudyPage& page, const ConditionAnalysis& one) {
                             : "everybody";
         }
         sizes += (sizes.empty() ? "" : "<br>") +
-                 html_escaped(plan.products[at(size.product)].name) + ": " + who +
-                 " <span class=\"range\">(serves " + std::to_string(size.inside) + ", " +
+                 html_escaped(plan.products[static_cast<std::size_t>(size.product)].name) + ": " +
+                 who + " <span class=\"range\">(serves " + std::to_string(size.inside) + ", " +
                  std::to_string(size.alone) + " of them alone)</span>";
       }
       rows += "<tr><th scope=\"row\">" + std::to_string(choice.sizes.size()) + "</th><td>" + sizes +

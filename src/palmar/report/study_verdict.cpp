@@ -9,8 +9,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The product with the lowest mean of a quantity among those in some hand, or -1.
 int lowest_of(const ConditionAnalysis& analysis, const std::string& key) {
   int lowest = -1;
@@ -42,7 +40,7 @@ void tell_pairs(const StudyResults& results, const ConditionAnalysis& analysis,
 
 std::string share_words(const StudyResults& results, const Accommodation& one,
                         const Exclusion& exclusion, bool is_only) {
-  const std::string& name = results.plan.products[at(one.product)].name;
+  const std::string& name = results.plan.products[static_cast<std::size_t>(one.product)].name;
   if (one.inside.n == 0) return name + ": no grasp was run.";
   std::string words = capitalised(name) + " suits " + std::to_string(one.inside.count) + " of " +
                       counted(one.inside.n, "hand");
@@ -105,8 +103,9 @@ std::string standing_words(const StudyResults& results, const ProductPair& first
                                             : pair.verdict != DifferenceVerdict::kTooFewPairs &&
                                                   pair.verdict != DifferenceVerdict::kNone;
   };
-  const std::string names = results.plan.products[at(first.first)].name + " and " +
-                            results.plan.products[at(first.second)].name;
+  const std::string names = results.plan.products[static_cast<std::size_t>(first.first)].name +
+                            " and " +
+                            results.plan.products[static_cast<std::size_t>(first.second)].name;
   if (other.verdict == DifferenceVerdict::kTooFewPairs) return names + " can't be compared";
   const std::string means =
       " (" + short_number(other.mean_first) + " and " + short_number(other.mean_second) + ")";
@@ -156,7 +155,7 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
 void tell_unbalanced(const StudyResults& results, const StudyCondition& condition,
                      std::vector<std::string>& sentences) {
   const StudyPlan& plan = results.plan;
-  if (!plan.settings[at(condition.setting)].is_balanced) return;
+  if (!plan.settings[static_cast<std::size_t>(condition.setting)].is_balanced) return;
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
     if (!plan.products[p].posture_of.empty()) continue;
     int held = 0, unbalanced = 0;
@@ -215,7 +214,8 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
       served = choice.served.count;
       std::string names;
       for (const ServedBySize& size : choice.sizes) {
-        names += (names.empty() ? "" : " + ") + results.plan.products[at(size.product)].name;
+        names += (names.empty() ? "" : " + ") +
+                 results.plan.products[static_cast<std::size_t>(size.product)].name;
       }
       words += (k > 0 ? "; " : "") + std::to_string(choice.sizes.size()) + " (" + names +
                ") serve" + (choice.sizes.size() == 1 ? "s " : " ") +
