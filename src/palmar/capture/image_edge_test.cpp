@@ -9,7 +9,7 @@
 namespace palmar {
 namespace {
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+TriangleMesh moved_edge(TriangleMesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v += by;
   return mesh;
 }
@@ -18,9 +18,10 @@ TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
 ScanSurfaces three_bones() {
   ScanSurfaces surfaces;
   surfaces.skin = make_icosphere(40.0, 4);
-  surfaces.bones = {{"middle_distal_phalanx", moved(make_icosphere(4.0, 2), {0, 30, 0}), false},
-                    {"capitate", make_icosphere(8.0, 2), false},
-                    {"radius", moved(make_icosphere(5.0, 2), {0, -30, 0}), false}};
+  surfaces.bones = {
+      {"middle_distal_phalanx", moved_edge(make_icosphere(4.0, 2), {0, 30, 0}), false},
+      {"capitate", make_icosphere(8.0, 2), false},
+      {"radius", moved_edge(make_icosphere(5.0, 2), {0, -30, 0}), false}};
   return surfaces;
 }
 
