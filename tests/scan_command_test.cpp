@@ -57,7 +57,7 @@ TEST(HandFromScan, NamesScansThatCannotBe) {
   std::ofstream(folder + "/c.obj") << tetrahedron(0.02);
   expect_refused("hand from-scan c.obj --out a.hand.glb", folder, 3, "in no unit as long");
   expect_refused("hand from-scan a.obj --unit m --out a.hand.glb", folder, 3,
-                 "a hand with or without a forearm has 140 to 480 mm");
+                 "a hand with or without a forearm has 70 (bent) to 480 mm");
   expect_refused("hand from-scan a.obj --out a.hand.glb", folder, 3, "no hand found");
 }
 

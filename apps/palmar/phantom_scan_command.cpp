@@ -24,6 +24,7 @@ namespace {
 
 struct PhantomScanArguments {
   std::string base = "template", out, side = "right", format = "ply", unit = "mm";
+  std::string ring, ring_colour = "#c7c7cc";
   std::string skin = "#cc9980", crease = "green", dot = "blue";
   double ink = SkinPaint{}.coverage;
   ScanDefects defects;
@@ -42,6 +43,14 @@ PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::u
   options.paint.coverage = arguments.ink;
   options.paint.has_creases = !arguments.no_creases;
   options.paint.has_dots = !arguments.no_dots;
+  if (!arguments.ring.empty()) {
+    options.ring = finger_named(arguments.ring);
+    if (!options.ring) {
+      throw UsageError("--ring: \"" + arguments.ring +
+                       "\" is no finger; thumb, index, middle, ring or little is");
+    }
+    options.paint.ring_colour = parse_colour("--ring-colour", arguments.ring_colour);
+  }
   options.check();
   return options;
 }
@@ -142,6 +151,8 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--forearm-mm", o->defects.forearm, "Forearm that is scanned")
       ->capture_default_str();
+  verb->add_option("--ring", o->ring, "Finger that wears one: thumb, index, middle, ring, little");
+  verb->add_option("--ring-colour", o->ring_colour, "Of its metal, #rrggbb")->capture_default_str();
   verb->add_flag("--no-creases", o->no_creases, "No lines are drawn");
   verb->add_flag("--no-dots", o->no_dots, "No dots are drawn");
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");

@@ -14,6 +14,7 @@
 #include "palmar/capture/dotted_joints.h"
 #include "palmar/capture/dotted_thumb.h"
 #include "palmar/capture/marker_matching.h"
+#include "palmar/capture/ring_bands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/geometry/closest_point.h"
@@ -280,6 +281,19 @@ void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& res
   }
 }
 
+/// Takes rings out of the reference scan: what is under them follows its surroundings.
+void leave_out_rings(const LaidSkeleton& laid, SurfaceScan& scan, HandFromScan& result) {
+  const std::vector<RingBand> rings =
+      find_rings(scan.skin, scan.marks, laid.scan_from_hand.inverse(), laid.skeleton);
+  for (const RingBand& ring : rings) {
+    result.notes.push_back(fmt::format(
+        "A ring on {}, {:.0f} mm wide, is left out of the scan: the skin under it follows its "
+        "surroundings. Take rings off for dimensions of that segment.",
+        name_of(ring.segment), ring.width));
+  }
+  if (!rings.empty()) scan.skin = without_rings(scan.skin, rings);
+}
+
 void measure_distances(const SurfaceScan& scan, HandFromScan& result) {
   constexpr double kReach = 5.0;  // mm
   const ClosestPointQuery query(scan.skin);
@@ -299,7 +313,7 @@ HandFromScan make_hand_from_scans(const Hand& model,
   if (reference == scans.end()) {
     throw InputError("hand from scans: there is no scan of the reference posture");
   }
-  const SurfaceScan& scan = reference->second;
+  SurfaceScan scan = reference->second;
   HandFromScan result;
   const double others = static_cast<double>(scans.size() - 1);
   const double unit = 1.0 / (4.0 + others);  // laying, registering thrice, one fit each
@@ -308,6 +322,7 @@ HandFromScan make_hand_from_scans(const Hand& model,
       lay_skeleton(model, looked_up(scan.skin), side, scan.name, part_of(progress, 0.0, unit));
   const Hand base = laid.side == model.side ? model : mirrored(model);
   MeasuredJoints joints = joints_of(laid);
+  leave_out_rings(laid, scan, result);
   result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
   if (!scan.marks.lines.empty() || !scan.marks.added_lines.empty()) {
     take_creases(scan, laid, result);

@@ -240,6 +240,19 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
           odd, options.dot_diameter));
     }
   }
+  // Six times the skin's own spread, but no less than what light of another colour does.
+  const double clear = std::max(6.0 * skin.spread, 0.06);
+  constexpr double kLeastPatch = 20.0;  // mm^2
+  std::vector<char> is_other(chroma.size());
+  for (std::size_t v = 0; v < is_other.size(); ++v) {
+    is_other[v] =
+        !marks.is_ink[v] && !is_guess(v) && (chroma[v] - skin.chroma).norm() > clear ? 1 : 0;
+  }
+  for (std::vector<int>& patch : patches(neighbours, is_other)) {
+    double size = 0.0;
+    for (const int v : patch) size += area[at(v)];
+    if (size >= kLeastPatch) marks.other_colour.push_back(std::move(patch));
+  }
   return marks;
 }
 

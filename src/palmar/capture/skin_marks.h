@@ -51,6 +51,9 @@ struct SkinMarks {
   std::vector<InkLine> added_lines;  ///< without ink: points somebody gave for a crease
   std::vector<CreaseLabel> crease_labels;
   std::vector<char> is_ink;  ///< per vertex: drawn on
+  /// Patches of 20 mm^2 or more whose colour is neither the skin's nor an ink's: rings, nails,
+  /// plasters; vertices.
+  std::vector<std::vector<int>> other_colour;
   std::vector<std::string> notes;
 };
 
@@ -65,8 +68,9 @@ struct SkinMarks {
 /// centre is the mean by area and share.
 ///
 /// Vertices that are guesses bear no ink, and what is drawn as far as where guesses begin is taken
-/// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws InputError "`name`: ..."
-/// if an ink can't be told from this skin or from the other ink, or the mesh is too coarse.
+/// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws
+/// InputError "`name`: ..." if an ink can't be told from this skin or from the other ink, or the
+/// mesh is too coarse.
 SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
                           const SkinMarkOptions& options = {});
 

@@ -13,6 +13,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/ray_query.h"
 #include "palmar/geometry/subdivide.h"
 #include "palmar/hand/creases.h"
@@ -233,6 +234,31 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
   return result;
 }
 
+/// How far a ring on a finger's proximal phalanx stands off each vertex: a band across its bone,
+/// nearer to its base crease than to the next, with edges 0.4 mm wide.
+std::vector<double> ring_heights(const SubjectPerson& person, const TriangleMesh& skin,
+                                 const HandCreases& creases, Finger finger) {
+  constexpr double kWidth = 5.0, kThickness = 1.2, kEdge = 0.4, kPlace = 0.45;  // mm; share
+  const auto chain = segments_of(finger);
+  const Vec3& base = creases.proximal_crease(*chain[0]).point;
+  const Vec3& next = creases.proximal_crease(*chain[1]).point;
+  const Vec3 along = (next - base).normalized();
+  const Vec3 middle = base + kPlace * (next - base);
+  const double reach = person.finger_width[at(static_cast<int>(finger))];
+  std::vector<double> height(skin.vertices.size(), 0.0);
+  for (std::size_t v = 0; v < height.size(); ++v) {
+    const Vec3& p = skin.vertices[v];
+    const double inside = 0.5 * kWidth - std::abs(along.dot(p - middle));
+    const SkinLabel label = creases.label(p);
+    if (inside <= 0.0 || label.segment == Segment::kPalm || finger_of(label.segment) != finger ||
+        (p - middle).norm() > reach) {
+      continue;
+    }
+    height[v] = kThickness * std::min(1.0, inside / kEdge);
+  }
+  return height;
+}
+
 }  // namespace
 
 void SkinPaint::check() const {
@@ -267,12 +293,19 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
   const HandCreases creases = creases_of(person, person.skin, options.seed);
   const Paint paint = painted(person, reference, creases, options);
 
+  std::vector<double> ring;
+  if (options.ring) ring = ring_heights(person, reference, creases, *options.ring);
+
   const bool is_left = options.side == Side::kLeft;
   const auto side = [&](const Vec3& v) { return is_left ? Vec3(-v.x(), v.y(), v.z()) : v; };
   PaintedHand hand;
   hand.name = fmt::format("subject {}", options.seed);
   hand.side = options.side;
   hand.colour = paint.colour;
+  hand.ring = std::move(ring);
+  for (std::size_t v = 0; v < hand.ring.size(); ++v) {
+    if (hand.ring[v] > 0.0) hand.colour[v] = options.paint.ring_colour;
+  }
   hand.dimensions = measure_hand(reference, person.skeleton, creases);
   hand.triangles = reference.triangles;
   if (is_left) {
@@ -328,7 +361,14 @@ ColouredMesh surface_of(const PaintedHand& hand, ScanPosture posture) {
   if (found == hand.postures.end()) {
     throw UsageError(fmt::format("{} wasn't posed in {}", hand.name, name_of(posture)));
   }
-  return {{found->second.skin, hand.triangles}, hand.colour};
+  ColouredMesh surface{{found->second.skin, hand.triangles}, hand.colour};
+  if (!hand.ring.empty()) {
+    const std::vector<Vec3> normal = vertex_normals(surface.mesh);
+    for (std::size_t v = 0; v < normal.size(); ++v) {
+      surface.mesh.vertices[v] += hand.ring[v] * normal[v];
+    }
+  }
+  return surface;
 }
 
 }  // namespace palmar

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct SkinPaint {
   double dot_diameter = 3.0;  ///< mm
   double texture = 0.07;      ///< relative contrast of the skin's own pattern
   bool has_creases = true, has_dots = true;
+  Srgb ring_colour{0.78F, 0.78F, 0.80F};
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -33,7 +35,8 @@ struct PaintedHandOptions {
   std::uint64_t seed = 1;  ///< of the person, see make_person(), and of the pattern on its skin
   Side side = Side::kRight;
   SkinPaint paint;
-  int levels = 2;  ///< 0 to 3: how often triangles with edges of 2 mm are cut into four
+  std::optional<Finger> ring;  ///< that wears one, on its proximal phalanx: 5 mm wide, 1.2 mm thick
+  int levels = 2;              ///< 0 to 3: how often triangles with edges of 2 mm are cut into four
   void check() const;
 };
 
@@ -63,6 +66,7 @@ struct PaintedHand {
   Side side = Side::kRight;
   std::vector<Triangle> triangles;
   std::vector<Srgb> colour;   ///< per vertex
+  std::vector<double> ring;   ///< per vertex: how far a ring stands off the skin, mm; empty: none
   HandDimensions dimensions;  ///< from the painted creases
   std::map<ScanPosture, PaintedPosture> postures;
 };
@@ -71,7 +75,7 @@ struct PaintedHand {
 PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& postures,
                               const PaintedHandOptions& options = {});
 
-/// One of its postures as a coloured surface.
+/// One of its postures as a coloured surface, with the ring if one is worn.
 ColouredMesh surface_of(const PaintedHand& hand, ScanPosture posture);
 
 }  // namespace palmar
