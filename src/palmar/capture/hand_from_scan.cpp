@@ -93,6 +93,7 @@ class DotReader {
     read_thumb_of(palm, found);
     for (int f = 1; f < kFingerCount && !is_thumb_limit(name); ++f) {
       Rigid3 before = palm;
+      is_told_ = true;
       for (const auto& segment : segments_of(static_cast<Finger>(f))) {
         if (segment) before = before * read_joint(*segment, before, found);
       }
@@ -120,6 +121,7 @@ class DotReader {
     posture_[Dof::kThumbIpFlexion] = reading.ip;
     result_.thumb[name_] = reading;
     Rigid3 before = palm * reading.metacarpal;
+    is_told_ = true;
     for (const Segment segment : {Segment::kThumbProximal, Segment::kThumbDistal}) {
       before = before * read_joint(segment, before, found);
     }
@@ -201,7 +203,11 @@ class DotReader {
     prior.point = bends.centre;
     prior.turn = posture_[bends.dof] - bends.reference;
     constexpr std::size_t kEnough = 2;
-    if (x.size() < kEnough) {
+    // Dots behind a part whose own dots weren't found see its error, too.
+    constexpr double kByDotsSd = 1.0, kBySkinSd = 3.0;  // mm
+    prior.dot_sd = is_told_ ? kByDotsSd : kBySkinSd;
+    is_told_ = x.size() >= kEnough;
+    if (!is_told_) {
       return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
     }
     const DotHinge hinge = fit_dot_hinge(x, y, prior);
@@ -237,6 +243,7 @@ class DotReader {
   ScanPosture name_{};
   Posture posture_;
   std::array<double, kJointCount> told_by_{};
+  bool is_told_ = true;  // where the part before the next joint is, by its own dots
 };
 
 /// Ends of the ranges that were scanned as such.
