@@ -50,13 +50,33 @@ std::string some_names(const PhotoSet& set, const std::vector<std::size_t>& whic
   return text + (which.size() > kMost ? ", ..." : "");
 }
 
-void find_poses(PosedPhotographs& work, const std::string& folder) {
-  constexpr double kBlurred = 0.12, kMuchBlurred = 0.05;
+double typical_sharpness(const std::vector<BoardSighting>& seen) {
   std::vector<double> sharpness;
-  for (const BoardSighting& one : work.seen) sharpness.push_back(one.sharpness);
-  std::nth_element(sharpness.begin(), sharpness.begin() + static_cast<long>(sharpness.size() / 2),
-                   sharpness.end());
-  const double typical = sharpness[sharpness.size() / 2];
+  for (const BoardSighting& one : seen) sharpness.push_back(one.sharpness);
+  const auto middle = sharpness.begin() + static_cast<long>(sharpness.size() / 2);
+  std::nth_element(sharpness.begin(), middle, sharpness.end());
+  return *middle;
+}
+
+/// Blur is why a board isn't seen, rather than what covers it.
+void refuse_blurred(const std::string& folder, const std::vector<BoardSighting>& seen) {
+  constexpr std::size_t kFewCorners = 8;
+  const auto lost = std::count_if(seen.begin(), seen.end(), [](const BoardSighting& one) {
+    return one.corners.size() < kFewCorners;
+  });
+  // Noise alone makes steps of some hundredths of the range.
+  constexpr double kBlurred = 0.1;
+  const double typical = typical_sharpness(seen);
+  if (2 * lost <= static_cast<long>(seen.size()) || typical > kBlurred) return;
+  throw InputError(fmt::format(
+      "{}: the photographs are blurred, or empty: edges are spread over {:.0f} pixels or more, and "
+      "the board isn't seen in {} of {}",
+      folder, 1.0 / std::max(typical, 0.01), lost, seen.size()));
+}
+
+void find_poses(PosedPhotographs& work, const std::string& folder) {
+  constexpr double kBlurred = 0.12;
+  const double typical = typical_sharpness(work.seen);
   std::vector<std::size_t> lost, blurred;
   for (std::size_t i = 0; i < work.set.photographs.size(); ++i) {
     const PhotoLens& lens = work.lenses.at(work.set.photographs[i].camera).lens;
@@ -71,13 +91,6 @@ void find_poses(PosedPhotographs& work, const std::string& folder) {
     work.pose.push_back(pose);
   }
   const std::size_t count = work.set.photographs.size();
-  if (typical < kMuchBlurred) {
-    throw InputError(
-        fmt::format("{}: the photographs are blurred, or empty: edges are spread over {:.0f} "
-                    "pixels or more; the "
-                    "board is seen in {} of {}",
-                    folder, 1.0 / std::max(typical, 0.01), work.used.size(), count));
-  }
   if (2 * lost.size() > count) {
     throw InputError(fmt::format(
         "{}: the board isn't seen in {} of {} photographs ({}): it is covered, blurred, or another "
@@ -181,6 +194,7 @@ PosedPhotographs pose_photographs(const std::string& folder, const PhotoSet& set
   PosedPhotographs work;
   work.set = set;
   work.seen = find_boards(set.board, paths_of(set), part_of(progress, 0.0, 0.33));
+  refuse_blurred(folder, work.seen);
   work.lenses_were_given = lenses.has_value();
   if (lenses) {
     work.lenses = *lenses;
