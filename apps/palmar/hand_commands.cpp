@@ -7,6 +7,7 @@
 #include "hand_from_photos_command.h"
 #include "hand_from_scan_command.h"
 #include "hand_pose_command.h"
+#include "hand_quick_command.h"
 #include "hand_scale_command.h"
 #include "palmar/hand/drawn_creases.h"
 #include "palmar/hand/skeleton.h"
@@ -175,6 +176,7 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_mirror(*hand, context);
   add_hand_pose(*hand, context);
   add_hand_scale(*hand, context);
+  add_hand_quick(*hand, context);
   add_export(*hand, context);
 }
 

@@ -19,6 +19,7 @@
 #include "phantom_output.h"
 #include "phantom_photos_command.h"
 #include "phantom_scan_command.h"
+#include "phantom_sheet_command.h"
 #include "side_argument.h"
 
 namespace palmar::cli {
@@ -176,6 +177,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->callback([&context, o] { context.run = [&context, o] { return run_mri(*o, context); }; });
   add_phantom_scan(*phantom, context);
   add_phantom_photos_command(*phantom, context);
+  add_phantom_sheet(*phantom, context);
   phantom->footer("Example: palmar phantom mri --seed 3 --out subject3");
 }
 

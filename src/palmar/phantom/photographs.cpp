@@ -210,12 +210,14 @@ class Shutter {
   template <typename Random>
   Vec3f seen(const Vec3& origin, const Vec3& direction, int x, int y, Random& random) const {
     double far = std::numeric_limits<double>::infinity();
-    const double half = 0.5 * stage_.board.sheet;
+    const PrintedBoard& board = stage_.board;
+    const Vec3 half =
+        0.5 * Vec3(board.sheet, board.sheet_height > 0.0 ? board.sheet_height : board.sheet, 0.0);
     double to_board = -1.0;
     if (direction.z() < 0.0) {
       to_board = -origin.z() / direction.z();
       const Vec3 at = origin + to_board * direction;
-      if (std::abs(at.x()) < half && std::abs(at.y()) < half) {
+      if (board.table || (std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y())) {
         far = to_board;
       } else {
         to_board = -1.0;
@@ -232,7 +234,12 @@ class Shutter {
     if (to_board > 0.0) {
       const Vec3 at = origin + to_board * direction;
       const float ink = stage_.ink_at(at.x(), at.y());
-      const Vec3f albedo = stage_.colours.paper + ink * (stage_.colours.ink - stage_.colours.paper);
+      Vec3f albedo = stage_.colours.paper + ink * (stage_.colours.ink - stage_.colours.paper);
+      if (board.table && !(std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y())) {
+        const Vec3f grain(static_cast<float>(at.x()) / 60.0F, static_cast<float>(at.y()) / 4.0F,
+                          0.0F);
+        albedo = linear_of(*board.table) * std::max(0.3F, 1.0F + 0.6F * swell(grain, 23U));
+      }
       const Vec3 o = hand_from_board_ * at;
       const Vec3 n = hand_from_board_.rotation * Vec3::UnitZ();
       return albedo * irradiance(o, n, random);

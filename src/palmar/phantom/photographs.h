@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "palmar/core/progress.h"
@@ -47,8 +48,11 @@ struct PhotographsOptions {
 struct PrintedBoard {
   int pixels = 0;  ///< along an edge; 0: plain white
   std::vector<std::uint8_t> grey;
-  double edge = 396.0;   ///< of the pattern, mm
-  double sheet = 420.0;  ///< of the white sheet that it is on, mm
+  double edge = 396.0;        ///< of the pattern, mm
+  double sheet = 420.0;       ///< of the white sheet that it is on, mm
+  double sheet_height = 0.0;  ///< of the sheet along y; 0: square
+  /// Of the table that it lies on, with a grain along x; nothing: a blue cloth.
+  std::optional<Srgb> table = std::nullopt;
 };
 
 /// Where and how one photograph is taken.

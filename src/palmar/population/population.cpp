@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "palmar/core/error.h"
+#include "palmar/population/joint_moments.h"
 
 namespace palmar {
 namespace {
@@ -71,48 +72,10 @@ std::string fault_of_correlation(const Stratum& stratum) {
   return "";
 }
 
-// Means and covariances of everything that a stratum predicts, in order: driving dimensions, then
-// regressed ones. Predictors must be known.
-struct Moments {
-  std::vector<HandDimension> dimension;
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
-};
-
 std::optional<Eigen::Index> index_of(const std::vector<HandDimension>& list, HandDimension d) {
   const auto found = std::find(list.begin(), list.end(), d);
   if (found == list.end()) return std::nullopt;
   return found - list.begin();
-}
-
-Moments moments(const Stratum& stratum) {
-  const auto drivers = static_cast<Eigen::Index>(stratum.driving.size());
-  const auto all = drivers + static_cast<Eigen::Index>(stratum.regressions.size());
-  Moments m{{}, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all)};
-  for (Eigen::Index i = 0; i < drivers; ++i) {
-    const DrivingDimension& one = stratum.driving[static_cast<std::size_t>(i)];
-    m.dimension.push_back(one.dimension);
-    m.mean[i] = one.mean;
-    for (Eigen::Index j = 0; j < drivers; ++j) {
-      m.covariance(i, j) =
-          one.sd * stratum.driving[static_cast<std::size_t>(j)].sd * stratum.correlation(i, j);
-    }
-  }
-  for (const DimensionRegression& regression : stratum.regressions) {
-    const auto k = static_cast<Eigen::Index>(m.dimension.size());
-    m.mean[k] = regression.intercept;
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(all);
-    for (const DimensionRegression::Term& term : regression.terms) {
-      slope[*index_of(m.dimension, term.predictor)] += term.slope;
-    }
-    m.mean[k] += slope.dot(m.mean) - slope[k] * m.mean[k];
-    const Eigen::VectorXd with_others = m.covariance * slope;
-    m.covariance.col(k) = with_others;
-    m.covariance.row(k) = with_others.transpose();
-    m.covariance(k, k) = slope.dot(with_others) + regression.residual_sd * regression.residual_sd;
-    m.dimension.push_back(regression.dimension);
-  }
-  return m;
 }
 
 std::string fault_of_regressions(const Stratum& stratum) {
@@ -141,7 +104,7 @@ std::string fault_of_regressions(const Stratum& stratum) {
     }
     known.push_back(regression.dimension);
   }
-  const Moments m = moments(stratum);
+  const JointMoments m = joint_moments(stratum);
   for (std::size_t k = stratum.driving.size(); k < m.dimension.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const std::string fault =
@@ -153,6 +116,36 @@ std::string fault_of_regressions(const Stratum& stratum) {
 }
 
 }  // namespace
+
+JointMoments joint_moments(const Stratum& stratum) {
+  const auto drivers = static_cast<Eigen::Index>(stratum.driving.size());
+  const auto all = drivers + static_cast<Eigen::Index>(stratum.regressions.size());
+  JointMoments m{{}, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all)};
+  for (Eigen::Index i = 0; i < drivers; ++i) {
+    const DrivingDimension& one = stratum.driving[static_cast<std::size_t>(i)];
+    m.dimension.push_back(one.dimension);
+    m.mean[i] = one.mean;
+    for (Eigen::Index j = 0; j < drivers; ++j) {
+      m.covariance(i, j) =
+          one.sd * stratum.driving[static_cast<std::size_t>(j)].sd * stratum.correlation(i, j);
+    }
+  }
+  for (const DimensionRegression& regression : stratum.regressions) {
+    const auto k = static_cast<Eigen::Index>(m.dimension.size());
+    m.mean[k] = regression.intercept;
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(all);
+    for (const DimensionRegression::Term& term : regression.terms) {
+      slope[*index_of(m.dimension, term.predictor)] += term.slope;
+    }
+    m.mean[k] += slope.dot(m.mean) - slope[k] * m.mean[k];
+    const Eigen::VectorXd with_others = m.covariance * slope;
+    m.covariance.col(k) = with_others;
+    m.covariance.row(k) = with_others.transpose();
+    m.covariance(k, k) = slope.dot(with_others) + regression.residual_sd * regression.residual_sd;
+    m.dimension.push_back(regression.dimension);
+  }
+  return m;
+}
 
 std::string name_of(Evidence evidence) {
   switch (evidence) {
@@ -197,7 +190,7 @@ std::string fault_of(const Stratum& stratum) {
 }
 
 std::optional<DimensionMoments> moments_of(const Stratum& stratum, HandDimension dimension) {
-  const Moments m = moments(stratum);
+  const JointMoments m = joint_moments(stratum);
   const auto i = index_of(m.dimension, dimension);
   if (!i) return std::nullopt;
   return DimensionMoments{m.mean[*i], std::sqrt(std::max(0.0, m.covariance(*i, *i)))};

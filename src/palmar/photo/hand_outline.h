@@ -1,0 +1,64 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "palmar/geometry/textured_mesh.h"
+#include "palmar/photo/sheet_view.h"
+
+namespace palmar {
+
+struct HandOutlineOptions {
+  double cell = 0.35;    ///< of the grid that the sheet is drawn on, mm
+  double wrist = 0.0;    ///< how far inside the sheet's edge the wrist crease lies, mm
+  bool palm_up = false;  ///< the palm looks at the camera
+  void check() const;    ///< throws UsageError: field, value, allowed range
+};
+
+/// One finger of an outline; mm, seen from above, heights taken into account.
+struct OutlineFinger {
+  Eigen::Vector2d tip = Eigen::Vector2d::Zero();   ///< sheet's frame
+  Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< middle of the base crease, between the webs
+  double length = 0.0;                             ///< base to tip; the thumb's isn't told: 0
+  std::array<double, 3>
+      width{};  ///< half way along the proximal, middle, distal segment, whose
+                ///< lengths are in the shares given; thumb: 0, it lies on its side
+};
+
+/// What the outline of a hand lying on a sheet tells.
+struct HandOutline {
+  bool is_right = true;
+  double hand_length = 0.0;  ///< middle of the wrist to the middle finger's tip, mm
+  double hand_width =
+      0.0;  ///< over the heads of metacarpals II and V; 0: the thumb lies in the way
+  std::array<OutlineFinger, 5> finger;  ///< thumb to little
+  std::array<Eigen::Vector2d, 4> web{};
+  Eigen::Vector2d wrist = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> contour;  ///< on the sheet as it is seen, from one side of the
+                                         ///< forearm to the other; the thumb first
+};
+
+/// Proportions that an outline doesn't show, of the hand that others are compared with.
+struct OutlineProportions {
+  /// Lengths of a finger's segments as shares of it, proximal first; of the thumb the lengths of
+  /// two over the hand length.
+  std::array<std::array<double, 3>, 5> segment{};
+  std::array<double, 5> finger_height{};  ///< half of the distal thickness over the hand length
+  double web_height = 0.0;                ///< half of the proximal thickness over the hand length
+  double palm_height = 0.0;               ///< half of the palm's thickness over the hand length
+};
+
+/// Measures the hand on the sheet: skin is what has another colour than paper in its light; tips
+/// and webs are the outline's extremes from the palm's middle; the forearm crosses one edge, which
+/// lies under the crease of the wrist. Throws InputError `name`: no hand, fingers that touch, a
+/// hand that reaches beyond the sheet, no forearm over the edge.
+HandOutline measure_outline(const RgbImage& image, const SheetView& sheet,
+                            const OutlineProportions& proportions, const std::string& name,
+                            const HandOutlineOptions& options = {});
+
+}  // namespace palmar
