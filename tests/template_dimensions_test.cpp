@@ -137,7 +137,8 @@ TEST_F(TemplateDimensions, TapeIsNoShorterThanTheStraightLine) {
     const auto segment = static_cast<Segment>(k);
     const SegmentDimensions& s = of(d, segment);
     const SegmentTape& t = tape.segment[static_cast<std::size_t>(k)];
-    EXPECT_NEAR(t.palmar_width + t.dorsal_width, t.girth, 0.05) << name_of(segment);  // mm
+    // Both are held on the sides; the girth spans what is hollow there.
+    EXPECT_NEAR(t.palmar_width + t.dorsal_width, t.girth, 0.01 * t.girth) << name_of(segment);
     EXPECT_GE(t.palmar_width, s.width) << name_of(segment);
     EXPECT_GE(t.dorsal_width, s.width) << name_of(segment);
     EXPECT_GE(t.palmar_length.value(), s.length - 1e-9) << name_of(segment);

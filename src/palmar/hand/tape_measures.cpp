@@ -119,11 +119,19 @@ std::optional<double> along_middle_finger(const HandTape& tape,
   return sum;
 }
 
-/// From edge to edge of a section, over one side and over the other.
+/// From the middle of one side of a section to that of the other, over the palmar side and over the
+/// dorsal one. (From one outermost point to the other wouldn't do: on a flat side they jump.)
 std::array<double, 2> widths(const SectionCurve& curve, const Vec3& across, const Vec3& palmar) {
-  const auto further = [&](const Vec3& p, const Vec3& q) { return across.dot(p) < across.dot(q); };
-  const auto [low, high] = std::minmax_element(curve.point.begin(), curve.point.end(), further);
-  return {taut_length(curve, *low, *high, palmar), taut_length(curve, *low, *high, -palmar)};
+  double low = std::numeric_limits<double>::max(), high = -low;
+  Vec3 middle = curve_centre(curve);
+  for (const Vec3& p : curve.point) {
+    low = std::min(low, palmar.dot(p));
+    high = std::max(high, palmar.dot(p));
+  }
+  middle += (0.5 * (low + high) - palmar.dot(middle)) * palmar;
+  const Chord c = chord(curve, middle, across, palmar);
+  const Vec3 a = middle + c.lowest * across, b = middle + c.highest * across;
+  return {taut_length(curve, a, b, palmar), taut_length(curve, a, b, -palmar)};
 }
 
 }  // namespace

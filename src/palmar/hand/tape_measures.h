@@ -20,8 +20,9 @@ struct SegmentTape {
   /// Between the ends of its length over the palmar skin, and over the back; nothing if the ends
   /// lie on different parts of the skin.
   std::optional<double> palmar_length, dorsal_length;
-  double palmar_width = 0.0;  ///< half way, from the radial to the ulnar edge over the palmar skin
-  double dorsal_width = 0.0;  ///< the same over the back; with it the girth
+  /// Half way, from the middle of the radial side (between palmar and dorsal) to that of the ulnar
+  /// one, over the palmar skin and over the back: about half the girth each.
+  double palmar_width = 0.0, dorsal_width = 0.0;
 };
 
 struct HandTape {
