@@ -354,7 +354,14 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   };
   const auto thumb = [&](double flexion, double abduction, double mp, double ip) {
     Posture p = reference;
-    // Fingers never come to lie as they lay.
+    turned(p, Dof::kThumbCmcFlexion, flexion, 1.5);
+    turned(p, Dof::kThumbCmcAbduction, abduction, 1.5);
+    turned(p, Dof::kThumbMpFlexion, mp, 2.0);
+    turned(p, Dof::kThumbIpFlexion, ip, 2.0);
+    return p;
+  };
+  // Fingers at rest never come to lie as they lay.
+  const auto at_rest = [&](Posture p) {
     for (int f = 0; f < 4; ++f) {
       constexpr std::array<double, 4> kDeviation{3.0, 1.5, 3.0, 2.0};
       const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
@@ -362,10 +369,6 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
         turned(p, static_cast<Dof>(first + k), 0.0, kDeviation[at(k)]);
       }
     }
-    turned(p, Dof::kThumbCmcFlexion, flexion, 1.5);
-    turned(p, Dof::kThumbCmcAbduction, abduction, 1.5);
-    turned(p, Dof::kThumbMpFlexion, mp, 2.0);
-    turned(p, Dof::kThumbIpFlexion, ip, 2.0);
     return p;
   };
   const auto finger = [&](Posture& p, int f, const std::array<double, 4>& degrees) {
@@ -375,10 +378,10 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   auto& all = person.postures;
   all[ScanPosture::kReference] = reference;
   // In the limits of flexion MP and IP bend and stretch as well, in those of abduction hardly.
-  all[ScanPosture::kThumbFlexion] = thumb(22.0, 0.0, 32.0, 42.0);
-  all[ScanPosture::kThumbExtension] = thumb(-22.0, 0.0, -12.0, -16.0);
-  all[ScanPosture::kThumbAbduction] = thumb(0.0, 18.0, 0.0, 0.0);
-  all[ScanPosture::kThumbAdduction] = thumb(0.0, -22.0, -1.0, 2.0);
+  all[ScanPosture::kThumbFlexion] = at_rest(thumb(22.0, 0.0, 32.0, 42.0));
+  all[ScanPosture::kThumbExtension] = at_rest(thumb(-22.0, 0.0, -12.0, -16.0));
+  all[ScanPosture::kThumbAbduction] = at_rest(thumb(0.0, 18.0, 0.0, 0.0));
+  all[ScanPosture::kThumbAdduction] = at_rest(thumb(0.0, -22.0, -1.0, 2.0));
 
   // Degrees from the reference posture: MCP flexion, abduction, PIP, DIP.
   Posture fist = thumb(-14.0, 4.0, -4.0, -6.0);
