@@ -80,6 +80,7 @@ Photographed photographed(const QuickArguments& arguments) {
   Photographed result;
   result.image = read_texture(bytes, arguments.photo);
   SheetOptions sheet;
+  sheet.most_tilt = 15.0;  // beyond, a hand's outline isn't what lies on the paper (docs: outline)
   if (!arguments.sheet.empty()) sheet.format = sheet_format_named(arguments.sheet);
   if (const auto exif = read_exif(bytes)) {
     sheet.focal = exif->focal_pixels(result.image.width, result.image.height);
