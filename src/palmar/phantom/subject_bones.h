@@ -10,7 +10,7 @@
 
 namespace palmar {
 
-inline constexpr double kLeastBoneGap = 1.0;    ///< between two bones in every posture, mm
+inline constexpr double kLeastBoneGap = 1.0;  ///< between two bones in every posture, mm
 
 /// A bone with its marrow; hand frame, reference posture.
 struct SubjectBone {
