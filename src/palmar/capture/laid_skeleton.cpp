@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "palmar/capture/posed_model.h"
 #include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/hand/hand_instance.h"
 #include "palmar/hand/segment_scaling.h"
 #include "palmar/hand/skeleton_in_posture.h"
 #include "palmar/hand/template_hand.h"
@@ -147,6 +150,33 @@ void lay_frame(LaidSkeleton& laid) {
   laid.scan_from_hand = laid.scan_from_hand * old_from_new;
 }
 
+/// One size for the whole hand is wrong where fingers are long and the palm is narrow: the model
+/// with shorter or longer fingers may lie better. Skin hardly tells by how much, but whether.
+void take_better_lengths(Hand& base, const TriangleMesh& mesh, MeshFit& fit,
+                         const Progress& progress) {
+  constexpr std::array<double, 4> kLonger{0.92, 1.08, 1.16, 1.24};
+  std::array<Hand, kLonger.size()> hand;
+  std::array<MeshFit, kLonger.size()> tried;
+  parallel_for(static_cast<int>(kLonger.size()), [&](int k) {
+    if (progress.is_cancelled()) return;
+    std::vector<SizedDimension> lengths;
+    for (int s = 1; s < kSegmentCount; ++s) {
+      lengths.push_back({{DimensionKind::kSegmentLength, static_cast<Segment>(s)},
+                         kLonger[at(k)] * base.dimensions.segment[at(s)].length});
+    }
+    hand[at(k)] = make_hand_instance(base, lengths).hand;
+    tried[at(k)] = fit_posture_to_mesh(hand[at(k)], mesh, {.fits_scale = true});
+  });
+  progress.throw_if_cancelled();
+  const Hand* best = nullptr;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    if (tried[k].status != PostureFitStatus::kFitted || tried[k].mean >= fit.mean) continue;
+    fit = tried[k];
+    best = &hand[k];
+  }
+  if (best != nullptr) base = *best;
+}
+
 }  // namespace
 
 LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
@@ -168,6 +198,7 @@ LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::opti
     throw InputError(name + ": no hand found: " + laid.fit.message);
   }
   laid.side = base.side;
+  take_better_lengths(base, mesh, laid.fit, part_of(progress, 0.6, 0.7));
   const Hand sized = uniformly_sized(base, laid.fit.scale);
   laid.skeleton = skeleton_in_posture(sized.skeleton, laid.fit.posture);
   laid.scan_from_hand = laid.fit.mesh_from_hand;
@@ -176,7 +207,7 @@ LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::opti
   scan.skin = mesh;
   for (Vec3& v : scan.skin.vertices) v = hand_from_scan * v;
   const RegisteredSkin registered =
-      register_skin(base, scan, laid.skeleton, part_of(progress, 0.6, 1.0));
+      register_skin(base, scan, laid.skeleton, part_of(progress, 0.7, 1.0));
   carry_joints(base, registered, laid.skeleton);
   lay_frame(laid);
   return laid;
