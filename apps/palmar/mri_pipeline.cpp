@@ -10,6 +10,7 @@
 
 #include "palmar/capture/bone_plausibility.h"
 #include "palmar/capture/grasp_contact.h"
+#include "palmar/capture/hand_plausibility.h"
 #include "palmar/capture/image_edge.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
@@ -198,7 +199,11 @@ void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_od
 ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& surfaces,
                       const ScanRecord& record, const Progress& progress) {
   try {
-    return make_scanned_hand(model, surfaces, record.joints, progress);
+    ScannedHand made = make_scanned_hand(model, surfaces, record.joints, progress);
+    const std::vector<std::string> impossible =
+        impossible_dimensions(made.hand.dimensions, model.dimensions);
+    if (!impossible.empty()) throw InputError(fmt::format("{}", fmt::join(impossible, "; ")));
+    return made;
   } catch (const InputError& error) {
     const RecordedScan& reference = record.scans.front();
     throw InputError(fmt::format(

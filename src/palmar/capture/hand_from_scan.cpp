@@ -13,6 +13,7 @@
 #include "palmar/capture/bone_chain.h"
 #include "palmar/capture/dotted_joints.h"
 #include "palmar/capture/dotted_thumb.h"
+#include "palmar/capture/hand_plausibility.h"
 #include "palmar/capture/marker_matching.h"
 #include "palmar/capture/ring_bands.h"
 #include "palmar/core/error.h"
@@ -402,6 +403,14 @@ HandFromScan make_hand_from_scans(const Hand& model,
   result.tape = measure_with_tape(hand.skin, hand.skeleton, creases);
   measure_distances(scan, result);
   result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
+  const std::vector<std::string> impossible =
+      impossible_dimensions(result.scanned.hand.dimensions, model.dimensions);
+  if (!impossible.empty()) {
+    throw InputError(fmt::format(
+        "{}: what comes out is no hand: {}. Joints or skin were found wrongly: draw the creases, "
+        "name them in a file of marks, or mend the scan",
+        scan.name, fmt::join(impossible, "; ")));
+  }
   return result;
 }
 

@@ -1,0 +1,41 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/hand_plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace palmar {
+
+std::vector<std::string> impossible_dimensions(const HandDimensions& found,
+                                               const HandDimensions& model) {
+  struct Ratio {
+    std::string what;
+    double value, expected;
+  };
+  std::vector<Ratio> all;
+  std::vector<double> ratios;
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentDimensions &mine = found.segment[static_cast<std::size_t>(s)],
+                            &usual = model.segment[static_cast<std::size_t>(s)];
+    const std::string name(name_of(static_cast<Segment>(s)));
+    all.push_back({name + " is {:.0f} mm long", mine.length, usual.length});
+    all.push_back({name + " is {:.0f} mm wide", mine.width, usual.width});
+    all.push_back({name + " is {:.0f} mm thick", mine.thickness, usual.thickness});
+  }
+  for (const Ratio& one : all) ratios.push_back(one.value / one.expected);
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  const double size = *middle;
+  std::vector<std::string> clauses;
+  for (const Ratio& one : all) {
+    const double expected = size * one.expected;
+    if (one.value >= 0.45 * expected && one.value <= 2.2 * expected) continue;
+    clauses.push_back(fmt::format(fmt::runtime(one.what + ", where about {:.0f} mm are expected"),
+                                  one.value, expected));
+  }
+  return clauses;
+}
+
+}  // namespace palmar
