@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "run_program.h"
 
@@ -67,6 +72,125 @@ TEST(HandFromScan, LeavesTheTableOut) {
   const std::string collapsed = "v 0 0 0\nf 1 8 2\n";
   const std::string folder = folder_with("a.obj", tetrahedron(200) + table + collapsed);
   expect_refused("hand from-scan a.obj --out a.hand.glb", folder, 3, "no hand found");
+}
+
+/// Rows of a small CSV file without quotes, with its head.
+std::vector<std::vector<std::string>> rows_of(const std::string& file) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(read_text(file));
+  for (std::string line; std::getline(text, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+using Json = nlohmann::json;
+
+/// A row of marks.csv for a point of the truth.
+std::string mark_row(const std::string& mark, const std::string& name, const Json& point) {
+  std::string row = "reference," + mark + "," + name;
+  for (const Json& value : point) row += "," + std::to_string(value.get<double>());
+  return row + "\n";
+}
+
+/// A person who wears a ring, scanned once, and once made into a hand with marks that somebody
+/// edited: a crease and a dot are left out, a dot is added.
+class RingedHand : public ::testing::Test {
+ protected:
+  static constexpr const char* kHead = "posture,mark,name,x_mm,y_mm,z_mm\n";
+
+  static const std::string& folder() {
+    static const std::string made = [] {
+      std::string path = temporary_folder();
+      const ProgramRun run =
+          run_palmar("phantom scan --seed 3 --postures reference --ring ring --out p", path);
+      EXPECT_EQ(run.exit_code, 0) << run.err;
+      return path;
+    }();
+    return made;
+  }
+  static const Json& truth() {
+    static const Json json = Json::parse(read_text(folder() + "/p/truth/subject.json"));
+    return json;
+  }
+  static const Json& dot() {
+    for (const Json& one : truth().at("postures").at("reference").at("dots")) {
+      if (one.at("segment") == "middle_distal") return one.at("point_mm");
+    }
+    throw std::runtime_error("no dot on middle_distal");
+  }
+  static const ProgramRun& made() {
+    static const ProgramRun run = [] {
+      const Json& line = truth().at("postures").at("reference").at("proximal_creases_mm");
+      const Json& crease = line.at("index_distal");
+      // Off the skin by a few millimetres: that doesn't matter to a dot that was added.
+      Json added = dot();
+      added[0] = added[0].get<double>() + 2.0;
+      write_text(folder() + "/edited.csv",
+                 kHead + mark_row("crease", "none", crease.at(crease.size() / 2)) +
+                     mark_row("dot", "none", dot()) +
+                     mark_row("added_dot", "middle_distal", added));
+      return run_palmar(
+          "hand from-scan p/scan/reference.ply --marks edited.csv --truth p/truth/subject.json "
+          "--out a.hand.glb",
+          folder());
+    }();
+    return run;
+  }
+};
+
+TEST_F(RingedHand, IsMeasuredWithoutTheRing) {
+  ASSERT_EQ(made().exit_code, 0) << made().err;
+  EXPECT_THAT(made().err, HasSubstr("A ring on ring_proximal"));
+  // 1.2 mm thick: taken for skin it would make the phalanx 2 mm broader.
+  double off = -1.0;
+  for (const auto& row : rows_of(folder() + "/a.scan/truth_errors.csv")) {
+    if (row[0] == "ring_proximal_width") off = std::abs(std::stod(row[3]));
+  }
+  EXPECT_GE(off, 0.0);
+  EXPECT_LT(off, 0.6);
+}
+
+TEST_F(RingedHand, FollowsEditedMarks) {
+  ASSERT_EQ(made().exit_code, 0) << made().err;
+  EXPECT_THAT(made().err, HasSubstr("Creases not found, taken from the joints: index_distal."));
+  int near_left_out = 0, on_segment = 0;
+  for (const auto& row : rows_of(folder() + "/a.scan/marks.csv")) {
+    if (row[1] != "dot") continue;
+    on_segment += row[2] == "middle_distal" ? 1 : 0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      squares += std::pow(std::stod(row[3 + k]) - dot().at(k).get<double>(), 2);
+    }
+    near_left_out += squares < 1.0 ? 1 : 0;
+  }
+  EXPECT_EQ(near_left_out, 0);
+  EXPECT_EQ(on_segment, 3);  // two that were drawn, one that was added
+
+  write_text(folder() + "/wrong.csv", std::string(kHead) + "reference,dot,none,9000,0,0\n");
+  expect_refused("hand from-scan p/scan/reference.ply --marks wrong.csv --out c.hand.glb", folder(),
+                 3, "wrong.csv:2: no dot within 3 mm of 9000.0, 0.0, 0.0");
+}
+
+TEST_F(RingedHand, IsReportedWithWhatATapeMeasures) {
+  ASSERT_EQ(made().exit_code, 0) << made().err;
+  const std::string page = read_text(folder() + "/a.scan/report.html");
+  EXPECT_THAT(page, HasSubstr("along the back"));
+  std::string girth;
+  for (const auto& row : rows_of(folder() + "/a.scan/dimensions.csv")) {
+    if (row[0] == "index_middle_girth") girth = row[1];
+  }
+  ASSERT_GT(girth.size(), 3U);
+  // The cell holds the number in full, the table of values to 0.001 mm.
+  EXPECT_THAT(page, HasSubstr("data-value=\"" + girth.substr(0, girth.size() - 2)));
+}
+
+TEST_F(RingedHand, IsRefusedIfAnInkIsLikeItsSkin) {
+  expect_refused("hand from-scan p/scan/reference.ply --crease-colour '#b38770' --out d.hand.glb",
+                 folder(), 3, "reference.ply: the crease colour is like this skin's");
+  EXPECT_EQ(read_text(folder() + "/d.hand.glb"), "");
 }
 
 TEST(PhantomScan, NamesWrongArguments) {

@@ -273,14 +273,14 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
       hand.side == Side::kLeft ? "Left" : "Right", d.hand_length, d.hand_circumference,
       d.hand_width, d.hand_thickness, made.scanned.registration_mean,
       made.scanned.registration_p95);
-  write_file(
-      base / "report.html",
-      html_page("Hand from a scan: " + hand.name, summary,
-                pictures_html(pictures, {"hand_", "distance_"}) +
-                    (errors ? truth_section(*errors) : std::string()) +
-                    notes_section("What to know about this hand", made.notes) +
-                    found_section(made, scans) + dimensions_section(hand) + crease_section(made) +
-                    dots_section(made) + titled("Every scan", pictures_html(pictures, {"scan_"}))));
+  write_file(base / "report.html",
+             html_page("Hand from a scan: " + hand.name, summary,
+                       pictures_html(pictures, {"hand_", "distance_"}) +
+                           (errors ? truth_section(*errors) : std::string()) +
+                           notes_section("What to know about this hand", made.notes) +
+                           found_section(made, scans) + dimensions_section(hand, made.tape) +
+                           crease_section(made) + dots_section(made) +
+                           titled("Every scan", pictures_html(pictures, {"scan_"}))));
 }
 
 }  // namespace palmar

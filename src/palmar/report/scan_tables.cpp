@@ -243,4 +243,35 @@ std::string dimensions_section(const Hand& hand) {
                                               {"Segment", "Length", "Width", "Thickness"}, rows);
 }
 
+std::string dimensions_section(const Hand& hand, const HandTape& tape) {
+  const HandDimensions& d = hand.dimensions;
+  const auto row = [](const std::string& head, std::initializer_list<std::optional<double>> cells) {
+    std::string html = "<tr>" + row_head(head);
+    for (const auto& cell : cells) html += number_cell(cell, 1);
+    return html + "</tr>";
+  };
+  const SegmentTape& palm = tape.segment[static_cast<std::size_t>(Segment::kPalm)];
+  std::string rows = row(
+      "hand", {d.hand_length, tape.palmar_hand_length(), tape.dorsal_hand_length(), d.hand_width,
+               palm.palmar_width, palm.dorsal_width, d.hand_thickness, d.hand_circumference});
+  for (int k = 0; k < kSegmentCount; ++k) {
+    const SegmentDimensions& s = d.segment[static_cast<std::size_t>(k)];
+    const SegmentTape& t = tape.segment[static_cast<std::size_t>(k)];
+    rows += row(plain_words(static_cast<Segment>(k)),
+                {s.length, t.palmar_length, t.dorsal_length, s.width, t.palmar_width,
+                 t.dorsal_width, s.thickness, t.girth});
+  }
+  return "<h2>Dimensions</h2>\n<p>Straight, as calipers measure, and along the skin, as a tape "
+         "does that is held taut: lengths from crease to crease or to the fingertip, widths from "
+         "the middle of one side to that of the other, girths all round. Widths, thicknesses and "
+         "girths are taken half way along each segment, those of hand and palm over the knuckles; "
+         "the hand reaches from the wrist's crease to the tip of the middle finger, the palm to "
+         "that finger's base crease.</p>\n" +
+         html_table(
+             "Hand and segments between the creases, mm",
+             {"", "Length, straight", "along the palm's side", "along the back", "Width, straight",
+              "along the palm's side", "along the back", "Thickness", "Girth"},
+             rows);
+}
+
 }  // namespace palmar

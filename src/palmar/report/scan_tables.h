@@ -5,6 +5,7 @@
 #include <string>
 
 #include "palmar/capture/scan_record.h"
+#include "palmar/hand/tape_measures.h"
 
 namespace palmar {
 
@@ -27,5 +28,7 @@ std::string skin_section(const ScanRecord& record);
 
 /// Sizes of hand and segments.
 std::string dimensions_section(const Hand& hand);
+/// The same with what a tape measures along the skin.
+std::string dimensions_section(const Hand& hand, const HandTape& tape);
 
 }  // namespace palmar
