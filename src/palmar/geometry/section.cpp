@@ -9,15 +9,12 @@
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/convex_hull.h"
 
 namespace palmar {
 namespace {
 
 using Edge = std::array<int, 2>;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
 
 }  // namespace
 
@@ -141,22 +138,7 @@ double girth(const std::vector<Vec3>& points, const Vec3& normal) {
   const Vec3 v = normal.cross(u);
   std::vector<Eigen::Vector2d> flat;
   for (const Vec3& p : points) flat.emplace_back(u.dot(p), v.dot(p));
-  std::sort(flat.begin(), flat.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  // Monotone chain (Andrew 1979): lower hull forwards, upper hull backwards.
-  std::vector<Eigen::Vector2d> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t begin = hull.size();
-    for (const Eigen::Vector2d& p : flat) {
-      while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    if (!hull.empty()) hull.pop_back();  // it begins the other chain
-    std::reverse(flat.begin(), flat.end());
-  }
+  const std::vector<Eigen::Vector2d> hull = convex_hull(std::move(flat));
   double length = 0.0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     length += (hull[(i + 1) % hull.size()] - hull[i]).norm();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "palmar/geometry/convex_hull.h"
+
 namespace palmar {
 namespace {
 
@@ -43,26 +45,6 @@ Plane plane_across(const Vec3& axis) {
 }
 
 double cross(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-std::vector<Point2> convex_hull(std::vector<Point2> points) {
-  std::sort(points.begin(), points.end(), [](const Point2& a, const Point2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  std::vector<Point2> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t base = hull.size();
-    for (const Point2& p : points) {
-      while (hull.size() >= base + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 std::optional<SectionOutline> outline_of(const std::vector<Point2>& loop, double station,
                                          const Plane& plane) {

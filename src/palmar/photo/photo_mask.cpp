@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/convex_hull.h"
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/distance_transform.h"
 
@@ -16,31 +17,6 @@ namespace palmar {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
-
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
-
-/// Convex outline of points, by Andrew's chain.
-Points outline_of(Points points) {
-  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  Points chain;
-  for (int half = 0; half < 2; ++half) {
-    const std::size_t first = chain.size();
-    for (const Eigen::Vector2d& point : points) {
-      while (chain.size() >= first + 2 &&
-             turn(chain[chain.size() - 2], chain.back(), point) <= 0.0) {
-        chain.pop_back();
-      }
-      chain.push_back(point);
-    }
-    chain.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return chain;
-}
 
 /// Pixels within the outline of points of the world; everything if one lies behind the camera.
 VoxelMask region_of(const PhotoView& view, const std::vector<Vec3>& points) {
@@ -51,7 +27,7 @@ VoxelMask region_of(const PhotoView& view, const std::vector<Vec3>& points) {
     if (!pixel) return region;
     projected.push_back(*pixel);
   }
-  const Points outline = outline_of(projected);
+  const Points outline = convex_hull(projected);
   for (int y = 0; y < view.height(); ++y) {
     double from = view.width(), to = -1.0;  // where the row crosses the outline
     for (std::size_t i = 0; i < outline.size(); ++i) {
