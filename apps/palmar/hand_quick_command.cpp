@@ -17,8 +17,9 @@
 #include "palmar/io/hand_file.h"
 #include "palmar/io/population_file.h"
 #include "palmar/io/texture_file.h"
-#include "palmar/photo/hand_outline.h"
-#include "palmar/population/person_estimate.h"
+#include "palmar/photo/card_view.h"
+#include "palmar/photo/outline_person.h"
+#include "palmar/photo/skin_mask.h"
 #include "palmar/population/segment_regressions.h"
 #include "side_argument.h"
 
@@ -36,42 +37,17 @@ struct QuickArguments {
   bool palm_up = false;
 };
 
-// What measures from a photograph miss in the mean, mm: docs/method/outline.md.
-constexpr double kLengthError = 3.0, kWidthError = 1.6, kFingerError = 2.5, kBreadthError = 0.9;
+constexpr double kMostTilt = 25.0;  // deg: docs/method/outline.md
 
 constexpr HandDimension kLength{DimensionKind::kHandLength};
 constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
 constexpr HandDimension kWidth{DimensionKind::kHandWidth};
 
-constexpr std::array<std::array<Segment, 3>, 5> kSegments = {
-    {{Segment::kThumbProximal, Segment::kThumbDistal, Segment::kThumbDistal},
-     {Segment::kIndexProximal, Segment::kIndexMiddle, Segment::kIndexDistal},
-     {Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal},
-     {Segment::kRingProximal, Segment::kRingMiddle, Segment::kRingDistal},
-     {Segment::kLittleProximal, Segment::kLittleMiddle, Segment::kLittleDistal}}};
 constexpr std::array<const char*, 5> kFingers = {"thumb", "index", "middle", "ring", "little"};
-
-/// The template's proportions: what an outline doesn't show.
-OutlineProportions template_outline() {
-  const HandDimensions& d = template_proportions();
-  const auto of = [&](Segment s) -> const auto& { return d.segment[static_cast<std::size_t>(s)]; };
-  OutlineProportions p;
-  for (std::size_t f = 0; f < 5; ++f) {
-    double whole = 0.0;
-    for (const Segment s : kSegments[f]) whole += of(s).length;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p.segment[f][k] = of(kSegments[f][k]).length / (f == 0 ? d.hand_length : whole);
-    }
-    p.finger_height[f] = 0.5 * of(kSegments[f][2]).thickness / d.hand_length;
-  }
-  p.web_height = 0.5 * of(Segment::kMiddleProximal).thickness / d.hand_length;
-  p.palm_height = 0.5 * d.hand_thickness / d.hand_length;
-  return p;
-}
 
 struct Photographed {
   RgbImage image;
-  SheetView sheet;
+  OutlineScene scene;
   HandOutline outline;
 };
 
@@ -80,41 +56,26 @@ Photographed photographed(const QuickArguments& arguments) {
   Photographed result;
   result.image = read_texture(bytes, arguments.photo);
   SheetOptions sheet;
-  sheet.most_tilt = 15.0;  // beyond, a hand's outline isn't what lies on the paper (docs: outline)
+  sheet.most_tilt = kMostTilt;
   if (!arguments.sheet.empty()) sheet.format = sheet_format_named(arguments.sheet);
   if (const auto exif = read_exif(bytes)) {
     sheet.focal = exif->focal_pixels(result.image.width, result.image.height);
   }
-  result.sheet = find_sheet(result.image, arguments.photo, sheet);
-  HandOutlineOptions options;
-  options.wrist = arguments.wrist_inside;
-  options.palm_up = arguments.palm_up;
-  result.outline =
-      measure_outline(result.image, result.sheet, template_outline(), arguments.photo, options);
+  const bool is_card = sheet.format && sheet.format->name == card_format().name;
+  OutlineScene& scene = result.scene;
+  scene.sheet = is_card ? find_card(result.image, arguments.photo, sheet)
+                        : find_sheet(result.image, arguments.photo, sheet);
+  scene.grid = is_card ? grid_beside_card(scene.sheet, kOutlineCell)
+                       : grid_of_sheet(scene.sheet, kOutlineCell);
+  scene.proportions = outline_proportions(template_proportions());
+  scene.options.wrist = arguments.wrist_inside;
+  scene.options.palm_up = arguments.palm_up;
+  const Ground ground = is_card ? Ground::kTable : Ground::kPaper;
+  const VoxelMask skin =
+      skin_mask(draw_sheet(result.image, scene.sheet, scene.grid, ground), ground, arguments.photo);
+  result.outline = measure_outline(scene.grid, skin, scene.sheet, scene.proportions,
+                                   arguments.photo, scene.options);
   return result;
-}
-
-std::vector<KnownMeasure> measures_of(const HandOutline& outline) {
-  std::vector<KnownMeasure> list = {KnownMeasure::of(kLength, outline.hand_length, kLengthError)};
-  if (outline.hand_width > 0.0) {
-    list.push_back(KnownMeasure::of(kWidth, outline.hand_width, kWidthError));
-  }
-  for (std::size_t f = 0; f < 5; ++f) {
-    const OutlineFinger& finger = outline.finger[f];
-    if (finger.length > 0.0) {
-      KnownMeasure whole{{}, finger.length, kFingerError, std::string(kFingers[f]) + " finger"};
-      for (const Segment s : kSegments[f]) {
-        whole.terms.push_back({{DimensionKind::kSegmentLength, s}, 1.0});
-      }
-      list.push_back(whole);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (finger.width[k] <= 0.0) continue;
-      const HandDimension width{DimensionKind::kSegmentWidth, kSegments[f][k]};
-      list.push_back(KnownMeasure::of(width, finger.width[k], kBreadthError));
-    }
-  }
-  return list;
 }
 
 std::vector<KnownMeasure> measures_of(const QuickArguments& arguments) {
@@ -136,18 +97,6 @@ std::vector<KnownMeasure> measures_of(const QuickArguments& arguments) {
     add(*dimension, parse_list("--dimension", setting.substr(equals + 1)).front());
   }
   return list;
-}
-
-/// What the user measured replaces what the photograph says of the same.
-std::vector<KnownMeasure> together(std::vector<KnownMeasure> own,
-                                   const std::vector<KnownMeasure>& photo) {
-  for (const KnownMeasure& one : photo) {
-    const bool is_told = std::any_of(own.begin(), own.end(), [&](const KnownMeasure& other) {
-      return other.terms == one.terms;
-    });
-    if (!is_told) own.push_back(one);
-  }
-  return own;
 }
 
 std::string how(const EstimatedDimension& one) {
@@ -172,12 +121,13 @@ std::string text_of(const PersonEstimate& estimate, const Population& population
   return text;
 }
 
-Json json_of(const Photographed& photo) {
-  const SheetView& sheet = photo.sheet;
+Json json_of(const Photographed& photo, const OutlinePerson& person) {
+  const SheetView& sheet = photo.scene.sheet;
+  const HandOutline& outline = person.outline;
   const auto point = [](const Eigen::Vector2d& p) { return Json{p.x(), p.y()}; };
   Json fingers = Json::object();
   for (std::size_t f = 0; f < 5; ++f) {
-    const OutlineFinger& one = photo.outline.finger[f];
+    const OutlineFinger& one = outline.finger[f];
     Json widths = Json::array();
     for (const double w : one.width) {
       if (w > 0.0) widths.push_back(w);
@@ -195,22 +145,31 @@ Json json_of(const Photographed& photo) {
           {"camera_mm", {sheet.eye.x(), sheet.eye.y(), sheet.eye.z()}},
           {"focal_px", sheet.focal},
           {"focal_from", sheet.focal_source},
-          {"side", photo.outline.is_right ? "right" : "left"},
-          {"hand_length_mm", photo.outline.hand_length},
-          {"hand_width_mm", photo.outline.hand_width},
+          {"scale_error", sheet.scale_error},
+          {"side", outline.is_right ? "right" : "left"},
+          {"hand_length_mm", outline.hand_length},
+          {"hand_width_mm", outline.hand_width},
+          {"measured_against_a_model", person.model.has_value()},
           {"fingers", fingers}};
 }
 
 void tell(const Photographed& photo, const Context& context) {
-  const SheetView& sheet = photo.sheet;
-  const double finger = template_outline().finger_height[2] * photo.outline.hand_length;
+  const SheetView& sheet = photo.scene.sheet;
+  const bool is_card = sheet.format.name == card_format().name;
+  const double finger = photo.scene.proportions.finger_height[2] * photo.outline.hand_length;
   note(context.common,
-       fmt::format("{} sheet, edges straight within {:.2f} mm; camera {:.0f} mm above it, {:.0f} "
+       fmt::format("{}, edges straight within {:.2f} mm; camera {:.0f} mm above it, {:.0f} "
                    "degrees off its normal{}",
-                   sheet.format.name, sheet.edge_error, sheet.eye.z(), sheet.tilt,
+                   is_card ? "bank card" : sheet.format.name + " sheet", sheet.edge_error,
+                   sheet.eye.z(), sheet.tilt,
                    sheet.focal_source == "usual"
                        ? " if its lens is that of most telephones (26 mm on film)"
                        : ""));
+  if (is_card) {
+    note(context.common,
+         fmt::format("lengths follow from so small a card within {:.1f} % (standard error)",
+                     100.0 * sheet.scale_error));
+  }
   note(context.common,
        fmt::format("skin above the paper looks larger: fingertips by {:.1f} %, which is taken off",
                    100.0 * finger / (sheet.eye.z() - finger)));
@@ -220,9 +179,17 @@ void tell(const Photographed& photo, const Context& context) {
   }
 }
 
+/// What was found, drawn on the photograph, and what the model hides.
+void write_picture(const std::string& path, const Photographed& photo,
+                   const std::optional<ModelOutline>& model, const Context& context) {
+  write_file(path, outline_picture(photo.image, photo.scene.sheet, photo.outline,
+                                   model ? &model->outline : nullptr));
+  note(context.common, "wrote " + path);
+}
+
 int run_quick(const QuickArguments& arguments, const Context& context) {
   const Population population = load_population(arguments.population);
-  std::vector<KnownMeasure> measures = measures_of(arguments);
+  const std::vector<KnownMeasure> own = measures_of(arguments);
   std::optional<Photographed> photo;
   Side side = arguments.side.empty() ? Side::kRight : parse_side(arguments.side);
   if (!arguments.photo.empty()) {
@@ -239,25 +206,36 @@ int run_quick(const QuickArguments& arguments, const Context& context) {
     }
     side = seen;
     tell(*photo, context);
-    if (!arguments.picture.empty()) {
-      write_file(arguments.picture, outline_picture(photo->image, photo->sheet, photo->outline));
-      note(context.common, "wrote " + arguments.picture);
-    }
-    measures = together(measures, measures_of(photo->outline));
   }
-  if (measures.empty()) {
+  if (own.empty() && !photo) {
     throw UsageError(
         "nothing is known of the hand: a photograph, --hand-length-mm, --circumference-mm, "
         "--width-mm or --dimension is required");
   }
-  const PersonEstimate estimate = estimate_person(population, measures);
+  OutlinePerson person;
+  if (photo) {
+    person =
+        person_of_outline(*load_hand("template"), population, own, photo->outline, photo->scene);
+    for (const std::string& text : person.notes) note(context.common, text);
+    if (!arguments.picture.empty()) {
+      write_picture(arguments.picture, *photo, person.model, context);
+    }
+  } else {
+    person.measures = static_cast<int>(own.size());
+    person.estimate = estimate_person(population, own);
+    person.hand = make_hand_instance(*load_hand("template"), sizes_of(person.estimate)).hand;
+    if (side == Side::kLeft) person.hand = mirrored(person.hand);
+  }
+  const PersonEstimate& estimate = person.estimate;
   for (const std::string& text : estimate.notes) note(context.common, text);
   for (const std::string& text : population.cautions) note(context.common, text);
-  HandInstance instance = make_hand_instance(*load_hand("template"), sizes_of(estimate));
-  instance.hand.provenance +=
-      fmt::format("; sizes from {} measures{} and the people of {}", measures.size(),
-                  photo ? " of a photograph on a sheet of paper" : "", population.name);
-  const Hand hand = side == Side::kLeft ? mirrored(instance.hand) : std::move(instance.hand);
+  Hand& hand = person.hand;
+  hand.provenance += fmt::format("; sizes from {} measures{} and the people of {}", person.measures,
+                                 !photo ? ""
+                                 : photo->scene.sheet.format.name == card_format().name
+                                     ? " of a photograph beside a bank card"
+                                     : " of a photograph on a sheet of paper",
+                                 population.name);
   if (!arguments.out.empty()) {
     write_hand(arguments.out, hand);
     note(context.common, fmt::format("wrote {} ({} hand)", arguments.out, name_of(side)));
@@ -273,7 +251,7 @@ int run_quick(const QuickArguments& arguments, const Context& context) {
   }
   Json json = {
       {"population", population.name}, {"side", name_of(side)}, {"dimensions", dimensions}};
-  if (photo) json["photograph"] = json_of(*photo);
+  if (photo) json["photograph"] = json_of(*photo, person);
   print(json.dump(2) + "\n");
   return 0;
 }
@@ -284,13 +262,15 @@ void add_hand_quick(CLI::App& hand, Context& context) {
   const auto o = std::make_shared<QuickArguments>();
   CLI::App* verb = add_verb(
       hand, "quick",
-      "A hand from a few measures, or from one photograph of it flat on a sheet of A4, and a "
-      "population; tells how well each dimension is known",
+      "A hand from a few measures, or from one photograph of it flat on a sheet of A4 or beside a "
+      "bank card, and a population; tells how well each dimension is known",
       "palmar hand quick --hand-length-mm 181 --circumference-mm 190 --out anna.hand.glb");
   verb->add_option(
       "PHOTO", o->photo,
       "PNG or JPEG: the hand palm down on a white sheet, fingers spread, the crease of "
-      "the wrist over the sheet's edge");
+      "the wrist over the sheet's edge; or on a plain table, an edge of a bank card beside it "
+      "level "
+      "with that crease (--sheet card)");
   verb->add_option("--hand-length-mm", o->length, "Wrist crease to tip of the middle finger");
   verb->add_option("--circumference-mm", o->circumference, "Girth over the metacarpal heads");
   verb->add_option("--width-mm", o->width, "Breadth over the metacarpal heads");
@@ -300,9 +280,10 @@ void add_hand_quick(CLI::App& hand, Context& context) {
       ->capture_default_str();
   verb->add_option("--population", o->population, "Of what people: a name or a .toml file")
       ->capture_default_str();
-  verb->add_option("--sheet", o->sheet, "a4 or letter; default: told by its shape");
-  verb->add_option("--wrist-inside-mm", o->wrist_inside,
-                   "How far inside the sheet's edge the crease of the wrist lies")
+  verb->add_option("--sheet", o->sheet, "a4, letter or card; default: a sheet, told by its shape");
+  verb->add_option(
+          "--wrist-inside-mm", o->wrist_inside,
+          "How far inside the sheet's edge the crease of the wrist lies, or beyond the card's")
       ->capture_default_str();
   verb->add_flag("--palm-up", o->palm_up, "The palm looks at the camera");
   verb->add_option("--side", o->side, "right or left; with a photograph only checked");

@@ -37,17 +37,21 @@ void stroke(RgbImage& image, const Eigen::Vector2d& from, const Eigen::Vector2d&
 }  // namespace
 
 std::string outline_picture(const RgbImage& photograph, const SheetView& sheet,
-                            const HandOutline& outline) {
-  constexpr OutlineInk kSheet{20, 140, 255}, kSkin{255, 40, 200}, kMiddle{20, 180, 60};
+                            const HandOutline& outline, const HandOutline* model) {
+  constexpr OutlineInk kSheet{20, 140, 255}, kSkin{255, 40, 200}, kMiddle{20, 180, 60},
+      kModel{250, 220, 30};
   RgbImage image = photograph;
   const int thin = std::max(1, image.width / 1200), thick = 3 * thin;
   for (std::size_t c = 0; c < 4; ++c) {
     stroke(image, sheet.corner[c], sheet.corner[(c + 1) % 4], thin, kSheet);
   }
-  for (std::size_t i = 0; i + 1 < outline.contour.size(); ++i) {
-    stroke(image, sheet.pixel_of(outline.contour[i]), sheet.pixel_of(outline.contour[i + 1]), thin,
-           kSkin);
-  }
+  const auto contour = [&](const HandOutline& of, const OutlineInk& ink) {
+    for (std::size_t i = 0; i + 1 < of.contour.size(); ++i) {
+      stroke(image, sheet.pixel_of(of.contour[i]), sheet.pixel_of(of.contour[i + 1]), thin, ink);
+    }
+  };
+  if (model != nullptr) contour(*model, kModel);
+  contour(outline, kSkin);
   for (const OutlineFinger& finger : outline.finger) {
     stroke(image, sheet.pixel_of(finger.base), sheet.pixel_of(finger.tip), thin, kMiddle);
     dab(image, sheet.pixel_of(finger.tip), thick, kMiddle);

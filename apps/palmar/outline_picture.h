@@ -8,8 +8,9 @@
 
 namespace palmar::cli {
 
-/// A PNG of the photograph with sheet, outline, fingers' middle lines and wrist drawn on it.
+/// A PNG of the photograph with sheet or card, outline, fingers' middle lines and wrist drawn on
+/// it; `model`: the outline of the hand that it was measured against, or null.
 std::string outline_picture(const RgbImage& photograph, const SheetView& sheet,
-                            const HandOutline& outline);
+                            const HandOutline& outline, const HandOutline* model = nullptr);
 
 }  // namespace palmar::cli

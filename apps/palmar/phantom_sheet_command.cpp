@@ -7,27 +7,28 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "palmar/core/error.h"
-#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/hand_dimension.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/io/exif.h"
 #include "palmar/io/file.h"
 #include "palmar/io/hand_file.h"
-#include "palmar/io/population_file.h"
+#include "palmar/io/mesh_file.h"
 #include "palmar/io/texture_file.h"
 #include "palmar/phantom/sheet_photograph.h"
 #include "palmar/photo/sheet_view.h"
-#include "palmar/population/hand_sample.h"
 #include "side_argument.h"
 
 namespace palmar::cli {
 namespace {
 
 struct PhantomSheetArguments {
-  std::string out, population = "ansur2", hand, side = "right", sheet = "a4", table = "wood",
+  std::string out, base = "template", hand, side = "right", sheet = "a4", table = "wood",
                    skin = "light";
   SheetPhotographOptions photograph;
+  double together = 0.0;
   bool no_exif = false;
 };
 
@@ -41,15 +42,18 @@ Srgb colour_named(const std::string& option, const std::string& name,
   throw UsageError(fmt::format("{} \"{}\"; {} are allowed", option, name, names));
 }
 
-/// A person of the population, its segments scattering as people's do.
-Hand person(const PhantomSheetArguments& arguments, std::uint64_t seed) {
-  if (!arguments.hand.empty()) return *load_hand(arguments.hand);
-  SamplingOptions sampling;
-  sampling.design = SamplingDesign::kRandom;
-  sampling.hands = 1;
-  sampling.seed = seed;
-  const HandSample sample = sample_hands(load_population(arguments.population), sampling).front();
-  return make_hand_instance(*load_hand("template"), sample.dimensions).hand;
+struct LaidHand {
+  SpreadHand spread;
+  std::optional<Hand> hand;  ///< if it is one of Palmar's
+};
+
+LaidHand laid_hand(const PhantomSheetArguments& arguments, std::uint64_t seed) {
+  const Side side = parse_side(arguments.side);
+  const SpreadOptions options{.seed = seed, .together = arguments.together};
+  if (arguments.hand.empty()) return {spread_person(*load_hand(arguments.base), side, options), {}};
+  Hand hand = *load_hand(arguments.hand);
+  if (hand.side != side) hand = mirrored(hand);
+  return {spread_hand(hand, options), hand};
 }
 
 int run_sheet(PhantomSheetArguments arguments, const Context& context) {
@@ -59,19 +63,21 @@ int run_sheet(PhantomSheetArguments arguments, const Context& context) {
   const SheetFormat& format = sheet_format_named(arguments.sheet);
   photograph.width = format.width;
   photograph.height = format.height;
+  photograph.is_card = format.corner > 0.0;
+  photograph.corner = format.corner;
+  photograph.thickness = format.thickness;
   photograph.table = colour_named("--table", arguments.table,
                                   {{"wood", {0.62F, 0.43F, 0.28F}},
                                    {"dark", {0.16F, 0.14F, 0.13F}},
                                    {"grey", {0.45F, 0.45F, 0.46F}},
+                                   {"blue", {0.24F, 0.36F, 0.52F}},
                                    {"white", {0.90F, 0.90F, 0.89F}}});
   photograph.skin = colour_named("--skin", arguments.skin,
                                  {{"light", {0.87F, 0.70F, 0.61F}},
                                   {"middle", {0.70F, 0.50F, 0.38F}},
                                   {"dark", {0.36F, 0.23F, 0.17F}}});
-  const Side side = parse_side(arguments.side);
-  Hand hand = person(arguments, context.common.seed);
-  if (hand.side != side) hand = mirrored(hand);
-  const RgbImage image = photograph_on_sheet(hand, photograph);
+  const LaidHand laid = laid_hand(arguments, context.common.seed);
+  const RgbImage image = photograph_on_sheet(laid.spread, photograph);
   PhotoExif exif;
   constexpr double kPixelsPerMm = 1.0 / 0.0014;
   const double longer = std::max(image.width, image.height);
@@ -86,14 +92,19 @@ int run_sheet(PhantomSheetArguments arguments, const Context& context) {
   create_folder(out);
   write_file(out / "photo.jpg",
              format_jpeg(image, 92, arguments.no_exif ? std::string() : format_exif(exif)));
-  write_hand((out / "truth.hand.glb").string(), hand);
   nlohmann::ordered_json truth = nlohmann::ordered_json::object();
   for (const HandDimension dimension : all_hand_dimensions()) {
-    truth[name_of(dimension) + "_mm"] = value_of(hand.dimensions, dimension);
+    truth[name_of(dimension) + "_mm"] = value_of(laid.spread.dimensions, dimension);
   }
   write_file(out / "truth.json", truth.dump(1) + "\n");
+  const std::string shape = (out / (laid.hand ? "truth.hand.glb" : "truth.ply")).string();
+  if (laid.hand) {
+    write_hand(shape, *laid.hand);
+  } else {
+    write_mesh(shape, hand_on_sheet(laid.spread, photograph));
+  }
   print(fmt::format("photograph: {}\ntruth: {}, {}\n", (out / "photo.jpg").string(),
-                    (out / "truth.json").string(), (out / "truth.hand.glb").string()));
+                    (out / "truth.json").string(), shape));
   return 0;
 }
 
@@ -101,18 +112,25 @@ int run_sheet(PhantomSheetArguments arguments, const Context& context) {
 
 void add_phantom_sheet(CLI::App& phantom, Context& context) {
   const auto o = std::make_shared<PhantomSheetArguments>();
-  CLI::App* verb = add_verb(phantom, "sheet",
-                            "A photograph of a synthetic hand flat on a sheet of paper, with the "
-                            "truth beside it; --seed chooses the person",
-                            "palmar phantom sheet --seed 3 --out sheet3");
+  CLI::App* verb =
+      add_verb(phantom, "sheet",
+               "A photograph of a synthetic hand flat on a sheet of paper or beside a bank "
+               "card, with the truth beside it; --seed chooses the person",
+               "palmar phantom sheet --seed 3 --out sheet3");
   SheetPhotographOptions& p = o->photograph;
-  verb->add_option("--out", o->out, "Folder; photo.jpg, truth.json, truth.hand.glb go into it")
+  verb->add_option("--out", o->out, "Folder; photo.jpg, truth.json, truth.ply go into it")
       ->required();
-  verb->add_option("--population", o->population, "Whose person")->capture_default_str();
-  verb->add_option("--hand", o->hand, "A hand instead: \"template\" or a .hand.glb file");
+  verb->add_option("--base", o->base,
+                   "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
+      ->capture_default_str();
+  verb->add_option("--hand", o->hand,
+                   "One of Palmar's hands instead of a person of its own: \"template\" or a "
+                   ".hand.glb file; truth.hand.glb is written then");
   verb->add_option("--side", o->side, "right or left")->capture_default_str();
-  verb->add_option("--sheet", o->sheet, "a4 or letter")->capture_default_str();
-  verb->add_option("--table", o->table, "wood, dark, grey or white")->capture_default_str();
+  verb->add_option("--sheet", o->sheet, "a4, letter or card (a bank card beside the hand)")
+      ->capture_default_str();
+  verb->add_option("--table", o->table, "wood, dark, grey, blue or white")->capture_default_str();
+  verb->add_flag("--plain", p.is_plain, "The table has no grain");
   verb->add_option("--skin", o->skin, "light, middle or dark")->capture_default_str();
   verb->add_option("--tilt-deg", p.tilt, "Of the camera from the sheet's normal")
       ->capture_default_str();
@@ -120,10 +138,12 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--width-px", p.pixels_wide, "Of the photograph")->capture_default_str();
   verb->add_option("--height-px", p.pixels_high, "Of the photograph")->capture_default_str();
-  verb->add_option("--together", p.together, "0: fingers spread; 1: side by side")
+  verb->add_option("--together", o->together, "0: fingers spread; 1: side by side")
       ->capture_default_str();
   verb->add_option("--wrist-inside-mm", p.wrist_inside,
                    "How far inside the sheet's edge the wrist crease lies")
+      ->capture_default_str();
+  verb->add_option("--k1", p.k1, "Of the lens' distortion; a telephone's picture: about -0.02")
       ->capture_default_str();
   verb->add_flag("--no-exif", o->no_exif, "The photograph doesn't say what lens took it");
   verb->callback([&context, o] { context.run = [&context, o] { return run_sheet(*o, context); }; });

@@ -21,13 +21,14 @@
 #include "palmar/hand/template_hand.h"
 #include "palmar/phantom/soft_tissue.h"
 #include "palmar/phantom/subject_bones.h"
+#include "palmar/phantom/subject_creases.h"
 #include "palmar/phantom/subject_person.h"
 #include "palmar/phantom/waves.h"
 
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kCreases = 60, kPattern, kDots };
+enum Stream : std::uint64_t { kPattern = 61, kDots };
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -53,23 +54,6 @@ struct Paint {
   std::vector<std::pair<Segment, SkinPlace>> dots;
   std::map<Segment, std::vector<SkinPlace>> crease;
 };
-
-/// Where the creases of this person are: those that its joints suggest, off by a millimetre (Bugbee
-/// and Botte 1993 found them to differ between people by as much).
-HandCreases creases_of(const SubjectPerson& person, const TriangleMesh& skin, std::uint64_t seed) {
-  HandCreases creases(skin, person.skeleton);
-  RandomStream random(seed, kCreases);
-  for (int k = 1; k < kSegmentCount; ++k) {
-    const auto segment = static_cast<Segment>(k);
-    CreasePlane plane = creases.proximal_crease(segment);
-    plane.point += some(random, 0.8) * plane.normal;
-    creases.set_proximal_crease(segment, plane);
-  }
-  CreasePlane wrist = creases.wrist();
-  wrist.point += some(random, 1.2) * wrist.normal;
-  creases.set_wrist(wrist);
-  return creases;
-}
 
 /// Outermost skin from a point inside along a direction, within 25 mm.
 std::optional<SkinPlace> skin_along(const RayQuery& rays, const ClosestPointQuery& nearest,
@@ -290,7 +274,7 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
   SubdivisionOptions finer;
   finer.levels = options.levels;
   const TriangleMesh reference = subdivide(person.skin, finer);
-  const HandCreases creases = creases_of(person, person.skin, options.seed);
+  const HandCreases creases = subject_creases(person.skin, person.skeleton, options.seed);
   const Paint paint = painted(person, reference, creases, options);
 
   std::vector<double> ring;

@@ -132,6 +132,15 @@ struct PhotographsStage::Impl {
                255.0F;
   }
 
+  /// Whether a point of its plane lies on the sheet, whose corners may be round.
+  bool is_on_sheet(const Vec3& at) const {
+    const double height = board.sheet_height > 0.0 ? board.sheet_height : board.sheet;
+    const Eigen::Vector2d out(std::abs(at.x()) - 0.5 * board.sheet + board.corner,
+                              std::abs(at.y()) - 0.5 * height + board.corner);
+    if (board.corner <= 0.0) return out.maxCoeff() < 0.0;
+    return out.maxCoeff() < board.corner && out.cwiseMax(0.0).norm() < board.corner;
+  }
+
   std::array<Lamp, 2> lamps(double turn) const {
     const Eigen::AngleAxisd about(turn, Vec3::UnitZ());
     return {Lamp{about * Vec3(500.0, -600.0, 800.0), 170.0, 0.75F},
@@ -211,13 +220,13 @@ class Shutter {
   Vec3f seen(const Vec3& origin, const Vec3& direction, int x, int y, Random& random) const {
     double far = std::numeric_limits<double>::infinity();
     const PrintedBoard& board = stage_.board;
-    const Vec3 half =
-        0.5 * Vec3(board.sheet, board.sheet_height > 0.0 ? board.sheet_height : board.sheet, 0.0);
     double to_board = -1.0;
+    bool is_sheet = false;
     if (direction.z() < 0.0) {
-      to_board = -origin.z() / direction.z();
-      const Vec3 at = origin + to_board * direction;
-      if (board.table || (std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y())) {
+      to_board = (board.thickness - origin.z()) / direction.z();
+      is_sheet = stage_.is_on_sheet(origin + to_board * direction);
+      if (!is_sheet) to_board = -origin.z() / direction.z();
+      if (board.table || is_sheet) {
         far = to_board;
       } else {
         to_board = -1.0;
@@ -235,10 +244,11 @@ class Shutter {
       const Vec3 at = origin + to_board * direction;
       const float ink = stage_.ink_at(at.x(), at.y());
       Vec3f albedo = stage_.colours.paper + ink * (stage_.colours.ink - stage_.colours.paper);
-      if (board.table && !(std::abs(at.x()) < half.x() && std::abs(at.y()) < half.y())) {
+      if (!is_sheet) {
         const Vec3f grain(static_cast<float>(at.x()) / 60.0F, static_cast<float>(at.y()) / 4.0F,
                           0.0F);
-        albedo = linear_of(*board.table) * std::max(0.3F, 1.0F + 0.6F * swell(grain, 23U));
+        albedo = linear_of(*board.table) *
+                 std::max(0.3F, 1.0F + static_cast<float>(board.grain) * swell(grain, 23U));
       }
       const Vec3 o = hand_from_board_ * at;
       const Vec3 n = hand_from_board_.rotation * Vec3::UnitZ();
@@ -399,6 +409,7 @@ PhotographsStage::PhotographsStage(const ColouredMesh& hand, const PrintedBoard&
   auto impl = std::make_unique<Impl>();
   impl->options = options;
   impl->board = board;
+  if (board.paper) impl->colours.paper = linear_of(*board.paper);
   impl->mesh = hand.mesh;
   for (const Vec3f& colour : hand.colour) impl->albedo.push_back(linear_of(colour));
   for (const Vec3& normal : vertex_normals(hand.mesh))

@@ -53,6 +53,10 @@ struct PrintedBoard {
   double sheet_height = 0.0;  ///< of the sheet along y; 0: square
   /// Of the table that it lies on, with a grain along x; nothing: a blue cloth.
   std::optional<Srgb> table = std::nullopt;
+  double grain = 0.6;      ///< contrast of its grain
+  double corner = 0.0;     ///< radius of the sheet's corners, mm
+  double thickness = 0.0;  ///< with a table: of the sheet, a card, on it, mm; it throws no shadow
+  std::optional<Srgb> paper = std::nullopt;  ///< colour of the sheet; nothing: white
 };
 
 /// Where and how one photograph is taken.

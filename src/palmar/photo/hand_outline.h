@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "palmar/geometry/textured_mesh.h"
-#include "palmar/photo/sheet_view.h"
+#include "palmar/imaging/distance_transform.h"
+#include "palmar/photo/sheet_grid.h"
 
 namespace palmar {
 
 struct HandOutlineOptions {
-  double cell = 0.35;    ///< of the grid that the sheet is drawn on, mm
   double wrist = 0.0;    ///< how far inside the sheet's edge the wrist crease lies, mm
   bool palm_up = false;  ///< the palm looks at the camera
   void check() const;    ///< throws UsageError: field, value, allowed range
@@ -22,9 +21,11 @@ struct HandOutlineOptions {
 
 /// One finger of an outline; mm, seen from above, heights taken into account.
 struct OutlineFinger {
-  Eigen::Vector2d tip = Eigen::Vector2d::Zero();   ///< sheet's frame
-  Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< middle of the base crease, between the webs
-  double length = 0.0;                             ///< base to tip; the thumb's isn't told: 0
+  Eigen::Vector2d tip = Eigen::Vector2d::Zero();         ///< sheet's frame
+  Eigen::Vector2d base = Eigen::Vector2d::Zero();        ///< middle of the base crease, between the
+                                                         ///< webs; of the thumb beside its web
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitY();  ///< unit, of the middle line as it is seen
+  double length = 0.0;                                   ///< base to tip
   std::array<double, 3>
       width{};  ///< half way along the proximal, middle, distal segment, whose
                 ///< lengths are in the shares given; thumb: 0, it lies on its side
@@ -53,11 +54,14 @@ struct OutlineProportions {
   double palm_height = 0.0;               ///< half of the palm's thickness over the hand length
 };
 
-/// Measures the hand on the sheet: skin is what has another colour than paper in its light; tips
-/// and webs are the outline's extremes from the palm's middle; the forearm crosses one edge, which
-/// lies under the crease of the wrist. Throws InputError `name`: no hand, fingers that touch, a
-/// hand that reaches beyond the sheet, no forearm over the edge.
-HandOutline measure_outline(const RgbImage& image, const SheetView& sheet,
+/// Cells of drawings, mm.
+inline constexpr double kOutlineCell = 0.35;
+
+/// Measures a hand whose skin on the sheet or table is known: tips and webs are the outline's
+/// extremes from the palm's middle; the forearm crosses one edge of the grid, which lies under the
+/// crease of the wrist. Throws InputError `name`: fingers that aren't apart, a hand that reaches
+/// beyond the grid, no forearm over an edge.
+HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const SheetView& sheet,
                             const OutlineProportions& proportions, const std::string& name,
                             const HandOutlineOptions& options = {});
 

@@ -5,13 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/photo/photo_camera.h"
-#include "palmar/photo/photo_view.h"
+#include "palmar/photo/drawn_scene_test.h"
+#include "palmar/photo/skin_mask.h"
 
 namespace palmar {
 namespace {
@@ -19,92 +17,22 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using Vec2 = Eigen::Vector2d;
-
-/// A flat hand made of strips with round ends on an A4 sheet, seen by a pinhole: what it measures
-/// is what it is drawn with.
-struct DrawnHand {
-  struct Strip {
-    Vec2 from, to;
-    double radius;
-  };
-  std::vector<Strip> fingers;                      // thumb to little
-  double left = -40.0, right = 40.0, top = -55.0;  // the palm, from the sheet's lower edge
-  double bottom = -200.0;
-
-  DrawnHand() {
-    const double lengths[] = {62.0, 70.0, 64.0, 50.0}, angle[] = {-0.22, -0.06, 0.08, 0.26};
-    fingers.push_back({{-30.0, -115.0}, {-82.0, -85.0}, 9.0});
-    for (int f = 0; f < 4; ++f) {
-      const Vec2 from(-31.0 + 20.5 * f, top - 12.0);
-      fingers.push_back(
-          {from, from + (lengths[f] + 12.0) * Vec2(std::sin(angle[f]), std::cos(angle[f])), 7.5});
-    }
-  }
-  bool covers(const Vec2& p) const {
-    if (p.x() > left && p.x() < right && p.y() > bottom && p.y() < top) return true;
-    for (const Strip& s : fingers) {
-      const Vec2 d = s.to - s.from;
-      const double t = std::clamp((p - s.from).dot(d) / d.squaredNorm(), 0.0, 1.0);
-      if ((p - s.from - t * d).norm() < s.radius) return true;
-    }
-    return false;
-  }
-};
-
-struct Scene {
-  DrawnHand hand;
-  Vec2 half{105.0, 148.5};
-  std::array<int, 3> table{70, 60, 55}, skin{205, 150, 125};
-  double tilt = 12.0, about = -80.0, distance = 460.0, focal = 0.74;
-  int width = 600, height = 800;
-  bool has_hand = true;
-
-  PhotoCamera camera() const {
-    PhotoCamera camera;
-    const double f = focal * height, t = tilt * std::numbers::pi / 180.0,
-                 a = about * std::numbers::pi / 180.0;
-    camera.lens = {width, height, f, f, 0.5 * (width - 1), 0.5 * (height - 1), 0.0, 0.0};
-    camera.camera_from_world = looking_at(
-        distance * Vec3(std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)),
-        Vec3::Zero());
-    return camera;
-  }
-  RgbImage taken() const {
-    const PhotoCamera at = camera();
-    const Vec3 eye = at.centre();
-    RgbImage image{width, height, {}};
-    image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        std::array<double, 3> sum{};
-        for (int s = 0; s < 4; ++s) {
-          const Vec3 ray = at.ray({x - 0.25 + 0.5 * (s % 2), y - 0.25 + 0.5 * (s / 2)});
-          const Vec3 p = eye - eye.z() / ray.z() * ray;
-          const bool paper = std::abs(p.x()) < half.x() && std::abs(p.y()) < half.y();
-          std::array<int, 3> colour = paper ? std::array<int, 3>{226, 224, 220} : table;
-          if (has_hand && hand.covers(p.head<2>())) colour = skin;
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += 0.25 * colour[c];
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-          image.rgb[pixel_offset(image, x, y) + c] = static_cast<std::uint8_t>(sum[c] + 0.5);
-        }
-      }
-    }
-    return image;
-  }
-};
-
-OutlineProportions flat() {
-  OutlineProportions p;
-  for (auto& segment : p.segment) segment = {0.4, 0.3, 0.3};
-  p.segment[0] = {0.15, 0.15, 0.0};
-  return p;
-}
 
 HandOutline measured(const Scene& scene, const HandOutlineOptions& options = {}) {
   const RgbImage image = scene.taken();
-  return measure_outline(image, find_sheet(image, "hand.jpg"), flat(), "hand.jpg", options);
+  const SheetView sheet = find_sheet(image, "hand.jpg");
+  const SheetGrid grid = grid_of_sheet(sheet, kOutlineCell);
+  const VoxelMask skin =
+      skin_mask(draw_sheet(image, sheet, grid, Ground::kPaper), Ground::kPaper, "hand.jpg");
+  return measure_outline(grid, skin, sheet, flat_proportions(), "hand.jpg", options);
+}
+
+/// A scene in a small picture, for what is refused.
+Scene small_scene() {
+  Scene scene;
+  scene.width = 360;
+  scene.height = 480;
+  return scene;
 }
 
 TEST(SheetView, FindsTheCameraAndTheSheet) {
@@ -125,11 +53,11 @@ TEST(SheetView, FindsTheCameraAndTheSheet) {
 }
 
 TEST(SheetView, TellsA4FromLetter) {
-  Scene letter;
+  Scene letter = small_scene();
   letter.half = {107.95, 139.7};
   letter.hand.bottom = -180.0;
   EXPECT_EQ(find_sheet(letter.taken(), "hand.jpg").format.name, "letter");
-  Scene lying;
+  Scene lying = small_scene();
   std::swap(lying.half.x(), lying.half.y());
   lying.has_hand = false;
   lying.distance = 620.0;
@@ -151,21 +79,21 @@ TEST(SheetView, SaysWhatIsWrong) {
     EXPECT_THAT([&] { find_sheet(scene.taken(), "hand.jpg"); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr("hand.jpg: "), HasSubstr(text))));
   };
-  Scene none;
+  Scene none = small_scene();
   none.half = {0.0, 0.0};
   none.has_hand = false;
   message(none, "sheet");
-  Scene white;
+  Scene white = small_scene();
   white.table = {224, 222, 219};
   message(white, "white");
-  Scene near;
+  Scene near = small_scene();
   near.distance = 210.0;
   message(near, "border");
-  Scene oblique;
+  Scene oblique = small_scene();
   oblique.tilt = 52.0;
   oblique.distance = 430.0;
   message(oblique, "degrees off the sheet's normal");
-  Scene square;
+  Scene square = small_scene();
   square.half = {100.0, 100.0};
   message(square, "no A4 or letter");
   EXPECT_THAT(
@@ -218,16 +146,16 @@ TEST(HandOutline, SaysWhatIsWrong) {
     EXPECT_THAT([&] { measured(scene); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr("hand.jpg: "), HasSubstr(text))));
   };
-  Scene none;
+  Scene none = small_scene();
   none.has_hand = false;
   message(none, "no hand");
-  Scene touching;
+  Scene touching = small_scene();
   touching.hand.fingers[3].to.x() = touching.hand.fingers[2].to.x() + 10.0;
   message(touching, "finger");
-  Scene folded;
+  Scene folded = small_scene();
   folded.hand.fingers[1].to = folded.hand.fingers[1].from;
   message(folded, "4 fingertips");
-  Scene sleeve;
+  Scene sleeve = small_scene();
   sleeve.hand.bottom = -130.0;
   message(sleeve, "forearm must cross an edge");
   Scene beyond;

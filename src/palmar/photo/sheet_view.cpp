@@ -10,8 +10,11 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/convex_hull.h"
 #include "palmar/imaging/connected_parts.h"
+#include "palmar/imaging/otsu.h"
 #include "palmar/photo/photo_view.h"
+#include "palmar/photo/picture_edges.h"
 
 namespace palmar {
 namespace {
@@ -23,55 +26,6 @@ constexpr double kLeastShare = 0.06;  // of the picture that the sheet fills
 constexpr double kUsualFocal = 0.74;  // of the longer side: 26 mm on film, as most telephones have
 constexpr double kLeastEdge = 0.3;    // of an edge that must be seen
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// The picture, reduced by a whole number.
-RgbImage reduced(const RgbImage& image, int by) {
-  RgbImage small{image.width / by, image.height / by, {}};
-  small.rgb.resize(3 * static_cast<std::size_t>(small.width) *
-                   static_cast<std::size_t>(small.height));
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      std::array<int, 3> sum{};
-      for (int v = 0; v < by; ++v) {
-        for (int u = 0; u < by; ++u) {
-          const std::size_t at = pixel_offset(image, x * by + u, y * by + v);
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += image.rgb[at + c];
-        }
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        small.rgb[pixel_offset(small, x, y) + c] = static_cast<std::uint8_t>(sum[c] / (by * by));
-      }
-    }
-  }
-  return small;
-}
-
-/// The value that parts a histogram's two heaps best (Otsu 1979).
-int parting(const std::vector<double>& heap) {
-  double all = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < heap.size(); ++i) {
-    all += heap[i];
-    sum += heap[i] * static_cast<double>(i);
-  }
-  double low = 0.0, low_sum = 0.0, best = -1.0;
-  std::size_t first = 0, last = 0;
-  for (std::size_t i = 0; i + 1 < heap.size(); ++i) {
-    low += heap[i];
-    low_sum += heap[i] * static_cast<double>(i);
-    if (low <= 0.0 || low >= all) continue;
-    const double between =
-        low * (all - low) * std::pow(low_sum / low - (sum - low_sum) / (all - low), 2);
-    if (between > best * (1.0 + 1e-12)) {
-      best = between;
-      first = last = i;
-    } else if (between >= best * (1.0 - 1e-12)) {
-      last = i;  // a gap: its middle
-    }
-  }
-  return static_cast<int>((first + last) / 2);
-}
 
 /// Pixels that are as bright and as grey as paper in this light.
 VoxelMask paper_of(const RgbImage& image) {
@@ -110,176 +64,14 @@ VoxelMask paper_of(const RgbImage& image) {
     share[p] = most - least < kColour * most ? least : 0.0;
     brightness[static_cast<std::size_t>(std::clamp(least, 0.0, 1.27) * 100.0)] += 1.0;
   }
-  const double limit = std::clamp(parting(brightness) / 100.0, 0.35, 0.8);
+  const double limit = std::clamp(otsu_parting(brightness) / 100.0, 0.35, 0.8);
   VoxelMask mask(count, 0);
   for (std::size_t p = 0; p < count; ++p) mask[p] = share[p] > limit ? 1 : 0;
   return mask;
 }
 
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  std::vector<Vec2> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 &&
-             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-/// Where two lines through a, b and c, d meet; nothing if they are as good as parallel.
-std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const double denominator = cross(b - a, d - c);
-  if (std::abs(denominator) < 1e-9 * (b - a).norm() * (d - c).norm()) return {};
-  return a + cross(c - a, d - c) / denominator * (b - a);
-}
-
-/// The quadrilateral round a convex polygon: edges whose neighbours, drawn on, add least are
-/// dropped.
-std::optional<std::array<Vec2, 4>> four_sided(std::vector<Vec2> polygon) {
-  while (polygon.size() > 4) {
-    const std::size_t n = polygon.size();
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t drop = 0;
-    Vec2 at = Vec2::Zero();
-    for (std::size_t i = 0; i < n; ++i) {  // edge from i to i + 1
-      const Vec2 &before = polygon[(i + n - 1) % n], &a = polygon[i], &b = polygon[(i + 1) % n],
-                 &after = polygon[(i + 2) % n];
-      const auto corner = meeting(before, a, after, b);
-      if (!corner || (*corner - a).dot(a - before) < 0.0) continue;
-      const double added = std::abs(cross(b - a, *corner - a));
-      if (added < least) {
-        least = added;
-        drop = i;
-        at = *corner;
-      }
-    }
-    if (!std::isfinite(least)) return {};
-    polygon[drop] = at;
-    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>((drop + 1) % n));
-  }
-  if (polygon.size() != 4) return {};
-  return std::array<Vec2, 4>{polygon[0], polygon[1], polygon[2], polygon[3]};
-}
-
 double grey_at(const RgbImage& image, const Vec2& pixel) {
   return pixel_colour(image, pixel).minCoeff();
-}
-
-/// Points of the sheet's edge between two corners, found in the whole picture: where the brightness
-/// along a normal passes the middle between table and paper.
-std::vector<Vec2> edge_points(const RgbImage& image, const Vec2& from, const Vec2& to,
-                              double reach) {
-  const Vec2 along = (to - from).normalized();
-  const Vec2 inwards(-along.y(), along.x());  // corners go round clockwise in the picture
-  constexpr int kPoints = 240;
-  std::vector<Vec2> points;
-  const int steps = static_cast<int>(std::ceil(2.0 * reach)) + 1;
-  std::vector<double> value(static_cast<std::size_t>(steps));
-  for (int k = 0; k < kPoints; ++k) {
-    const Vec2 middle = from + (0.02 + 0.96 * (k + 0.5) / kPoints) * (to - from);
-    for (int i = 0; i < steps; ++i) {
-      const Vec2 at = middle + (i - 0.5 * (steps - 1)) * inwards;
-      double sum = 0.0;
-      for (const double aside : {-1.0, 0.0, 1.0}) sum += grey_at(image, at + aside * along);
-      value[static_cast<std::size_t>(i)] = sum / 3.0;
-    }
-    // The steepest rise over a few pixels; dark before, bright behind.
-    constexpr int kBaseline = 4;
-    int best = -1;
-    double rise = 25.0;
-    for (int i = kBaseline; i + kBaseline < steps; ++i) {
-      const double r = value[static_cast<std::size_t>(i + kBaseline)] -
-                       value[static_cast<std::size_t>(i - kBaseline)];
-      if (r > rise) {
-        rise = r;
-        best = i;
-      }
-    }
-    if (best < 0) continue;
-    const double half = 0.5 * (value[static_cast<std::size_t>(best + kBaseline)] +
-                               value[static_cast<std::size_t>(best - kBaseline)]);
-    for (int i = best - kBaseline; i < best + kBaseline; ++i) {
-      const double a = value[static_cast<std::size_t>(i)],
-                   b = value[static_cast<std::size_t>(i + 1)];
-      if (a <= half && b > half) {
-        points.push_back(middle + (i + (half - a) / (b - a) - 0.5 * (steps - 1)) * inwards);
-        break;
-      }
-    }
-  }
-  return points;
-}
-
-struct Line {
-  Vec2 point = Vec2::Zero(), direction = Vec2::UnitX();
-  double error = 0.0;  ///< RMS, pixels
-  int points = 0;
-};
-
-/// A line through most of the points: the best of all pairs of a few, then its neighbours' least
-/// squares.
-Line line_through(const std::vector<Vec2>& points) {
-  Line best;
-  constexpr double kNear = 2.0;  // pixels
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / 24);
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    for (std::size_t j = i + 4 * stride; j < points.size(); j += stride) {
-      const Vec2 d = (points[j] - points[i]).normalized();
-      int count = 0;
-      for (const Vec2& p : points) count += std::abs(cross(d, p - points[i])) < kNear ? 1 : 0;
-      if (count > best.points) best = {points[i], d, 0.0, count};
-    }
-  }
-  for (int round = 0; round < 3 && best.points > 1; ++round) {
-    Vec2 mean = Vec2::Zero();
-    std::vector<Vec2> near;
-    for (const Vec2& p : points) {
-      if (std::abs(cross(best.direction, p - best.point)) < kNear) near.push_back(p);
-    }
-    if (near.size() < 2) break;
-    for (const Vec2& p : near) mean += p / static_cast<double>(near.size());
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (const Vec2& p : near) {
-      const Vec2 q = p - mean;
-      xx += q.x() * q.x();
-      xy += q.x() * q.y();
-      yy += q.y() * q.y();
-    }
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    best = {mean, Vec2(std::cos(angle), std::sin(angle)), 0.0, static_cast<int>(near.size())};
-    double sum = 0.0;
-    for (const Vec2& p : near) sum += std::pow(cross(best.direction, p - mean), 2);
-    best.error = std::sqrt(sum / static_cast<double>(near.size()));
-  }
-  return best;
-}
-
-/// Homography from the unit square ((0,0), (1,0), (1,1), (0,1)) to four points (Heckbert 1989).
-Eigen::Matrix3d from_unit_square(const std::array<Vec2, 4>& q) {
-  const Vec2 d1 = q[1] - q[2], d2 = q[3] - q[2], s = q[0] - q[1] + q[2] - q[3];
-  const double det = cross(d1, d2);
-  const double g = cross(s, d2) / det, h = cross(d1, s) / det;
-  const Vec2 a = q[1] - q[0] + g * q[1], b = q[3] - q[0] + h * q[3];
-  Eigen::Matrix3d m;
-  m << a.x(), b.x(), q[0].x(), a.y(), b.y(), q[0].y(), g, h, 1.0;
-  return m;
-}
-
-/// Pixels from the sheet's frame.
-Eigen::Matrix3d homography(const std::array<Vec2, 4>& corner, const SheetFormat& format) {
-  Eigen::Matrix3d unit_from_sheet;
-  unit_from_sheet << 1.0 / format.width, 0.0, 0.5, 0.0, -1.0 / format.height, 0.5, 0.0, 0.0, 1.0;
-  return from_unit_square(corner) * unit_from_sheet;
 }
 
 /// What a camera of some focal length says of a homography: columns of a rotation would be square
@@ -353,11 +145,17 @@ const std::vector<SheetFormat>& sheet_formats() {
   return all;
 }
 
+const SheetFormat& card_format() {
+  static const SheetFormat card = {"card", 85.60, 53.98, 3.18, 0.76};
+  return card;
+}
+
 const SheetFormat& sheet_format_named(const std::string& name) {
   for (const SheetFormat& one : sheet_formats()) {
     if (one.name == name) return one;
   }
-  throw UsageError("sheet \"" + name + "\"; a4 and letter are allowed");
+  if (name == card_format().name) return card_format();
+  throw UsageError("sheet \"" + name + "\"; a4, letter and card are allowed");
 }
 
 void SheetOptions::check() const {
@@ -383,7 +181,7 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
                      image.width, image.height));
   }
   const int by = std::max(1, longer / kSmallSide);
-  const RgbImage small = reduced(image, by);
+  const RgbImage small = reduced_picture(image, by);
   const VolumeGrid grid{
       {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
   const ConnectedParts parts = connected_parts(grid, paper_of(small));
@@ -415,13 +213,8 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   }
   const std::vector<Vec2> hull = convex_hull(points);
   const auto quad = hull.size() < 4 ? std::nullopt : four_sided(hull);
-  double hull_area = 0.0, quad_area = 0.0;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    hull_area += 0.5 * cross(hull[i], hull[(i + 1) % hull.size()]);
-  }
-  if (quad) {
-    for (std::size_t i = 0; i < 4; ++i) quad_area += 0.5 * cross((*quad)[i], (*quad)[(i + 1) % 4]);
-  }
+  const double hull_area = area_of(hull),
+               quad_area = quad ? area_of({quad->begin(), quad->end()}) : 0.0;
   if (!quad || std::abs(hull_area) < 0.93 * std::abs(quad_area)) {
     fail(name, fmt::format("the largest white part isn't a sheet with four edges: a corner is "
                            "covered, or something white lies beside it; {}",
@@ -435,24 +228,25 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
       corner.begin(), corner.end(), [](const Vec2& a, const Vec2& b) { return a.sum() < b.sum(); });
   std::rotate(corner.begin(), first, corner.end());
 
-  std::array<Line, 4> line;
+  std::array<SeenLine, 4> line;
   for (std::size_t e = 0; e < 4; ++e) {
     const Vec2 &from = corner[e], &to = corner[(e + 1) % 4];
-    const std::vector<Vec2> found = edge_points(image, from, to, 3.0 * by + 8.0);
+    const std::vector<Vec2> found = edge_points([&](const Vec2& at) { return grey_at(image, at); },
+                                                from, to, {.reach = 3.0 * by + 8.0});
     line[e] = line_through(found);
-    if (line[e].points < kLeastEdge * 240) {
+    if (line[e].points < kLeastEdge * kEdgePlaces) {
       fail(name,
            fmt::format(
                "an edge of the sheet, from pixel ({:.0f}, {:.0f}) to ({:.0f}, {:.0f}), "
-               "is hidden or bent: {} of 240 places on it are seen; all but the wrist must lie "
+               "is hidden or bent: {} of {} places on it are seen; all but the wrist must lie "
                "within the sheet; {}",
-               from.x(), from.y(), to.x(), to.y(), line[e].points, advice));
+               from.x(), from.y(), to.x(), to.y(), line[e].points, kEdgePlaces, advice));
     }
   }
   SheetView view;
   double error = 0.0;
   for (std::size_t e = 0; e < 4; ++e) {
-    const Line &before = line[(e + 3) % 4], &after = line[e];
+    const FittedLine &before = line[(e + 3) % 4].line, &after = line[e].line;
     const auto at = meeting(before.point, before.point + before.direction, after.point,
                             after.point + after.direction);
     if (!at) fail(name, std::string("edges of the sheet are parallel that should meet; ") + advice);
@@ -467,7 +261,8 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
     for (const bool lies : {false, true}) {
       SheetFormat one = format;
       if (lies) std::swap(one.width, one.height);
-      fits.push_back(fit_of(homography(view.corner, one), one, image, options));
+      fits.push_back(
+          fit_of(homography_of(view.corner, one.width, one.height), one, image, options));
     }
   }
   std::sort(fits.begin(), fits.end(),
@@ -488,7 +283,7 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   view.format = best.format;
   view.focal = best.focal;
   view.focal_source = best.source;
-  view.pixel_from_sheet = homography(view.corner, view.format);
+  view.pixel_from_sheet = homography_of(view.corner, view.format.width, view.format.height);
   const Columns columns(view.pixel_from_sheet,
                         Vec2(0.5 * (image.width - 1), 0.5 * (image.height - 1)));
   const auto unscaled = [&](const Vec3& v) {

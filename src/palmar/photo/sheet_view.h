@@ -13,15 +13,19 @@
 
 namespace palmar {
 
-/// A sheet of paper of known size, mm.
+/// A sheet of paper or a card of known size, mm.
 struct SheetFormat {
-  std::string name;  ///< "a4", "letter"
+  std::string name;  ///< "a4", "letter", "card"
   double width = 0.0, height = 0.0;
+  double corner = 0.0;     ///< radius of its corners
+  double thickness = 0.0;  ///< its face lies that much above the table
 };
 
 /// ISO 216 A4, ANSI A (letter).
 const std::vector<SheetFormat>& sheet_formats();
-/// Throws UsageError naming those allowed.
+/// A bank card: ISO/IEC 7810:2019 ID-1 (its corners have radii of 2.88 to 3.48 mm).
+const SheetFormat& card_format();
+/// One of these. Throws UsageError naming those allowed.
 const SheetFormat& sheet_format_named(const std::string& name);
 
 /// A white sheet on a darker table as a photograph shows it. Its frame: origin in its middle, x to
@@ -36,6 +40,7 @@ struct SheetView {
   double focal = 0.0;        ///< pixels, as taken for `eye`
   std::string focal_source;  ///< "camera", "sheet", "usual"
   double edge_error = 0.0;   ///< of the edges from straight lines, RMS, mm
+  double scale_error = 0.0;  ///< of lengths of a hand on it, deviation, as a share
 
   Eigen::Vector2d pixel_of(const Eigen::Vector2d& sheet) const;
   /// The point at height z above the sheet that is seen where the sheet's point is.
