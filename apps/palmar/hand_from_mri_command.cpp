@@ -121,8 +121,7 @@ int run(const FromMriArguments& arguments, const Context& context) {
   progress.update(0.0, "looking for series");
   const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
   require_apart(options.work, selection.scans);
-  create_folder(options.work);
-  require_writable(options.work);
+  const WorkFolder folder(options.work);
   require_writable(folder_of(arguments.out));
   for (const std::string& text : selection.notes) note(context.common, text);
   note(context.common, text_of(selection.scans));

@@ -88,8 +88,7 @@ int run_from_photos(FromPhotosArguments arguments, const Context& context) {
   const auto folders = files_by_posture(paths, arguments.posture, "folder");
   const std::string work =
       arguments.hand.work.empty() ? beside_hand(out, ".photos") : arguments.hand.work;
-  create_folder(work);
-  require_writable(work);
+  const WorkFolder work_folder(work);
   arguments.hand.check_outputs(work);
   const Progress progress = make_progress(context.common);
 

@@ -31,9 +31,31 @@ std::filesystem::path folder_of(const std::string& out) {
 
 void require_writable(const std::filesystem::path& folder) {
   const std::filesystem::path trial = folder / ".palmar-trial";
-  write_file(trial, "");
   std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    throw OutputError(folder.string() + ": there is no such folder to write to");
+  }
+  try {
+    write_file(trial, "");
+  } catch (const OutputError& error) {
+    const std::string_view what = error.what();  // "FILE: can't be written: REASON"
+    const std::size_t reason = what.rfind(": ");
+    throw OutputError(folder.string() + ": nothing can be written into this folder" +
+                      std::string(reason == std::string_view::npos ? "" : what.substr(reason)));
+  }
   std::filesystem::remove(trial, ignored);
+}
+
+WorkFolder::WorkFolder(const std::filesystem::path& path) : path_(path) {
+  std::error_code ignored;
+  is_new_ = !std::filesystem::exists(path, ignored);
+  create_folder(path);
+  require_writable(path);
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (is_new_) std::filesystem::remove(path_, ignored);  // only if it is empty
 }
 
 std::string hand_name_of(const std::string& out) {

@@ -18,4 +18,18 @@ std::filesystem::path folder_of(const std::string& out);
 /// Minutes of work shall not end in a folder that can't be written to: throws OutputError at once.
 void require_writable(const std::filesystem::path& folder);
 
+/// A folder for what steps leave, made where there is none and found writable, or OutputError. What
+/// was made for a run that then left nothing goes with it.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const std::filesystem::path& path);
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+  bool is_new_ = false;
+};
+
 }  // namespace palmar::cli

@@ -45,15 +45,16 @@ std::string folder_of(ScanPosture posture, const std::string& work) {
   return (std::filesystem::path(work) / name_of(posture)).string();
 }
 
-/// What the tag says about the side, held against the anatomy.
-void check_laterality(const RecordedScan& scan, std::vector<std::string>& notes) {
+/// What the tag says about the side, held against the user's word or the anatomy.
+void check_laterality(const RecordedScan& scan, bool is_chosen, std::vector<std::string>& notes) {
   if (scan.laterality.empty()) return;
   const bool says_left = scan.laterality == "L";
   if (says_left == (scan.surfaces.side == Side::kLeft)) return;
-  notes.push_back(
-      fmt::format("{}: its tag Laterality says {}, but the hand is a {} one; the anatomy counts "
-                  "(--side decides)",
-                  scan.title, scan.laterality, name_of(scan.surfaces.side)));
+  notes.push_back(fmt::format(
+      "{}: its tag Laterality says {}, but {}", scan.title, scan.laterality,
+      is_chosen ? fmt::format("--side {} counts", name_of(scan.surfaces.side))
+                : fmt::format("the hand is a {} one; the anatomy counts (--side decides)",
+                              name_of(scan.surfaces.side))));
 }
 
 /// What the user says about a scan counts over what was found.
@@ -114,7 +115,7 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::option
   scan.surfaces =
       find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
   scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
-  check_laterality(scan, scan.surfaces.notes);
+  check_laterality(scan, options.side.has_value(), scan.surfaces.notes);
   mark_cut_fingers(scan.surfaces, file.image.grid);
   const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
   if (!cut.empty()) {

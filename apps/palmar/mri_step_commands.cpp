@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "palmar/capture/bone_plausibility.h"
 #include "palmar/capture/measured_joints.h"
+#include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/io/bone_label_file.h"
@@ -26,7 +28,16 @@ struct SurfacesArguments {
   std::string image, out, labels, model = "template", description;
   std::optional<int> number;
   SurfaceArguments surfaces;
+  bool accepts_odd_slices = false;
 };
+
+/// A damaged slice spoils the surfaces near it.
+void require_sound_slices(const std::vector<std::string>& odd, bool is_accepted) {
+  if (odd.empty() || is_accepted) return;
+  throw InputError(
+      fmt::format("{}\nrestore them, or go on with --accept-odd-slices if they look right",
+                  fmt::join(odd, "\n")));
+}
 
 std::string name_or_dash(const ScannedBone& bone) { return bone.name.empty() ? "-" : bone.name; }
 
@@ -71,17 +82,26 @@ int run_surfaces(const SurfacesArguments& a, const Context& context) {
   const Progress progress = make_progress(context.common);
   const auto model = load_hand(a.model);
   const SurfaceOptions options = a.surfaces.options();
+  std::vector<BoneLabel> labels;
+  if (!a.labels.empty()) labels = read_bone_labels(a.labels);
   const ImageFile file =
       read_image(a.image, {a.number, a.description}, part_of(progress, 0.0, 0.1));
+  require_sound_slices(file.odd_slices, a.accepts_odd_slices);
   ScanSurfaces surfaces =
       find_surfaces(file.image, a.image, *model, options, part_of(progress, 0.1, 1.0));
   if (const auto side = a.surfaces.chosen_side()) surfaces.side = *side;
-  if (!a.labels.empty()) apply_bone_labels(surfaces, read_bone_labels(a.labels), *model);
+  if (!labels.empty()) apply_bone_labels(surfaces, labels, *model);
   write_scan_surfaces(a.out, surfaces, "");
   finish_progress();
   for (const std::string& text : file.notes) note(context.common, text);
   for (const std::string& text : file.odd_slices) note(context.common, text);
   for (const std::string& text : surfaces.notes) note(context.common, text);
+  const std::vector<std::string> doubts = doubtful_bones(surfaces, *model);
+  if (!doubts.empty()) {
+    note(context.common, fmt::format("look at these bones, which may be found wrongly or bear a "
+                                     "wrong name: {}",
+                                     fmt::join(doubts, "; ")));
+  }
   print(context.common.json ? json_of(surfaces).dump(2) + "\n" : text_of(surfaces));
   note(context.common, "wrote " + a.out);
   return 0;
@@ -100,6 +120,8 @@ void add_surfaces(CLI::App& mri, Context& context) {
   verb->add_option("--model", a->model, "Hand that tells what bones there are")
       ->capture_default_str();
   a->surfaces.add_to(*verb);
+  verb->add_flag("--accept-odd-slices", a->accepts_odd_slices,
+                 "Go on though a slice doesn't belong between its neighbours");
   verb->callback(
       [&context, a] { context.run = [&context, a] { return run_surfaces(*a, context); }; });
 }

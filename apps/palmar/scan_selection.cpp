@@ -34,7 +34,7 @@ ScanPosture posture_called(const std::string& name, const std::string& option) {
   }
   const std::string nearest = nearest_name(name, names);
   throw UsageError(option + ": \"" + name + "\" is no posture" +
-                   (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " Allowed are " +
+                   (nearest.empty() ? "." : "; did you mean " + nearest + "?") + " Allowed are " +
                    all_postures());
 }
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/bone_pairing.h"
+#include "palmar/capture/bone_outline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,16 +11,6 @@
 
 namespace palmar {
 namespace {
-
-TEST(LeastCostPairs, PrefersTheSumToTheBestSinglePair) {
-  // The cheapest pair (0, 0) would leave 9 for row 1; 2 + 2 is less than 1 + 9.
-  EXPECT_THAT(least_cost_pairs({{1.0, 2.0}, {2.0, 9.0}}, 100.0), testing::ElementsAre(1, 0));
-}
-
-TEST(LeastCostPairs, LeavesARowAloneWhereThatIsCheaper) {
-  EXPECT_THAT(least_cost_pairs({{1.0}, {2.0}}, 5.0), testing::ElementsAre(0, -1));
-  EXPECT_THAT(least_cost_pairs({{7.0}}, 5.0), testing::ElementsAre(-1));
-}
 
 TEST(OutlineOf, TellsAnEllipsoidsAxisAndLength) {
   TriangleMesh mesh = make_icosphere(1.0, 3);

@@ -30,12 +30,12 @@ struct BonePairing {
   double cost = 0.0;                  ///< of pairs and neighbours, over the model's bones
 };
 
-constexpr double kAlone = 16.0;  ///< cost of a bone that isn't found: 4 standard deviations
-
 /// Pairs the model's bones with hypotheses, at least cost in all. A pair costs what the region's
 /// marrow does and the squares of: the distance of centres over 5 mm, the angle between the axes of
 /// long bones over 0.35 rad, the logarithms of the ratios of lengths and of widths over 0.3; for a
-/// last phalanx also of the tissue beyond it over 2.5 mm from the usual 4.6 mm. `expected`: where
+/// last phalanx also of the tissue beyond it over 2.5 mm from the usual 4.6 mm. A bone that isn't
+/// found costs 16 (4 standard deviations), one of the forearm 4, as images often end before it.
+/// `expected`: where
 /// the model's bones roughly are, one or more guesses; the one that costs least is taken.
 ///
 /// 1. Least-cost pairs, no region used twice (Kuhn 1955).
@@ -48,9 +48,5 @@ constexpr double kAlone = 16.0;  ///< cost of a bone that isn't found: 4 standar
 BonePairing pair_bones(const BoneHypotheses& hypotheses, const ScanLevels& levels,
                        const TriangleMesh& skin, const Hand& model,
                        const std::vector<std::vector<BoneOutline>>& expected);
-
-/// Least-cost pairing: column of each row, -1 for rows that stay alone at `alone` each. `cost` is
-/// rows x columns.
-std::vector<int> least_cost_pairs(const std::vector<std::vector<double>>& cost, double alone);
 
 }  // namespace palmar

@@ -4,70 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <cmath>
-#include <limits>
 
 #include "palmar/core/error.h"
+#include "palmar/core/least_cost_pairs.h"
 
 namespace palmar {
-namespace {
-
-/// Row of each column of a square cost matrix in the assignment of least cost: shortest augmenting
-/// paths with potentials.
-std::vector<int> least_assignment(const Eigen::MatrixXd& cost) {
-  const auto n = cost.rows();
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  std::vector<int> row_of(static_cast<std::size_t>(n), -1);
-  Eigen::VectorXd row_potential = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd column_potential = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index start = 0; start < n; ++start) {
-    Eigen::VectorXd slack = Eigen::VectorXd::Constant(n, kInfinite);
-    std::vector<Eigen::Index> from(static_cast<std::size_t>(n), -1);  // column before
-    std::vector<char> is_used(static_cast<std::size_t>(n), 0);
-    Eigen::Index row = start, column = -1;
-    while (true) {
-      Eigen::Index next = -1;
-      double least = kInfinite;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const auto k = static_cast<std::size_t>(j);
-        if (is_used[k]) continue;
-        const double reduced = cost(row, j) - row_potential[row] - column_potential[j];
-        if (reduced < slack[j]) {
-          slack[j] = reduced;
-          from[k] = column;
-        }
-        if (slack[j] < least) {
-          least = slack[j];
-          next = j;
-        }
-      }
-      row_potential[start] += least;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const auto k = static_cast<std::size_t>(j);
-        if (is_used[k]) {
-          row_potential[row_of[k]] += least;
-          column_potential[j] -= least;
-        } else {
-          slack[j] -= least;
-        }
-      }
-      column = next;
-      is_used[static_cast<std::size_t>(column)] = 1;
-      if (row_of[static_cast<std::size_t>(column)] < 0) break;
-      row = row_of[static_cast<std::size_t>(column)];
-    }
-    while (column >= 0) {
-      const auto k = static_cast<std::size_t>(column);
-      const Eigen::Index before = from[k];
-      row_of[k] = before < 0 ? static_cast<int>(start) : row_of[static_cast<std::size_t>(before)];
-      column = before;
-    }
-  }
-  return row_of;
-}
-
-}  // namespace
 
 void MarkerMatchOptions::check() const {
   const auto require = [](const char* name, double value, double low, double high) {
@@ -83,25 +25,14 @@ void MarkerMatchOptions::check() const {
 
 std::vector<std::optional<int>> assign_points(const std::vector<Vec3>& expected,
                                               const std::vector<Vec3>& found, double gate) {
-  const auto rows = static_cast<Eigen::Index>(expected.size());
-  const auto columns = static_cast<Eigen::Index>(found.size());
-  // Each point has a stand-in on the other side to be left alone with.
-  const Eigen::Index n = rows + columns;
-  const double alone = 0.5 * gate * gate;
-  Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(n, n);
-  cost.topRightCorner(rows, rows).setConstant(alone);
-  cost.bottomLeftCorner(columns, columns).setConstant(alone);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    for (Eigen::Index j = 0; j < columns; ++j) {
-      cost(i, j) = (expected[static_cast<std::size_t>(i)] - found[static_cast<std::size_t>(j)])
-                       .squaredNorm();
-    }
+  std::vector<std::vector<double>> cost(expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    for (const Vec3& point : found) cost[i].push_back((expected[i] - point).squaredNorm());
   }
-  const std::vector<int> row_of = least_assignment(cost);
+  const std::vector<int> pair = least_cost_pairs(cost, gate * gate);
   std::vector<std::optional<int>> match(expected.size());
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const int i = row_of[static_cast<std::size_t>(j)];
-    if (i < rows) match[static_cast<std::size_t>(i)] = static_cast<int>(j);
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    if (pair[i] >= 0) match[i] = pair[i];
   }
   return match;
 }

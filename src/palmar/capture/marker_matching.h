@@ -11,7 +11,6 @@ namespace palmar {
 
 /// Pairs points one to one so that the sum of squared distances is least, where leaving a point
 /// alone costs gate^2. Returns for each expected point the index of the one found there.
-/// Source: Kuhn 1955, Munkres 1957 (assignment problem). n^3 in the number of points.
 std::vector<std::optional<int>> assign_points(const std::vector<Vec3>& expected,
                                               const std::vector<Vec3>& found, double gate);
 

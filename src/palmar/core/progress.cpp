@@ -8,7 +8,7 @@
 namespace palmar {
 
 void Progress::throw_if_cancelled() const {
-  if (is_cancelled()) throw Cancelled("cancelled; what was finished has been kept");
+  if (is_cancelled()) throw Cancelled("cancelled; whatever was finished has been kept");
 }
 
 Progress part_of(const Progress& progress, double begin, double end, const std::string& what) {
