@@ -202,6 +202,12 @@ TEST(HandFromMri, DamagedSeriesAreNamedBeforeTheWork) {
   EXPECT_EQ(odd.exit_code, 3);
   EXPECT_THAT(odd.err,
               AllOf(HasSubstr("grasp/slice-0015.dcm: differs"), HasSubstr("--accept-odd-slices")));
+  EXPECT_FALSE(fs::exists(person() + "/x.mri"));  // made for it, and nothing came of it
+  const ProgramRun step = run_palmar("mri surfaces damaged/grasp --out step", person());
+  EXPECT_EQ(step.exit_code, 3);
+  EXPECT_THAT(step.err,
+              AllOf(HasSubstr("grasp/slice-0015.dcm: differs"), HasSubstr("--accept-odd-slices")));
+  EXPECT_FALSE(fs::exists(person() + "/step"));
 
   write_text(slice, bytes.substr(0, bytes.size() / 2));
   const ProgramRun cut_off = run_palmar("hand from-mri damaged --out x.hand.glb", person());
@@ -230,6 +236,14 @@ TEST(HandFromMri, WrongUseIsNamed) {
   fs::create_directories(person() + "/empty");
   fails("empty --out x.hand.glb", "empty: is empty", 3);
   fails("p/mri --out x.hand.glb --work p/mri", "holds the images themselves", 2);
+  fails("scans --out nowhere/x.hand.glb --work w", "nowhere: there is no such folder", 1);
+  EXPECT_FALSE(fs::exists(person() + "/w"));
+  // Labels are read before the long search.
+  write_text(person() + "/labels.csv", "name,x,y\ncapitate,1,2\n");
+  const ProgramRun labels =
+      run_palmar("mri surfaces p/mri/grasp --out step --labels labels.csv", person());
+  EXPECT_EQ(labels.exit_code, 3);
+  EXPECT_THAT(labels.err, HasSubstr("labels.csv"));
 }
 
 }  // namespace
