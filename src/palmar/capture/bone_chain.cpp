@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/capture/bone_chain.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/closest_point.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -86,12 +86,7 @@ Rigid3 align_points(std::span<const Vec3> a, std::span<const Vec3> b,
   for (std::size_t i = 0; i < a.size(); ++i) {
     cross += w(i) * (b[i] - middle_b) * (a[i] - middle_a).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-  if (turn.determinant() < 0.0) {
-    turn = svd.matrixU() * Vec3(1.0, 1.0, -1.0).asDiagonal() * svd.matrixV().transpose();
-  }
-  const Quat q = Quat(turn).normalized();
+  const Quat q = Quat(fit_rotation(cross)).normalized();
   return {q, middle_b - q * middle_a};
 }
 

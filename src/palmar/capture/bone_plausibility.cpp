@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 
+#include "palmar/capture/bone_chain.h"
 #include "palmar/capture/bone_outline.h"
 #include "palmar/geometry/closest_point.h"
 
@@ -18,13 +19,6 @@ struct SizedBone {
   const ScannedBone* bone;
   double length, expected;  // mm
 };
-
-const ScannedBone* bone_named(const ScanSurfaces& surfaces, const std::string& name) {
-  for (const ScannedBone& bone : surfaces.bones) {
-    if (bone.name == name) return &bone;
-  }
-  return nullptr;
-}
 
 double gap(const TriangleMesh& a, const TriangleMesh& b) {
   const ClosestPointQuery query(a);

@@ -16,6 +16,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/rotation.h"
 #include "palmar/geometry/smooth.h"
 
 namespace palmar {
@@ -413,9 +414,8 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
       // The joint stays where the proximal bone carries it, and the bone points to where the other
       // scan has it.
       Rigid3 start = motion;
-      start.rotation =
-          Quat::FromTwoVectors(motion.rotation * (centre - joint), target.centre - seat) *
-          motion.rotation;
+      start.rotation = shortest_rotation(motion.rotation * (centre - joint), target.centre - seat) *
+                       motion.rotation;
       start.translation = seat - start.rotation * joint;
       starts = {{start, 0.5}, {start, 1.05}};
     } else {
@@ -423,7 +423,7 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
       const Vec3 mine = motion.rotation * long_axis(bone.mesh), other = long_axis(target.mesh);
       for (const double sense : {1.0, -1.0}) {
         Rigid3 start = motion;
-        start.rotation = Quat::FromTwoVectors(mine, sense * other) * motion.rotation;
+        start.rotation = shortest_rotation(mine, sense * other) * motion.rotation;
         start.translation = target.centre - start.rotation * centre;
         starts.emplace_back(start, 1.05);
       }

@@ -14,6 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/geometry/rotation.h"
 #include "palmar/hand/hand_instance.h"
 #include "palmar/hand/segment_scaling.h"
 #include "palmar/hand/skeleton_in_posture.h"
@@ -65,15 +66,8 @@ Affine map_of_skin(const std::vector<Vec3>& before, const std::vector<Vec3>& aft
     xx += weight[k] / sum * x * x.transpose();
     yx += weight[k] / sum * y * x.transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(yx, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-  if (turn.determinant() < 0.0) {
-    Eigen::Matrix3d u = svd.matrixU();
-    u.col(2) = -u.col(2);
-    turn = u * svd.matrixV().transpose();
-  }
   const double held = 0.5 * xx.trace() / 3.0;
-  map.linear = (yx + held * turn) * (xx + held * Eigen::Matrix3d::Identity()).inverse();
+  map.linear = (yx + held * fit_rotation(yx)) * (xx + held * Eigen::Matrix3d::Identity()).inverse();
   return map;
 }
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -192,15 +192,8 @@ class Fitter {
       after += x.squaredNorm();
     }
     if (!(before > 0.0)) return Eigen::RowVector3d::Zero();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-    if (turn.determinant() < 0.0) {
-      Eigen::Matrix3d u = svd.matrixU();
-      u.col(2) *= -1.0;
-      turn = u * svd.matrixV().transpose();
-    }
     const double size = std::clamp(std::sqrt(after / before), 0.6, 1.6);
-    return (size * (turn * coordinate_[v])).transpose();
+    return (size * (fit_rotation(cross) * coordinate_[v])).transpose();
   }
 
   const FitSurface& moving_;

@@ -13,6 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/closest_point.h"
 #include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -214,7 +215,7 @@ RayNodes completed(const std::vector<std::optional<Vec3>>& seen, const std::vect
     }
     if (k > 0 && seen[k] && seen[k - 1]) {
       const Vec3 link = turn.rotation * (model[k] - model[k - 1]);
-      turn.rotation = Quat::FromTwoVectors(link, ray.node[k] - ray.node[k - 1]) * turn.rotation;
+      turn.rotation = shortest_rotation(link, ray.node[k] - ray.node[k - 1]) * turn.rotation;
     }
   }
   return ray;
@@ -281,7 +282,7 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
 
 Vec3 ReferenceHand::from_model(Finger finger, std::size_t link, const Vec3& direction) const {
   const Quat turn =
-      Quat::FromTwoVectors(model_ray[at(finger)].direction(link), ray[at(finger)].direction(link));
+      shortest_rotation(model_ray[at(finger)].direction(link), ray[at(finger)].direction(link));
   return turn * direction;
 }
 

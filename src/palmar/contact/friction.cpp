@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/friction.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/skin_geometry.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -39,15 +39,8 @@ Quat turn_of_skin(const SkinGeometry& skin, const std::vector<Vec3>& posed, int 
     const Vec3 now = posed[static_cast<std::size_t>(w)] - posed[static_cast<std::size_t>(v)];
     sum += now * rest.transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d fit = svd.matrixU() * svd.matrixV().transpose();
-  if (fit.determinant() < 0.0) {
-    Eigen::Matrix3d u = svd.matrixU();
-    u.col(2) *= -1.0;
-    fit = u * svd.matrixV().transpose();
-  }
-  const Quat posed_from_rest(fit);
-  const Quat onto_product = Quat::FromTwoVectors(posed_from_rest * skin.normal[v], -product_normal);
+  const Quat posed_from_rest(fit_rotation(sum));
+  const Quat onto_product = shortest_rotation(posed_from_rest * skin.normal[v], -product_normal);
   return (onto_product * posed_from_rest).normalized();
 }
 

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/rotation.h"
 #include "palmar/hand/named_postures.h"
 
 namespace palmar {
@@ -151,12 +151,8 @@ PostureFitter::Place PostureFitter::place_for(const std::vector<Vec3>& model,
   for (std::size_t i = 0; i < model.size(); ++i) {
     if (measured[i]) cross += (*measured[i] - to) * (model[i] - from).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d flip = Eigen::Matrix3d::Identity();
-  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   Place place;
-  place.measured_from_hand.rotation =
-      Quat(Eigen::Matrix3d(svd.matrixU() * flip * svd.matrixV().transpose())).normalized();
+  place.measured_from_hand.rotation = Quat(fit_rotation(cross)).normalized();
   place.measured_from_hand.translation = to - place.measured_from_hand.rotation * from;
   return place;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -31,7 +32,7 @@ void flatten_on(const HeldBar& bar, std::vector<Vec3>& skin) {
 TriangleMesh bar_mesh(const HeldBar& bar) {
   TriangleMesh mesh = make_cylinder(
       {.radius = bar.radius, .length = 2.0 * kHalfLength, .segments = 72, .rings = 48});
-  const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), bar.axis);
+  const Quat turn = shortest_rotation(Vec3::UnitZ(), bar.axis);
   for (Vec3& v : mesh.vertices) v = bar.point + turn * v;
   return mesh;
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -62,9 +63,7 @@ std::optional<Rigid3> first_pose(const PhotoLens& lens, const Corners& corners) 
   if (m(2, 2) < 0.0) m = -m;  // the board lies in front
   Eigen::Matrix3d r;
   r << m.col(0), m.col(1), m.col(0).cross(m.col(1));
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return Rigid3{Quat(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose())).normalized(),
-                m.col(2)};
+  return Rigid3{Quat(fit_rotation(r)).normalized(), m.col(2)};
 }
 
 /// The lens and the places that make the residuals of corners least; Levenberg-Marquardt, the lens

@@ -17,6 +17,7 @@
 #include "palmar/geometry/mesh_measures.h"
 #include "palmar/geometry/mesh_topology.h"
 #include "palmar/geometry/ray_query.h"
+#include "palmar/geometry/rotation.h"
 
 namespace palmar {
 namespace {
@@ -51,7 +52,7 @@ class Surroundings {
   double sky(int triangle) const {
     const std::optional<Vec3> normal = normal_of(triangle);
     if (!normal) return 1.0;
-    const Quat turned = Quat::FromTwoVectors(Vec3::UnitZ(), *normal);
+    const Quat turned = shortest_rotation(Vec3::UnitZ(), *normal);
     const Vec3 from = middle(triangle) + off_ * *normal;
     int free = 0;
     for (const Vec3& direction : directions_) {
