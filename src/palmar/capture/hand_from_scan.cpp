@@ -15,6 +15,7 @@
 #include "palmar/capture/dotted_thumb.h"
 #include "palmar/capture/hand_plausibility.h"
 #include "palmar/capture/marker_matching.h"
+#include "palmar/capture/missing_marks.h"
 #include "palmar/capture/ring_bands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
@@ -164,6 +165,12 @@ class DotReader {
     // Whose segment somebody told first: they may lie farther off.
     for (int s = 0; s < kSegmentCount; ++s) match(static_cast<Segment>(s), 25.0, 12.0);
     match({}, 10.0, 4.0);
+    std::map<Segment, int> again;
+    for (const auto& segment : taken) {
+      if (segment) ++again[*segment];
+    }
+    const std::string lacking = missing_dots_note(scan.name, again, result_.dots);
+    if (!lacking.empty()) result_.notes.push_back(lacking);
     for (std::size_t k = 0; k < taken.size(); ++k) {
       result_.marks.push_back({name_, MarkLabel::Kind::kDot, taken[k], scan.marks.dots[k].point});
     }
@@ -261,12 +268,6 @@ void take_ranges(const std::map<ScanPosture, Posture>& postures, bool has_cmc, S
   }
 }
 
-std::string listed(const std::vector<Segment>& segments) {
-  std::string text;
-  for (const Segment s : segments) text += (text.empty() ? "" : ", ") + std::string(name_of(s));
-  return text;
-}
-
 /// Finds the person's creases by where the joints suggest them, and moves joints to them.
 void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& result) {
   const Hand& hand = result.scanned.hand;
@@ -279,10 +280,7 @@ void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& res
   for (auto& [segment, plane] : found.plane) {
     plane = {turn * plane.point, turn.rotation * plane.normal};
   }
-  if (!found.missing.empty()) {
-    result.notes.push_back("Creases not found, taken from the joints: " + listed(found.missing) +
-                           ".");
-  }
+  if (!found.missing.empty()) result.notes.push_back(missing_creases_note(found.missing));
   constexpr int kMany = 60;
   if (found.stray > kMany) {
     result.notes.emplace_back("Some of what is drawn in the creases' colour lies on no crease.");
@@ -338,9 +336,11 @@ HandFromScan make_hand_from_scans(const Hand& model,
     // The same skin, seen from the frame that the creases moved.
     result.scanned = register_model(base, scan, joints, part_of(progress, 2.0 * unit, 3.0 * unit));
   } else {
-    result.notes.emplace_back(
-        "No drawn creases: segments and joints follow the skin's shape alone, which tells where "
-        "fingers bend to 2 to 4 mm.");
+    result.notes.push_back(
+        std::string(scan.marks.is_ink.empty() ? "No drawn creases"
+                                              : "No lines in the creases' colour") +
+        ": segments and joints follow the skin's shape alone, which tells where fingers bend to 2 "
+        "to 4 mm.");
   }
   const Rigid3 hand_from_scan = laid.scan_from_hand.inverse();
 
@@ -355,6 +355,10 @@ HandFromScan make_hand_from_scans(const Hand& model,
     ++result.dots[dot.segment];
     result.marks.push_back({ScanPosture::kReference, MarkLabel::Kind::kDot, dot.segment,
                             laid.scan_from_hand * dot.point});
+  }
+  if (!dots.empty()) {
+    const std::string lacking = missing_dots_note(scan.name, result.dots, advised_dots());
+    if (!lacking.empty()) result.notes.push_back(lacking);
   }
   result.postures[ScanPosture::kReference] = reference_posture(joints.skeleton);
   result.scan_from_hand[ScanPosture::kReference] = laid.scan_from_hand;

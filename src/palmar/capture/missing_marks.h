@@ -1,0 +1,25 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "palmar/hand/anatomy.h"
+
+namespace palmar {
+
+// What was drawn on a hand and isn't found in a scan, told to its owner; "" if nothing lacks.
+
+/// `missing`: creases by the segment distal of them, the wrist's by the palm.
+std::string missing_creases_note(const std::vector<Segment>& missing);
+
+/// Dots to be drawn: three on each phalanx, eight on the back of the hand (segment palm).
+std::map<Segment, int> advised_dots();
+
+/// `scan`: name for the message; segments with fewer dots `found` than `expected` are listed.
+std::string missing_dots_note(const std::string& scan, const std::map<Segment, int>& found,
+                              const std::map<Segment, int>& expected);
+
+}  // namespace palmar
