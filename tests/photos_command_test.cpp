@@ -138,6 +138,13 @@ TEST(Photos, RefusesWhatIsNone) {
   run = run_palmar("hand from-photos empty other/ --out a.hand.glb", folder);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("doesn't tell the posture"));
+  for (const char* const name : {"p0_c1.png", "p1_c1.png", "p2_c1.png", "extra.png"}) {
+    std::ofstream(folder + "/other/" + name) << "hello";
+  }
+  run = run_palmar("photos mesh other --out hand.ply", folder);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("the names of 3 photographs tell position and camera (as "
+                                 "p3_c2.jpg does), that of extra.png doesn't"));
   run = run_palmar("photos board --squares 10 --out board.svg", folder);
   if (run.exit_code != 6) {
     EXPECT_EQ(run.exit_code, 2);

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 
+#include "colour_argument.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/io/exif.h"
@@ -36,6 +37,7 @@ namespace fs = std::filesystem;
 
 struct PhantomPhotosArguments {
   std::string base = "template", out, side = "right", posture = "reference";
+  std::string skin = "#cc9980";
   PhotographsOptions photographs;
   BoardPattern board;
   int calibration = 12;
@@ -148,6 +150,7 @@ int run_photos(PhantomPhotosArguments arguments, const Context& context) {
     PaintedHandOptions person;
     person.seed = context.common.seed;
     person.side = side;
+    person.paint.skin = parse_colour("--skin-colour", arguments.skin);
     person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
     hand = make_painted_hand(*load_hand(arguments.base), {posture}, person);
     surface = surface_of(*hand, posture);
@@ -248,6 +251,7 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--jpeg", o->jpeg,
                    "JPEG of this quality (1 to 100) with what cameras say of themselves; 0: PNG")
       ->capture_default_str();
+  verb->add_option("--skin-colour", o->skin, "#rrggbb")->capture_default_str();
   verb->add_option("--texture", p.texture, "Unevenness of the skin's colour, as a share")
       ->capture_default_str();
   verb->add_option("--noise", p.noise, "Deviation of the sensor's noise, of 255")

@@ -46,6 +46,7 @@ Json report_of(const PosedPhotographs& work, const PhotoModel& model, double sec
                               pose.rotation.z()};
       one["translation_mm"] = vector3(pose.translation);
       one["mask_share"] = use.mask_share;
+      one["around_share"] = use.around_share;
       one["glare_share"] = use.glare_share;
       one["depth_share"] = use.depth_share;
       one["agreeing_share"] = use.kept_share;
@@ -76,6 +77,8 @@ Json report_of(const PosedPhotographs& work, const PhotoModel& model, double sec
           {"triangles", model.skin.mesh.triangles.size()},
           {"measured_share", model.measured_share},
           {"has_background", model.has_background},
+          {"gloss_share", model.light.gloss},
+          {"light_change_share", model.light.change},
           {"seconds", seconds},
           {"warnings", work.warnings},
           {"photographs", std::move(photographs)}};

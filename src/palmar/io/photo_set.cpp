@@ -27,23 +27,32 @@ bool is_photograph(const fs::path& path) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
-/// By what names say: whole sets only.
-void describe_by_names(PhotoSet& set) {
+/// By what names say: whole sets only. A few that don't are an error, as all would be taken for
+/// photographs of one camera.
+void describe_by_names(const fs::path& folder, PhotoSet& set) {
   static const std::regex kName("(?:^|[^a-z0-9])p([0-9]{1,4})[^a-z0-9]+c([0-9]{1,4})(?:[^0-9]|$)",
                                 std::regex::icase);
-  set.is_described = true;
+  std::vector<std::string> silent;
   for (PhotoFile& file : set.photographs) {
     const std::string stem = file.path.stem().string();
     std::smatch match;
     if (!std::regex_search(stem, match, kName)) {
-      set.is_described = false;
-      break;
+      silent.push_back(file.path.filename().string());
+      continue;
     }
     file.position = std::stoi(match[1].str());
     file.camera = "c" + match[2].str();
   }
+  const std::size_t count = set.photographs.size();
+  set.is_described = silent.empty();
   if (set.is_described) return;
-  for (std::size_t i = 0; i < set.photographs.size(); ++i) {
+  if (2 * silent.size() < count) {
+    throw InputError(fmt::format(
+        "{}: the names of {} photographs tell position and camera (as p3_c2.jpg does), that of {} "
+        "doesn't: rename it, take it away, or describe all in photos.json",
+        folder.string(), count - silent.size(), silent.front()));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     PhotoFile& file = set.photographs[i];
     file.camera = file.exif && !file.exif->camera.empty() ? file.exif->camera : "camera";
     file.position = static_cast<int>(i);
@@ -130,7 +139,7 @@ PhotoSet read_photo_set(const fs::path& folder) {
     std::sort(set.photographs.begin(), set.photographs.end(),
               [](const PhotoFile& a, const PhotoFile& b) { return a.path < b.path; });
     read_exif_data(set);
-    describe_by_names(set);
+    describe_by_names(folder, set);
   } else {
     read_exif_data(set);
   }

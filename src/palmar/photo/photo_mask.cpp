@@ -72,14 +72,20 @@ std::vector<Eigen::Vector3f> blurred(const RgbImage& image) {
   return result;
 }
 
+/// Pixels of the board, whose half edge is `half` mm; none without a board.
+VoxelMask board_region(const PhotoView& view, double half) {
+  if (half <= 0.0) return VoxelMask(view.grey.size(), 0);
+  return region_of(
+      view, {{-half, -half, 0.0}, {half, -half, 0.0}, {half, half, 0.0}, {-half, half, 0.0}});
+}
+
 /// Colour of the board's paper: mean of the brighter third of its pixels outside of the box; white
 /// if it isn't seen.
 Eigen::Vector3f paper_of(const PhotoView& view, const std::vector<Eigen::Vector3f>& colour,
                          const VoxelMask& box, double half) {
   const Eigen::Vector3f white = Eigen::Vector3f::Constant(255.0F);
   if (half <= 0.0) return white;
-  const VoxelMask board = region_of(
-      view, {{-half, -half, 0.0}, {half, -half, 0.0}, {half, half, 0.0}, {-half, half, 0.0}});
+  const VoxelMask board = board_region(view, half);
   std::vector<std::pair<float, std::size_t>> seen;
   for (std::size_t p = 0; p < colour.size(); ++p) {
     if (board[p] != 0 && box[p] == 0) seen.emplace_back(colour[p].sum(), p);
@@ -127,6 +133,18 @@ void drop_specks(const VolumeGrid& grid, VoxelMask& mask) {
   }
 }
 
+/// `colour`: over the paper's. Neither nearly black, nor grey, nor blue.
+bool looks_like_skin(const Eigen::Vector3f& colour, const PhotoMaskOptions& options) {
+  const float sum = colour.sum();
+  if (sum < 3.0 * options.dark) return false;
+  const double red = colour[0] / sum, blue = colour[2] / sum;
+  constexpr double kGrey = 1.0 / 3.0;
+  const bool is_neutral =
+      std::abs(red - kGrey) < options.neutral && std::abs(blue - kGrey) < options.neutral;
+  const bool is_blue = blue - red > options.blue && colour[2] > colour[1];
+  return !is_neutral && !is_blue;
+}
+
 }  // namespace
 
 void PhotoMaskOptions::check() const {
@@ -150,22 +168,26 @@ PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
       (view.camera.camera_from_world * box.center()).norm() / view.camera.lens.focal_x;
   const VoxelMask region = region_of(view, corners_of(box));
   const std::vector<Eigen::Vector3f> colour = blurred(view.colour);
-  const Eigen::Vector3f paper = paper_of(view, colour, region, board_half);
+  result.paper = paper_of(view, colour, region, board_half);
 
   VoxelMask mask(view.grey.size(), 0);
-  std::size_t region_size = 0;
+  // The board is neutral, so it tells nothing of what is behind the hand.
+  const VoxelMask board = board_region(view, board_half);
+  std::size_t region_size = 0, outside = 0, around = 0;
   for (std::size_t p = 0; p < mask.size(); ++p) {
-    if (region[p] == 0) continue;
-    ++region_size;
-    const Eigen::Vector3f c = colour[p].cwiseQuotient(paper);
-    const float sum = c.sum();
-    if (sum < 3.0 * options.dark) continue;
-    const double red = c[0] / sum, blue = c[2] / sum;
-    constexpr double kGrey = 1.0 / 3.0;
-    const bool is_neutral =
-        std::abs(red - kGrey) < options.neutral && std::abs(blue - kGrey) < options.neutral;
-    const bool is_blue = blue - red > options.blue && c[2] > c[1];
-    mask[p] = is_neutral || is_blue ? 0 : 1;
+    if (region[p] == 0 && board[p] != 0) continue;
+    const bool may_be_hand = looks_like_skin(colour[p].cwiseQuotient(result.paper), options);
+    if (region[p] != 0) {
+      ++region_size;
+      mask[p] = may_be_hand ? 1 : 0;
+    } else {
+      ++outside;
+      around += may_be_hand ? 1 : 0;
+    }
+  }
+  constexpr std::size_t kFew = 20;  // a twentieth of the picture
+  if (outside > mask.size() / kFew) {
+    result.around_share = static_cast<double>(around) / static_cast<double>(outside);
   }
   // In pixels; the flat grid has a spacing of 1.
   const double pixel = result.pixel_size;

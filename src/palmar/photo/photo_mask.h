@@ -26,6 +26,10 @@ struct PhotoMask {
   std::vector<std::uint8_t> inside;  ///< per pixel of the view: 0 or 1
   double box_share = 0.0;            ///< of the box' pixels that are inside
   double pixel_size = 0.0;           ///< mm at the middle of the box
+  Eigen::Vector3f paper = Eigen::Vector3f::Constant(255.0F);  ///< of the board, 0 to 255
+  /// Of the pixels beside box and board those that look like a hand, where there is none: a
+  /// background that colours don't tell from one. 1 if they are less than 5 % of the picture.
+  double around_share = 1.0;
 };
 
 /// Pixels of the box' outline in the picture that are neither neutral (by the white of the board,

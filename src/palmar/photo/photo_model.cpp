@@ -104,6 +104,7 @@ TriangleMesh cut_above(const TriangleMesh& mesh, double height) {
 PhotoUse use_of(const PhotoMask& mask, const DepthMap& map) {
   PhotoUse use;
   use.mask_share = mask.box_share;
+  use.around_share = mask.around_share;
   const auto inside = static_cast<double>(
       std::count_if(map.cost.begin(), map.cost.end(), [](float cost) { return cost < 2.0F; }));
   const auto deep = static_cast<double>(
@@ -124,7 +125,8 @@ std::vector<PhotoOutline> outlines_of(const std::vector<PhotoView>& views,
     VolumeGrid grid;
     grid.size = {views[v].width(), views[v].height(), 1};
     outlines[v] = {views[v].camera,
-                   eroded(grid, masks[v].inside, (options.grow + kMixed) / masks[v].pixel_size)};
+                   eroded(grid, masks[v].inside, (options.grow + kMixed) / masks[v].pixel_size),
+                   masks[v].paper};
   });
   return outlines;
 }
@@ -138,6 +140,31 @@ double glare_share(const PhotoView& view, const PhotoOutline& outline) {
     bright += outline.inside[p] != 0 && view.grey[p] > kWhite ? 1.0 : 0.0;
   }
   return inside > 0.0 ? bright / inside : 0.0;
+}
+
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What a user should know of the light.
+void note_light(PhotoModel& model) {
+  // Matt skin has less than 0.02, noise of 16 steps and moved lamps included.
+  constexpr double kShines = 0.025, kMoves = 0.13;
+  if (model.light.gloss > kShines) {
+    model.warnings.push_back(fmt::format(
+        "the skin shines: in 2 % of what the photographs show of it mirrored lamps make it {:.0f} "
+        "% or more brighter, and they wander over it from photograph to photograph; dry or "
+        "powdered skin and soft light help",
+        100.0 * model.light.gloss));
+  }
+  if (model.light.change > kMoves) {
+    model.warnings.push_back(fmt::format(
+        "the light on the hand changes by {:.0f} % from photograph to photograph: lamps must stand "
+        "still beside the hand, none on the cameras, no flash",
+        100.0 * model.light.change));
+  }
 }
 
 }  // namespace
@@ -181,11 +208,14 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
     packs[v] = packed(views[v]);
     masks[v] = mask_hand(views[v], options.box, options.board_half, options.mask);
   });
-  std::vector<double> shares;
-  for (const PhotoMask& mask : masks) shares.push_back(mask.box_share);
-  std::nth_element(shares.begin(), shares.begin() + static_cast<long>(count / 2), shares.end());
-  constexpr double kTellsLittle = 0.6;
-  model.has_background = shares[count / 2] > kTellsLittle;
+  std::vector<double> shares, around;
+  for (const PhotoMask& mask : masks) {
+    shares.push_back(mask.box_share);
+    around.push_back(mask.around_share);
+  }
+  // A narrow box may be full of hand before a plain backdrop, which shows beside it.
+  constexpr double kTellsLittle = 0.5, kLittleAround = 0.15;
+  model.has_background = middle_of(shares) > kTellsLittle && middle_of(around) > kLittleAround;
   double begin = 0.12;  // of the fine stereo
   if (model.has_background) {
     begin = 0.4;
@@ -241,13 +271,13 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   model.points = fused.points.size();
   std::vector<double> glare;
   for (const PhotoUse& use : model.photographs) glare.push_back(use.glare_share);
-  std::nth_element(glare.begin(), glare.begin() + static_cast<long>(count / 2), glare.end());
+  const double usual_glare = middle_of(glare);
   constexpr double kMuchGlare = 0.003;
-  if (glare[count / 2] > kMuchGlare) {
+  if (usual_glare > kMuchGlare) {
     model.warnings.push_back(fmt::format(
         "the hand mirrors lamps or is overexposed ({:.1f} % of its pixels are white): shapes and "
         "marks are uncertain there; dry or powdered skin and soft light help",
-        100.0 * glare[count / 2]));
+        100.0 * usual_glare));
   }
   constexpr std::size_t kFewPoints = 5000;
   if (model.points < kFewPoints) {
@@ -274,6 +304,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   progress.update(0.95, "colouring it");
   VertexColours colours = colour_vertices(mesh, photographs, outlines, options.colours);
   for (std::size_t v = 0; v < count; ++v) model.photographs[v].gain = colours.gain[v];
+  model.light = colours.light;
+  note_light(model);
 
   std::vector<float> density(mesh.vertices.size());
   for (std::size_t i = 0; i < density.size(); ++i) {

@@ -33,11 +33,12 @@ struct PhotoModelOptions {
 
 /// What became of one photograph.
 struct PhotoUse {
-  double mask_share = 0.0;   ///< of the box' outline that may be hand
-  double glare_share = 0.0;  ///< of the hand's pixels that are as bright as can be
-  double depth_share = 0.0;  ///< of the hand's pixels that got a depth
-  double kept_share = 0.0;   ///< of those, depths that other photographs agree with
-  double gain = 1.0;         ///< its exposure, made good
+  double mask_share = 0.0;    ///< of the box' outline that may be hand
+  double around_share = 0.0;  ///< of what is around it in the picture, by its colour
+  double glare_share = 0.0;   ///< of the hand's pixels that are as bright as can be
+  double depth_share = 0.0;   ///< of the hand's pixels that got a depth
+  double kept_share = 0.0;    ///< of those, depths that other photographs agree with
+  double gain = 1.0;          ///< its exposure, made good
 };
 
 /// A hand as the photographs show it, in the board's frame, mm.
@@ -51,6 +52,7 @@ struct PhotoModel {
   std::size_t points = 0;       ///< that photographs agreed about
   double hull_volume = 0.0;     ///< mm^3
   double measured_share = 0.0;  ///< of the area
+  SkinLight light;              ///< gloss, lamps that moved
   bool has_background = false;  ///< masks tell little: what is behind the hand looks like skin;
                                 ///< what wasn't measured is left out then
   std::vector<std::string> warnings;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace palmar {
 namespace {
@@ -32,15 +30,18 @@ Eigen::Vector3f without_grey(const Eigen::Vector3f& light) {
   return light - Eigen::Vector3f::Constant(light.sum() / 3.0F);
 }
 
+/// What a sample has more than its own light, if it is brighter than usual as well; less, if it is
+/// darker. A backdrop that shows at an outline makes skin paler and darker; it mirrors nothing.
+float mirrored_light(float own, float all) {
+  const float more = all - own;
+  if (more > 0.0F && all > 1.0F) return std::min(more, all - 1.0F);
+  if (more < 0.0F && all < 1.0F) return std::max(more, all - 1.0F);
+  return 0.0F;
+}
+
 }  // namespace
 
 SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots) {
-  if (const char* f = std::getenv("DUMP_LIGHT")) {  // XXX
-    FILE* o = std::fopen(f, "w");
-    for (std::size_t k = 0; k < spots.size(); ++k)
-      for (const auto& s : spots[k]) std::fprintf(o, "%zu %zu %.5f %.5f %.5f\n", k, s.photograph, s.light[0], s.light[1], s.light[2]);
-    std::fclose(o);
-  }
   constexpr std::size_t kFewSamples = 5, kFewSpots = 100;
   constexpr float kGrey = 0.08F;  // of the sum; light skin has 0.25
   SkinLight result;
@@ -58,7 +59,7 @@ SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots) {
     for (const SkinSample& sample : spot) {
       const float own = without_grey(sample.light).dot(colour) / (strength * strength);
       const float all = sample.light.sum() / sum;
-      mirrored.push_back(all - own);
+      mirrored.push_back(mirrored_light(own, all));
       own_and_all.emplace_back(own, all);
       own_mean += own;
       all_mean += all;
@@ -69,9 +70,9 @@ SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots) {
     samples += static_cast<double>(spot.size() - 1);
   }
   if (result.spots < kFewSpots) return {.spots = result.spots};
-  constexpr double kTail = 0.05;
+  constexpr double kTail = 0.02;
   const double bright = quantile(mirrored, 1.0 - kTail), dark = quantile(mirrored, kTail);
-  result.gloss = std::max(0.0, bright + dark - 2.0 * quantile(mirrored, 0.5));
+  result.gloss = std::max(0.0, bright + dark);
   result.change = std::sqrt(std::max(0.0, covariance / samples));
   return result;
 }

