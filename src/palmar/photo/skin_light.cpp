@@ -8,7 +8,7 @@
 namespace palmar {
 namespace {
 
-float quantile(std::vector<float>& values, double share) {
+float level_at(std::vector<float>& values, double share) {
   const auto at = values.begin() +
                   static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), at, values.end());
@@ -21,7 +21,7 @@ Eigen::Vector3f usual_light(const std::vector<SkinSample>& spot) {
   std::vector<float> channel(spot.size());
   for (int k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < spot.size(); ++i) channel[i] = spot[i].light[k];
-    usual[k] = quantile(channel, 0.5);
+    usual[k] = level_at(channel, 0.5);
   }
   return usual;
 }
@@ -71,7 +71,7 @@ SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots) {
   }
   if (result.spots < kFewSpots) return {.spots = result.spots};
   constexpr double kTail = 0.02;
-  const double bright = quantile(mirrored, 1.0 - kTail), dark = quantile(mirrored, kTail);
+  const double bright = level_at(mirrored, 1.0 - kTail), dark = level_at(mirrored, kTail);
   result.gloss = std::max(0.0, bright + dark);
   result.change = std::sqrt(std::max(0.0, covariance / samples));
   return result;
