@@ -134,7 +134,7 @@ Json json_of(const Photographed& photo, const OutlinePerson& person) {
     }
     fingers[kFingers[f]] = {
         {"tip_mm", point(one.tip)}, {"base_mm", point(one.base)}, {"widths_mm", widths}};
-    if (one.length > 0.0) fingers[kFingers[f]]["length_mm"] = one.length;
+    if (f > 0 && one.length > 0.0) fingers[kFingers[f]]["length_mm"] = one.length;
   }
   Json corners = Json::array();
   for (const Eigen::Vector2d& c : sheet.corner) corners.push_back(point(c));

@@ -14,14 +14,14 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 /// r(angle) in the plane z = 0.
 SectionCurve curve_of(const std::function<double(double)>& radius, int count = 2000) {
   SectionCurve curve;
   curve.is_closed = true;
   for (int k = 0; k < count; ++k) {
-    const double t = 2.0 * kPi * k / count;
+    const double t = 2.0 * kHalfTurn * k / count;
     curve.point.push_back(radius(t) * Vec3(std::cos(t), std::sin(t), 0.0));
   }
   return curve;
@@ -49,7 +49,7 @@ TEST(TautLength, BeginsAndEndsOnThePartItself) {
   // A quarter of a circle of radius 10 as an arc of less than half of it: both ends on its top.
   const SectionCurve curve = curve_of([](double) { return 10.0; });
   const double s = 10.0 * std::sqrt(0.5);
-  EXPECT_NEAR(taut_length(curve, {-s, s, 0.0}, {s, s, 0.0}, Vec3::UnitY()), 5.0 * kPi, 1e-3);
+  EXPECT_NEAR(taut_length(curve, {-s, s, 0.0}, {s, s, 0.0}, Vec3::UnitY()), 5.0 * kHalfTurn, 1e-3);
   EXPECT_EQ(taut_length(curve, {-s, s, 0.0}, {-s, s, 0.0}, Vec3::UnitY()), 0.0);
 }
 
@@ -70,10 +70,10 @@ TEST(TautLength, HardlyFeelsRoughSkin) {
   const double r = 8.0, wave = 0.15;
   const SectionCurve rough =
       curve_of([=](double t) { return r + wave * std::cos(17.0 * t + 0.3); }, 6000);
-  EXPECT_GT(0.5 * curve_length(rough), 1.02 * kPi * r);
+  EXPECT_GT(0.5 * curve_length(rough), 1.02 * kHalfTurn * r);
   const double tape = taut_length(rough, {-r, 0, 0}, {r, 0, 0}, Vec3::UnitY());
-  EXPECT_LT(tape, kPi * (r + wave));
-  EXPECT_GT(tape, kPi * (r - wave));
+  EXPECT_LT(tape, kHalfTurn * (r + wave));
+  EXPECT_GT(tape, kHalfTurn * (r - wave));
 }
 
 TEST(TautLength, IsTheSameWhereverItLiesAndHoweverItIsCut) {

@@ -4,14 +4,15 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <numbers>
 
+#include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/subdivide.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/hand_sections.h"
+#include "palmar/hand/laid_posture.h"
 #include "palmar/hand/named_postures.h"
 #include "palmar/hand/skeleton_in_posture.h"
 #include "palmar/hand/skinning.h"
@@ -30,16 +31,10 @@ double about_zero(RandomStream& random, double most) {
   return most * (2.0 * random.uniform() - 1.0);
 }
 
-/// Brings the thumb up beside the fingers, as a table does: adducts it until its tip is no lower
-/// than those of the others. `height`: of the five tips over the palm's plane, palmar.
-void lift_thumb(Posture& posture,
-                const std::function<std::array<double, kFingerCount>(const Posture&)>& height) {
-  constexpr double kStep = 1.0, kMost = 40.0;  // degrees
-  for (double turned = 0.0; turned < kMost; turned += kStep) {
-    const auto z = height(posture);
-    if (z[0] <= 0.25 * (z[1] + z[2] + z[3] + z[4])) return;
-    posture[Dof::kThumbCmcAbduction] -= kStep * kSpreadDegree;
-  }
+std::array<double, kFingerCount> tip_heights(const Skeleton& posed) {
+  std::array<double, kFingerCount> z{};
+  for (std::size_t f = 0; f < z.size(); ++f) z[f] = posed.fingertips[f].z();
+  return z;
 }
 
 /// Fingers straight within a few degrees, as people hold them; the thumb in the palm's plane as far
@@ -59,13 +54,8 @@ Posture straightened(const SubjectPerson& person, RandomStream& random) {
   posture[Dof::kThumbCmcAbduction] += kSpreadDegree * about_zero(random, 4.0);
   posture[Dof::kThumbMpFlexion] = kSpreadDegree * about_zero(random, 4.0);
   posture[Dof::kThumbIpFlexion] = kSpreadDegree * about_zero(random, 5.0);
-  lift_thumb(posture, [&](const Posture& p) {
-    std::array<double, kFingerCount> z{};
-    const Skeleton posed = subject_skeleton(person, p);
-    for (std::size_t f = 0; f < z.size(); ++f) z[f] = posed.fingertips[f].z();
-    return z;
-  });
-  return posture;
+  return laid_on_table(posture,
+                       [&](const Posture& p) { return tip_heights(subject_skeleton(person, p)); });
 }
 
 /// Spreads fingers as a hand is spread on a table without force.
@@ -98,11 +88,8 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options) {
         about_zero(random, 1.5) * kSpreadDegree * (1.0 - options.together);
   }
   posture[Dof::kThumbCmcFlexion] *= 0.3;
-  lift_thumb(posture, [&](const Posture& p) {
-    std::array<double, kFingerCount> z{};
-    const Skeleton posed = skeleton_in_posture(hand.skeleton, p);
-    for (std::size_t f = 0; f < z.size(); ++f) z[f] = posed.fingertips[f].z();
-    return z;
+  posture = laid_on_table(posture, [&](const Posture& p) {
+    return tip_heights(skeleton_in_posture(hand.skeleton, p));
   });
   SpreadHand result;
   result.side = hand.side;
@@ -130,15 +117,35 @@ SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& optio
   const auto skin_in = [&](const Posture& posture) {
     return subdivide({tissue.pose(posture).skin, person.skin.triangles}, finer);
   };
-  const TriangleMesh flat = skin_in(straight);
-  const Skeleton joints = subject_skeleton(person, straight);
+  // Fingertips are points of the skin, which moves against the bones a little.
+  const HandCreases relaxed(person.skin, person.skeleton);
+  std::vector<Segment> segment;
+  for (const Vec3& v : person.skin.vertices) segment.push_back(relaxed.label(v).segment);
+  const auto joints_in = [&](const Posture& posture, const TriangleMesh& skin) {
+    Skeleton skeleton = subject_skeleton(person, posture);
+    const std::vector<Vec3> vertices(
+        skin.vertices.begin(), skin.vertices.begin() + static_cast<std::ptrdiff_t>(segment.size()));
+    for (int f = 0; f < kFingerCount; ++f) {
+      skeleton.fingertips[static_cast<std::size_t>(f)] =
+          fingertip_of(vertices, segment, skeleton, static_cast<Finger>(f));
+    }
+    return skeleton;
+  };
+  // Measured with the thumb at rest: beside the palm its web hides where its base crease is.
+  Posture measured = straight;
+  for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
+                        Dof::kThumbIpFlexion}) {
+    measured[dof] = person.reference[dof];
+  }
+  const TriangleMesh flat = skin_in(measured);
+  const Skeleton joints = joints_in(measured, flat);
   const HandCreases creases = subject_creases(flat, joints, options.seed);
   SpreadHand result;
   result.side = side;
   result.dimensions = measure_hand(flat, joints, creases);
   result.skin = skin_in(spread);
   result.wrist = hand_sections(flat, joints, creases).wrist_middle;
-  const Skeleton fanned = subject_skeleton(person, spread);
+  const Skeleton fanned = joints_in(spread, result.skin);
   for (std::size_t f = 0; f < 4; ++f) result.fingertips[f] = fanned.fingertips[f + 1];
   if (side == Side::kLeft) {
     for (Vec3& v : result.skin.vertices) v.x() = -v.x();

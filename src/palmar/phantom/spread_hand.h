@@ -29,8 +29,8 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options = {});
 
 /// A person that isn't one of Palmar's hands (make_person(): proportions, outline, joints and skin
 /// of its own), posed by the model of soft tissue. Its dimensions are measured with the fingers
-/// straight and not spread, as surveys measure, from creases of its own. `base`: whose skin's
-/// outline it starts from.
+/// straight and not spread, as surveys measure, the thumb at rest, from creases of its own. `base`:
+/// whose skin's outline it starts from.
 SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& options = {});
 
 }  // namespace palmar

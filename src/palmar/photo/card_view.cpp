@@ -76,15 +76,22 @@ struct Part {
   int number = 0;
   double area = 0.0;  ///< pixels of the small picture
   Vec2 middle = Vec2::Zero();
-  Vec2 on_border = Vec2::Zero();  ///< middle of what touches the picture's border
-  int border_pixels = 0;
+  /// What touches the picture's borders: left, right, upper, lower.
+  std::array<Vec2, 4> on_border{Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+  std::array<int, 4> border_pixels{};
   std::vector<Vec2> rim;
 };
 
-/// From the hand's middle towards the forearm: to where it leaves the picture; if it doesn't, along
-/// its longest axis to the end that fills its convex hull best (fingers have gaps between them).
+/// From the hand's middle towards the forearm: to where most of it leaves the picture; if it
+/// doesn't, along its longest axis to the end that fills its convex hull best (fingers have gaps
+/// between them).
 Vec2 towards_forearm(const Part& hand, const OffTable& off) {
-  if (hand.border_pixels > 0) return hand.on_border - hand.middle;
+  const auto most = static_cast<std::size_t>(
+      std::max_element(hand.border_pixels.begin(), hand.border_pixels.end()) -
+      hand.border_pixels.begin());
+  if (hand.border_pixels[most] > 0) {
+    return hand.on_border[most] / hand.border_pixels[most] - hand.middle;
+  }
   Vec2 axis = Vec2::Zero();
   std::vector<Vec2> inside;
   for (int y = 0; y < off.grid.size[1]; ++y) {
@@ -118,10 +125,13 @@ std::vector<Part> parts_of(const OffTable& off) {
       part.number = number;
       part.area += 1.0;
       part.middle += Vec2(x, y);
-      const bool is_border = x < 2 || y < 2 || x >= width - 2 || y >= height - 2;
-      if (is_border) {
-        ++part.border_pixels;
-        part.on_border += Vec2(x, y);
+      const std::array<bool, 4> at_border = {x < 2, x >= width - 2, y < 2, y >= height - 2};
+      bool is_border = false;
+      for (std::size_t b = 0; b < 4; ++b) {
+        if (!at_border[b]) continue;
+        is_border = true;
+        ++part.border_pixels[b];
+        part.on_border[b] += Vec2(x, y);
       }
       const auto differs = [&](int u, int v) {
         return off.parts.part[off.grid.at(u, v, 0)] != number;
@@ -136,7 +146,6 @@ std::vector<Part> parts_of(const OffTable& off) {
   for (Part& part : parts) {
     if (part.area < least) continue;
     part.middle /= part.area;
-    if (part.border_pixels > 0) part.on_border /= part.border_pixels;
     large.push_back(std::move(part));
   }
   std::stable_sort(large.begin(), large.end(),
@@ -146,7 +155,7 @@ std::vector<Part> parts_of(const OffTable& off) {
 
 /// Four corners of a part that has straight edges, clockwise in the picture from any; else nothing.
 std::optional<std::array<Vec2, 4>> corners_of(const Part& part) {
-  if (part.border_pixels > 0) return {};
+  if (*std::max_element(part.border_pixels.begin(), part.border_pixels.end()) > 0) return {};
   const std::vector<Vec2> hull = convex_hull(part.rim);
   if (hull.size() < 4) return {};
   const auto quad = four_sided(hull);

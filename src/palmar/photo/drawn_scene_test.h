@@ -58,9 +58,11 @@ struct Scene {
   std::array<int, 3> table{70, 60, 55}, skin{205, 150, 125};
   double tilt = 12.0, about = -80.0, distance = 460.0, focal = 0.74;
   int width = 600, height = 800;
+  int side = 2;  ///< points of a pixel along an edge
   bool has_hand = true;
-  std::optional<Vec2> card;  ///< the middle of a bank card on the table instead of the paper
-  double card_turn = 0.0;    ///< deg
+  std::optional<Vec2> card;   ///< the middle of a bank card on the table instead of the paper
+  double card_turn = 0.0;     ///< deg
+  Vec2 other_card{1e4, 0.0};  ///< the middle of a second one, as it lies
   std::array<int, 3> card_colour{40, 70, 150};
   std::array<double, 2> card_size{85.60, 53.98};
 
@@ -75,9 +77,9 @@ struct Scene {
     return camera;
   }
   static constexpr double kCardFace = 0.76;  // mm, above the table: ISO/IEC 7810
-  bool is_on_card(const Vec3& p) const {
+  bool is_on_card(const Vec3& p, const Vec2& middle) const {
     const Vec2 q =
-        Eigen::Rotation2Dd(-card_turn * std::numbers::pi / 180.0) * (p.head<2>() - *card);
+        Eigen::Rotation2Dd(-card_turn * std::numbers::pi / 180.0) * (p.head<2>() - middle);
     constexpr double kCorner = 3.18;
     const Vec2 out(std::abs(q.x()) - 0.5 * card_size[0] + kCorner,
                    std::abs(q.y()) - 0.5 * card_size[1] + kCorner);
@@ -91,14 +93,19 @@ struct Scene {
     parallel_for(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         std::array<double, 3> sum{};
-        for (int s = 0; s < 4; ++s) {
-          const Vec3 ray = at.ray({x - 0.25 + 0.5 * (s % 2), y - 0.25 + 0.5 * (s / 2)});
+        for (int s = 0; s < side * side; ++s) {
+          const Vec3 ray =
+              at.ray({x + (s % side + 0.5) / side - 0.5, y + (s / side + 0.5) / side - 0.5});
           const Vec3 p = eye - eye.z() / ray.z() * ray;
           const bool paper = !card && std::abs(p.x()) < half.x() && std::abs(p.y()) < half.y();
           std::array<int, 3> colour = paper ? std::array<int, 3>{226, 224, 220} : table;
-          if (card && is_on_card(eye - (eye.z() - kCardFace) / ray.z() * ray)) colour = card_colour;
+          const Vec3 face = eye - (eye.z() - kCardFace) / ray.z() * ray;
+          if (card && (is_on_card(face, *card) || is_on_card(face, other_card))) {
+            colour = card_colour;
+          }
           if (has_hand && hand.covers(p.head<2>())) colour = skin;
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += 0.25 * colour[c];
+          for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += static_cast<double>(colour[c]) / (side * side);
         }
         for (std::size_t c = 0; c < 3; ++c) {
           image.rgb[pixel_offset(image, x, y) + c] = static_cast<std::uint8_t>(sum[c] + 0.5);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "palmar/hand/creases.h"
 #include "palmar/hand/dimensions.h"
 #include "palmar/hand/hand_sections.h"
+#include "palmar/hand/laid_posture.h"
 #include "palmar/hand/named_postures.h"
 #include "palmar/hand/skeleton_in_posture.h"
 #include "palmar/hand/skinning.h"
@@ -65,7 +65,12 @@ void hold_inside(VoxelMask& mask, const SheetGrid& grid, const Vec2& wrist) {
 }  // namespace
 
 HandDimensions straight_dimensions(const Hand& hand) {
-  const Posture straight = *named_posture(hand.skeleton, "flat");
+  const Posture reference = reference_posture(hand.skeleton);
+  Posture straight = *named_posture(hand.skeleton, "flat");
+  for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
+                        Dof::kThumbIpFlexion}) {
+    straight[dof] = reference[dof];
+  }
   return measure_hand({pose_skin(hand, straight), hand.skin.triangles},
                       skeleton_in_posture(hand.skeleton, straight));
 }
@@ -89,13 +94,10 @@ OutlineProportions outline_proportions(const HandDimensions& d) {
 LaidModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
   LaidModel model;
   model.posture = *named_posture(hand.skeleton, "flat");
-  // A table brings the thumb up beside the fingers.
-  constexpr double kStep = std::numbers::pi / 180.0;
-  for (int step = 0; step < 40; ++step) {
-    const auto tip = skeleton_in_posture(hand.skeleton, model.posture).fingertips;
-    if (tip[0].z() <= 0.25 * (tip[1].z() + tip[2].z() + tip[3].z() + tip[4].z())) break;
-    model.posture[Dof::kThumbCmcAbduction] -= kStep;
-  }
+  model.posture = laid_on_table(model.posture, [&](const Posture& p) {
+    const auto tips = skeleton_in_posture(hand.skeleton, p).fingertips;
+    return std::array{tips[0].z(), tips[1].z(), tips[2].z(), tips[3].z(), tips[4].z()};
+  });
   model.place = like.wrist;
   const Vec3 wrist = HandCreases(hand.skin, hand.skeleton).wrist().point;
   const Vec3 way =

@@ -17,8 +17,8 @@ struct LaidModel {
 /// Proportions of a hand that an outline doesn't show.
 OutlineProportions outline_proportions(const HandDimensions& dimensions);
 
-/// Dimensions with the fingers straight, as surveys measure; those that a hand carries are of its
-/// reference posture, in which they are bent by some degrees.
+/// Dimensions with the fingers straight, as surveys measure, the thumb as in the reference; those
+/// that a hand carries are of its reference posture, in which they are bent by some degrees.
 HandDimensions straight_dimensions(const Hand& hand);
 
 /// Straight fingers, the thumb beside the palm.

@@ -17,17 +17,17 @@ constexpr HandDimension kHandWidth{DimensionKind::kHandWidth};
 
 /// Against a model measures are better than by themselves.
 constexpr OutlineErrors kRawErrors{
-    .length = 3.0, .width = 1.6, .finger = 4.0, .thumb = 0.0, .breadth = 0.9};
+    .length = 3.0, .width = 1.6, .finger = 4.0, .breadth = {1.3, 0.9, 0.9}};
 constexpr OutlineErrors kModelErrors{};
 constexpr double kStraightAbove = 12.0, kTwice = 20.0;  // deg; deg more make errors twice as large
 
 OutlineErrors seen_aslant(const OutlineErrors& errors, double tilt) {
   const double more = 1.0 + std::max(0.0, tilt - kStraightAbove) / kTwice;
-  return {.length = more * errors.length,
-          .width = more * errors.width,
-          .finger = more * errors.finger,
-          .thumb = more * errors.thumb,
-          .breadth = more * errors.breadth};
+  return {
+      .length = more * errors.length,
+      .width = more * errors.width,
+      .finger = more * errors.finger,
+      .breadth = {more * errors.breadth[0], more * errors.breadth[1], more * errors.breadth[2]}};
 }
 
 double true_length(const HandDimensions& d, std::size_t finger) {
@@ -47,7 +47,7 @@ HandOutline corrected(const HandOutline& seen, const HandOutline& model,
   };
   correct(result.hand_length, model.hand_length, truth.hand_length);
   correct(result.hand_width, model.hand_width, truth.hand_width);
-  for (std::size_t f = 0; f < 5; ++f) {
+  for (std::size_t f = 1; f < 5; ++f) {
     OutlineFinger& finger = result.finger[f];
     correct(finger.length, model.finger[f].length, true_length(truth, f));
     const auto chain = segments_of(static_cast<Finger>(f));
@@ -74,15 +74,14 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
     list.push_back(
         KnownMeasure::of(kHandWidth, outline.hand_width, sd(errors.width, outline.hand_width)));
   }
-  for (std::size_t f = 0; f < 5; ++f) {
+  for (std::size_t f = 1; f < 5; ++f) {
     const OutlineFinger& finger = outline.finger[f];
     const auto chain = segments_of(static_cast<Finger>(f));
-    const double error = f == 0 ? errors.thumb : errors.finger;
-    if (finger.length > 0.0 && error > 0.0) {
+    if (finger.length > 0.0) {
       KnownMeasure whole{{},
                          finger.length,
-                         sd(error, finger.length),
-                         std::string(name_of(static_cast<Finger>(f))) + (f == 0 ? "" : " finger")};
+                         sd(errors.finger, finger.length),
+                         std::string(name_of(static_cast<Finger>(f))) + " finger"};
       for (const auto& segment : chain) {
         if (segment) whole.terms.push_back({{DimensionKind::kSegmentLength, *segment}, 1.0});
       }
@@ -91,7 +90,7 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
     for (std::size_t k = 0; k < 3; ++k) {
       if (!chain[k] || finger.width[k] <= 0.0) continue;
       list.push_back(KnownMeasure::of({DimensionKind::kSegmentWidth, *chain[k]}, finger.width[k],
-                                      sd(errors.breadth, finger.width[k])));
+                                      sd(errors.breadth[k], finger.width[k])));
     }
   }
   return list;

@@ -10,14 +10,15 @@ namespace palmar {
 /// Standard errors of measures from an outline, mm: docs/method/outline.md says on whom they were
 /// found.
 struct OutlineErrors {
-  double length = 1.5;   ///< hand length
-  double width = 1.2;    ///< breadth over the metacarpal heads
-  double finger = 2.5;   ///< fingers II to V
-  double thumb = 3.0;    ///< 0: isn't used
-  double breadth = 0.7;  ///< widths of phalanges
+  double length = 2.0;  ///< hand length
+  double width = 1.2;   ///< breadth over the metacarpal heads
+  double finger = 2.5;  ///< fingers II to V
+  /// Widths of phalanges, proximal to distal.
+  std::array<double, 3> breadth{1.0, 0.5, 0.5};
 };
 
-/// Measures of a person as an outline has them. `scale_error`: of all lengths, as a share.
+/// Measures of a person as an outline has them; not the thumb's length, which an outline tells no
+/// better than the rest of the hand does. `scale_error`: of all lengths, as a share.
 std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineErrors& errors,
                                       double scale_error = 0.0);
 

@@ -134,6 +134,20 @@ Fit fit_of(const Eigen::Matrix3d& h, const SheetFormat& format, const RgbImage& 
   return {format, usual, columns.misfit(usual), "usual"};
 }
 
+/// The corner that is farthest from what is seen of the sheet.
+Vec2 hidden_corner(const std::vector<Vec2>& hull, const std::array<Vec2, 4>& corner) {
+  Vec2 result = corner[0];
+  double farthest = -1.0;
+  for (const Vec2& c : corner) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec2& p : hull) nearest = std::min(nearest, (p - c).norm());
+    if (nearest <= farthest) continue;
+    farthest = nearest;
+    result = c;
+  }
+  return result;
+}
+
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw InputError(name + ": " + what);
 }
@@ -215,10 +229,16 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   const auto quad = hull.size() < 4 ? std::nullopt : four_sided(hull);
   const double hull_area = area_of(hull),
                quad_area = quad ? area_of({quad->begin(), quad->end()}) : 0.0;
-  if (!quad || std::abs(hull_area) < 0.93 * std::abs(quad_area)) {
-    fail(name, fmt::format("the largest white part isn't a sheet with four edges: a corner is "
-                           "covered, or something white lies beside it; {}",
+  if (!quad) {
+    fail(name, fmt::format("the largest white part isn't a sheet with four edges: something white "
+                           "lies beside it, or it is bent; {}",
                            advice));
+  }
+  if (std::abs(hull_area) < 0.93 * std::abs(quad_area)) {
+    const Vec2 hidden = by * hidden_corner(hull, *quad);
+    fail(name, fmt::format("a corner of the sheet isn't seen, at about pixel ({:.0f}, {:.0f}): the "
+                           "hand or something else lies over it; all four corners must be free; {}",
+                           hidden.x(), hidden.y(), advice));
   }
   // Clockwise in the picture, from the upper left corner.
   std::array<Vec2, 4> corner = *quad;

@@ -18,6 +18,7 @@ using Vec3f = Eigen::Vector3f;
 
 constexpr double kLeastRedness = 0.05;  // of skin over paper or table
 constexpr double kLeastHand = 3000.0;   // mm2
+constexpr float kBluer = -0.06F;        // than paper or table: none of them and no skin
 
 [[noreturn]] void fail_skin(const std::string& name, const std::string& what) {
   throw InputError(name + ": " + what);
@@ -54,6 +55,7 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
   constexpr int kBins = 160;
   std::vector<double> heap(kBins, 0.0);
   for (const Vec3f& light : lights) {
+    if (redness(light) < kBluer) continue;  // a card
     const double t = (redness(light) - kLow) / (kHigh - kLow);
     heap[static_cast<std::size_t>(std::clamp(t, 0.0, 0.999) * kBins)] += 1.0;
   }
@@ -64,7 +66,7 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
     const double r = redness(light);
     if (r > parting) {
       for (std::size_t c = 0; c < 3; ++c) channel[c].push_back(light[static_cast<int>(c)]);
-    } else {
+    } else if (r >= kBluer) {
       paper += r;
       papers += 1.0;
     }
@@ -91,12 +93,13 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
                                 area / 100.0, redness(skin) - paper, kLeastRedness));
   }
   // Where half of a cell is skin; dark skin reddens a half cell little, so no less than a third. On
-  // a table darker than skin half a cell is nearly as red as a whole one: there light counts too.
+  // a table much darker than skin half a cell is nearly as red as a whole one: there light counts
+  // too, as even skin in its own shade is brighter than such a table.
   const double more = redness(skin) - paper, half = redness(0.5F * (skin + Vec3f::Ones())) - paper;
-  const double limit = paper + std::clamp(half, 0.33 * more, 0.6 * more);
+  const double limit = paper + std::clamp(half, 0.33 * more, 0.7 * more);
   const Vec3f rise = skin - Vec3f::Ones();
-  const bool is_brighter = skin.minCoeff() > 1.3F;
-  constexpr float kLit = 0.3F;  // skin at its border lies in its own shade
+  const bool is_brighter = skin.minCoeff() > 4.0F;
+  constexpr float kLit = 0.15F;
   VoxelMask mask(grid.count(), 0);
   for (std::size_t p = 0; p < mask.size(); ++p) {
     const bool is_lit =

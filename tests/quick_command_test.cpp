@@ -1,0 +1,106 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "run_program.h"
+
+// `palmar hand quick` on photographs of `palmar phantom sheet`, whose persons aren't Palmar's
+// hands.
+
+namespace palmar::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// Small photographs of a left hand on A4 (the lens isn't told) and of a right one beside a card.
+class QuickCommand : public ::testing::Test {
+ protected:
+  static const std::string& folder() {
+    static const std::string made = [] {
+      const std::string folder = temporary_folder();
+      photograph(folder, "--seed 64 --side left --no-exif --threads 1 --out sheet");
+      photograph(folder, "--seed 65 --sheet card --table grey --plain --out card");
+      return folder;
+    }();
+    return made;
+  }
+  static void photograph(const std::string& folder, const std::string& arguments) {
+    const ProgramRun run = run_palmar(
+        "phantom sheet --width-px 720 --height-px 960 --tilt-deg 4 " + arguments, folder);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  static void expect_refused(const std::string& arguments, int code, const std::string& words) {
+    const ProgramRun run = run_palmar("hand quick " + arguments, folder());
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(words));
+  }
+  /// Most of what is told holds, and hand length is as near as told.
+  static void expect_true(const Json& told, const std::string& name) {
+    const Json truth = Json::parse(read_text(folder() + "/" + name + "/truth.json"));
+    int held = 0, all = 0;
+    for (const auto& [dimension, one] : told.at("dimensions").items()) {
+      const double error =
+          one.at("value_mm").get<double>() - truth.at(dimension + "_mm").get<double>();
+      ++all;
+      held += std::abs(error) <= 1.96 * one.at("sd_mm").get<double>() ? 1 : 0;
+    }
+    EXPECT_GE(held, 0.85 * all) << name;
+    EXPECT_NEAR(told.at("dimensions").at("hand_length").at("value_mm").get<double>(),
+                truth.at("hand_length_mm").get<double>(), 3.0)
+        << name;
+  }
+};
+
+TEST_F(QuickCommand, TellsAHandOnASheetTheSameWithAnyThreads) {
+  std::string first, hand;
+  for (const char* threads : {"1", "2"}) {
+    const ProgramRun run = run_palmar(std::string("hand quick sheet/photo.jpg --json --threads ") +
+                                          threads + " --out a.hand.glb --picture found.png",
+                                      folder());
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string bytes = read_text(folder() + "/a.hand.glb");
+    if (first.empty()) {
+      first = run.out;
+      hand = bytes;
+    }
+    EXPECT_TRUE(run.out == first && bytes == hand) << threads << " threads";
+    EXPECT_THAT(run.err, HasSubstr("if its lens is that of most telephones"));
+  }
+  const Json told = Json::parse(first);
+  EXPECT_EQ(told.at("side"), "left");
+  EXPECT_EQ(told.at("photograph").at("sheet"), "a4");
+  EXPECT_EQ(told.at("photograph").at("focal_from"), "usual");
+  EXPECT_TRUE(told.at("photograph").at("measured_against_a_model").get<bool>());
+  expect_true(told, "sheet");
+  EXPECT_EQ(read_text(folder() + "/found.png").substr(1, 3), "PNG");
+}
+
+TEST_F(QuickCommand, TellsAHandBesideACard) {
+  const ProgramRun run = run_palmar("hand quick card/photo.jpg --sheet card --json", folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("lengths follow from so small a card within"));
+  const Json told = Json::parse(run.out);
+  EXPECT_EQ(told.at("side"), "right");
+  EXPECT_EQ(told.at("photograph").at("focal_from"), "camera");
+  expect_true(told, "card");
+}
+
+TEST_F(QuickCommand, SaysWhatIsWrong) {
+  expect_refused("", 2, "nothing is known of the hand");
+  expect_refused("sheet/photo.jpg --sheet a5", 2, "a4, letter and card are allowed");
+  expect_refused("sheet/photo.jpg --side right", 2, "the thumb is that of a left hand");
+  expect_refused("sheet/photo.jpg --sheet card", 3, "bank card");
+  expect_refused("card/photo.jpg", 3, "sheet");
+  const ProgramRun run = run_palmar("phantom sheet --k1 0.5 --out none", folder());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("k1 is 0.5"));
+}
+
+}  // namespace
+}  // namespace palmar::testing
