@@ -132,6 +132,24 @@ TEST_F(HandFromScanTest, FindsCreasesAndDots) {
   EXPECT_LE(marks.dots.size(), truth.dots.size());
 }
 
+// Those on the back of a proximal phalanx as well, which lie where the skin still is the palm's.
+TEST_F(HandFromScanTest, DotsBelongToTheBoneThatTheyWereDrawnOn) {
+  int dots = 0;
+  for (const TakenMark& mark : made().marks) {
+    if (mark.kind != MarkLabel::Kind::kDot) continue;
+    const Rigid3& scan_from_hand = scanned(mark.posture).scan_from_hand;
+    const auto& truth = person().postures.at(mark.posture).dots;
+    const auto drawn =
+        std::min_element(truth.begin(), truth.end(), [&](const auto& a, const auto& b) {
+          return (scan_from_hand * a.point - mark.point).norm() <
+                 (scan_from_hand * b.point - mark.point).norm();
+        });
+    EXPECT_EQ(mark.segment, drawn->segment) << name_of(mark.posture);
+    ++dots;
+  }
+  EXPECT_GE(dots, 96);  // of 100
+}
+
 /// A line of ink points across the palmar side of a finger, `off` mm distal of its crease.
 InkLine line_at(const HandCreases& creases, Segment segment, double off) {
   const CreasePlane& plane = creases.proximal_crease(segment);
