@@ -67,6 +67,15 @@ TEST(SheetView, TellsA4FromLetter) {
   EXPECT_EQ(view.format.width, 297.0);
 }
 
+TEST(SheetView, AThumbOverAnEdgePartsNoSheet) {
+  // It cuts the lower left corner off from the rest of the paper.
+  Scene scene;
+  scene.hand.fingers[0].to = {-112.0, -85.0};
+  const SheetView view = find_sheet(scene.taken(), "hand.jpg");
+  const Vec2 corner = *scene.camera().project({-105.0, -148.5, 0.0});
+  EXPECT_LT((view.pixel_of({-105.0, -148.5}) - corner).norm(), 1.0);
+}
+
 TEST(SheetView, PointsAboveThePaperLieNearerToTheCamerasFoot) {
   SheetView view;
   view.eye = {30.0, -40.0, 500.0};
@@ -164,7 +173,7 @@ TEST(HandOutline, SaysWhatIsWrong) {
   message(sleeve, "forearm must cross an edge");
   Scene beyond;
   beyond.hand.fingers[0].to.x() = -120.0;
-  message(beyond, "within the sheet");
+  message(beyond, "the hand reaches beyond the sheet at (-10");
   HandOutlineOptions far;
   far.wrist = 200.0;
   EXPECT_THROW(far.check(), UsageError);

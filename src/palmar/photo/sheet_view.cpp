@@ -26,6 +26,8 @@ constexpr double kLeastShare = 0.06;  // of the picture that the sheet fills
 constexpr double kUsualFocal = 0.74;  // of the longer side: 26 mm on film, as most telephones have
 constexpr double kLeastEdge = 0.3;    // of an edge that must be seen
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr const char* kSheetAdvice =
+    "lay the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
 
 /// Pixels that are as bright and as grey as paper in this light.
 VoxelMask paper_of(const RgbImage& image) {
@@ -152,93 +154,56 @@ Vec2 hidden_corner(const std::vector<Vec2>& hull, const std::array<Vec2, 4>& cor
   throw InputError(name + ": " + what);
 }
 
-}  // namespace
-
-const std::vector<SheetFormat>& sheet_formats() {
-  static const std::vector<SheetFormat> all = {{"a4", 210.0, 297.0}, {"letter", 215.9, 279.4}};
-  return all;
-}
-
-const SheetFormat& card_format() {
-  static const SheetFormat card = {"card", 85.60, 53.98, 3.18, 0.76};
-  return card;
-}
-
-const SheetFormat& sheet_format_named(const std::string& name) {
-  for (const SheetFormat& one : sheet_formats()) {
-    if (one.name == name) return one;
-  }
-  if (name == card_format().name) return card_format();
-  throw UsageError("sheet \"" + name + "\"; a4, letter and card are allowed");
-}
-
-void SheetOptions::check() const {
-  if (!(most_tilt > 0.0 && most_tilt < 80.0)) {
-    throw UsageError(fmt::format("most_tilt is {} deg; above 0 to 80 is allowed", most_tilt));
-  }
-  if (focal && !(*focal > 1.0)) {
-    throw UsageError(fmt::format("focal length is {} pixels; above 1 is allowed", *focal));
-  }
-}
-
-Vec2 SheetView::pixel_of(const Vec2& sheet) const {
-  return (pixel_from_sheet * sheet.homogeneous()).hnormalized();
-}
-
-SheetView find_sheet(const RgbImage& image, const std::string& name, const SheetOptions& options) {
-  options.check();
-  const int longer = std::max(image.width, image.height);
-  if (std::min(image.width, image.height) < 300) {
-    fail(name,
-         fmt::format("the picture has {} x {} pixels; at least 300 each way are needed, better "
-                     "2000",
-                     image.width, image.height));
-  }
-  const int by = std::max(1, longer / kSmallSide);
-  const RgbImage small = reduced_picture(image, by);
-  const VolumeGrid grid{
-      {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
-  const ConnectedParts parts = connected_parts(grid, paper_of(small));
-  const int sheet = parts.largest();
-  const char* const advice =
-      "lay the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
-  if (sheet < 0 || static_cast<double>(parts.voxels[static_cast<std::size_t>(sheet)]) <
-                       kLeastShare * static_cast<double>(grid.count())) {
-    fail(name, fmt::format("no white sheet is found; {}", advice));
-  }
+/// Pixels of the small picture at the border of what is taken for the sheet.
+struct PaperRim {
   std::vector<Vec2> points;
-  int on_border = 0;
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      if (parts.part[grid.at(x, y, 0)] != sheet) continue;
-      const bool is_border = x == 0 || y == 0 || x == small.width - 1 || y == small.height - 1;
-      if (is_border) ++on_border;
-      if (is_border || parts.part[grid.at(x - 1, y, 0)] != sheet ||
-          parts.part[grid.at(x + 1, y, 0)] != sheet || parts.part[grid.at(x, y - 1, 0)] != sheet ||
-          parts.part[grid.at(x, y + 1, 0)] != sheet) {
-        points.emplace_back(x, y);
+  int on_border = 0;  ///< of the picture
+};
+
+PaperRim rim_of(const VolumeGrid& grid, const ConnectedParts& parts,
+                const std::vector<char>& is_sheet) {
+  PaperRim rim;
+  const int width = grid.size[0], height = grid.size[1];
+  const auto is_in = [&](int x, int y) {
+    const int part = parts.part[grid.at(x, y, 0)];
+    return part >= 0 && is_sheet[static_cast<std::size_t>(part)] != 0;
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!is_in(x, y)) continue;
+      const bool is_border = x == 0 || y == 0 || x == width - 1 || y == height - 1;
+      if (is_border) ++rim.on_border;
+      if (is_border || !is_in(x - 1, y) || !is_in(x + 1, y) || !is_in(x, y - 1) ||
+          !is_in(x, y + 1)) {
+        rim.points.emplace_back(x, y);
       }
     }
   }
-  if (on_border > small.width / 20) {
+  return rim;
+}
+
+/// The sheet within that rim, in a picture reduced `by` times to `width`.
+SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by,
+                   const std::string& name, const SheetOptions& options) {
+  if (rim.on_border > width / 20) {
     fail(name, fmt::format("what is white reaches the picture's border over {} of {} pixels: the "
                            "sheet isn't all in it, or the table is as white; {}",
-                           on_border * by, 2 * (image.width + image.height), advice));
+                           rim.on_border * by, 2 * (image.width + image.height), kSheetAdvice));
   }
-  const std::vector<Vec2> hull = convex_hull(points);
+  const std::vector<Vec2> hull = convex_hull(rim.points);
   const auto quad = hull.size() < 4 ? std::nullopt : four_sided(hull);
   const double hull_area = area_of(hull),
                quad_area = quad ? area_of({quad->begin(), quad->end()}) : 0.0;
   if (!quad) {
     fail(name, fmt::format("the largest white part isn't a sheet with four edges: something white "
                            "lies beside it, or it is bent; {}",
-                           advice));
+                           kSheetAdvice));
   }
   if (std::abs(hull_area) < 0.93 * std::abs(quad_area)) {
     const Vec2 hidden = by * hidden_corner(hull, *quad);
     fail(name, fmt::format("a corner of the sheet isn't seen, at about pixel ({:.0f}, {:.0f}): the "
                            "hand or something else lies over it; all four corners must be free; {}",
-                           hidden.x(), hidden.y(), advice));
+                           hidden.x(), hidden.y(), kSheetAdvice));
   }
   // Clockwise in the picture, from the upper left corner.
   std::array<Vec2, 4> corner = *quad;
@@ -260,7 +225,7 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
                "an edge of the sheet, from pixel ({:.0f}, {:.0f}) to ({:.0f}, {:.0f}), "
                "is hidden or bent: {} of {} places on it are seen; all but the wrist must lie "
                "within the sheet; {}",
-               from.x(), from.y(), to.x(), to.y(), line[e].points, kEdgePlaces, advice));
+               from.x(), from.y(), to.x(), to.y(), line[e].points, kEdgePlaces, kSheetAdvice));
     }
   }
   SheetView view;
@@ -269,7 +234,8 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
     const FittedLine &before = line[(e + 3) % 4].line, &after = line[e].line;
     const auto at = meeting(before.point, before.point + before.direction, after.point,
                             after.point + after.direction);
-    if (!at) fail(name, std::string("edges of the sheet are parallel that should meet; ") + advice);
+    if (!at)
+      fail(name, std::string("edges of the sheet are parallel that should meet; ") + kSheetAdvice);
     view.corner[e] = *at;
     error += 0.25 * after.error * after.error;
   }
@@ -334,6 +300,85 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   }
   view.edge_error = std::sqrt(error) * view.eye.norm() / view.focal;
   return view;
+}
+
+}  // namespace
+
+const std::vector<SheetFormat>& sheet_formats() {
+  static const std::vector<SheetFormat> all = {{"a4", 210.0, 297.0}, {"letter", 215.9, 279.4}};
+  return all;
+}
+
+const SheetFormat& card_format() {
+  static const SheetFormat card = {"card", 85.60, 53.98, 3.18, 0.76};
+  return card;
+}
+
+const SheetFormat& sheet_format_named(const std::string& name) {
+  for (const SheetFormat& one : sheet_formats()) {
+    if (one.name == name) return one;
+  }
+  if (name == card_format().name) return card_format();
+  throw UsageError("sheet \"" + name + "\"; a4, letter and card are allowed");
+}
+
+void SheetOptions::check() const {
+  if (!(most_tilt > 0.0 && most_tilt < 80.0)) {
+    throw UsageError(fmt::format("most_tilt is {} deg; above 0 to 80 is allowed", most_tilt));
+  }
+  if (focal && !(*focal > 1.0)) {
+    throw UsageError(fmt::format("focal length is {} pixels; above 1 is allowed", *focal));
+  }
+}
+
+Vec2 SheetView::pixel_of(const Vec2& sheet) const {
+  return (pixel_from_sheet * sheet.homogeneous()).hnormalized();
+}
+
+SheetView find_sheet(const RgbImage& image, const std::string& name, const SheetOptions& options) {
+  options.check();
+  const int longer = std::max(image.width, image.height);
+  if (std::min(image.width, image.height) < 300) {
+    fail(name,
+         fmt::format("the picture has {} x {} pixels; at least 300 each way are needed, better "
+                     "2000",
+                     image.width, image.height));
+  }
+  const int by = std::max(1, longer / kSmallSide);
+  const RgbImage small = reduced_picture(image, by);
+  const VolumeGrid grid{
+      {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
+  const ConnectedParts parts = connected_parts(grid, paper_of(small));
+  const int sheet = parts.largest();
+  if (sheet < 0 || static_cast<double>(parts.voxels[static_cast<std::size_t>(sheet)]) <
+                       kLeastShare * static_cast<double>(grid.count())) {
+    fail(name, fmt::format("no white sheet is found; {}", kSheetAdvice));
+  }
+  std::vector<char> is_sheet(parts.voxels.size(), 0);
+  is_sheet[static_cast<std::size_t>(sheet)] = 1;
+  try {
+    return sheet_of(image, rim_of(grid, parts, is_sheet), small.width, by, name, options);
+  } catch (const InputError&) {
+    // A finger over an edge may part the sheet.
+    constexpr double kPiece = 0.015;  // of the largest part
+    bool is_parted = false;
+    for (std::size_t p = 0; p < is_sheet.size(); ++p) {
+      if (is_sheet[p] != 0 ||
+          static_cast<double>(parts.voxels[p]) <
+              kPiece * static_cast<double>(parts.voxels[static_cast<std::size_t>(sheet)])) {
+        continue;
+      }
+      is_sheet[p] = 1;
+      is_parted = true;
+    }
+    if (is_parted) {
+      try {
+        return sheet_of(image, rim_of(grid, parts, is_sheet), small.width, by, name, options);
+      } catch (const InputError&) {  // what the largest part lacks is the better message
+      }
+    }
+    throw;
+  }
 }
 
 }  // namespace palmar
