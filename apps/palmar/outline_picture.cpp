@@ -53,13 +53,15 @@ std::string outline_picture(const RgbImage& photograph, const SheetView& sheet,
   if (model != nullptr) contour(*model, kModel);
   contour(outline, kSkin);
   for (const OutlineFinger& finger : outline.finger) {
-    stroke(image, sheet.pixel_of(finger.base), sheet.pixel_of(finger.tip), thin, kMiddle);
-    dab(image, sheet.pixel_of(finger.tip), thick, kMiddle);
-    dab(image, sheet.pixel_of(finger.base), thick, kMiddle);
+    stroke(image, sheet.pixel_of(finger.seen_base), sheet.pixel_of(finger.seen_tip), thin, kMiddle);
+    dab(image, sheet.pixel_of(finger.seen_tip), thick, kMiddle);
+    dab(image, sheet.pixel_of(finger.seen_base), thick, kMiddle);
   }
-  for (const Eigen::Vector2d& web : outline.web) dab(image, sheet.pixel_of(web), thick, kSheet);
+  for (const Eigen::Vector2d& web : outline.seen_web)
+    dab(image, sheet.pixel_of(web), thick, kSheet);
   dab(image, sheet.pixel_of(outline.wrist), thick, kSheet);
-  stroke(image, sheet.pixel_of(outline.wrist), sheet.pixel_of(outline.finger[2].tip), thin, kSheet);
+  stroke(image, sheet.pixel_of(outline.wrist), sheet.pixel_of(outline.finger[2].seen_tip), thin,
+         kSheet);
   return format_png(image);
 }
 

@@ -143,6 +143,10 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
   verb->add_option("--wrist-inside-mm", p.wrist_inside,
                    "How far inside the sheet's edge the wrist crease lies")
       ->capture_default_str();
+  verb->add_option("--focal", p.focal,
+                   "Of the lens over the picture's longer side; 0.74: 26 mm on film, as most "
+                   "telephones have")
+      ->capture_default_str();
   verb->add_option("--k1", p.k1, "Of the lens' distortion; a telephone's picture: about -0.02")
       ->capture_default_str();
   verb->add_flag("--no-exif", o->no_exif, "The photograph doesn't say what lens took it");

@@ -86,6 +86,10 @@ void SheetPhotographOptions::check() const {
     throw UsageError(fmt::format("the picture has {} x {} pixels; 300 to 6000 each way is allowed",
                                  pixels_wide, pixels_high));
   }
+  if (!(focal >= 0.4 && focal <= 4.0)) {
+    throw UsageError(
+        fmt::format("focal length is {} of the longer side; 0.4 to 4 is allowed", focal));
+  }
   if (!(k1 >= -0.1 && k1 <= 0.1)) {
     throw UsageError(fmt::format("k1 is {}; -0.1 to 0.1 is allowed", k1));
   }

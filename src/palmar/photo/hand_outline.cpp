@@ -112,7 +112,10 @@ HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const 
   const double length0 = (curve[tip_of(2)] - forearm).norm();
   const auto raised = [&](const Vec2& p, double share) { return sheet.raised(p, share * length0); };
   const double web_height = proportions.web_height, palm_height = proportions.palm_height;
-  for (std::size_t k = 0; k < 4; ++k) result.web[k] = raised(web_of(k), web_height);
+  for (std::size_t k = 0; k < 4; ++k) {
+    result.seen_web[k] = web_of(k);
+    result.web[k] = raised(web_of(k), web_height);
+  }
   const SoftMask skin(grid, mask);
   const auto size = [&](double share) { return 1.0 - share * length0 / sheet.eye.z(); };
   std::array<FingerAxis, 5> axis;
@@ -137,9 +140,11 @@ HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const 
     finger.direction = axis[f].direction;
     const Vec2 across(-finger.direction.y(), finger.direction.x());
     const Vec2 tip = farthest(curve, tip_of(f), finger.direction, grid.cell);
+    finger.seen_tip = tip;
     finger.tip = raised(tip, proportions.finger_height[f]);
     if (f == 0) {
-      finger.base = raised(axis[0].at(axis[0].along(web_of(0))), web_height);
+      finger.seen_base = axis[0].at(axis[0].along(web_of(0)));
+      finger.base = raised(finger.seen_base, web_height);
       finger.length = (finger.tip - finger.base).norm();
       continue;  // lies on its side: how wide it is isn't seen
     }
@@ -152,7 +157,8 @@ HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const 
       const double share = axis[f].aside(a) / std::max(1e-9, axis[f].aside(a) + axis[f].aside(b));
       foot[f] = (1.0 - share) * axis[f].along(a) + share * axis[f].along(b) + kAboveWeb;
     }
-    finger.base = raised(axis[f].at(foot[f]), web_height);
+    finger.seen_base = axis[f].at(foot[f]);
+    finger.base = raised(finger.seen_base, web_height);
     finger.length = (finger.tip - finger.base).norm();
     const double seen = axis[f].along(tip) - foot[f];
     double done = 0.0;

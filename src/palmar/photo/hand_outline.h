@@ -25,7 +25,9 @@ struct OutlineFinger {
   Eigen::Vector2d base = Eigen::Vector2d::Zero();        ///< middle of the base crease, between the
                                                          ///< webs; of the thumb beside its web
   Eigen::Vector2d direction = Eigen::Vector2d::UnitY();  ///< unit, of the middle line as it is seen
-  double length = 0.0;                                   ///< base to tip
+  /// Tip and base where the picture shows them on the sheet: heights not taken into account.
+  Eigen::Vector2d seen_tip = Eigen::Vector2d::Zero(), seen_base = Eigen::Vector2d::Zero();
+  double length = 0.0;  ///< base to tip
   std::array<double, 3>
       width{};  ///< half way along the proximal, middle, distal segment, whose
                 ///< lengths are in the shares given; thumb: 0, it lies on its side
@@ -38,7 +40,7 @@ struct HandOutline {
   double hand_width =
       0.0;  ///< over the heads of metacarpals II and V; 0: the thumb lies in the way
   std::array<OutlineFinger, 5> finger;  ///< thumb to little
-  std::array<Eigen::Vector2d, 4> web{};
+  std::array<Eigen::Vector2d, 4> web{}, seen_web{};
   Eigen::Vector2d wrist = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> contour;  ///< on the sheet as it is seen, from one side of the
                                          ///< forearm to the other; the thumb first

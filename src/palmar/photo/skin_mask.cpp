@@ -80,22 +80,24 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
   }
   paper = papers > 0.0 ? paper / papers : 0.0;
   const double area = static_cast<double>(channel[0].size()) * grid.cell * grid.cell;
-  if (redness(skin) - paper < kLeastRedness || area < kLeastHand) {
-    fail_skin(name,
-              ground == Ground::kPaper
-                  ? fmt::format("no hand is found on the sheet: what isn't paper covers {:.0f} "
-                                "cm2 and is no redder than it ({:.3f}; {} is needed)",
-                                area / 100.0, redness(skin) - paper, kLeastRedness)
-                  : fmt::format("no hand is found beside the card: what isn't table covers "
-                                "{:.0f} cm2 and is by {:.3f} redder than it; {} is needed: lay "
-                                "hand and card on something that isn't of the colour of skin "
-                                "or wood, best white, grey or blue",
-                                area / 100.0, redness(skin) - paper, kLeastRedness));
+  const double redder = redness(skin) - paper;
+  if (redder < kLeastRedness || area < kLeastHand) {
+    fail_skin(
+        name,
+        ground == Ground::kPaper
+            ? fmt::format("no hand is found on the sheet: what isn't paper covers {:.0f} cm2 "
+                          "and is no redder than it ({:.3f}; {} is needed)",
+                          area / 100.0, redder, kLeastRedness)
+            : fmt::format("no hand is found beside the card: nothing of {:.0f} cm2 or more is "
+                          "redder than the table by {} (the reddest: {:.3f}); lay hand and "
+                          "card on something that isn't of the colour of skin or wood, best "
+                          "white, grey or blue",
+                          kLeastHand / 100.0, kLeastRedness, redder));
   }
   // Where half of a cell is skin; dark skin reddens a half cell little, so no less than a third. On
   // a table much darker than skin half a cell is nearly as red as a whole one: there light counts
   // too, as even skin in its own shade is brighter than such a table.
-  const double more = redness(skin) - paper, half = redness(0.5F * (skin + Vec3f::Ones())) - paper;
+  const double more = redder, half = redness(0.5F * (skin + Vec3f::Ones())) - paper;
   const double limit = paper + std::clamp(half, 0.33 * more, 0.7 * more);
   const Vec3f rise = skin - Vec3f::Ones();
   const bool is_brighter = skin.minCoeff() > 4.0F;
