@@ -83,6 +83,21 @@ TEST_F(OutlinePersonTest, OneOfPalmarsHandsIsFoundNearlyAsItIs) {
   }
 }
 
+TEST_F(OutlinePersonTest, AHandsBackAndPalmAreToldApart) {
+  // The outline of a left hand on its palm is that of a right hand on its back.
+  const SpreadHand left = spread_person(hand(), Side::kLeft, {.seed = 61});
+  const OutlineScene place = scene(0.0, true);
+  HandOutline outline = seen(left, place, 61);
+  outline.is_right = true;
+  const OutlinePerson person =
+      person_of_outline(hand(), load_population("ansur2"), {}, outline, place);
+  ASSERT_TRUE(person.model);
+  EXPECT_EQ(person.hand.side, Side::kRight);
+  EXPECT_LT(person.model->direction_error, 0.03);
+  // The back of a hand lies otherwise on a table than its palm: 3 mm.
+  EXPECT_NEAR(person.outline.hand_length, left.dimensions.hand_length, 3.0);
+}
+
 TEST_F(OutlinePersonTest, WhatIsToldCountsInsteadOfThePhotograph) {
   const KnownMeasure told = KnownMeasure::of({DimensionKind::kHandLength}, 190.0, 0.5);
   HandOutline outline;
