@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "palmar/capture/bone_chain.h"
+#include "palmar/capture/bound_dots.h"
 #include "palmar/capture/dotted_joints.h"
 #include "palmar/capture/dotted_thumb.h"
 #include "palmar/capture/hand_plausibility.h"
@@ -37,49 +38,6 @@ constexpr double kLookUpEdge = 1.2;  // mm; of the mesh that is fitted to
 TriangleMesh looked_up(const TriangleMesh& mesh) {
   constexpr int kMany = 60'000;
   return mesh.triangle_count() > kMany ? cluster_vertices(mesh, kLookUpEdge) : mesh;
-}
-
-/// A dot of the reference scan and where its skin carries it.
-struct BoundDot {
-  Vec3 point = Vec3::Zero();  ///< hand frame, reference
-  HandPoint on_hand;
-  Segment segment{};
-};
-
-/// The segment that a dot moves with, `on_skin` the one of the skin under it. Skin over the
-/// proximal phalanges of II to V belongs to the palm as far as their base creases, which lie some
-/// 20 mm distal of the knuckles on the palmar side; on the back that is the phalanx already.
-Segment moved_segment(const Skeleton& skeleton, const Vec3& dot, Segment on_skin) {
-  constexpr double kDistal = 5.0;  // mm from the joint: beyond what the knuckle's skin slides
-  constexpr double kAside = 16.0;  // mm off the bone's axis
-  if (on_skin != Segment::kPalm) return on_skin;
-  double nearest = kAside;
-  for (int f = 1; f < kFingerCount; ++f) {
-    const auto chain = segments_of(static_cast<Finger>(f));
-    const Vec3& from = skeleton.joint(joint_of(*chain[0])).centre;
-    const Vec3 along = (skeleton.joint(joint_of(*chain[1])).centre - from).normalized();
-    const double way = (dot - from).dot(along);
-    const double aside = (dot - from - way * along).norm();
-    if (way < kDistal || aside >= nearest) continue;
-    nearest = aside;
-    on_skin = *chain[0];
-  }
-  return on_skin;
-}
-
-std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
-                                const Rigid3& hand_from_scan) {
-  std::vector<BoundDot> dots;
-  for (const InkDot& dot : marks.dots) {
-    BoundDot bound;
-    bound.point = hand_from_scan * dot.point;
-    bound.on_hand = skin_point_near(hand, bound.point);
-    bound.segment = dot.segment ? *dot.segment
-                                : moved_segment(hand.skeleton, bound.point,
-                                                hand.segment[at(*bound.on_hand.vertex)]);
-    dots.push_back(std::move(bound));
-  }
-  return dots;
 }
 
 MeasuredJoints joints_of(const LaidSkeleton& laid) {
