@@ -6,7 +6,7 @@ namespace palmar {
 namespace {
 
 /// `on_skin`: the segment of the skin under the dot.
-Segment moved_segment(const Skeleton& skeleton, const Vec3& dot, Segment on_skin) {
+Segment drawn_segment(const Skeleton& skeleton, const Vec3& dot, Segment on_skin) {
   constexpr double kDistal = 5.0;  // mm from the joint: beyond what the knuckle's skin slides
   constexpr double kAside = 16.0;  // mm off the bone's axis
   if (on_skin != Segment::kPalm) return on_skin;
@@ -33,10 +33,9 @@ std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
     BoundDot bound;
     bound.point = hand_from_scan * dot.point;
     bound.on_hand = skin_point_near(hand, bound.point);
-    bound.segment =
-        dot.segment ? *dot.segment
-                    : moved_segment(hand.skeleton, bound.point,
-                                    hand.segment[static_cast<std::size_t>(*bound.on_hand.vertex)]);
+    const Segment on_skin = hand.segment[static_cast<std::size_t>(*bound.on_hand.vertex)];
+    bound.segment = dot.segment ? *dot.segment : drawn_segment(hand.skeleton, bound.point, on_skin);
+    bound.slides = on_skin == Segment::kPalm && bound.segment != Segment::kPalm;
     dots.push_back(std::move(bound));
   }
   return dots;

@@ -14,13 +14,16 @@ namespace palmar {
 struct BoundDot {
   Vec3 point = Vec3::Zero();  ///< hand frame, reference posture, mm
   HandPoint on_hand;
-  Segment segment{};  ///< that it moves with; on the back of the hand: palm
+  Segment segment{};  ///< that it was drawn on; on the back of the hand: palm
+  /// On a proximal phalanx so near the knuckle that its skin is the palm's: it slides between both
+  /// and tells the motion of neither.
+  bool slides = false;
 };
 
-/// Dots of the reference scan with what they move with: what somebody said, else the segment of the
-/// skin under them. Skin over the proximal phalanges of II to V belongs to the palm as far as their
-/// base creases, which lie some 20 mm distal of the knuckles on the palmar side; on the back that
-/// is the phalanx already, from 5 mm distal of its joint.
+/// Dots of the reference scan with what they were drawn on: what somebody said, else the segment of
+/// the skin under them. Skin over the proximal phalanges of II to V belongs to the palm as far as
+/// their base creases, which lie some 20 mm distal of the knuckles on the palmar side; on the back
+/// that is the phalanx already, from 5 mm distal of its joint.
 std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
                                 const Rigid3& hand_from_scan);
 

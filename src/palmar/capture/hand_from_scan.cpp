@@ -183,7 +183,7 @@ class DotReader {
     std::vector<Vec3> x, y;
     const Rigid3 in_part = before.inverse();
     for (std::size_t k = 0; k < dots_.size(); ++k) {
-      if (dots_[k].segment != segment || !found[k]) continue;
+      if (dots_[k].segment != segment || dots_[k].slides || !found[k]) continue;
       x.push_back(spread * dots_[k].point);
       y.push_back(in_part * *found[k]);
     }
