@@ -21,8 +21,8 @@ endfunction()
 # With PALMAR_PRECOMPILE: half of what a module's source costs to compile is reading Eigen and the standard
 # library, half of what a test costs is GoogleTest, and a command reads CLI11, fmt and nlohmann_json. Each
 # set is read once and used by all. GCC takes the level of optimisation from the precompiled header;
-# tests and commands hold no loops that take time, so theirs is lower. Sources include what they use all
-# the same: the `tidy` preset and builds by hand do without.
+# tests, commands and BATCHED modules hold no loops that take time, so theirs is lower. Sources include
+# what they use all the same: the `tidy` preset and builds by hand do without.
 #
 # At -O1 GCC can't tell whether a std::optional has been set; such a warning is none to stop at.
 set(palmar_light -O1 -Wno-error=maybe-uninitialized)
@@ -48,7 +48,7 @@ if(PALMAR_PRECOMPILE)
   set(palmar_common <Eigen/Dense> <algorithm> <cmath> <functional> <map> <memory> <optional> <sstream>
                     <string> <unordered_map> <vector>)
   palmar_headers(palmar_module_headers HEADERS ${palmar_common} LINKS Eigen3::Eigen)
-  palmar_headers(palmar_command_headers
+  palmar_headers(palmar_light_headers
                  HEADERS ${palmar_common} <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>
                  LINKS Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${palmar_light})
   if(PALMAR_TESTS)
@@ -83,11 +83,11 @@ function(palmar_module name)
   add_library(palmar::${name} ALIAS palmar_${name})
   target_include_directories(palmar_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(palmar_${name} PUBLIC palmar::compiler ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  if(NOT name STREQUAL core)  # knows no Eigen
-    palmar_use_headers(palmar_${name} palmar_module_headers)
-  endif()
   if(ARG_BATCHED)
+    palmar_use_headers(palmar_${name} palmar_light_headers ${palmar_light})
     palmar_batches(palmar_${name})
+  elseif(NOT name STREQUAL core)  # knows no Eigen
+    palmar_use_headers(palmar_${name} palmar_module_headers)
   endif()
   if(PALMAR_TESTS AND ARG_TESTS)
     add_executable(${name}_tests ${ARG_TESTS})
