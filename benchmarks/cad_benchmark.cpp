@@ -16,9 +16,9 @@
 
 #include <filesystem>
 
-#include "palmar/cad/cad_file.h"
-#include "palmar/cad/occt_model.h"
-#include "palmar/cad/tessellation.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/occt_model.h"
+#include "palmar/cad/model/tessellation.h"
 
 namespace {
 

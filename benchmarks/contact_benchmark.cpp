@@ -16,19 +16,19 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/contact_system.h"
 #include "palmar/contact/contact_totals.h"
-#include "palmar/contact/deformed_skin.h"
 #include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/skin_displacement.h"
-#include "palmar/contact/skin_product.h"
+#include "palmar/contact/response/deformed_skin.h"
+#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/solve/contact_system.h"
+#include "palmar/contact/solve/skin_product.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
+#include "palmar/records/hand/hand_asset.h"
 
 namespace {
 

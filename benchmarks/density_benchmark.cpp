@@ -20,12 +20,12 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
+#include "palmar/records/hand/hand_asset.h"
 
 namespace {
 

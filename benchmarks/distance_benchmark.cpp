@@ -10,11 +10,11 @@
 #include <random>
 
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/grid_distance.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/geometry/winding_number.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/distance/grid_distance.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/distance/winding_number.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace {
 

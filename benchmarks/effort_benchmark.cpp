@@ -11,9 +11,9 @@
 #include "palmar/core/parallel.h"
 #include "palmar/effort/effort.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/study/assessment/assessment.h"
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);

@@ -12,15 +12,15 @@
 #include <string>
 
 #include "palmar/core/parallel.h"
-#include "palmar/grasp/balance.h"
 #include "palmar/grasp/find_grasp.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/grasp/grip_axis.h"
+#include "palmar/grasp/power/grip_axis.h"
+#include "palmar/grasp/rest/balance.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
-#include "palmar/io/product_file.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "palmar/core/parallel.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
+#include "palmar/records/hand/hand_asset.h"
 
 namespace {
 

@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/grasp/stability.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/indices/stability.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace {
 

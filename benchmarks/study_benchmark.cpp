@@ -21,13 +21,13 @@
 #include "palmar/contact/hand_family.h"
 #include "palmar/core/parallel.h"
 #include "palmar/grasp/grasp_place.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
-#include "palmar/io/product_file.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The template hand's grasps come to rest (grasp/balance.h).
-#include "palmar/grasp/balance.h"
+#include "palmar/grasp/rest/balance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include "palmar/contact/contact_normals.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/grasp/grip_force.h"
+#include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 

@@ -20,9 +20,9 @@
 
 #include "gmock/gmock.h"
 #include "palmar/core/error.h"
-#include "palmar/io/cad_file.h"
-#include "palmar/io/child_process.h"
-#include "palmar/io/product_file.h"
+#include "palmar/formats/process/child_process.h"
+#include "palmar/records/product/cad_file.h"
+#include "palmar/records/product/product_file.h"
 #include "run_program.h"
 
 namespace palmar {

@@ -4,15 +4,16 @@
 # cmake -DSOURCE=<src/palmar> -P check_layers.cmake
 #
 # Holds every #include "palmar/MODULE/..." to the layering: a module includes only itself and what
-# stands above it in the list below (docs/developing/modules.md).
+# stands above it in src/palmar/modules.txt.
 cmake_policy(SET CMP0057 NEW)
-set(modules core statistics geometry product hand contact grasp effort population imaging capture photo phantom study redesign validation io report cad board)
+include(${CMAKE_CURRENT_LIST_DIR}/../cmake/PalmarModules.cmake)
+palmar_read_modules(modules ${SOURCE}/modules.txt)
 
 set(violations "")
 set(files_read 0)
 foreach(module IN LISTS modules)
   list(FIND modules ${module} own_rank)
-  file(GLOB files ${SOURCE}/${module}/*.h ${SOURCE}/${module}/*.cpp)
+  file(GLOB_RECURSE files ${SOURCE}/${module}/*.h ${SOURCE}/${module}/*.cpp)
   foreach(file IN LISTS files)
     math(EXPR files_read "${files_read} + 1")
     file(STRINGS ${file} includes REGEX "^#include \"palmar/")
@@ -28,7 +29,7 @@ endforeach()
 file(GLOB folders RELATIVE ${SOURCE} ${SOURCE}/*)
 foreach(folder IN LISTS folders)
   if(IS_DIRECTORY ${SOURCE}/${folder} AND NOT folder IN_LIST modules)
-    list(APPEND violations "${SOURCE}/${folder}: not in the list of modules of check_layers.cmake\n")
+    list(APPEND violations "${SOURCE}/${folder}: not in src/palmar/modules.txt\n")
   endif()
 endforeach()
 if(files_read EQUAL 0)

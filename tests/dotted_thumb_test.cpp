@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/dotted_thumb.h"
+#include "palmar/capture/scan/dotted_thumb.h"
 
 #include "template_fixture.h"
 

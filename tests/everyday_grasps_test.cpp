@@ -15,14 +15,14 @@
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/grasp/placement.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
-#include "palmar/io/product_file.h"
+#include "palmar/grasp/power/placement.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
+#include "palmar/records/product/product_file.h"
 #include "template_fixture.h"
 
 namespace palmar {

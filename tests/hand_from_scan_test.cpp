@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/hand_from_scan.h"
+#include "palmar/capture/scan/hand_from_scan.h"
 
 #include <gmock/gmock.h>
 
@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/phantom/painted_hand.h"
-#include "palmar/phantom/scan_defects.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/phantom/mri/scan_defects.h"
+#include "palmar/phantom/photo/painted_hand.h"
 #include "template_fixture.h"
 
 namespace palmar {

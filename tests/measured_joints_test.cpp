@@ -3,7 +3,7 @@
 //
 // Joints from bones of several postures, against a person that moves by another model: rolling
 // finger joints, a saddle joint with screws at the thumb.
-#include "palmar/capture/measured_joints.h"
+#include "palmar/capture/mri/measured_joints.h"
 
 #include <gmock/gmock.h>
 
@@ -12,10 +12,10 @@
 #include <numbers>
 #include <utility>
 
-#include "palmar/capture/bone_chain.h"
+#include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
-#include "palmar/phantom/mri_subject.h"
+#include "palmar/phantom/mri/mri_subject.h"
 #include "template_fixture.h"
 
 namespace palmar {

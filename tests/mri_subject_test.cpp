@@ -3,7 +3,7 @@
 //
 // The phantom's person, held to what is true of every hand: bones are rigid and apart, skin keeps
 // its volume and covers the bones.
-#include "palmar/phantom/mri_subject.h"
+#include "palmar/phantom/mri/mri_subject.h"
 
 #include <gmock/gmock.h>
 
@@ -16,10 +16,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/self_intersection.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/self_intersection.h"
 #include "subject_fixture.h"
 #include "template_fixture.h"
 

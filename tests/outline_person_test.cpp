@@ -1,15 +1,15 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/photo/outline_person.h"
+#include "palmar/capture/sheet/outline_person.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "palmar/io/population_file.h"
-#include "palmar/phantom/sheet_photograph.h"
-#include "palmar/phantom/spread_hand.h"
-#include "palmar/photo/silhouette.h"
+#include "palmar/capture/photo/surface/silhouette.h"
+#include "palmar/phantom/person/spread_hand.h"
+#include "palmar/phantom/photo/sheet_photograph.h"
+#include "palmar/records/population/population_file.h"
 #include "template_fixture.h"
 
 namespace palmar {

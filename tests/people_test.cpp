@@ -9,18 +9,18 @@
 #include <cmath>
 #include <map>
 
-#include "palmar/geometry/analytic_distance.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/hand_instance.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/distance/analytic_distance.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/hand_profile.h"
 #include "palmar/population/segment_regressions.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
-#include "palmar/study/exclusion.h"
-#include "palmar/study/grasp_demand.h"
+#include "palmar/study/assessment/assessment.h"
+#include "palmar/study/assessment/exclusion.h"
+#include "palmar/study/assessment/grasp_demand.h"
 #include "template_fixture.h"
 
 namespace palmar {

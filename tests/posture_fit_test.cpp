@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/posture_fit.h"
+#include "palmar/hand/posture/posture_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <random>
 
 #include "palmar/core/error.h"
-#include "palmar/hand/landmarks.h"
-#include "palmar/hand/marker_set.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/posture/marker_set.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/landmarks.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 // Markers of synthetic subjects whose bones are moved by kinematics written here, apart from the

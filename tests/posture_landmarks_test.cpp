@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "palmar/core/error.h"
-#include "palmar/hand/landmarks.h"
-#include "palmar/hand/marker_set.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/posture/marker_set.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/landmarks.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 namespace palmar {

@@ -9,11 +9,11 @@
 #include <random>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/remesh.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/posture_from_mesh.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/remesh/remesh.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/posture/posture_from_mesh.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 // Meshes of posed hands, made by another skinning than the one that is fitted: linear blending of

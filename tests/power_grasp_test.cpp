@@ -12,16 +12,16 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/grasp/posable_skin.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/grasp/precision/posable_skin.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
-#include "palmar/io/product_file.h"
 #include "palmar/product/primitives.h"
-#include "palmar/study/assessment.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace palmar {
 namespace {

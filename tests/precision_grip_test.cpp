@@ -3,7 +3,7 @@
 //
 // Precision grips of the template hand. Stands here because reading the hand's asset does not
 // belong to what the grasp module may include.
-#include "palmar/grasp/precision_grip.h"
+#include "palmar/grasp/precision/precision_grip.h"
 
 #include <gmock/gmock.h>
 
@@ -13,14 +13,14 @@
 #include <random>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/grasp/finger_motion.h"
-#include "palmar/grasp/fingertip_ik.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/skinning.h"
-#include "palmar/io/product_file.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/grasp/power/finger_motion.h"
+#include "palmar/grasp/precision/fingertip_ik.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
+#include "palmar/records/product/product_file.h"
 #include "template_fixture.h"
 
 namespace palmar {

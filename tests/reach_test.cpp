@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Buttons under the template hand's fingers.
-#include "palmar/grasp/reach.h"
+#include "palmar/grasp/precision/reach.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/precision_grip.h"
+#include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 

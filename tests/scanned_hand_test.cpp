@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/scanned_hand.h"
+#include "palmar/capture/scan/scanned_hand.h"
 
 #include <gmock/gmock.h>
 
@@ -12,13 +12,13 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/hand/hand_instance.h"
-#include "palmar/hand/skinning.h"
-#include "palmar/io/hand_file.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/skin/skinning.h"
+#include "palmar/records/hand/hand_file.h"
 #include "subject_fixture.h"
 #include "template_fixture.h"
 

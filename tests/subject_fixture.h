@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/phantom/mri_subject.h"
+#include "palmar/phantom/mri/mri_subject.h"
 
 namespace palmar {
 

@@ -5,14 +5,14 @@
 #include <memory>
 #include <tuple>
 
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/section.h"
-#include "palmar/hand/bones.h"
-#include "palmar/hand/creases.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/mesh/section.h"
+#include "palmar/hand/bones/bones.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/creases.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 namespace palmar {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/contact/press.h"
-#include "palmar/hand/dimensions.h"
+#include "palmar/contact/press/press.h"
+#include "palmar/hand/dimensions/dimensions.h"
 #include "template_fixture.h"
 
 namespace palmar {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
-#include "palmar/geometry/remesh.h"
-#include "palmar/geometry/subdivide.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/tape_measures.h"
+#include "palmar/geometry/remesh/remesh.h"
+#include "palmar/geometry/remesh/subdivide.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/dimensions/tape_measures.h"
 #include "template_fixture.h"
 
 namespace palmar {

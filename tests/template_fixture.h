@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "palmar/hand/template_hand.h"
-#include "palmar/io/hand_asset.h"
+#include "palmar/records/hand/hand_asset.h"
 
 namespace palmar {
 

@@ -10,15 +10,15 @@
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/hand/creases.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/hand_instance.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/posture/named_postures.h"
+#include "palmar/hand/skin/creases.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 namespace palmar {

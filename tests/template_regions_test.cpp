@@ -6,9 +6,9 @@
 #include <numbers>
 #include <set>
 
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/hand/regions.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/hand/skin/regions.h"
 #include "template_fixture.h"
 
 namespace palmar {

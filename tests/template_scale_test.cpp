@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 namespace palmar {

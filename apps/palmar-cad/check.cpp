@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "palmar/cad/cad_check.h"
-#include "palmar/cad/cad_file.h"
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
 #include "palmar/core/error.h"
 #include "read_request.h"
 #include "verbs.h"

@@ -17,15 +17,15 @@
 #include <utility>
 #include <vector>
 
-#include "palmar/cad/cad_check.h"
-#include "palmar/cad/cad_file.h"
-#include "palmar/cad/feature_choice.h"
-#include "palmar/cad/feature_edits.h"
-#include "palmar/cad/solids.h"
-#include "palmar/cad/surface_change.h"
-#include "palmar/cad/tessellation.h"
+#include "palmar/cad/edits/feature_choice.h"
+#include "palmar/cad/edits/feature_edits.h"
+#include "palmar/cad/edits/surface_change.h"
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/tessellation.h"
+#include "palmar/cad/solids/solids.h"
 #include "palmar/core/error.h"
-#include "palmar/io/face_mesh_file.h"
+#include "palmar/records/product/face_mesh_file.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <utility>
 
-#include "palmar/cad/cad_check.h"
-#include "palmar/cad/cad_file.h"
-#include "palmar/cad/tessellation.h"
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/tessellation.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
-#include "palmar/io/face_mesh_file.h"
+#include "palmar/records/product/face_mesh_file.h"
 #include "read_request.h"
 #include "verbs.h"
 

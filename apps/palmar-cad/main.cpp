@@ -17,8 +17,8 @@
 
 #include "../worker/worker_main.h"
 #include "palmar/core/error.h"
-#include "palmar/io/file.h"
-#include "palmar/io/worker.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/process/worker.h"
 #include "verbs.h"
 
 int main(int argc, char** argv) {

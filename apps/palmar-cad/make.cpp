@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "palmar/cad/cad_check.h"
-#include "palmar/cad/cad_file.h"
-#include "palmar/cad/solids.h"
-#include "palmar/cad/tessellation.h"
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/tessellation.h"
+#include "palmar/cad/solids/solids.h"
 #include "palmar/core/error.h"
-#include "palmar/io/face_mesh_file.h"
+#include "palmar/records/product/face_mesh_file.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "palmar/io/worker.h"
+#include "palmar/formats/process/worker.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 

@@ -6,7 +6,7 @@
 #include <Standard_OutOfMemory.hxx>
 #include <string>
 
-#include "palmar/cad/cad_file.h"
+#include "palmar/cad/model/cad_file.h"
 #include "palmar/core/error.h"
 #include "verbs.h"
 

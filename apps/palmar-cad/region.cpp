@@ -7,14 +7,14 @@
 // redesign.step and its mesh, mesh.bin; and how near curves and surfaces came.
 #include <numbers>
 
-#include "palmar/cad/cad_check.h"
-#include "palmar/cad/cad_file.h"
-#include "palmar/cad/region_model.h"
-#include "palmar/cad/relief_cut.h"
-#include "palmar/cad/tessellation.h"
+#include "palmar/cad/edits/region_model.h"
+#include "palmar/cad/edits/relief_cut.h"
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/tessellation.h"
 #include "palmar/core/error.h"
-#include "palmar/io/face_mesh_file.h"
-#include "palmar/io/region_json.h"
+#include "palmar/records/product/face_mesh_file.h"
+#include "palmar/records/region_json.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {

@@ -25,9 +25,9 @@
 #include "palmar/board/picture_matches.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/io/file.h"
-#include "palmar/io/texture_file.h"
-#include "palmar/io/worker.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/mesh/texture_file.h"
+#include "palmar/formats/process/worker.h"
 
 namespace {
 

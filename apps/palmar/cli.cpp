@@ -17,8 +17,8 @@
 #include <memory>
 
 #include "palmar/core/error.h"
-#include "palmar/io/hand_file.h"
-#include "palmar/io/tissue_file.h"
+#include "palmar/records/hand/hand_file.h"
+#include "palmar/records/tissue_file.h"
 
 namespace palmar::cli {
 namespace {

@@ -11,12 +11,12 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/io/cad_file.h"
-#include "palmar/io/external_program.h"
-#include "palmar/io/file.h"
-#include "palmar/io/study_store.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/process/external_program.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/records/product/cad_file.h"
+#include "palmar/records/study/study_store.h"
 
 namespace palmar::cli {
 namespace {

@@ -8,13 +8,13 @@
 #include <string>
 
 #include "cli.h"
-#include "mri_commands.h"
+#include "mri/mri_commands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
-#include "phantom_commands.h"
-#include "photos_commands.h"
+#include "phantom/phantom_commands.h"
+#include "photos/photos_commands.h"
 #include "text.h"
 
 namespace palmar::cli {

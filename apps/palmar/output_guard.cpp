@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
-#include "palmar/io/cad_format.h"
+#include "palmar/records/product/cad_format.h"
 
 namespace palmar::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/io/table_results.h"
+#include "palmar/records/table_results.h"
 
 namespace palmar::cli {
 

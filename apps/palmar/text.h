@@ -6,8 +6,8 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/hand/dimensions/tape_measures.h"
 #include "palmar/hand/hand.h"
-#include "palmar/hand/tape_measures.h"
 
 namespace palmar::cli {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
 #include "palmar/core/error.h"
-#include "palmar/io/file.h"
-#include "palmar/io/validation_json.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/validation_json.h"
 #include "palmar/validation/validation.h"
 
 namespace palmar::cli {

@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "palmar/core/progress.h"
-#include "palmar/io/file.h"
+#include "palmar/formats/file.h"
 
 namespace palmar::worker {
 

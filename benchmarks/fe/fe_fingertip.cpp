@@ -20,19 +20,19 @@
 #include <span>
 
 #include "axisymmetric_deck.h"
-#include "palmar/contact/half_space_press.h"
 #include "palmar/contact/hand_contact.h"
+#include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/process/external_program.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/hand/tissue_block.h"
-#include "palmar/io/ccx_results.h"
-#include "palmar/io/external_program.h"
-#include "palmar/io/file.h"
-#include "palmar/io/hand_asset.h"
-#include "palmar/io/inp_file.h"
-#include "palmar/io/tetgen.h"
-#include "palmar/report/line_chart.h"
+#include "palmar/records/fe/ccx_results.h"
+#include "palmar/records/fe/inp_file.h"
+#include "palmar/records/fe/tetgen.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/report/chart/line_chart.h"
 
 namespace {
 

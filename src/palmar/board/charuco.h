@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "palmar/photo/board_pattern.h"
+#include "palmar/capture/photo/board_pattern.h"
 
 namespace palmar {
 

@@ -10,7 +10,7 @@
 #include "palmar/capture/numeric_jacobian.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "palmar/capture/measured_joints.h"
+#include "palmar/capture/mri/measured_joints.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 

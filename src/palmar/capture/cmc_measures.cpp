@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "palmar/capture/axis_fit.h"
-#include "palmar/capture/bone_chain.h"
 #include "palmar/capture/joint_measures.h"
+#include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/two_axis_fit.h"
 
 namespace palmar {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "palmar/capture/measured_joints.h"
-#include "palmar/capture/reference_hand.h"
+#include "palmar/capture/mri/measured_joints.h"
+#include "palmar/capture/mri/reference_hand.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {

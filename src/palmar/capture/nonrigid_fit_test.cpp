@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/geometry/self_intersection.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/geometry/repair/self_intersection.h"
 
 namespace palmar {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "palmar/geometry/least_squares.h"
-#include "palmar/hand/segment_scaling.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/instance/segment_scaling.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {

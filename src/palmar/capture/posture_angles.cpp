@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "palmar/capture/axis_fit.h"
-#include "palmar/capture/bone_chain.h"
+#include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/geometry/least_squares.h"
 
 namespace palmar {

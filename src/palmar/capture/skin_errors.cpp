@@ -5,10 +5,10 @@
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/split_edges.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/remesh/split_edges.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {

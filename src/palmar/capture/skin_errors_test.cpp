@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "palmar/geometry/distance_field.h"
+#include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "palmar/contact/contact_solver.h"
 #include "palmar/contact/contact_totals.h"
+#include "palmar/contact/solve/contact_solver.h"
 
 namespace palmar {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "palmar/contact/skin_geometry.h"
+#include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/anatomy.h"
 
 namespace palmar {

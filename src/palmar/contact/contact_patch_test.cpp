@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "palmar/geometry/distance_field.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/distance_field.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar::contact_test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/skin_product.h"
+#include "palmar/contact/solve/skin_product.h"
 
 namespace palmar {
 

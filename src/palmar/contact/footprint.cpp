@@ -8,10 +8,10 @@
 #include <sstream>
 #include <utility>
 
-#include "palmar/contact/skin_geometry.h"
+#include "palmar/contact/response/skin_geometry.h"
 #include "palmar/core/error.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/split_edges.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/remesh/split_edges.h"
 
 namespace palmar {
 namespace {

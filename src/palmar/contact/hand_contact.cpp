@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "palmar/contact/contact_solver.h"
+#include "palmar/contact/solve/contact_solver.h"
 #include "palmar/core/error.h"
 
 namespace palmar {

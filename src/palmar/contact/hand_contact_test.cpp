@@ -13,7 +13,7 @@
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/core/error.h"
-#include "palmar/geometry/analytic_distance.h"
+#include "palmar/geometry/distance/analytic_distance.h"
 
 namespace palmar {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "palmar/contact/hand_family.h"
-#include "palmar/contact/layer_thickness.h"
+#include "palmar/contact/response/layer_thickness.h"
 #include "palmar/core/error.h"
 
 namespace palmar {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/contact_system.h"
-#include "palmar/contact/skin_geometry.h"
-#include "palmar/contact/skin_response.h"
-#include "palmar/contact/stiffening.h"
+#include "palmar/contact/response/skin_geometry.h"
+#include "palmar/contact/response/skin_response.h"
+#include "palmar/contact/solve/contact_system.h"
+#include "palmar/contact/tissue/stiffening.h"
 
 namespace palmar {
 

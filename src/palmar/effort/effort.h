@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/friction.h"
+#include "palmar/contact/friction/friction.h"
 #include "palmar/effort/digit_tendons.h"
 #include "palmar/effort/joint_moments.h"
-#include "palmar/grasp/grasp_index.h"
+#include "palmar/grasp/indices/grasp_index.h"
 
 namespace palmar {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/friction.h"
+#include "palmar/contact/friction/friction.h"
 #include "palmar/effort/digit_pose.h"
 
 namespace palmar {

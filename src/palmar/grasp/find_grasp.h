@@ -7,7 +7,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/grasp/precision_grip.h"
+#include "palmar/grasp/precision/precision_grip.h"
 
 namespace palmar {
 

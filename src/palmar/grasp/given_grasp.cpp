@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "palmar/core/error.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/power_place.h"
+#include "palmar/grasp/power/power_place.h"
 
 namespace palmar {
 namespace {

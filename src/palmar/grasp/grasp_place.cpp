@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/power_place.h"
-#include "palmar/grasp/precision_grip.h"
+#include "palmar/grasp/power/power_place.h"
+#include "palmar/grasp/precision/precision_grip.h"
 
 namespace palmar {
 namespace {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/grasp/closing.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/grasp/grip_axis.h"
+#include "palmar/grasp/power/closing.h"
+#include "palmar/grasp/power/grip_axis.h"
 
 namespace palmar {
 

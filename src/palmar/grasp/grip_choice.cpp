@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "palmar/grasp/section_stack.h"
+#include "palmar/grasp/power/section_stack.h"
 
 namespace palmar {
 namespace {

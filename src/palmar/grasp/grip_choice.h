@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/grasp/grip_axis.h"
+#include "palmar/grasp/power/grip_axis.h"
 
 namespace palmar {
 

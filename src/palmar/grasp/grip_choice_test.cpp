@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {

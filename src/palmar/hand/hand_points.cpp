@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/anatomy.h"
-#include "palmar/hand/posture.h"
+#include "palmar/hand/posture/posture.h"
 
 namespace palmar {
 

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/remesh.h"
-#include "palmar/geometry/subdivide.h"
-#include "palmar/geometry/weld.h"
-#include "palmar/hand/bones.h"
-#include "palmar/hand/dimensions.h"
-#include "palmar/hand/forearm_cut.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/remesh/remesh.h"
+#include "palmar/geometry/remesh/subdivide.h"
+#include "palmar/geometry/repair/weld.h"
+#include "palmar/hand/bones/bones.h"
+#include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/hand_frame.h"
-#include "palmar/hand/joint_weights.h"
-#include "palmar/hand/regions.h"
+#include "palmar/hand/skin/forearm_cut.h"
+#include "palmar/hand/skin/joint_weights.h"
+#include "palmar/hand/skin/regions.h"
 #include "palmar/hand/template_skeleton.h"
 
 namespace palmar {

@@ -10,8 +10,8 @@
 
 #include "palmar/core/error.h"
 #include "palmar/hand/hand_frame.h"
-#include "palmar/hand/joint_placement.h"
-#include "palmar/hand/thumb_cmc.h"
+#include "palmar/hand/posture/joint_placement.h"
+#include "palmar/hand/skin/thumb_cmc.h"
 
 namespace palmar {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/plane_cut.h"
-#include "palmar/geometry/winding_number.h"
+#include "palmar/geometry/distance/winding_number.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/mesh/plane_cut.h"
 
 namespace palmar {
 namespace {

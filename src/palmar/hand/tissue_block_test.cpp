@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {

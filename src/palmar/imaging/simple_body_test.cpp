@@ -10,8 +10,8 @@
 #include <random>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/imaging/iso_surface.h"
 
 namespace palmar {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "palmar/hand/hand_dimension.h"
+#include "palmar/hand/dimensions/hand_dimension.h"
 
 namespace palmar {
 

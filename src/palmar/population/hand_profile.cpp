@@ -7,8 +7,8 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/hand/named_postures.h"
-#include "palmar/hand/scaled_hand.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/posture/named_postures.h"
 
 namespace palmar {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
-#include "palmar/hand/named_postures.h"
+#include "palmar/hand/posture/named_postures.h"
 
 namespace palmar {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "palmar/hand/hand_dimension.h"
+#include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
 
 namespace palmar {

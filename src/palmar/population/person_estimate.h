@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "palmar/hand/hand_dimension.h"
+#include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
 
 namespace palmar {

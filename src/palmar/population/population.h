@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/hand/hand_dimension.h"
+#include "palmar/hand/dimensions/hand_dimension.h"
 
 namespace palmar {
 

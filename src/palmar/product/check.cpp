@@ -7,13 +7,13 @@
 #include <array>
 #include <cstdio>
 
-#include "palmar/geometry/boundary_loops.h"
-#include "palmar/geometry/low_triangles.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/orient.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/geometry/weld.h"
+#include "palmar/geometry/mesh/boundary_loops.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/low_triangles.h"
+#include "palmar/geometry/repair/orient.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/geometry/repair/weld.h"
 
 namespace palmar {
 namespace {

@@ -13,10 +13,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/boundary_loops.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/ray_query.h"
+#include "palmar/geometry/distance/ray_query.h"
+#include "palmar/geometry/mesh/boundary_loops.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/rotation.h"
 
 namespace palmar {

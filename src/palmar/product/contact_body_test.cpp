@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/product/make_product.h"
 
 namespace palmar {

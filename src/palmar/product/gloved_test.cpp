@@ -10,8 +10,8 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
-#include "palmar/geometry/analytic_distance.h"
-#include "palmar/geometry/mesh_distance.h"
+#include "palmar/geometry/distance/analytic_distance.h"
+#include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/product/primitives.h"
 
 namespace palmar {

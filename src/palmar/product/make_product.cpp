@@ -7,11 +7,11 @@
 #include <cstdio>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/orient.h"
-#include "palmar/geometry/weld.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/orient.h"
+#include "palmar/geometry/repair/weld.h"
 #include "palmar/product/contact_body.h"
 
 namespace palmar {

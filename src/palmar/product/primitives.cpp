@@ -10,8 +10,8 @@
 #include <span>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/analytic_distance.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/analytic_distance.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitive_faces.h"
 
 namespace palmar {

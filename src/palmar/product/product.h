@@ -6,18 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "palmar/geometry/distance_field.h"
+#include "palmar/geometry/distance/distance_field.h"
+#include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 
 namespace palmar {
-
-/// Length unit of a file. Inside Palmar everything is mm.
-enum class LengthUnit { kMillimetre, kCentimetre, kMetre, kInch };
-std::string name_of(LengthUnit unit);     ///< "mm", "cm", "m", "inch"
-double millimetres_per(LengthUnit unit);  ///< 1, 10, 1000, 25.4
-/// From "mm", "cm", "m", "inch" or "in". Throws UsageError naming what is allowed.
-LengthUnit length_unit(const std::string& name);
 
 /// How the unit of a product was known.
 enum class UnitSource {

@@ -13,10 +13,10 @@
 #include <sstream>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/check.h"
 #include "palmar/product/contact_body.h"
 #include "palmar/product/make_product.h"

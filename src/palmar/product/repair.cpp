@@ -9,14 +9,14 @@
 #include <numeric>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/fill_holes.h"
-#include "palmar/geometry/low_triangles.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/orient.h"
-#include "palmar/geometry/part_sheets.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/geometry/weld.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/repair/fill_holes.h"
+#include "palmar/geometry/repair/low_triangles.h"
+#include "palmar/geometry/repair/orient.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/geometry/repair/separate_sheets.h"
+#include "palmar/geometry/repair/weld.h"
 
 namespace palmar {
 namespace {

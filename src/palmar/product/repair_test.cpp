@@ -15,11 +15,11 @@
 #include <sstream>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/geometry/self_intersection.h"
-#include "palmar/geometry/weld.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/geometry/repair/weld.h"
 #include "palmar/product/primitives.h"
 
 namespace palmar {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_distance.h"
+#include "palmar/geometry/distance/mesh_distance.h"
 
 namespace palmar {
 

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/iso_lines.h"
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/iso_lines.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitives.h"
 #include "palmar/study/study_record.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/redesign/contact_study.h"
 
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/product/make_product.h"
 #include "palmar/redesign/imprint.h"
 

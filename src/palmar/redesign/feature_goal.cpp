@@ -14,7 +14,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/grasp/grasp_index.h"
+#include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/statistics/summary.h"
 
 namespace palmar {

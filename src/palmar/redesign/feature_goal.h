@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/study/study_results.h"
+#include "palmar/study/statistics/study_results.h"
 
 namespace palmar {
 

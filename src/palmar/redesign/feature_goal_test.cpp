@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/study/study_test_results.h"
+#include "palmar/study/statistics/study_test_results.h"
 
 namespace palmar {
 namespace {

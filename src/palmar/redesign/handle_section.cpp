@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/section.h"
+#include "palmar/geometry/mesh/section.h"
 
 namespace palmar {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/study/study_hand_maker.h"
 #include "palmar/study/study_task.h"
 

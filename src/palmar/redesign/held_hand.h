@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
-#include "palmar/study/study_results.h"
+#include "palmar/study/statistics/study_results.h"
 #include "palmar/study/study_run.h"
 
 namespace palmar {

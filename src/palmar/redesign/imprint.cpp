@@ -13,9 +13,9 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/ray_query.h"
-#include "palmar/geometry/winding_number.h"
+#include "palmar/geometry/distance/ray_query.h"
+#include "palmar/geometry/distance/winding_number.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {

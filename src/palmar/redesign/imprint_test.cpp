@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/redesign/align_imprints.h"
 #include "palmar/redesign/surface_diffusion.h"
 

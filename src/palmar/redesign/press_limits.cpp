@@ -12,9 +12,9 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/self_intersection.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {

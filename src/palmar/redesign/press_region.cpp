@@ -9,10 +9,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/editable_mesh.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/split_edges.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/editable_mesh.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/remesh/split_edges.h"
 
 namespace palmar {
 namespace {

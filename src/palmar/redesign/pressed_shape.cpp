@@ -11,9 +11,9 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/closest_point.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/redesign/align_imprints.h"
 #include "palmar/redesign/press_limits.h"
 #include "palmar/redesign/press_region.h"

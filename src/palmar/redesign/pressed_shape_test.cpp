@@ -14,11 +14,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_distance.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/mesh_topology.h"
-#include "palmar/geometry/primitive_meshes.h"
-#include "palmar/geometry/self_intersection.h"
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/product/primitives.h"
 #include "palmar/redesign/press_limits.h"
 

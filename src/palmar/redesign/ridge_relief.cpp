@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/split_edges.h"
-#include "palmar/grasp/grip_axis.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/remesh/split_edges.h"
+#include "palmar/grasp/power/grip_axis.h"
 #include "palmar/redesign/handle_section.h"
 
 namespace palmar {

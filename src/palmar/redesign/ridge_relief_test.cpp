@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
-#include "palmar/geometry/primitive_meshes.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitives.h"
 #include "palmar/redesign/handle_section.h"
 #include "palmar/study/study_record.h"

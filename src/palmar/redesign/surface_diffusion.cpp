@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/grip_axis.h"
+#include "palmar/grasp/power/grip_axis.h"
 #include "palmar/redesign/handle_section.h"
 
 namespace palmar {

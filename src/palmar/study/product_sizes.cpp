@@ -7,8 +7,8 @@
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/study/accommodation.h"
-#include "palmar/study/study_statistics.h"
+#include "palmar/study/statistics/accommodation.h"
+#include "palmar/study/statistics/study_statistics.h"
 
 namespace palmar {
 namespace {

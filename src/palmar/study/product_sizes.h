@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "palmar/statistics/proportion.h"
-#include "palmar/study/study_results.h"
+#include "palmar/study/statistics/study_results.h"
 
 namespace palmar {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/study/study_hand_maker.h"
 
-#include "palmar/hand/hand_instance.h"
+#include "palmar/hand/instance/hand_instance.h"
 
 namespace palmar {
 

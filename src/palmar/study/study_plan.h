@@ -12,7 +12,7 @@
 #include "palmar/population/hand_profile.h"
 #include "palmar/population/hand_sample.h"
 #include "palmar/population/population.h"
-#include "palmar/study/assessment.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace palmar {
 

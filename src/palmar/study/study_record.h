@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/study/assessment.h"
+#include "palmar/study/assessment/assessment.h"
 #include "palmar/study/study_plan.h"
 
 namespace palmar {

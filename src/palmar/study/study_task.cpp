@@ -16,14 +16,14 @@
 #include "palmar/contact/hand_family.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/geometry/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/grasp_place.h"
-#include "palmar/grasp/grip_force.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/hand/hand_instance.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
-#include "palmar/study/assessment.h"
-#include "palmar/study/grasp_demand.h"
+#include "palmar/study/assessment/assessment.h"
+#include "palmar/study/assessment/grasp_demand.h"
 
 namespace palmar {
 namespace {

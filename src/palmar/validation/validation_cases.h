@@ -9,8 +9,8 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/core/progress.h"
-#include "palmar/grasp/balance.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/grasp/rest/balance.h"
 #include "palmar/product/product.h"
 #include "palmar/validation/validation.h"
 

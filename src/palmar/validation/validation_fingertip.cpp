@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "palmar/contact/press.h"
-#include "palmar/hand/dimensions.h"
+#include "palmar/contact/press/press.h"
+#include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/validation/validation_cases.h"
 
 namespace palmar {

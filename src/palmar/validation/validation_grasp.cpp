@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "palmar/grasp/grip_force.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"
 

@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
-#include "palmar/contact/press.h"
+#include "palmar/contact/press/press.h"
 #include "palmar/core/parallel.h"
-#include "palmar/hand/scaled_hand.h"
-#include "palmar/hand/skinning.h"
+#include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/skin/skinning.h"
 #include "palmar/validation/validation_cases.h"
 
 namespace palmar {

@@ -17,9 +17,9 @@
 #include "palmar/statistics/correlation.h"
 #include "palmar/statistics/paired_test.h"
 #include "palmar/statistics/summary.h"
-#include "palmar/study/study_results.h"
+#include "palmar/study/statistics/study_results.h"
+#include "palmar/study/statistics/study_statistics.h"
 #include "palmar/study/study_run.h"
-#include "palmar/study/study_statistics.h"
 #include "palmar/validation/validation_cases.h"
 
 namespace palmar {

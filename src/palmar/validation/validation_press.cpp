@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "palmar/contact/press.h"
+#include "palmar/contact/press/press.h"
 #include "palmar/validation/validation_cases.h"
 
 namespace palmar {

@@ -1,0 +1,222 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "cli.h"
+#include "contact/contact_fit_command.h"
+#include "contact/press_specimen.h"
+#include "grasp/grasp_options.h"
+#include "palmar/contact/press/press.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/press_json.h"
+#include "palmar/records/tissue_file.h"
+#include "palmar/report/chart/press_chart.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+struct PressArguments {
+  std::string specimen = "plane", indenter, depths, forces, out;
+  std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal", tissue;
+  double tilt_deg = 0.0;
+  double cell = PressOptions{}.cell_area;
+  double coating_poisson = Coating{}.poisson;
+  std::optional<double> spacing, shear_modulus_kpa, layer, poisson, coating, coating_modulus_kpa;
+};
+
+TissueLevel parse_tissue_level(const std::string& text) {
+  if (text == "low") return TissueLevel::kLow;
+  if (text == "nominal") return TissueLevel::kNominal;
+  if (text == "high") return TissueLevel::kHigh;
+  throw UsageError("--tissue-level: \"" + text +
+                   "\" is not known; low, nominal or high is allowed");
+}
+
+/// The equations; a plane or ellipsoid is layered if a thickness is given.
+ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
+  const auto named = contact_model_named(arguments.preset);
+  if (!named) {
+    throw UsageError("--preset: \"" + arguments.preset +
+                     "\" is not known; palmar or xie2014 is allowed");
+  }
+  ContactModel model = *named;
+  if (!arguments.kernel.empty()) model.kernel = parse_kernel(arguments.kernel);
+  if (!arguments.tissue_model.empty()) model.tissue = parse_tissue_model(arguments.tissue_model);
+  if (is_hand) return model;
+  const bool is_layered = model.tissue == TissueModel::kLayered;
+  if (arguments.layer && !is_layered && !arguments.tissue_model.empty()) {
+    throw UsageError("--layer-mm and --tissue-model halfspace exclude each other");
+  }
+  if (is_layered && !arguments.layer) {
+    throw UsageError("--tissue-model layered: a plane or ellipsoid needs --layer-mm as well");
+  }
+  if (arguments.layer) model.tissue = TissueModel::kLayered;
+  return model;
+}
+
+std::optional<Coating> parse_coating(const PressArguments& arguments) {
+  if (!arguments.coating && !arguments.coating_modulus_kpa) return std::nullopt;
+  if (!arguments.coating || !arguments.coating_modulus_kpa) {
+    throw UsageError("--coating-mm and --coating-modulus-kpa are needed together");
+  }
+  Coating coating;
+  coating.thickness = *arguments.coating;
+  coating.shear_modulus = *arguments.coating_modulus_kpa / 1000.0;
+  coating.poisson = arguments.coating_poisson;
+  return coating;
+}
+
+PressOptions parse_options(const PressArguments& arguments, std::string& hand_name) {
+  if (arguments.depths.empty() == arguments.forces.empty()) {
+    throw UsageError("either --depth-mm or --force-n is needed, and only one of them");
+  }
+  if (arguments.shear_modulus_kpa && !(*arguments.shear_modulus_kpa > 0.0)) {
+    throw UsageError(fmt::format("--shear-modulus-kpa is {}; more than 0 kPa is required",
+                                 *arguments.shear_modulus_kpa));
+  }
+  if (!(arguments.cell > 0.0 && arguments.cell <= 30.0)) {
+    throw UsageError(
+        fmt::format("--cell-mm is {}; more than 0 and at most 30 mm is required", arguments.cell));
+  }
+  PressOptions options;
+  options.specimen = parse_specimen(arguments.specimen, hand_name);
+  options.indenter = parse_indenter(arguments.indenter);
+  if (!arguments.depths.empty()) options.depths = parse_list("--depth-mm", arguments.depths);
+  if (!arguments.forces.empty()) options.forces = parse_list("--force-n", arguments.forces);
+  options.tilt = radians(arguments.tilt_deg);
+  options.spacing = arguments.spacing.value_or(options.spacing);
+  options.cell_area = arguments.cell * arguments.cell;
+  options.layer_thickness = arguments.layer;
+  options.poisson = arguments.poisson;
+  options.coating = parse_coating(arguments);
+  options.tissue_level = parse_tissue_level(arguments.tissue_level);
+  if (arguments.shear_modulus_kpa) options.shear_modulus = *arguments.shear_modulus_kpa / 1000.0;
+  return options;
+}
+
+std::string press_text(const std::vector<PressStep>& steps) {
+  std::string text =
+      "  depth     force      area       peak  peak cells       mean      shear\n"
+      "     mm         N       mm2        MPa         MPa        MPa  modulus MPa\n";
+  for (const PressStep& s : steps) {
+    text += fmt::format("{:7.3f} {:9.4f} {:9.2f} {:10.5f} {:11.5f} {:10.5f} {:12.5f}\n", s.depth,
+                        s.force, s.area, s.peak_pressure, s.peak_pressure_cells, s.mean_pressure,
+                        s.shear_modulus);
+  }
+  return text;
+}
+
+/// The result in the format that the file's name asks for.
+std::string press_file(const std::string& path, const PressOptions& options,
+                       const PressSetting& setting, const std::vector<PressStep>& steps) {
+  const std::string format = std::filesystem::path(path).extension().string();
+  if (format == ".csv") return format_csv(press_table(steps));
+  if (format == ".svg") {
+    const std::string hand = setting.hand.empty() ? "" : setting.hand + ":";
+    return press_chart(steps, hand + name_of(options.specimen) + " pressed by " +
+                                  name_of(options.indenter) + " (" + name_of(setting.model) + ")") +
+           "\n";
+  }
+  return press_json(options, setting, steps) + "\n";
+}
+
+void check_out(const std::string& path) {
+  const std::string format = std::filesystem::path(path).extension().string();
+  if (path.empty() || format == ".json" || format == ".csv" || format == ".svg") return;
+  throw UsageError("--out: \"" + path + "\" ends with none of .json, .csv, .svg");
+}
+
+int run_press(const PressArguments& arguments, const CommonOptions& common) {
+  std::string hand_name;
+  PressOptions options = parse_options(arguments, hand_name);
+  const ContactModel model = parse_model(arguments, !hand_name.empty());
+  options.kernel = model.kernel;
+  if (hand_name.empty() && !arguments.tissue.empty()) {
+    options.tissue = read_tissue(arguments.tissue, default_tissue())
+                         .region[static_cast<std::size_t>(Region::kMiddleDistal)];
+  }
+  options.check();
+  check_out(arguments.out);
+
+  PressSetting setting{.hand = "", .model = model};
+  std::optional<PreparedHand> hand;
+  if (!hand_name.empty()) {
+    if (arguments.spacing) note(common, "--spacing-mm is left out: a hand has its own vertices");
+    auto loaded = load_hand(hand_name, arguments.tissue);
+    setting.hand = loaded->name;
+    if (options.tissue_level != TissueLevel::kNominal) {
+      loaded = std::make_shared<Hand>(hand_at_tissue_level(*loaded, options.tissue_level));
+    }
+    hand.emplace(loaded, model);
+  }
+  const std::vector<PressStep> steps = press(options, hand ? &*hand : nullptr);
+  if (!arguments.out.empty()) {
+    write_file(arguments.out, press_file(arguments.out, options, setting, steps));
+  }
+  print(common.json ? press_json(options, setting, steps) + "\n" : press_text(steps));
+  return 0;
+}
+
+}  // namespace
+
+void add_contact_commands(CLI::App& app, Context& context) {
+  CLI::App* contact = app.add_subcommand("contact", "Contact of skin with simple bodies");
+  contact->require_subcommand(1);
+  contact->fallthrough();
+  add_contact_fit_verb(*contact, context);
+
+  const auto o = std::make_shared<PressArguments>();
+  o->cell = std::sqrt(PressOptions{}.cell_area);
+  CLI::App* verb =
+      add_verb(*contact, "press", "The indentation test of a laboratory",
+               "palmar contact press --specimen template:middle_distal --indenter plane "
+               "--tilt-deg 30 --depth-mm 1,2,3");
+  verb->add_option("--specimen", o->specimen,
+                   "plane, ellipsoid:RX,RY (radii of curvature, mm) or HAND:REGION")
+      ->capture_default_str();
+  verb->add_option("--indenter", o->indenter,
+                   "sphere:R, punch:A, punches:A,DISTANCE (two, moving together), cylinder:R (mm) "
+                   "or plane")
+      ->required();
+  verb->add_option("--depth-mm", o->depths, "Depths from first touch, a,b,c in mm");
+  verb->add_option("--force-n", o->forces, "Forces to reach, a,b,c in N, instead of depths");
+  verb->add_option("--tilt-deg", o->tilt_deg, "Tilt of the indenter, deg")->capture_default_str();
+  verb->add_option("--spacing-mm", o->spacing,
+                   fmt::format("Vertex spacing of a plane or ellipsoid, mm; default {}",
+                               PressOptions{}.spacing));
+  verb->add_option("--shear-modulus-kpa", o->shear_modulus_kpa,
+                   "Instead of the tissue's own G(d), kPa");
+  verb->add_option("--preset", o->preset,
+                   "Equations: palmar, or xie2014 (as printed in the thesis)")
+      ->capture_default_str();
+  verb->add_option("--kernel", o->kernel, "patch or point (Xie 2014); default: the preset's");
+  verb->add_option(
+      "--tissue-model", o->tissue_model,
+      "halfspace, or layered (skin over bone: the hand's own, or --layer-mm); default: "
+      "the preset's");
+  verb->add_option("--tissue", o->tissue,
+                   "Tissue file (TOML) for the hand; a plane or ellipsoid takes the middle "
+                   "fingertip's");
+  verb->add_option("--tissue-level", o->tissue_level, "Stiffness of the tissue: low, nominal, high")
+      ->capture_default_str();
+  verb->add_option("--layer-mm", o->layer,
+                   "Thickness of the layer over bone of a plane or ellipsoid, mm");
+  verb->add_option("--poisson", o->poisson,
+                   "Poisson's ratio of a plane or ellipsoid, 0 to 0.5; default 0.5");
+  verb->add_option("--coating-mm", o->coating, "Thickness of an elastic cover of the indenter, mm");
+  verb->add_option("--coating-modulus-kpa", o->coating_modulus_kpa,
+                   "Shear modulus of the cover, kPa");
+  verb->add_option("--coating-poisson", o->coating_poisson, "Poisson's ratio of the cover")
+      ->capture_default_str();
+  verb->add_option("--cell-mm", o->cell, "Side of a square sensor cell, mm")->capture_default_str();
+  verb->add_option("--out", o->out, "File to write: .json, .csv, or .svg (the curve)");
+  verb->callback(
+      [&context, o] { context.run = [&context, o] { return run_press(*o, context.common); }; });
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,318 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/contact_fit_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "contact/press_specimen.h"
+#include "grasp/grasp_options.h"
+#include "palmar/contact/tissue/tissue_fit.h"
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/file.h"
+#include "palmar/hand/tissue.h"
+#include "palmar/records/measured_curves.h"
+#include "palmar/records/tissue_file.h"
+#include "palmar/records/tissue_fit_json.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+struct FitArguments {
+  std::string curves, specimen = "plane", indenter, layer, group, out;
+  std::string tissue_model = "halfspace", law = "stiffening", residuals = "absolute";
+  double tilt_deg = 0.0;
+  double spacing = PressOptions{}.spacing;
+  double poisson = 0.5;
+  double confidence_percent = 100.0 * TissueFitOptions{}.confidence;
+  std::optional<double> limit_depth;
+};
+
+bool is_one_of(const std::string& option, const std::string& text, const std::string& yes,
+               const std::string& no) {
+  if (text != yes && text != no) {
+    throw UsageError(option + ": \"" + text + "\" is not known; " + no + " or " + yes +
+                     " is allowed");
+  }
+  return text == yes;
+}
+
+TissueFitOptions fit_options(const FitArguments& arguments) {
+  TissueFitOptions options;
+  options.is_constant = is_one_of("--law", arguments.law, "constant", "stiffening");
+  options.is_relative = is_one_of("--residuals", arguments.residuals, "relative", "absolute");
+  options.limit_depth = arguments.limit_depth;
+  options.confidence = arguments.confidence_percent / 100.0;
+  if (options.is_constant && options.limit_depth) {
+    throw UsageError("--limit-depth-mm has no meaning with --law constant");
+  }
+  options.check();
+  return options;
+}
+
+/// Regions that the fit is for: a group's, or one.
+std::vector<Region> regions_of(const std::string& name) {
+  std::vector<Region> regions;
+  const auto group = tissue_class_named(name);
+  if (const auto region = region_named(name)) regions.push_back(*region);
+  if (!group && !regions.empty()) return regions;
+  regions.clear();
+  std::vector<std::string> known;
+  for (int c = 0; c < kTissueClassCount; ++c) {
+    known.emplace_back(name_of(static_cast<TissueClass>(c)));
+  }
+  for (int r = 0; r < kRegionCount; ++r) {
+    const auto region = static_cast<Region>(r);
+    known.emplace_back(name_of(region));
+    if (group && tissue_class_of(region) == *group) regions.push_back(region);
+  }
+  if (group) return regions;
+  const std::string nearest = nearest_name(name, known);
+  throw UsageError("--group: \"" + name + "\" is not known; " +
+                   (nearest.empty() ? "finger, palm, dorsum or a region is allowed"
+                                    : "did you mean " + nearest + "?"));
+}
+
+/// Lays the test out; the layer is a known thickness, fitted, or the hand's own.
+struct TestSetup {
+  PressOptions press;
+  std::string hand;
+  bool is_layered = false;
+  bool is_layer_fitted = false;
+};
+
+TestSetup setup_of(const FitArguments& arguments) {
+  TestSetup setup;
+  setup.press.specimen = parse_specimen(arguments.specimen, setup.hand);
+  setup.press.indenter = parse_indenter(arguments.indenter);
+  setup.press.tilt = radians(arguments.tilt_deg);
+  setup.press.spacing = arguments.spacing;
+  setup.is_layered = parse_tissue_model(arguments.tissue_model) == TissueModel::kLayered ||
+                     !arguments.layer.empty();
+  if (!setup.hand.empty()) {
+    if (!arguments.layer.empty()) {
+      throw UsageError("--layer-mm: a hand has its own depth of skin over bone; leave it out");
+    }
+    return setup;
+  }
+  setup.press.poisson = arguments.poisson;
+  if (setup.is_layered) {
+    if (arguments.layer.empty()) {
+      throw UsageError("--tissue-model layered: --layer-mm is needed, a thickness or \"fitted\"");
+    }
+    setup.is_layer_fitted = arguments.layer == "fitted";
+    if (!setup.is_layer_fitted) {
+      const std::vector<double> thickness = parse_list("--layer-mm", arguments.layer);
+      if (thickness.size() != 1) {
+        throw UsageError("--layer-mm: \"" + arguments.layer +
+                         "\"; one thickness in mm, or \"fitted\", is needed");
+      }
+      setup.press.layer_thickness = thickness.front();
+    }
+  }
+  return setup;
+}
+
+std::string describe(const FitArguments& arguments, const TestSetup& setup) {
+  std::string text = arguments.specimen + " pressed by " + arguments.indenter;
+  if (arguments.tilt_deg != 0.0) text += fmt::format(" at {} deg", arguments.tilt_deg);
+  if (!setup.is_layered) return text + ", half-space";
+  if (!setup.hand.empty()) return text + ", layered over the hand's own bones";
+  return text + (setup.is_layer_fitted ? ", layer of fitted thickness"
+                                       : ", layer of " + arguments.layer + " mm");
+}
+
+std::string parameters_text(const TissueFit& fit, double confidence) {
+  std::string text =
+      fmt::format("parameter      value  unit   {:g} % confidence      \n", 100.0 * confidence);
+  for (const FittedParameter& one : fit.parameters) {
+    const std::string interval =
+        one.lower ? fmt::format("{:.4g} to {:.4g}", *one.lower, *one.upper) : "-";
+    const std::string state = one.status == ParameterStatus::kFitted ? ""
+                              : one.status == ParameterStatus::kHeld ? "held: "
+                                                                     : "not identifiable: ";
+    std::string row = fmt::format("{:<10} {:>9.4g}  {:<5}  {:<20}  {}{}", one.name, one.value,
+                                  one.unit, interval, state, one.remark);
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::string points_text(const TissueFit& fit) {
+  const bool has_area = fit.area_ratio.has_value();
+  std::string text = "\n  line     depth     force     model  residual";
+  text += has_area ? "      area     model  subject\n" : "  subject\n";
+  text += "              mm         N         N         N";
+  text += has_area ? "       mm2       mm2\n" : "\n";
+  for (const FittedPoint& point : fit.points) {
+    const MeasuredPoint& measured = point.measured;
+    text += fmt::format("{:6d} {:9.3f} {:9.4f} {:9.4f} {:9.4f}", measured.line, measured.depth,
+                        measured.force, point.force, measured.force - point.force);
+    if (has_area) {
+      text += measured.area ? fmt::format(" {:9.2f}", *measured.area) : fmt::format(" {:>9}", "-");
+      text += fmt::format(" {:9.2f}", point.area);
+    }
+    text += (measured.subject.empty() ? "" : "  " + measured.subject) + "\n";
+  }
+  return text;
+}
+
+std::string fit_text(const TissueFit& fit, const std::string& test, double confidence) {
+  std::string text = test + "\n\n" + parameters_text(fit, confidence);
+  const StiffeningLaw& low = fit.stiffness.low;
+  const StiffeningLaw& high = fit.stiffness.high;
+  text +=
+      fmt::format("\nrange          G0 {:.4g} to {:.4g} kPa, G_lim {:.4g} to {:.4g} kPa ({})\n",
+                  1000.0 * low.g0, 1000.0 * high.g0, 1000.0 * low.g_limit, 1000.0 * high.g_limit,
+                  fit.subjects.empty() ? "confidence of the mean stiffness" : "subjects");
+  text += fmt::format("residual       {:.4g} N rms, {:.1f} % of the readings rms; R2 {:.5f}\n",
+                      fit.force_rms, 100.0 * fit.force_rms_relative, fit.r_squared);
+  if (fit.area_ratio) {
+    text += fmt::format("area           measured / model {:.3f} mean, {:.1f} % rms\n",
+                        *fit.area_ratio, 100.0 * *fit.area_rms_relative);
+  }
+  text += fmt::format("fit            {} after {} steps, {} readings, condition {:.3g}\n",
+                      name_of(fit.status), fit.iterations, fit.points.size(), fit.condition);
+  if (fit.fitted.size() > 1) {
+    text += "correlation    ";
+    for (std::size_t i = 0; i < fit.fitted.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        text += fmt::format(
+            "{}{}, {}: {:.3f}", i + j > 1 ? "; " : "", fit.fitted[j], fit.fitted[i],
+            fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      }
+    }
+    text += "\n";
+  }
+  for (const SubjectFit& one : fit.subjects) {
+    text +=
+        fmt::format("{:<14} G0 {:.4g}, G_lim {:.4g} kPa; {} readings, {:.4g} N rms\n", one.subject,
+                    1000.0 * one.law.g0, 1000.0 * one.law.g_limit, one.points, one.force_rms);
+  }
+  for (const std::string& remark : fit.remarks) text += "\n" + remark;
+  return text + (fit.remarks.empty() ? "" : "\n") + points_text(fit);
+}
+
+/// The default set with the fitted law in it.
+Tissue fitted_set(const FitArguments& arguments, const TestSetup& setup, const TissueFit& fit,
+                  const std::vector<Region>& regions) {
+  const std::string file = std::filesystem::path(arguments.curves).filename().string();
+  Tissue tissue = default_tissue();
+  tissue.source = "Palmar's own set with " +
+                  std::string(setup.is_layered ? "layered" : "half-space") + " tissue fitted to " +
+                  file;
+  for (const Region region : regions) {
+    RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
+    (setup.is_layered ? one.layered : one.half_space) = fit.stiffness;
+    if (const std::string fault = fault_of(one); !fault.empty()) {
+      throw NumericalError(file + ": the fit gives no tissue that skin can have: " + fault +
+                           ". Are the units of the columns right?");
+    }
+    if (setup.is_layered) one.poisson_layered = setup.press.poisson.value_or(one.poisson_layered);
+    one.source = fmt::format("{}: fitted to {} ({} readings, {} subjects; {}), R2 {:.4f}; rest: {}",
+                             setup.is_layered ? "layered" : "half-space", file, fit.points.size(),
+                             std::max<std::size_t>(1, fit.subjects.size()),
+                             describe(arguments, setup), fit.r_squared, one.source);
+  }
+  return tissue;
+}
+
+int run_fit(const FitArguments& arguments, const CommonOptions& common) {
+  const TissueFitOptions options = fit_options(arguments);
+  const TestSetup setup = setup_of(arguments);
+  const bool is_hand = !setup.hand.empty();
+  const std::string group = !arguments.group.empty() ? arguments.group
+                            : is_hand
+                                ? std::string(name_of(tissue_class_of(setup.press.specimen.region)))
+                                : "finger";
+  const std::vector<Region> regions = regions_of(group);
+  const MeasuredCurves curves = read_measured_curves(arguments.curves);
+  std::vector<double> depths;
+  for (const MeasuredPoint& point : curves.points) depths.push_back(point.depth);
+  for (const std::string& column : curves.ignored) {
+    note(common, arguments.curves + ": column \"" + column + "\" is left out");
+  }
+  if (curves.zero_depths > 0) {
+    note(common,
+         fmt::format("{}: {} rows at depth 0 are left out", arguments.curves, curves.zero_depths));
+  }
+  std::optional<PreparedHand> hand;
+  if (is_hand) {
+    hand.emplace(
+        load_hand(setup.hand),
+        ContactModel{.tissue = setup.is_layered ? TissueModel::kLayered : TissueModel::kHalfSpace});
+  }
+  std::vector<double> thickness;
+  if (setup.is_layer_fitted) {
+    thickness = thicknesses_to_try(*std::max_element(depths.begin(), depths.end()));
+  }
+  PressOptions press = setup.press;
+  press.depths = depths;
+  press.check();
+  const SpecimenResponse response =
+      specimen_response(press, depths, thickness, hand ? &*hand : nullptr);
+  const TissueFit fit = fit_tissue(curves.points, response, options);
+  if (fit.status == LeastSquaresStatus::kIterationLimit ||
+      fit.status == LeastSquaresStatus::kBadStart) {
+    throw NumericalError(arguments.curves + ": the fit ended without converging (" +
+                         std::string(name_of(fit.status)) + "); nothing is written");
+  }
+  if (!arguments.out.empty()) {
+    write_tissue(arguments.out, fitted_set(arguments, setup, fit, regions));
+    note(common, "wrote " + arguments.out + " (" + group + ")");
+  }
+  const std::string test = describe(arguments, setup);
+  print(common.json ? tissue_fit_json(fit, test, options.confidence) + "\n"
+                    : fit_text(fit, test, options.confidence));
+  return 0;
+}
+
+}  // namespace
+
+void add_contact_fit_verb(CLI::App& contact, Context& context) {
+  const auto o = std::make_shared<FitArguments>();
+  CLI::App* verb =
+      add_verb(contact, "fit", "Tissue parameters from measured depths and forces",
+               "palmar contact fit curves.csv --specimen template:middle_distal --indenter plane "
+               "--tilt-deg 30 --out tissue.toml");
+  verb->add_option("CSV", o->curves,
+                   "Readings: columns depth_mm, force_n or force_mn; optional area_mm2, subject, "
+                   "weight or force_sd_n")
+      ->required();
+  verb->add_option("--specimen", o->specimen,
+                   "What was pressed: plane, ellipsoid:RX,RY (radii of curvature, mm) or "
+                   "HAND:REGION")
+      ->capture_default_str();
+  verb->add_option("--indenter", o->indenter, "sphere:R, punch:A, cylinder:R (mm) or plane")
+      ->required();
+  verb->add_option("--tilt-deg", o->tilt_deg, "Tilt of the indenter, deg")->capture_default_str();
+  verb->add_option("--tissue-model", o->tissue_model, "halfspace, or layered (skin over bone)")
+      ->capture_default_str();
+  verb->add_option("--layer-mm", o->layer,
+                   "Thickness of the layer of a plane or ellipsoid, mm, or \"fitted\"");
+  verb->add_option("--poisson", o->poisson, "Poisson's ratio of a plane or ellipsoid")
+      ->capture_default_str();
+  verb->add_option("--law", o->law, "stiffening (G0, G_lim, d_lim) or constant (one modulus)")
+      ->capture_default_str();
+  verb->add_option("--limit-depth-mm", o->limit_depth, "d_lim, mm; without it d_lim is fitted");
+  verb->add_option("--residuals", o->residuals,
+                   "absolute (a load cell's error in N) or relative (every depth counts alike)")
+      ->capture_default_str();
+  verb->add_option("--confidence", o->confidence_percent, "Confidence of the intervals, %")
+      ->capture_default_str();
+  verb->add_option("--spacing-mm", o->spacing, "Vertex spacing of a plane or ellipsoid, mm")
+      ->capture_default_str();
+  verb->add_option("--group", o->group,
+                   "What the tissue file gives the result to: finger, palm, dorsum or a region; "
+                   "default: the region's group, or finger");
+  verb->add_option("--out", o->out, "Tissue file to write, *.toml");
+  verb->callback(
+      [&context, o] { context.run = [&context, o] { return run_fit(*o, context.common); }; });
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,342 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assess/balance_arguments.h"
+#include "assess/friction_arguments.h"
+#include "cli.h"
+#include "grasp/grasp_options.h"
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/effort/effort.h"
+#include "palmar/effort/fingertip_force.h"
+#include "palmar/grasp/given_grasp.h"
+#include "palmar/records/effort_json.h"
+#include "palmar/records/posture/posture_file.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/study/assessment/assessment.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+struct AngleKey {
+  const char* key;
+  Dof dof;
+};
+
+/// The names of a digit's angles on the command line.
+std::vector<AngleKey> angle_keys(Finger finger) {
+  if (finger == Finger::kThumb) {
+    return {{"cmc-flexion", Dof::kThumbCmcFlexion},
+            {"cmc-abduction", Dof::kThumbCmcAbduction},
+            {"mp", Dof::kThumbMpFlexion},
+            {"ip", Dof::kThumbIpFlexion}};
+  }
+  const auto dof = [&](const char* joint) {
+    return *dof_named(fmt::format("{}_{}", name_of(finger), joint));
+  };
+  return {{"mcp", dof("mcp_flexion")},
+          {"abduction", dof("mcp_abduction")},
+          {"pip", dof("pip_flexion")},
+          {"dip", dof("dip_flexion")}};
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
+double parse_angle(const std::string& item, const std::string& value) {
+  std::size_t used = 0;
+  double angle = 0.0;
+  try {
+    angle = std::stod(value, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != value.size() || !std::isfinite(angle)) {
+    throw UsageError(
+        fmt::format("--posture: \"{}\" is not understood; NAME=DEGREES is required", item));
+  }
+  return angle;
+}
+
+/// "mcp=40,pip=55,dip=35": an angle that isn't named is 0, or where its range begins.
+Posture parse_posture(const Hand& hand, Finger finger, const std::string& text) {
+  const std::vector<AngleKey> keys = angle_keys(finger);
+  std::vector<std::string> names;
+  for (const AngleKey& key : keys) names.emplace_back(key.key);
+  Posture posture = reference_posture(hand.skeleton);
+  for (const AngleKey& key : keys) {
+    const JointDof& dof = hand.skeleton.dof(key.dof);
+    posture[key.dof] = std::clamp(0.0, dof.lower, dof.upper);
+  }
+  if (text.empty()) return posture;
+  std::vector<std::string> given;
+  for (const std::string& item : split(text, ',')) {
+    const std::size_t equals = item.find('=');
+    const std::string name = item.substr(0, equals);
+    const auto key =
+        std::find_if(keys.begin(), keys.end(), [&](const AngleKey& k) { return k.key == name; });
+    if (key == keys.end()) {
+      const std::string nearest = nearest_name(name, names);
+      throw UsageError(fmt::format(
+          "--posture: the {} has no angle \"{}\"{}; it has {}", name_of(finger), name,
+          nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
+    }
+    if (std::find(given.begin(), given.end(), name) != given.end()) {
+      throw UsageError(fmt::format("--posture: {} is given twice", name));
+    }
+    given.push_back(name);
+    const double angle = parse_angle(item, equals == item.npos ? "" : item.substr(equals + 1));
+    const JointDof& dof = hand.skeleton.dof(key->dof);
+    const double lower = degrees(dof.lower), upper = degrees(dof.upper);
+    if (angle < lower - 1e-9 || angle > upper + 1e-9) {
+      throw UsageError(
+          fmt::format("--posture: {} is {:g} deg; the range of {} is {:.1f} to {:.1f} deg", name,
+                      angle, plain_name_of(key->dof), lower, upper));
+    }
+    posture[key->dof] = radians(angle);
+  }
+  return posture;
+}
+
+Finger parse_finger(const std::string& text) {
+  if (const auto finger = finger_named(text)) return *finger;
+  throw UsageError(fmt::format(
+      "--finger: \"{}\" is not known; thumb, index, middle, ring or little is allowed", text));
+}
+
+/// One tendon, or with "all" every one of the finger.
+std::vector<Tendon> parse_tendons(Finger finger, const std::string& text) {
+  const auto own = tendons_of(finger);
+  if (text == "all") return {own.begin(), own.end()};
+  std::vector<std::string> names;
+  for (const Tendon tendon : own) names.emplace_back(name_of(tendon));
+  const auto tendon = tendon_named(text);
+  if (tendon && std::find(own.begin(), own.end(), *tendon) != own.end()) return {*tendon};
+  const std::string nearest = nearest_name(text, names);
+  throw UsageError(fmt::format(
+      "--tendon: the {} has no tendon \"{}\"{}; it has {} (or all)", name_of(finger), text,
+      nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
+}
+
+TendonModel tendon_model(const std::string& points, const std::string& hood) {
+  TendonModel model;
+  if (points == "an1979") {
+    model.points = FingerPoints::kAn1979;
+  } else if (points != "synek2019") {
+    throw UsageError(fmt::format(
+        "--tendon-points: \"{}\" is not known; synek2019 or an1979 is allowed", points));
+  }
+  if (hood == "chao1989") {
+    model.hood = chao1989_hood();
+  } else if (hood != "synek2019") {
+    throw UsageError(
+        fmt::format("--hood: \"{}\" is not known; synek2019 or chao1989 is allowed", hood));
+  }
+  return model;
+}
+
+struct ModelArguments {
+  std::string points = "synek2019", hood = "synek2019";
+  void add_to(CLI::App& verb) {
+    verb.add_option("--tendon-points", points,
+                    "Where the fingers' tendons run: synek2019 (calibrated) or an1979")
+        ->capture_default_str();
+    verb.add_option("--hood", hood, "Shares of the extensor hood: synek2019 or chao1989")
+        ->capture_default_str();
+  }
+};
+
+std::string fingertip_text(const std::vector<FingertipForce>& forces) {
+  std::string text = fmt::format(
+      "{}, fingertip held still; force of the fingertip, N\n"
+      "tendon   pulls  magnitude   radial   distal   palmar"
+      "   hand frame x, y, z\n",
+      name_of(forces.front().finger));
+  for (const FingertipForce& tip : forces) {
+    text += fmt::format(
+        "{:<6} {:>7.2f} {:>10.3f} {:>8.3f} {:>8.3f} {:>8.3f}   {:.3f}, {:.3f}, {:.3f}\n",
+        name_of(tip.tendon), tip.tendon_force, tip.force.norm(), tip.force_in_phalanx.x(),
+        tip.force_in_phalanx.y(), tip.force_in_phalanx.z(), tip.force.x(), tip.force.y(),
+        tip.force.z());
+  }
+  text += "\nmoment arms, mm";
+  for (const Dof dof : forces.front().dof) text += fmt::format("{:>24}", plain_name_of(dof));
+  text += "\n";
+  for (const FingertipForce& tip : forces) {
+    text += fmt::format("{:<15}", name_of(tip.tendon));
+    for (const double arm : tip.moment_arm) text += fmt::format("{:>24.2f}", arm);
+    text += "\n";
+  }
+  return text;
+}
+
+void add_fingertip(CLI::App& effort, Context& context) {
+  struct Options {
+    std::string finger = "index", posture, tendon = "all", hand = "template";
+    double force_n = 1.0;
+    ModelArguments model;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(
+      effort, "fingertip", "Force at a fingertip held still when one tendon is loaded",
+      "palmar effort fingertip --finger middle --posture mcp=40,pip=55,dip=35 --tendon fdp "
+      "--force-n 1");
+  verb->add_option("--finger", o->finger, "thumb, index, middle, ring or little")
+      ->capture_default_str();
+  verb->add_option("--posture", o->posture,
+                   "Angles in degrees: mcp, pip, dip, abduction; of the thumb cmc-flexion, "
+                   "cmc-abduction, mp, ip; not named: 0");
+  verb->add_option("--tendon", o->tendon,
+                   "fdp, fds, edc, lum, ri, ui; of the thumb fpl, fpb, apb, opp, adp, epl, epb, "
+                   "apl; or all")
+      ->capture_default_str();
+  verb->add_option("--force-n", o->force_n, "Force in the tendon, N")->capture_default_str();
+  verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
+  o->model.add_to(*verb);
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const Finger finger = parse_finger(o->finger);
+      const std::vector<Tendon> which = parse_tendons(finger, o->tendon);
+      if (!(o->force_n > 0.0) || o->force_n > kLargestTendonForce) {
+        throw UsageError(fmt::format("--force-n is {:g}; above 0 and at most {:g} N is allowed",
+                                     o->force_n, kLargestTendonForce));
+      }
+      const TendonModel model = tendon_model(o->model.points, o->model.hood);
+      const auto hand = load_hand(o->hand);
+      const Posture posture = parse_posture(*hand, finger, o->posture);
+      const DigitTendons tendons = route_tendons(*hand, finger, model);
+      std::vector<FingertipForce> forces;
+      for (const Tendon tendon : which) {
+        forces.push_back(fingertip_force(*hand, tendons, posture, tendon, o->force_n));
+      }
+      print(context.common.json ? fingertip_json(forces, posture) + "\n" : fingertip_text(forces));
+      return 0;
+    };
+  });
+}
+
+std::string effort_text(const EffortResult& effort) {
+  std::string text = fmt::format("effort: {}{}{}\n", name_of(effort.status),
+                                 effort.message.empty() ? "" : ", ", effort.message);
+  text += fmt::format("contact force on the digits {:.1f} N, all tendons {:.1f} N ({})\n",
+                      effort.contact_force, effort.tendon_force,
+                      effort.with_friction ? "with friction" : "pressure alone");
+  for (const DigitEffort& digit : effort.digits) {
+    text +=
+        fmt::format("\n{:<7} {:.1f} N of contact\n", name_of(digit.finger), digit.contact_force);
+    if (digit.status == EffortStatus::kNoLoad) continue;
+    text += "  tendon   force_n  strength_n  activation\n";
+    for (const TendonLoad& load : digit.tendons) {
+      text += fmt::format("  {:<6} {:>9.2f} {:>11.1f} {:>10.1f} %\n", name_of(load.tendon),
+                          load.force, load.strength, 100.0 * load.activation);
+    }
+    text += "  moments, N mm          external   muscles      stop   missing\n";
+    for (const JointEffort& joint : digit.joints) {
+      text +=
+          fmt::format("  {:<20} {:>10.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", plain_name_of(joint.dof),
+                      joint.external, joint.muscles, joint.stop, joint.missing);
+    }
+  }
+  return text;
+}
+
+void add_grasp(CLI::App& effort, Context& context) {
+  struct Options {
+    std::string product, file;
+    GraspArguments grasp;
+    ContactArguments contact;
+    FrictionArguments friction;
+    BalanceArguments balance;
+    ModelArguments model;
+    EffortOptions effort;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb =
+      add_verb(effort, "grasp", "Forces of the muscles of fingers and thumb that hold a product",
+               "palmar effort grasp handle.stl --unit mm");
+  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("--grasp", o->file,
+                   "Grasp to take instead of finding one: JSON of palmar grasp close");
+  o->grasp.add_to(*verb);
+  o->contact.add_to(*verb);
+  o->friction.add_to(*verb);
+  o->balance.add_to(*verb);
+  o->model.add_to(*verb);
+  verb->add_option("--exponent", o->effort.exponent,
+                   "n of the smallest sum (force / cross-section)^n: 2 or 3")
+      ->capture_default_str();
+  verb->add_option("--strength", o->effort.strength,
+                   "Strength of the person's muscles over that of the model's")
+      ->capture_default_str();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      AssessOptions options;
+      options.grasp = o->grasp.options();
+      options.contact = o->contact.options();
+      options.contact.error_band = false;
+      options.friction = o->friction.options();
+      EffortOptions asked = o->effort;
+      asked.tendons = tendon_model(o->model.points, o->model.hood);
+      asked.check();
+      const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
+      for (const std::string& text : product.notes) note(context.common, text);
+      options.grasp = o->grasp.options_for(product);
+      options.friction = o->friction.options_for(product);
+      options.balance = o->balance.options(o->friction, options.grasp.grip);
+      options.balance.load = options.friction.load;
+      options.indices.is_on = false;
+      const auto hand = load_hand(o->grasp.hand, o->contact.tissue);
+      const PreparedHand prepared(hand, o->contact.model());
+      const Progress progress = make_progress(context.common);
+      Assessment held;
+      if (o->file.empty()) {
+        held = assess(prepared, product, options, progress);
+      } else {
+        const PostureFile file = read_postures(o->file, hand->skeleton);
+        const PostureFrame frame = frame_of(file, o->file, std::nullopt);
+        if (!frame.product_from_hand) {
+          throw UsageError(o->file + " doesn't say where the product is (product_from_hand)");
+        }
+        held = evaluate(prepared, product,
+                        given_grasp(*hand, product, frame.posture, *frame.product_from_hand),
+                        options, progress);
+      }
+      finish_progress();
+      // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
+      if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
+        held.friction.force = held.balance.friction_force;
+      }
+      const bool has_friction =
+          !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
+      const EffortResult result =
+          assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
+                        *product.distance, asked, has_friction ? &held.friction : nullptr);
+      print(context.common.json ? effort_json(result) + "\n" : effort_text(result));
+      return result.status == EffortStatus::kNotConverged ? 4 : 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_effort_commands(CLI::App& app, Context& context) {
+  CLI::App* effort = app.add_subcommand("effort", "Joint moments and tendon forces");
+  effort->require_subcommand(1);
+  effort->fallthrough();
+  add_fingertip(*effort, context);
+  add_grasp(*effort, context);
+}
+
+}  // namespace palmar::cli

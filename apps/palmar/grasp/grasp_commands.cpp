@@ -1,0 +1,73 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli.h"
+#include "grasp/grasp_evaluate_command.h"
+#include "grasp/grasp_options.h"
+#include "grasp/grasp_reach_command.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/assessment_json.h"
+#include "palmar/records/product/product_file.h"
+#include "text.h"
+
+namespace palmar::cli {
+
+namespace {
+
+struct GraspVerb {
+  const char *name, *about, *example, *out;
+  std::string (*json)(const Grasp&);
+  std::string (*text)(const Grasp&);
+};
+
+// A verb that finds a grasp of a product and tells of it.
+void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& told) {
+  struct Options {
+    std::string product, out;
+    GraspArguments grasp;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(grasp, told.name, told.about, told.example);
+  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  o->grasp.add_to(*verb);
+  verb->add_option("--out", o->out, told.out);
+  verb->callback([&context, o, told] {
+    context.run = [&context, o, told] {
+      o->grasp.options();  // refuses what can't be before a file is read
+      const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
+      const GraspOptions options = o->grasp.options_for(product);
+      for (const std::string& text : product.notes) note(context.common, text);
+      const auto hand = load_hand(o->grasp.hand);
+      const Grasp found = find_grasp(*hand, product, options, make_progress(context.common));
+      finish_progress();
+      if (!o->out.empty()) write_file(o->out, told.json(found) + "\n");
+      print(context.common.json ? told.json(found) + "\n" : told.text(found));
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_grasp_commands(CLI::App& app, Context& context) {
+  CLI::App* grasp = app.add_subcommand("grasp", "Grasps without contact simulation");
+  grasp->require_subcommand(1);
+  grasp->fallthrough();
+  add_grasp_verb(*grasp, context,
+                 {.name = "close",
+                  .about = "Close a hand on a product",
+                  .example = "palmar grasp close handle.stl --unit mm --out grasp.json",
+                  .out = "JSON file to write: posture, placement, what stopped it",
+                  .json = grasp_json,
+                  .text = grasp_text});
+  add_grasp_verb(*grasp, context,
+                 {.name = "place",
+                  .about = "List the best ways of holding a product, best first",
+                  .example = "palmar grasp place marker.stl --unit mm --grip tripod",
+                  .out = "JSON file to write: the list with postures and placements",
+                  .json = placements_json,
+                  .text = placements_text});
+  add_grasp_evaluate(*grasp, context);
+  add_grasp_reach(*grasp, context);
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,234 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "grasp/grasp_options.h"
+
+#include <fmt/format.h>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/records/product/made_product.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+RegionCoupling parse_regions(const std::string& text) {
+  if (text == "coupled") return RegionCoupling::kCoupled;
+  if (text == "independent") return RegionCoupling::kIndependent;
+  throw UsageError("--regions: \"" + text + "\" is not known; coupled or independent is allowed");
+}
+
+/// "power, medium_wrap, ...".
+std::string grip_list() {
+  std::string list = "power";
+  for (int g = 0; g < kGripCount; ++g) list += fmt::format(", {}", name_of(static_cast<Grip>(g)));
+  return list;
+}
+
+std::optional<Grip> parse_grip(const std::string& text) {
+  if (text == "power") return std::nullopt;
+  if (const std::optional<Grip> grip = grip_named(text)) return grip;
+  std::vector<std::string> known = {"power"};
+  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
+  const std::string nearest = nearest_name(text, known);
+  throw UsageError(fmt::format("--grip: \"{}\" is not known{}; {} is allowed", text,
+                               nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
+                               grip_list()));
+}
+
+FingertipTarget parse_fingertip(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::optional<Finger> finger = finger_named(text.substr(0, colon));
+  if (colon == text.npos || !finger) {
+    throw UsageError(
+        fmt::format("--fingertip: \"{}\" is not understood; FINGER:X,Y,Z with thumb, "
+                    "index, middle, ring or little and a point in mm is required",
+                    text));
+  }
+  return {*finger, parse_vector("--fingertip", text.substr(colon + 1))};
+}
+
+Box3 parse_region(const std::string& text) {
+  const std::vector<double> values = parse_list("--region", text);
+  if (values.size() != 6) {
+    throw UsageError(
+        fmt::format("--region: \"{}\" has {} numbers; two corners of a box in mm are "
+                    "required (6 numbers)",
+                    text, values.size()));
+  }
+  Box3 box;
+  box.extend(Vec3(values[0], values[1], values[2])).extend(Vec3(values[3], values[4], values[5]));
+  return box;
+}
+
+}  // namespace
+
+void GraspArguments::add_to(CLI::App& verb) {
+  verb.add_option("--hand", hand, "\"template\" or a .hand.glb file")->capture_default_str();
+  verb.add_option("--grip", grip,
+                  "Kind of grip: power (what suits the shape) or a name of the GRASP taxonomy: " +
+                      grip_list())
+      ->capture_default_str();
+  verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY): mm, cm, m, inch");
+  verb.add_option("--at", at,
+                  "Point of the product that lies in mid-palm (precision grips: between the "
+                  "fingertips), x,y,z in mm");
+  verb.add_option("--fingertip", fingertips,
+                  "Point of the product for a fingertip of a precision grip, once per finger: "
+                  "FINGER:X,Y,Z in mm")
+      ->allow_extra_args(false);
+  verb.add_option("--fingertip-depth-mm", fingertip_depth,
+                  "How deep a precision grip's fingertips are pressed in, mm")
+      ->capture_default_str();
+  verb.add_option(
+      "--axis", axis,
+      "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
+  verb.add_option("--region", region,
+                  "Hold it by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in "
+                  "the product's frame (power grips)");
+  verb.add_option("--turn-deg", turn_deg, "Turn of the hand about the grip axis, deg");
+  verb.add_option("--palm-limit-depth-mm", palm_limit_depth, "Deepest penetration of the palm, mm")
+      ->capture_default_str();
+  verb.add_option("--finger-limit-depth-mm", finger_limit_depth,
+                  "Deepest penetration of a finger segment, mm")
+      ->capture_default_str();
+}
+
+GraspOptions GraspArguments::options() const {
+  GraspOptions result;
+  result.grip = parse_grip(grip);
+  result.power.palm_limit_depth = palm_limit_depth;
+  result.power.finger_limit_depth = finger_limit_depth;
+  PlacementRequest& placement = result.power.placement;
+  if (!at.empty()) placement.at = parse_vector("--at", at);
+  if (!region.empty()) placement.region = parse_region(region);
+  if (!axis.empty()) placement.axis = parse_vector("--axis", axis);
+  if (turn_deg) placement.turn = radians(*turn_deg);
+  result.precision.placement = placement;
+  result.precision.fingertip_depth = fingertip_depth;
+  for (const std::string& text : fingertips) {
+    result.precision.targets.push_back(parse_fingertip(text));
+  }
+  if (!fingertips.empty() && (!result.grip || is_power(*result.grip))) {
+    throw UsageError("--fingertip: grip " + grip +
+                     " holds with the whole hand; a precision grip is required, as in "
+                     "--grip tripod");
+  }
+  if (!region.empty() && result.grip && !is_power(*result.grip)) {
+    throw UsageError("--region: grip " + grip +
+                     " takes fingertips to points; --at or --fingertip says where");
+  }
+  result.check();
+  return result;
+}
+
+GraspOptions GraspArguments::options_for(const Product& product) const {
+  GraspOptions result = options();
+  PlacementRequest& placement = result.power.placement;
+  if (!placement.at && !placement.axis && !placement.region && is_made(product.source)) {
+    placement.axis = thumb_side_of(made_from(product.source));
+  }
+  return result;
+}
+
+void ContactArguments::add_to(CLI::App& verb) {
+  verb.add_option("--preset", preset,
+                  "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
+      ->capture_default_str();
+  verb.add_option("--regions", regions,
+                  "coupled (one problem over the whole hand) or independent (each region alone); "
+                  "default: as in the preset");
+  verb.add_option("--tissue-model", tissue_model,
+                  "halfspace (endless tissue) or layered (skin over bone); default: as in the "
+                  "preset");
+  verb.add_option("--kernel", kernel,
+                  "Response of the skin: patch or point (Xie 2014); default: as in the preset");
+  verb.add_option("--tissue", tissue,
+                  "Tissue file (TOML) for the hand; what it doesn't give stays as it is");
+  verb.add_flag("--no-swelling", no_swelling, "Leave out the bulge around the contact");
+  verb.add_option("--shear-modulus-kpa", shear_modulus_kpa,
+                  "One shear modulus instead of the tissue's own G(d), kPa");
+  verb.add_flag("--error-band,!--no-error-band", error_band,
+                "Results for soft and stiff tissue beside the nominal ones; on by default");
+  verb.add_option("--coating", coatings,
+                  "Soft grip sleeve on the product, may be given several times: "
+                  "THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]; Poisson's ratio "
+                  "0.5 if not given; the box (two corners, mm, product's frame) limits it to that "
+                  "part of the surface")
+      ->allow_extra_args(false);
+}
+
+ContactOptions ContactArguments::options() const {
+  ContactOptions result;
+  result.swelling = !no_swelling;
+  if (shear_modulus_kpa && !(*shear_modulus_kpa > 0.0)) {
+    throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa) +
+                     "; more than 0 kPa is required");
+  }
+  if (shear_modulus_kpa) result.shear_modulus = *shear_modulus_kpa / 1000.0;
+  result.error_band = error_band;
+  for (const std::string& text : coatings) result.coatings.push_back(parse_coating(text));
+  result.check();
+  return result;
+}
+
+ContactModel ContactArguments::model() const {
+  const std::optional<ContactModel> named = contact_model_named(preset);
+  if (!named) {
+    throw UsageError("--preset: \"" + preset + "\" is not known; palmar or xie2014 is allowed");
+  }
+  ContactModel result = *named;
+  if (!kernel.empty()) result.kernel = parse_kernel(kernel);
+  if (!tissue_model.empty()) result.tissue = parse_tissue_model(tissue_model);
+  if (!regions.empty()) result.coupling = parse_regions(regions);
+  return result;
+}
+
+Kernel parse_kernel(const std::string& text) {
+  if (text == "patch") return Kernel::kPatch;
+  if (text == "point") return Kernel::kPoint;
+  throw UsageError("--kernel: \"" + text + "\" is not known; patch or point is allowed");
+}
+
+TissueModel parse_tissue_model(const std::string& text) {
+  if (text == "halfspace") return TissueModel::kHalfSpace;
+  if (text == "layered") return TissueModel::kLayered;
+  throw UsageError("--tissue-model: \"" + text +
+                   "\" is not known; halfspace or layered is allowed");
+}
+
+Coating parse_coating(const std::string& text) {
+  const std::vector<double> values = parse_list("--coating", text);
+  const std::size_t count = values.size();
+  if (count != 2 && count != 3 && count != 9) {
+    throw UsageError("--coating: \"" + text + "\" has " + std::to_string(count) +
+                     (count == 1 ? " number" : " numbers") +
+                     "; thickness in mm and shear modulus in kPa are needed, then "
+                     "Poisson's ratio, then the two corners of a box in mm (2, 3 or 9 numbers)");
+  }
+  Coating result;
+  result.thickness = values[0];
+  result.shear_modulus = values[1] / 1000.0;
+  if (count > 2) result.poisson = values[2];
+  if (count == 9) {
+    const Vec3 first(values[3], values[4], values[5]);
+    const Vec3 second(values[6], values[7], values[8]);
+    result.where.extend(first).extend(second);
+    if (!((first - second).cwiseAbs().minCoeff() > 0.0)) {
+      throw UsageError("--coating: \"" + text +
+                       "\": the box is flat; its corners have to differ in x, y and z");
+    }
+  }
+  try {
+    ContactOptions only_this;
+    only_this.coatings = {result};
+    only_this.check();
+  } catch (const UsageError& error) {
+    const std::string what = error.what();
+    throw UsageError("--coating: \"" + text + "\": " + what +
+                     (what.find("MPa") == what.npos ? "" : " (1 MPa = 1000 kPa)"));
+  }
+  return result;
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,130 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "grasp/grasp_reach_command.h"
+
+#include <fmt/format.h>
+
+#include "grasp/grasp_options.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/given_grasp.h"
+#include "palmar/grasp/precision/reach.h"
+#include "palmar/records/posture/posture_file.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/records/reach_json.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+struct ReachArguments {
+  std::string product, out, map, grasp_file;
+  std::vector<std::string> buttons;
+  int map_points = 500;
+  GraspArguments grasp;
+};
+
+/// NAME:X,Y,Z[:FX,FY,FZ]
+Button parse_button(const std::string& text) {
+  const std::size_t first = text.find(':');
+  if (first == text.npos || first == 0) {
+    throw UsageError("--button: \"" + text +
+                     "\" is not understood; NAME:X,Y,Z or NAME:X,Y,Z:FX,FY,FZ is required "
+                     "(mm and N, the product's frame)");
+  }
+  const std::size_t second = text.find(':', first + 1);
+  Button button;
+  button.name = text.substr(0, first);
+  button.point = parse_vector("--button", text.substr(first + 1, second - first - 1));
+  if (second != text.npos) button.force = parse_vector("--button", text.substr(second + 1));
+  return button;
+}
+
+std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& buttons) {
+  std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  for (const ButtonReach& reach : buttons) {
+    text += fmt::format(
+        "\n{}: {}\n  finger   reached  miss (mm)  pad tilt (deg)  margin (deg)  "
+        "grip kept\n",
+        reach.button.name, reach.message);
+    for (const FingerReach& one : reach.fingers) {
+      const char* words = one.is_reached   ? one.is_awkward ? "awkward" : "yes"
+                          : one.is_blocked ? "blocked"
+                                           : "no";
+      text += one.miss > 50.0 ? fmt::format("  {:<8} {:<8}    > 50\n", name_of(one.finger), words)
+                              : fmt::format("  {:<8} {:<8} {:9.1f} {:14.0f} {:13.0f}    {}\n",
+                                            name_of(one.finger), words, one.miss, degrees(one.tilt),
+                                            degrees(one.margin), one.is_grip_kept ? "yes" : "no");
+    }
+  }
+  return text;
+}
+
+int run_reach(const ReachArguments& o, const Context& context) {
+  if (o.buttons.empty() && o.map.empty()) {
+    throw UsageError("grasp reach: --button NAME:X,Y,Z or --map FILE.vtp is needed");
+  }
+  std::vector<Button> buttons;
+  for (const std::string& text : o.buttons) buttons.push_back(parse_button(text));
+  o.grasp.options();  // refuses what can't be before a file is read
+  const Product product = load_product(o.product, {.unit = parse_unit(o.grasp.unit)});
+  const GraspOptions options = o.grasp.options_for(product);
+  for (const std::string& text : product.notes) note(context.common, text);
+  const auto hand = load_hand(o.grasp.hand);
+  const Progress progress = make_progress(context.common);
+  Grasp grasp;
+  if (o.grasp_file.empty()) {
+    grasp = find_grasp(*hand, product, options, progress);
+  } else {
+    const PostureFile file = read_postures(o.grasp_file, hand->skeleton);
+    const PostureFrame frame = frame_of(file, o.grasp_file, std::nullopt);
+    if (!frame.product_from_hand) {
+      throw UsageError(o.grasp_file + " doesn't say where the product is (product_from_hand)");
+    }
+    grasp = given_grasp(*hand, product, frame.posture, *frame.product_from_hand);
+    if (frame.grip) grasp.grip = *frame.grip;
+  }
+  const std::vector<ButtonReach> reach = reach_buttons(*hand, product, grasp, buttons, progress);
+  std::optional<ReachMap> map;
+  const double area = surface_area(product.mesh);
+  if (!o.map.empty()) {
+    map = map_reach(*hand, product, grasp, o.map_points, progress);
+    write_file(o.map, format_reach_map(product.mesh, *map));
+  }
+  finish_progress();
+  const std::string json = reach_json(grasp, reach, map ? &*map : nullptr, area) + "\n";
+  if (!o.out.empty()) write_file(o.out, json);
+  std::string text = reach_text(grasp, reach);
+  if (map) {
+    text += fmt::format("\nmap: {:.0f} of {:.0f} mm2 of the surface reached, written to {}\n",
+                        map->reached_area, area, o.map);
+  }
+  print(context.common.json ? json : text);
+  return 0;
+}
+
+}  // namespace
+
+void add_grasp_reach(CLI::App& grasp, Context& context) {
+  const auto o = std::make_shared<ReachArguments>();
+  CLI::App* verb = add_verb(grasp, "reach", "Which fingers reach buttons while the product is held",
+                            "palmar grasp reach drill.stl --unit mm --button trigger:40,12,-60");
+  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("--button", o->buttons,
+                   "Point that is pressed, may be given several times: NAME:X,Y,Z in mm, or "
+                   "NAME:X,Y,Z:FX,FY,FZ with the finger's force on the product in N; without it "
+                   "straight into the surface")
+      ->allow_extra_args(false);
+  o->grasp.add_to(*verb);
+  verb->add_option("--grasp", o->grasp_file,
+                   "JSON of a grasp to start from, as grasp close writes it, instead of searching");
+  verb->add_option("--map", o->map,
+                   "VTP file to write: who reaches every point of the surface, with what margin");
+  verb->add_option("--map-points", o->map_points, "Places of the surface that the map tries")
+      ->capture_default_str();
+  verb->add_option("--out", o->out, "JSON file to write");
+  verb->callback([&context, o] { context.run = [&context, o] { return run_reach(*o, context); }; });
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,183 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cli.h"
+#include "contact/press_deck_command.h"
+#include "hand/hand_from_mri_command.h"
+#include "hand/hand_from_photos_command.h"
+#include "hand/hand_from_scan_command.h"
+#include "hand/hand_pose_command.h"
+#include "hand/hand_quick_command.h"
+#include "hand/hand_scale_command.h"
+#include "palmar/hand/dimensions/tape_measures.h"
+#include "palmar/hand/skeleton.h"
+#include "palmar/hand/skin/drawn_creases.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/records/hand/hand_asset.h"
+#include "palmar/records/hand/hand_file.h"
+#include "palmar/records/hand/hand_json.h"
+#include "palmar/records/tissue_file.h"
+#include "palmar/report/picture/hand_export.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+constexpr const char* kHandHelp = "\"template\" or a .hand.glb file";
+
+/// The creases seen on the hand that load_hand() loads by this name.
+DrawnCreases drawn_creases(const std::string& name) {
+  return name == "template" ? DrawnCreases() : read_drawn_creases(name);
+}
+
+void add_template(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string asset, out;
+    double edge = TemplateOptions{}.edge_length;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "template", "Make the template hand from the generic hand asset",
+                            "palmar hand template --edge-mm 3 --out coarse.hand.glb");
+  verb->add_option("--asset", o->asset,
+                   "Generic hand of the WebXR input profiles (right.glb); "
+                   "default: the copy that came with Palmar");
+  verb->add_option("--edge-mm", o->edge, "Mean edge length of the skin mesh, mm")
+      ->capture_default_str();
+  verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const std::string asset =
+          o->asset.empty() ? share_folder() + "/generic-hand-right.glb" : o->asset;
+      const Hand made = build_template(read_hand_asset(asset), {.edge_length = o->edge});
+      write_hand(o->out, made);
+      note(context.common, fmt::format("wrote {} ({} vertices)", o->out, made.skin.vertex_count()));
+      return 0;
+    };
+  });
+}
+
+void add_info(CLI::App& hand, Context& context) {
+  const auto name = std::make_shared<std::string>("template");
+  CLI::App* verb = add_verb(hand, "info", "Dimensions, joints, ranges of motion, origin of a hand",
+                            "palmar hand info template");
+  verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
+  verb->callback([&context, name] {
+    context.run = [&context, name] {
+      const auto loaded = load_hand(*name);
+      print(context.common.json ? hand_info_json(*loaded) + "\n" : hand_text(*loaded));
+      return 0;
+    };
+  });
+}
+
+void add_tissue(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string hand = "template", tissue, out;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "tissue", "Stiffness of a hand's skin by region, with its ranges",
+                            "palmar hand tissue template --out my-tissue.toml");
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  verb->add_option("--tissue", o->tissue, "Tissue file over the hand's own");
+  verb->add_option("--out", o->out, "Tissue file to write, *.toml: a start for one of your own");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const auto loaded = load_hand(o->hand, o->tissue);
+      if (!o->out.empty()) {
+        write_tissue(o->out, loaded->tissue);
+        note(context.common, "wrote " + o->out);
+      }
+      print(context.common.json ? tissue_json(loaded->tissue) + "\n" : tissue_text(loaded->tissue));
+      return 0;
+    };
+  });
+}
+
+void add_measure(CLI::App& hand, Context& context) {
+  const auto name = std::make_shared<std::string>("template");
+  CLI::App* verb =
+      add_verb(hand, "measure", "Dimensions of a hand as CSV, mm: straight and along the skin",
+               "palmar hand measure template > dimensions.csv");
+  verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
+  verb->callback([&context, name] {
+    context.run = [&context, name] {
+      const auto loaded = load_hand(*name);
+      const HandTape tape =
+          measure_with_tape(loaded->skin, loaded->skeleton,
+                            creases_of(loaded->skin, loaded->skeleton, drawn_creases(*name)));
+      print(context.common.json ? hand_measures_json(*loaded, tape) + "\n"
+                                : dimensions_csv(*loaded, tape));
+      return 0;
+    };
+  });
+}
+
+void add_mirror(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string hand = "template", out;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "mirror", "The other hand: right to left or left to right",
+                            "palmar hand mirror template --out left.hand.glb");
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const Hand other = mirrored(*load_hand(o->hand));
+      write_hand(o->out, other, mirrored(drawn_creases(o->hand)));
+      note(context.common, fmt::format("wrote {} ({} hand)", o->out, name_of(other.side)));
+      return 0;
+    };
+  });
+}
+
+void add_export(CLI::App& hand, Context& context) {
+  struct Options {
+    std::string hand = "template", out, format;
+    PressDeckArguments deck;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(hand, "export", "A hand in its reference posture, as mesh or picture",
+                            "palmar hand export template --out hand.ply");
+  verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
+  verb->add_option("--out", o->out,
+                   "File to write: .glb (skin by region and bones), .ply, .obj, .stl (skin), .png "
+                   "(picture)")
+      ->required();
+  verb->add_option("--format", o->format,
+                   "inp: a finite-element deck of one region under an indenter; --out is a folder")
+      ->check(CLI::IsMember({"inp"}));
+  add_press_deck_options(*verb, o->deck);
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      if (o->format == "inp") return run_press_deck(o->deck, o->hand, o->out, context.common);
+      const auto loaded = load_hand(o->hand);
+      export_posed_hand(o->out, *loaded, reference_posture(loaded->skeleton));
+      note(context.common, "wrote " + o->out);
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_hand_commands(CLI::App& app, Context& context) {
+  CLI::App* hand = app.add_subcommand("hand", "Make, look at, pose and export hands");
+  hand->require_subcommand(1);
+  hand->fallthrough();
+  add_template(*hand, context);
+  add_from_mri(*hand, context);
+  add_from_scan(*hand, context);
+  add_from_photos(*hand, context);
+  add_info(*hand, context);
+  add_tissue(*hand, context);
+  add_measure(*hand, context);
+  add_mirror(*hand, context);
+  add_hand_pose(*hand, context);
+  add_hand_scale(*hand, context);
+  add_hand_quick(*hand, context);
+  add_export(*hand, context);
+}
+
+}  // namespace palmar::cli

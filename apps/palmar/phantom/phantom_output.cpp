@@ -1,0 +1,50 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "phantom/phantom_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+
+namespace palmar::cli {
+
+void print_made_scans(const Context& context, const std::string& subject, Side side,
+                      const nlohmann::ordered_json& scans, const std::string& text,
+                      const std::string& truth) {
+  if (!context.common.json) return print(text + fmt::format("truth: {}\n", truth));
+  const nlohmann::ordered_json json = {{"subject", subject},
+                                       {"seed", context.common.seed},
+                                       {"side", std::string(name_of(side))},
+                                       {"scans", scans},
+                                       {"truth", truth}};
+  print(json.dump(2) + "\n");
+}
+
+std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (int p = 0; p < kScanPostureCount; ++p) {
+    all.emplace_back(name_of(static_cast<ScanPosture>(p)));
+  }
+  std::vector<ScanPosture> chosen;
+  for (const std::string& name : names.empty() ? all : names) {
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found == all.end()) {
+      const std::string nearest = nearest_name(name, all);
+      throw UsageError(fmt::format("--postures: \"{}\" is no posture; {}", name,
+                                   nearest.empty()
+                                       ? fmt::format("{} are allowed", fmt::join(all, ", "))
+                                       : "did you mean " + nearest + "?"));
+    }
+    const auto posture = static_cast<ScanPosture>(found - all.begin());
+    if (std::find(chosen.begin(), chosen.end(), posture) == chosen.end()) {
+      chosen.push_back(posture);
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace palmar::cli

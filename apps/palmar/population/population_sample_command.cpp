@@ -1,0 +1,197 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "population/population_sample_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/file.h"
+#include "palmar/population/built_in_populations.h"
+#include "palmar/population/hand_profile.h"
+#include "palmar/population/hand_sample.h"
+#include "palmar/records/population/hand_sample_table.h"
+#include "palmar/records/population/population_file.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNameOrFile = "Built-in population (see list) or a file ending in .toml";
+
+void add_list(CLI::App& noun, Context& context) {
+  CLI::App* verb = add_verb(noun, "list", "Populations and profiles that come with Palmar",
+                            "palmar population list");
+  verb->callback([&context] {
+    context.run = [&context] {
+      Json populations = Json::array(), profiles = Json::array();
+      std::string text = "populations\n";
+      for (const Population& one : built_in_populations()) {
+        populations.push_back({{"name", one.name}, {"title", one.title}, {"source", one.source}});
+        text += fmt::format("  {:<16} {}\n", one.name, one.title);
+      }
+      text += "profiles\n";
+      for (const HandProfile& one : built_in_profiles()) {
+        profiles.push_back({{"name", one.name},
+                            {"range_share", one.range_share},
+                            {"strength_share", one.strength_share},
+                            {"glove_thickness_mm", one.glove_thickness},
+                            {"nail_length_mm", one.nail_length},
+                            {"size_factor", one.size_factor},
+                            {"source", one.source}});
+        text += fmt::format(
+            "  {:<16} range {:.2f}, strength {:.2f}, glove {:g} mm, nails {:g} mm, "
+            "size {:.2f}\n",
+            one.name, one.range_share, one.strength_share, one.glove_thickness, one.nail_length,
+            one.size_factor);
+      }
+      print(context.common.json
+                ? Json{{"populations", populations}, {"profiles", profiles}}.dump(2) + "\n"
+                : text);
+      return 0;
+    };
+  });
+}
+
+std::string dimension_line(HandDimension dimension, double mean, double sd, Evidence evidence,
+                           const std::string& source) {
+  return fmt::format("  {:<26} {:>7.1f} {:>6} {:<9} {}\n", name_of(dimension), mean,
+                     sd > 0.0 ? fmt::format("{:.1f}", sd) : "-", name_of(evidence), source);
+}
+
+std::string population_text(const Population& population) {
+  std::string text =
+      fmt::format("{}: {}\nsource: {}\n", population.name, population.title, population.source);
+  for (const Stratum& stratum : population.strata) {
+    text += fmt::format("\n{}, {:.1f} % of the population", stratum.name, 100.0 * stratum.share);
+    if (stratum.sex && stratum.age) {
+      const auto strength = grip_strength(*stratum.sex, *stratum.age);
+      if (strength) {
+        text += fmt::format(", {:g} years, grip strength {:.0f} +- {:.0f} N", *stratum.age,
+                            *strength, grip_strength_sd(*stratum.sex, *stratum.age).value_or(0.0));
+      }
+    }
+    text += fmt::format("\n  {:<26} {:>7} {:>6} {:<9} {}\n", "dimension, mm", "mean", "SD",
+                        "known as", "source");
+    for (const DrivingDimension& one : stratum.driving) {
+      text += dimension_line(one.dimension, one.mean, one.sd, one.evidence, one.source);
+    }
+    for (const DimensionRegression& one : stratum.regressions) {
+      const DimensionMoments moments = moments_of(stratum, one.dimension).value();
+      text += dimension_line(one.dimension, moments.mean, moments.sd, one.evidence, one.source);
+    }
+    text += fmt::format("  {:<26} {:>7} {:>6} {:<9} {}\n", "all others", "", "", "scaled",
+                        "in the template's proportions");
+    for (std::size_t i = 0; i < stratum.driving.size(); ++i) {
+      for (std::size_t j = i + 1; j < stratum.driving.size(); ++j) {
+        text += fmt::format(
+            "  correlation of {} and {}: {:.3f}\n", name_of(stratum.driving[i].dimension),
+            name_of(stratum.driving[j].dimension),
+            stratum.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      }
+    }
+  }
+  if (!population.cautions.empty()) text += "\ncautions\n";
+  for (const std::string& caution : population.cautions) text += "  " + caution + "\n";
+  return text;
+}
+
+void add_show(CLI::App& noun, Context& context) {
+  struct Arguments {
+    std::string population, out;
+  };
+  const auto o = std::make_shared<Arguments>();
+  CLI::App* verb = add_verb(
+      noun, "show", "Dimensions of a population: mean, deviation, how each is known, cautions",
+      "palmar population show ansur2_women");
+  verb->add_option("POPULATION", o->population, kNameOrFile)->required();
+  verb->add_option("--out", o->out, "Population file to write: .toml; to edit or to keep");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      const Population population = load_population(o->population);
+      if (!o->out.empty()) {
+        write_population(o->out, population);
+        note(context.common, "wrote " + o->out);
+        return 0;
+      }
+      print(context.common.json ? population_json(population) : population_text(population));
+      return 0;
+    };
+  });
+}
+
+struct SampleArguments {
+  std::string population, design = name_of(SamplingOptions{}.design), percentiles, out;
+  SamplingOptions sampling;
+  bool without_residuals = false, as_csv = false;
+};
+
+SamplingDesign design_named(const std::string& name) {
+  if (const auto design = sampling_design_named(name)) return *design;
+  const std::string nearest =
+      nearest_name(name, {"random", "latin_hypercube", "boundary", "percentiles"});
+  throw UsageError("--design " + name + ": " +
+                   (nearest.empty() ? "random, latin_hypercube, boundary or percentiles is allowed"
+                                    : "did you mean " + nearest + "?"));
+}
+
+void add_sample(CLI::App& noun, Context& context) {
+  const auto o = std::make_shared<SampleArguments>();
+  CLI::App* verb = add_verb(noun, "sample", "Draw hands of a population, one row each",
+                            "palmar population sample ansur2 --hands 30 --out hands.csv");
+  verb->add_option("POPULATION", o->population, kNameOrFile)->required();
+  verb->add_option("--hands", o->sampling.hands, "How many (random, latin_hypercube)")
+      ->capture_default_str();
+  verb->add_option("--design", o->design, "random, latin_hypercube, boundary or percentiles")
+      ->capture_default_str();
+  verb->add_option("--boundary", o->sampling.boundary, "Share of people inside the boundary hands")
+      ->capture_default_str();
+  verb->add_option("--points", o->sampling.boundary_points, "Boundary hands beside the mean one")
+      ->capture_default_str();
+  verb->add_option("--percentiles", o->percentiles,
+                   "Percentiles of every stratum: a list as in 5,50,95");
+  verb->add_flag("--no-residuals", o->without_residuals,
+                 "Regressed dimensions without the scatter about their regressions");
+  verb->add_flag("--csv", o->as_csv, "Table on stdout (as without --json)");
+  verb->add_option("--out", o->out, "File to write: .csv, or .json");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      if (!o->out.empty() && !o->out.ends_with(".csv") && !o->out.ends_with(".json")) {
+        throw UsageError("--out " + o->out + ": a name ending in .csv or .json is required");
+      }
+      const Population population = load_population(o->population);
+      SamplingOptions options = o->sampling;
+      options.design = design_named(o->design);
+      options.seed = context.common.seed;
+      options.residuals = !o->without_residuals;
+      if (!o->percentiles.empty())
+        options.percentiles = parse_list("--percentiles", o->percentiles);
+      const std::vector<HandSample> hands = sample_hands(population, options);
+      for (const std::string& caution : population.cautions) note(context.common, caution);
+      const bool is_json =
+          o->out.empty() ? context.common.json && !o->as_csv : o->out.ends_with(".json");
+      const std::string text = is_json ? hand_sample_json(population, options, hands)
+                                       : format_csv(hand_sample_table(hands));
+      if (o->out.empty()) {
+        print(text);
+      } else {
+        write_file(o->out, text);
+        note(context.common, fmt::format("wrote {} ({} hands)", o->out, hands.size()));
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_population_sample_verbs(CLI::App& population, Context& context) {
+  add_list(population, context);
+  add_show(population, context);
+  add_sample(population, context);
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,140 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "product/product_repair_command.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "output_guard.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/product/check.h"
+#include "palmar/product/repair.h"
+#include "palmar/product/unit_guard.h"
+#include "text.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RepairArguments {
+  std::string product, unit, out;
+  RepairOptions options;
+};
+
+Json actions_json(const std::vector<RepairAction>& actions) {
+  Json list = Json::array();
+  for (const RepairAction& action : actions) {
+    Json places = Json::array();
+    for (const Vec3& x : action.places) places.push_back({x.x(), x.y(), x.z()});
+    list.push_back({{"name", action.name},
+                    {"count", action.count},
+                    {"text", action.text},
+                    {"places_mm", std::move(places)}});
+  }
+  return list;
+}
+
+Json verdict_json(const ProductCheck& check) {
+  Json findings = Json::array();
+  for (const Finding& finding : check.findings) {
+    findings.push_back({{"severity", name_of(finding.severity)}, {"text", finding.text}});
+  }
+  return {{"verdict", name_of(check.verdict)},
+          {"triangles", check.triangles},
+          {"is_closed", check.is_closed},
+          {"euler_number", check.euler_number},
+          {"area_mm2", check.area},
+          {"volume_mm3", check.volume},
+          {"findings", std::move(findings)}};
+}
+
+std::string verdict_text(const char* when, const ProductCheck& check) {
+  return fmt::format("{}: {}, {} ({} triangles, Euler number {}, volume {})\n", when,
+                     name_of(check.verdict), check.is_closed ? "closed" : "open", check.triangles,
+                     check.euler_number, volume_text(check.volume));
+}
+
+TriangleMesh in_millimetres(const MeshFile& file, LengthUnit unit) {
+  TriangleMesh mesh = file.mesh;
+  const double scale = millimetres_per(unit);
+  if (scale != 1.0) {
+    for (Vec3& x : mesh.vertices) x *= scale;
+  }
+  return mesh;
+}
+
+int repair(const RepairArguments& o, const Context& context) {
+  check_shape_output(o.out, false);
+  refuse_same_file(o.product, o.out);
+  o.options.check();
+  const MeshFile file = read_mesh(o.product);
+  Box3 box;
+  for (const Vec3& x : file.mesh.vertices) box.extend(x);
+  const UnitDecision unit = decide_unit(box, file.unit, parse_unit(o.unit), o.product);
+  if (!unit.explanation.empty()) note(context.common, unit.explanation);
+  for (const std::string& text : file.notes) note(context.common, text);
+  const TriangleMesh mesh = in_millimetres(file, unit.unit);
+  const ProductCheck before = check_mesh(mesh);
+  const RepairResult repaired = repair_mesh(mesh, o.options);
+  write_mesh(o.out, repaired.mesh);
+  // What counts is the file: single precision may join vertices.
+  const ProductCheck after = check_mesh(read_mesh(o.out).mesh);
+  if (context.common.json) {
+    const RepairLimits& limits = repaired.limits;
+    print(Json{{"product", o.product},
+               {"out", o.out},
+               {"weld_mm", limits.weld},
+               {"hole_mm", limits.hole},
+               {"speck_mm", limits.speck},
+               {"done", actions_json(repaired.done)},
+               {"left", actions_json(repaired.left)},
+               {"before", verdict_json(before)},
+               {"after", verdict_json(after)}}
+              .dump(2) +
+          "\n");
+  } else {
+    std::string text = fmt::format(
+        "{}: welded within {:.4g} mm, holes up to {:.4g} mm round, specks below {:.4g} "
+        "mm\n",
+        o.product, repaired.limits.weld, repaired.limits.hole, repaired.limits.speck);
+    text += verdict_text("before", before);
+    for (const RepairAction& action : repaired.done) text += "done     " + action.text + "\n";
+    if (!repaired.has_changed()) text += "nothing to repair\n";
+    for (const RepairAction& action : repaired.left) text += "left     " + action.text + "\n";
+    text += verdict_text("after", after);
+    for (const Finding& finding : after.findings) {
+      if (finding.severity == Severity::kOk) continue;
+      text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
+    }
+    print(text);
+  }
+  note(context.common, "wrote " + o.out + " (unit: mm); " + o.product + " is as it was");
+  if (after.verdict >= Severity::kWarning) {
+    throw CheckFailed(o.out + ": " + after.findings.front().text);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_product_repair(CLI::App& product, Context& context) {
+  const auto o = std::make_shared<RepairArguments>();
+  CLI::App* verb =
+      add_verb(product, "repair", "Repair what is safe, say what was done and what is left",
+               "palmar product repair scan.stl --unit mm --out repaired.stl");
+  verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
+  verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
+  verb->add_option("--out", o->out, "File to write, in mm: .stl, .obj or .ply")->required();
+  verb->add_option("--weld-mm", o->options.weld,
+                   "Vertices this near become one; without it a millionth of the diagonal");
+  verb->add_option("--hole-mm", o->options.hole,
+                   "Longest rim of a hole that is filled; without it a fifth of the diagonal");
+  verb->add_option("--speck-mm", o->options.speck,
+                   "Pieces below this diagonal are dropped; without it a hundredth of the whole's");
+  verb->callback([&context, o] { context.run = [&context, o] { return repair(*o, context); }; });
+}
+
+}  // namespace palmar::cli

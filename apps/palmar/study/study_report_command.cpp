@@ -1,0 +1,136 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_report_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/core/version.h"
+#include "palmar/records/study/study_store.h"
+#include "palmar/report/study/study_report.h"
+#include "palmar/report/study/study_words.h"
+#include "study/study_comparison_text.h"
+
+namespace palmar::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kDefaultQuantity = "peak_pressure_cells_mpa";
+
+StudyResults results_of(const StudyStore& store) {
+  StudyResults results{store.plan(), {}};
+  store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
+  if (results.records.empty()) {
+    throw UsageError(store.path().string() +
+                     ": no grasp was run yet; palmar study run or resume does");
+  }
+  return results;
+}
+
+void add_report(CLI::App& noun, Context& context) {
+  struct Options {
+    std::string store, out;
+    double threshold = 1000.0 * kBloodFlowStop;  // kPa
+    StudyReportOptions report;
+    bool no_pictures = false, no_figures = false;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb =
+      add_verb(noun, "report", "One page with all figures, comparisons, 3-D views and provenance",
+               "palmar study report handles.palmar --out report");
+  verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
+  verb->add_option("--out", o->out, "Folder for report.html, tables and figures")->required();
+  verb->add_option("--threshold-kpa", o->threshold,
+                   "Maps of the share of hands above this pressure (blood-flow family)")
+      ->capture_default_str();
+  verb->add_option("--significance", o->report.comparison.significance,
+                   "Corrected p values below it name a difference")
+      ->capture_default_str();
+  verb->add_option("--most-grasps", o->report.most_grasps,
+                   "Grasps in the 3-D view, evenly chosen by hand length; 0: no view")
+      ->capture_default_str();
+  verb->add_flag("--no-pictures", o->no_pictures, "No pictures of the maps");
+  verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      if (!(o->threshold >= 0.0 && o->threshold <= 1e5)) {
+        throw UsageError(
+            fmt::format("--threshold-kpa is {:g} kPa; 0 to 100000 kPa are allowed", o->threshold));
+      }
+      StudyReportOptions options = o->report;
+      options.threshold = o->threshold / 1000.0;
+      options.pictures = !o->no_pictures;
+      options.figure_files = !o->no_figures;
+      options.check();
+      const StudyStore store(o->store);
+      const StudyResults results = results_of(store);
+      const StudyInputs inputs = store.inputs();
+      const StudyReportInput input{results, inputs,
+                                   [&store](const std::function<void(const StudyRecord&)>& visit) {
+                                     store.for_each(true, visit);
+                                   },
+                                   store.program(), store.digest()};
+      const Progress progress = make_progress(context.common);
+      write_study_report(o->out, input, options, progress);
+      finish_progress();
+      const std::string page = (std::filesystem::path(o->out) / "report.html").string();
+      print(context.common.json ? Json({{"report", page}}).dump() + "\n" : page + "\n");
+      return 0;
+    };
+  });
+}
+
+void add_compare(CLI::App& noun, Context& context) {
+  struct Options {
+    std::string store;
+    std::vector<std::string> quantities;
+    ComparisonOptions comparison;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb =
+      add_verb(noun, "compare", "Differences between products over the same hands",
+               "palmar study compare handles.palmar --quantity peak_pressure_cells_mpa");
+  verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
+  verb->add_option("--quantity", o->quantities,
+                   "What is compared, one or several: peak_pressure_cells_mpa, contact_area_mm2, "
+                   "force_n, an index; all for everything")
+      ->delimiter(',');
+  verb->add_option("--significance", o->comparison.significance,
+                   "Corrected p values below it name a difference")
+      ->capture_default_str();
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      o->comparison.check();
+      const StudyStore store(o->store);
+      const StudyResults results = results_of(store);
+      std::vector<StudyQuantity> quantities;
+      for (const std::string& key : o->quantities) {
+        if (key == "all") {
+          quantities = quantities_of(results);
+          break;
+        }
+        quantities.push_back(quantity_named(results, key));
+      }
+      if (o->quantities.empty()) quantities = {quantity_named(results, kDefaultQuantity)};
+      print(context.common.json
+                ? comparison_object(results, quantities, o->comparison).dump(2) + "\n"
+                : comparison_text(results, quantities, o->comparison));
+      return 0;
+    };
+  });
+}
+
+}  // namespace
+
+void add_study_report_commands(CLI::App& noun, Context& context) {
+  add_report(noun, context);
+  add_compare(noun, context);
+}
+
+}  // namespace palmar::cli

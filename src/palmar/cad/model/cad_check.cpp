@@ -1,0 +1,162 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/cad/model/cad_check.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepCheck_ListIteratorOfListOfStatus.hxx>
+#include <BRepCheck_ListOfStatus.hxx>
+#include <BRepCheck_Result.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+
+#include "palmar/cad/model/occt_model.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::size_t kMostFindings = 20;
+
+/// Status in plain words; the kernel's others by number.
+std::string words_of(BRepCheck_Status status) {
+  switch (status) {
+    case BRepCheck_SelfIntersectingWire:
+      return "its outline crosses itself";
+    case BRepCheck_IntersectingWires:
+      return "its outlines cross";
+    case BRepCheck_UnorientableShape:
+      return "inside and outside can't be told";
+    case BRepCheck_BadOrientationOfSubshape:
+    case BRepCheck_BadOrientation:
+      return "it is turned the wrong way";
+    case BRepCheck_NotClosed:
+      return "it is not closed";
+    case BRepCheck_NoSurface:
+      return "it has no surface";
+    case BRepCheck_InvalidCurveOnSurface:
+    case BRepCheck_InvalidSameParameterFlag:
+    case BRepCheck_InvalidCurveOnClosedSurface:
+      return "an edge lies off the surface";
+    case BRepCheck_FreeEdge:
+      return "an edge is free";
+    case BRepCheck_InvalidPointOnCurve:
+    case BRepCheck_InvalidPointOnSurface:
+    case BRepCheck_InvalidPointOnCurveOnSurface:
+      return "a corner lies off its edge";
+    default:
+      return "kernel's finding " + std::to_string(static_cast<int>(status));
+  }
+}
+
+void add_findings(const BRepCheck_Analyzer& analyzer, const TopTools_IndexedMapOfShape& shapes,
+                  const std::string& what, std::vector<std::string>& findings) {
+  for (int i = 1; i <= shapes.Extent(); ++i) {
+    if (findings.size() >= kMostFindings) return;
+    const Handle(BRepCheck_Result) result = analyzer.Result(shapes(i));
+    if (result.IsNull()) continue;
+    std::string text;
+    const auto add = [&](const BRepCheck_ListOfStatus& list) {
+      for (BRepCheck_ListIteratorOfListOfStatus it(list); it.More(); it.Next()) {
+        if (it.Value() == BRepCheck_NoError) continue;
+        const std::string words = words_of(it.Value());
+        if (text.find(words) == text.npos) text += (text.empty() ? "" : ", ") + words;
+      }
+    };
+    add(result->Status());
+    for (result->InitContextIterator(); result->MoreShapeInContext();
+         result->NextShapeInContext()) {
+      add(result->StatusOnShape());
+    }
+    if (!text.empty()) findings.push_back(what + " " + std::to_string(i) + ": " + text);
+  }
+}
+
+int free_edges_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  int count = 0;
+  for (int i = 1; i <= faces_of.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(faces_of.FindKey(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    // A seam has its face twice in the list.
+    if (faces_of(i).Extent() == 1) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Box3 box_of(const CadModel& model) {
+  Box3 result;
+  if (model.is_empty()) return result;
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(model.impl().shape, box, Standard_False, Standard_False);
+  if (box.IsVoid()) return result;
+  const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
+  result.extend(Vec3(low.X(), low.Y(), low.Z()));
+  result.extend(Vec3(high.X(), high.Y(), high.Z()));
+  return result;
+}
+
+double volume_of(const CadModel& model) {
+  double volume = 0.0;
+  if (model.is_empty()) return volume;
+  for (TopExp_Explorer it(model.impl().shape, TopAbs_SOLID); it.More(); it.Next()) {
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(it.Current(), properties);
+    volume += properties.Mass();
+  }
+  return volume;
+}
+
+CadCheck check_cad(const CadModel& model) {
+  CadCheck check;
+  if (model.is_empty()) {
+    check.findings.push_back("there is no shape");
+    return check;
+  }
+  const CadModel::Impl& impl = model.impl();
+  check.bodies = static_cast<int>(impl.bodies.size());
+  check.solids = model.solid_count();
+  check.faces = model.face_count();
+  check.edges = model.edge_count();
+  const BRepCheck_Analyzer analyzer(impl.shape);
+  check.is_valid = analyzer.IsValid();
+  if (!check.is_valid) {
+    add_findings(analyzer, impl.faces, "face", check.findings);
+    add_findings(analyzer, impl.edges, "edge", check.findings);
+    if (check.findings.empty()) {
+      check.findings.push_back("the shells and solids don't fit together");
+    }
+  }
+  int loose = 0;
+  for (TopExp_Explorer it(impl.shape, TopAbs_FACE, TopAbs_SOLID); it.More(); it.Next()) ++loose;
+  for (const CadModel::Impl::Body& body : impl.bodies)
+    check.free_edges += free_edges_of(body.shape);
+  check.is_closed = check.solids > 0 && loose == 0 && check.free_edges == 0;
+  if (check.free_edges > 0) {
+    check.findings.push_back("open shell: " + std::to_string(check.free_edges) +
+                             " edges have a face on one side only");
+  }
+  if (loose > 0) {
+    check.findings.push_back(std::to_string(loose) + " faces belong to no solid");
+  }
+  check.volume = volume_of(model);
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(impl.shape, properties);
+  check.area = properties.Mass();
+  if (check.solids > 0 && !(check.volume > 0.0)) {
+    check.findings.push_back("its volume is " + std::to_string(check.volume) +
+                             " mm3; a solid's is positive");
+  }
+  return check;
+}
+
+}  // namespace palmar

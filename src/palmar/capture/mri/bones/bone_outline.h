@@ -1,0 +1,23 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "palmar/capture/mri/bones/bone_regions.h"
+
+namespace palmar {
+
+/// What a bone looks like from far: enough to tell which one it is.
+struct BoneOutline {
+  Vec3 centre = Vec3::Zero();  ///< of the volume, mm
+  Vec3 axis = Vec3::UnitX();   ///< unit, along the bone; either way round
+  double length = 0.0;         ///< along it, mm
+  double width = 0.0;          ///< mean extent across, mm
+  std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  ///< where the axis leaves the bone
+};
+BoneOutline outline_of(const TriangleMesh& mesh);
+/// Of the bone round a marrow: 0.8 mm longer at each end, and as much wider.
+BoneOutline outline_of(const MarrowRegion& marrow);
+
+}  // namespace palmar

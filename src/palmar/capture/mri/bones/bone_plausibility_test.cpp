@@ -1,0 +1,64 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/mri/bones/bone_plausibility.h"
+
+#include <gmock/gmock.h>
+
+#include "palmar/geometry/mesh/primitive_meshes.h"
+
+namespace palmar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A rod along y from `from` to `to`, mm.
+TriangleMesh rod(double from, double to) {
+  TriangleMesh mesh = make_box({8.0, to - from, 8.0}, 8);
+  for (Vec3& v : mesh.vertices) v.y() += 0.5 * (from + to);
+  return mesh;
+}
+
+Hand model() {
+  Hand hand;
+  hand.bones.resize(4);
+  hand.bones[0].name = "index_metacarpal";
+  hand.bones[0].mesh = rod(0.0, 70.0);
+  hand.bones[1].name = "index_proximal_phalanx";
+  hand.bones[1].mesh = rod(72.0, 112.0);
+  hand.bones[2].name = "index_middle_phalanx";
+  hand.bones[2].mesh = rod(114.0, 138.0);
+  hand.bones[3].name = "index_distal_phalanx";
+  hand.bones[3].mesh = rod(140.0, 158.0);
+  return hand;
+}
+
+/// The model's bones, all larger by a fifth: a larger hand.
+ScanSurfaces larger_hand() {
+  ScanSurfaces surfaces;
+  for (const Bone& bone : model().bones) {
+    surfaces.bones.push_back({bone.name, bone.mesh, false});
+    for (Vec3& v : surfaces.bones.back().mesh.vertices) v *= 1.2;
+  }
+  return surfaces;
+}
+
+TEST(BonePlausibility, AnotherSizeIsFine) {
+  EXPECT_THAT(doubtful_bones(larger_hand(), model()), IsEmpty());
+  EXPECT_THAT(doubtful_bones(ScanSurfaces{}, model()), IsEmpty());
+}
+
+TEST(BonePlausibility, HalfABoneIsTold) {
+  ScanSurfaces surfaces = larger_hand();
+  surfaces.bones[1].mesh = rod(1.2 * 72.0, 1.2 * 92.0);
+  EXPECT_THAT(doubtful_bones(surfaces, model()),
+              ElementsAre("index_proximal_phalanx is 24 mm long, where about 48 mm are expected",
+                          "index_proximal_phalanx and index_middle_phalanx lie 26 mm apart"));
+  surfaces.bones[1].is_cut = true;  // by the image: told elsewhere
+  EXPECT_EQ(doubtful_bones(surfaces, model()).size(), 1U);
+  surfaces.bones.erase(surfaces.bones.begin() + 1);
+  EXPECT_THAT(doubtful_bones(surfaces, model()), IsEmpty());
+}
+
+}  // namespace
+}  // namespace palmar

@@ -1,0 +1,424 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/capture/scan/hand_from_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "palmar/capture/hand_plausibility.h"
+#include "palmar/capture/marker_matching.h"
+#include "palmar/capture/mri/bones/bone_chain.h"
+#include "palmar/capture/mri/ring_bands.h"
+#include "palmar/capture/scan/bound_dots.h"
+#include "palmar/capture/scan/dotted_joints.h"
+#include "palmar/capture/scan/dotted_thumb.h"
+#include "palmar/capture/scan/missing_marks.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/cluster_vertices.h"
+#include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/drawn_creases.h"
+#include "palmar/hand/template_hand.h"
+
+namespace palmar {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kLookUpEdge = 1.2;  // mm; of the mesh that is fitted to
+
+/// A scan as fits look at it.
+TriangleMesh looked_up(const TriangleMesh& mesh) {
+  constexpr int kMany = 60'000;
+  return mesh.triangle_count() > kMany ? cluster_vertices(mesh, kLookUpEdge) : mesh;
+}
+
+MeasuredJoints joints_of(const LaidSkeleton& laid) {
+  MeasuredJoints joints;
+  joints.skeleton = laid.skeleton;
+  joints.patient_from_hand = laid.scan_from_hand;
+  return joints;
+}
+
+ScanSurfaces surfaces_of(const SurfaceScan& scan, const Hand& model) {
+  ScanSurfaces surfaces;
+  surfaces.skin = looked_up(scan.skin);
+  surfaces.side = model.side;
+  return surfaces;
+}
+
+ScannedHand register_model(const Hand& model, const SurfaceScan& scan, const MeasuredJoints& joints,
+                           const Progress& progress) {
+  return make_scanned_hand(model, {{ScanPosture::kReference, surfaces_of(scan, model)}}, joints,
+                           progress);
+}
+
+/// Joints of one other scan, from the palm outwards.
+class DotReader {
+ public:
+  DotReader(const Hand& hand, const std::vector<BoundDot>& dots, MeasuredJoints& joints,
+            HandFromScan& result)
+      : hand_(hand), dots_(dots), joints_(joints), result_(result) {}
+
+  void read(ScanPosture name, const SurfaceScan& scan, const MeshFit& fit) {
+    name_ = name;
+    posture_ = fit.posture;
+    const auto found = find_dots(scan, fit);
+    const Rigid3 palm = palm_motion(found, fit);
+    result_.scan_from_hand[name] = palm;
+    read_thumb_of(palm, found);
+    for (int f = 1; f < kFingerCount && !is_thumb_limit(name); ++f) {
+      Rigid3 before = palm;
+      is_told_ = true;
+      for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+        if (segment) before = before * read_joint(*segment, before, found);
+      }
+    }
+    result_.postures[name] = posture_;
+  }
+
+ private:
+  /// The thumb, whose metacarpal has no dots of its own.
+  void read_thumb_of(const Rigid3& palm, const std::vector<std::optional<Vec3>>& found) {
+    ThumbDots dots;
+    const Rigid3 in_hand = palm.inverse();
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (!found[k]) continue;
+      if (dots_[k].segment == Segment::kThumbProximal) {
+        dots.x_proximal.push_back(dots_[k].point);
+        dots.y_proximal.push_back(in_hand * *found[k]);
+      } else if (dots_[k].segment == Segment::kThumbDistal) {
+        dots.x_distal.push_back(dots_[k].point);
+        dots.y_distal.push_back(in_hand * *found[k]);
+      }
+    }
+    const ThumbReading reading = read_thumb(dots, hand_.skeleton, posture_);
+    posture_[Dof::kThumbMpFlexion] = reading.mp;
+    posture_[Dof::kThumbIpFlexion] = reading.ip;
+    result_.thumb[name_] = reading;
+    Rigid3 before = palm * reading.metacarpal;
+    is_told_ = true;
+    for (const Segment segment : {Segment::kThumbProximal, Segment::kThumbDistal}) {
+      before = before * read_joint(segment, before, found);
+    }
+  }
+
+  /// Where each dot is in the scan.
+  std::vector<std::optional<Vec3>> find_dots(const SurfaceScan& scan, const MeshFit& fit) {
+    std::vector<HandPoint> points;
+    for (const BoundDot& dot : dots_) points.push_back(dot.on_hand);
+    std::vector<Vec3> expected = PosablePoints(hand_, points).pose(fit.posture);
+    for (Vec3& p : expected) p = fit.mesh_from_hand * p;
+    std::vector<std::optional<Vec3>> found(dots_.size());
+    std::vector<std::optional<Segment>> taken(scan.marks.dots.size());
+    const auto match = [&](std::optional<Segment> segment, double gate, double last_gate) {
+      std::vector<std::size_t> of_expected, of_seen;
+      std::vector<Vec3> a, b;
+      for (std::size_t k = 0; k < dots_.size(); ++k) {
+        if (found[k] || (segment && dots_[k].segment != *segment)) continue;
+        of_expected.push_back(k);
+        a.push_back(expected[k]);
+      }
+      for (std::size_t k = 0; k < taken.size(); ++k) {
+        if (scan.marks.dots[k].segment != segment) continue;
+        of_seen.push_back(k);
+        b.push_back(scan.marks.dots[k].point);
+      }
+      if (a.empty() || b.empty()) return;
+      MarkerMatchOptions options;
+      options.gate = gate;
+      options.last_gate = last_gate;
+      const auto pairs = match_markers(a, b, options);
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (!pairs[k]) continue;
+        const std::size_t seen = of_seen[at(*pairs[k])];
+        found[of_expected[k]] = scan.marks.dots[seen].point;
+        taken[seen] = dots_[of_expected[k]].segment;
+      }
+    };
+    // Whose segment somebody told first: they may lie farther off.
+    for (int s = 0; s < kSegmentCount; ++s) match(static_cast<Segment>(s), 25.0, 12.0);
+    match({}, 10.0, 4.0);
+    std::map<Segment, int> again;
+    for (const auto& segment : taken) {
+      if (segment) ++again[*segment];
+    }
+    const std::string lacking = missing_dots_note(scan.name, again, result_.dots);
+    if (!lacking.empty()) result_.notes.push_back(lacking);
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      result_.marks.push_back({name_, MarkLabel::Kind::kDot, taken[k], scan.marks.dots[k].point});
+    }
+    return found;
+  }
+
+  Rigid3 palm_motion(const std::vector<std::optional<Vec3>>& found, const MeshFit& fit) const {
+    std::vector<Vec3> a, b;
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (dots_[k].segment != Segment::kPalm || !found[k]) continue;
+      a.push_back(dots_[k].point);
+      b.push_back(*found[k]);
+    }
+    constexpr std::size_t kEnough = 5;
+    return a.size() < kEnough ? fit.mesh_from_hand : align_points_robustly(a, b, 2.0);
+  }
+
+  /// Motion of the part behind a joint against the part before it.
+  Rigid3 read_joint(Segment segment, const Rigid3& before,
+                    const std::vector<std::optional<Vec3>>& found) {
+    Joint& joint = joints_.skeleton.joints[static_cast<std::size_t>(joint_of(segment))];
+    const Joint& of_skin = hand_.skeleton.joint(joint_of(segment));
+    const JointDof& bends = of_skin.dofs.back();
+    Rigid3 spread;
+    if (of_skin.dofs.size() == 2) {
+      const JointDof& s = of_skin.dofs.front();
+      spread = Rigid3::about_axis(s.axis, s.centre, posture_[s.dof] - s.reference);
+    }
+    std::vector<Vec3> x, y;
+    const Rigid3 in_part = before.inverse();
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (dots_[k].segment != segment || dots_[k].slides || !found[k]) continue;
+      x.push_back(spread * dots_[k].point);
+      y.push_back(in_part * *found[k]);
+    }
+    HingePrior prior;
+    prior.axis = bends.axis;
+    prior.point = bends.centre;
+    prior.turn = posture_[bends.dof] - bends.reference;
+    constexpr std::size_t kEnough = 2;
+    // Dots behind a part whose own dots weren't found see its error, too.
+    constexpr double kByDotsSd = 1.0, kBySkinSd = 3.0;  // mm
+    prior.dot_sd = is_told_ ? kByDotsSd : kBySkinSd;
+    is_told_ = x.size() >= kEnough;
+    if (!is_told_) {
+      return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
+    }
+    const DotHinge hinge = fit_dot_hinge(x, y, prior);
+    posture_[bends.dof] = bends.reference + hinge.turn;
+    DottedJoint report;
+    report.segment = segment;
+    report.posture = name_;
+    report.turn = hinge.turn;
+    report.residual = hinge.residual;
+    report.axis_change = std::acos(std::min(1.0, std::abs(hinge.axis.dot(prior.axis))));
+    report.centre_change = (hinge.point - prior.point).norm();
+    report.dots = static_cast<int>(x.size());
+    result_.joints.push_back(report);
+    // A turn of 20 degrees or more tells an axis; the largest one tells most.
+    constexpr double kTells = 20.0 * std::numbers::pi / 180.0;
+    double& most = told_by_[static_cast<std::size_t>(joint.id)];
+    if (std::abs(hinge.turn) > std::max(kTells, most)) {
+      most = std::abs(hinge.turn);
+      JointDof& dof = joint.dofs.back();
+      dof.axis = hinge.axis;
+      dof.centre = hinge.point;
+      dof.source = "this person's scans";
+      joint.centre = hinge.point;
+      joints_.is_measured[static_cast<std::size_t>(dof.dof)] = true;
+    }
+    return Rigid3::about_axis(hinge.axis, hinge.point, hinge.turn) * spread;
+  }
+
+  const Hand& hand_;
+  const std::vector<BoundDot>& dots_;
+  MeasuredJoints& joints_;
+  HandFromScan& result_;
+  ScanPosture name_{};
+  Posture posture_;
+  std::array<double, kJointCount> told_by_{};
+  bool is_told_ = true;  // where the part before the next joint is, by its own dots
+};
+
+/// Ends of the ranges that were scanned as such.
+void take_ranges(const std::map<ScanPosture, Posture>& postures, bool has_cmc, Skeleton& skeleton) {
+  for (Joint& joint : skeleton.joints) {
+    for (JointDof& dof : joint.dofs) {
+      // The CMC joint's ranges are its limit postures.
+      if (has_cmc && joint.id == JointId::kThumbCmc) continue;
+      for (const auto& [name, posture] : postures) {
+        dof.lower = std::min(dof.lower, posture[dof.dof]);
+        dof.upper = std::max(dof.upper, posture[dof.dof]);
+      }
+    }
+  }
+}
+
+/// Finds the person's creases by where the joints suggest them, and moves joints to them.
+void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& result) {
+  const Hand& hand = result.scanned.hand;
+  const HandCreases suggested(hand.skin, hand.skeleton);
+  FoundCreases& found = result.creases;
+  const Rigid3 before = laid.scan_from_hand;
+  found = find_creases(scan.marks, before.inverse(), suggested);
+  shift_to_creases(laid, found);
+  const Rigid3 turn = laid.scan_from_hand.inverse() * before;
+  for (auto& [segment, plane] : found.plane) {
+    plane = {turn * plane.point, turn.rotation * plane.normal};
+  }
+  if (!found.missing.empty()) result.notes.push_back(missing_creases_note(found.missing));
+  constexpr int kMany = 60;
+  if (found.stray > kMany) {
+    result.notes.emplace_back("Some of what is drawn in the creases' colour lies on no crease.");
+  }
+}
+
+/// Takes rings out of the reference scan: what is under them follows its surroundings.
+void leave_out_rings(const LaidSkeleton& laid, SurfaceScan& scan, HandFromScan& result) {
+  const std::vector<RingBand> rings =
+      find_rings(scan.skin, scan.marks, laid.scan_from_hand.inverse(), laid.skeleton);
+  for (const RingBand& ring : rings) {
+    result.notes.push_back(fmt::format(
+        "A ring on {}, {:.0f} mm wide, is left out of the scan: the skin under it follows its "
+        "surroundings. Take rings off for dimensions of that segment.",
+        name_of(ring.segment), ring.width));
+  }
+  if (!rings.empty()) scan.skin = without_rings(scan.skin, rings);
+}
+
+void measure_distances(const SurfaceScan& scan, HandFromScan& result) {
+  constexpr double kReach = 5.0;  // mm
+  const ClosestPointQuery query(scan.skin);
+  const Hand& hand = result.scanned.hand;
+  for (const Vec3& v : hand.skin.vertices) {
+    const auto near = query.closest(result.scanned.patient_from_hand * v, kReach);
+    result.distance.push_back(near ? near->distance : -1.0);
+  }
+}
+
+}  // namespace
+
+HandFromScan make_hand_from_scans(const Hand& model,
+                                  const std::map<ScanPosture, SurfaceScan>& scans,
+                                  std::optional<Side> side, const Progress& progress) {
+  const auto reference = scans.find(ScanPosture::kReference);
+  if (reference == scans.end()) {
+    throw InputError("hand from scans: there is no scan of the reference posture");
+  }
+  SurfaceScan scan = reference->second;
+  HandFromScan result;
+  const double others = static_cast<double>(scans.size() - 1);
+  const double unit = 1.0 / (4.0 + others);  // laying, registering thrice, one fit each
+
+  LaidSkeleton laid =
+      lay_skeleton(model, looked_up(scan.skin), side, scan.name, part_of(progress, 0.0, unit));
+  const Hand base = laid.side == model.side ? model : mirrored(model);
+  MeasuredJoints joints = joints_of(laid);
+  leave_out_rings(laid, scan, result);
+  result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
+  if (!scan.marks.lines.empty() || !scan.marks.added_lines.empty()) {
+    take_creases(scan, laid, result);
+    joints = joints_of(laid);
+    // The same skin, seen from the frame that the creases moved.
+    result.scanned = register_model(base, scan, joints, part_of(progress, 2.0 * unit, 3.0 * unit));
+  } else {
+    result.notes.push_back(
+        std::string(scan.marks.is_ink.empty() ? "No drawn creases"
+                                              : "No lines in the creases' colour") +
+        ": segments and joints follow the skin's shape alone, which tells where fingers bend to 2 "
+        "to 4 mm.");
+  }
+  const Rigid3 hand_from_scan = laid.scan_from_hand.inverse();
+
+  // Joints by dots, seen from the hand that the skin gave.
+  const Hand& by_skin = result.scanned.hand;
+  const std::vector<BoundDot> dots = bind_dots(by_skin, scan.marks, hand_from_scan);
+  for (const CreaseMark& mark : result.creases.marks) {
+    result.marks.push_back(
+        {ScanPosture::kReference, MarkLabel::Kind::kCrease, mark.crease, mark.point});
+  }
+  for (const BoundDot& dot : dots) {
+    ++result.dots[dot.segment];
+    result.marks.push_back({ScanPosture::kReference, MarkLabel::Kind::kDot, dot.segment,
+                            laid.scan_from_hand * dot.point});
+  }
+  if (!dots.empty()) {
+    const std::string lacking = missing_dots_note(scan.name, result.dots, advised_dots());
+    if (!lacking.empty()) result.notes.push_back(lacking);
+  }
+  result.postures[ScanPosture::kReference] = reference_posture(joints.skeleton);
+  result.scan_from_hand[ScanPosture::kReference] = laid.scan_from_hand;
+  DotReader reader(by_skin, dots, joints, result);
+  int done = 0;
+  for (const auto& [name, other] : scans) {
+    if (name == ScanPosture::kReference) continue;
+    const double from = (3.0 + done) * unit;
+    ++done;
+    const MeshFit fit = fit_posture_to_mesh(by_skin, looked_up(other.skin), {},
+                                            part_of(progress, from, from + unit));
+    if (fit.status != PostureFitStatus::kFitted) {
+      result.notes.push_back(fmt::format("{}: this hand isn't found in it, and it isn't used: {}",
+                                         other.name, fit.message));
+      continue;
+    }
+    result.fits[name] = fit;
+    reader.read(name, other, fit);
+  }
+  joints.postures = result.postures;
+  take_thumb_readings(by_skin, result.thumb, joints);
+  result.postures = joints.postures;
+  result.notes.insert(result.notes.end(), joints.notes.begin(), joints.notes.end());
+  const bool has_cmc = joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcFlexion)] ||
+                       joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcAbduction)];
+  take_ranges(result.postures, has_cmc, joints.skeleton);
+  joints.patient_from_hand_in = result.scan_from_hand;
+  if (done == 0) {
+    result.notes.emplace_back(
+        "Only the reference posture was scanned: joints' axes are the model's, as the skin carries "
+        "them, their ranges the model's.");
+  } else if (dots.empty()) {
+    result.notes.emplace_back(
+        "No dots were found on the reference scan: joints' axes are the model's, as the skin "
+        "carries them.");
+  }
+
+  std::map<ScanPosture, ScanSurfaces> surfaces{{ScanPosture::kReference, surfaces_of(scan, base)}};
+  for (const auto& [name, reading] : result.thumb) {
+    if (is_thumb_limit(name)) surfaces[name] = surfaces_of(scans.at(name), base);
+  }
+  result.scanned = make_scanned_hand(base, surfaces, joints, part_of(progress, 1.0 - unit, 1.0));
+  Hand& hand = result.scanned.hand;
+  const HandCreases creases = creases_of(hand.skin, hand.skeleton, result.creases.plane);
+  hand.dimensions = measure_hand(hand.skin, hand.skeleton, creases);
+  result.tape = measure_with_tape(hand.skin, hand.skeleton, creases);
+  measure_distances(scan, result);
+  result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
+  const std::vector<std::string> impossible =
+      impossible_dimensions(result.scanned.hand.dimensions, model.dimensions);
+  if (!impossible.empty()) {
+    throw InputError(fmt::format(
+        "{}: what comes out is no hand: {}. Joints or skin were found wrongly: draw the creases, "
+        "name them in a file of marks, or mend the scan",
+        scan.name, fmt::join(impossible, "; ")));
+  }
+  return result;
+}
+
+PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture) {
+  const Skeleton& skeleton = made.scanned.hand.skeleton;
+  const PosedSkeleton posed = pose_skeleton(skeleton, made.postures.at(posture));
+  const Rigid3& scan_from_hand = made.scan_from_hand.at(posture);
+  PlacedJoints placed;
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    Rigid3 before =
+        finger == Finger::kThumb ? scan_from_hand * posed.thumb_metacarpal : scan_from_hand;
+    Segment last = Segment::kPalm;
+    for (const auto& segment : segments_of(finger)) {
+      if (!segment) continue;
+      const JointDof& bends = skeleton.joint(joint_of(*segment)).dofs.back();
+      placed.joint[*segment] = {before.rotation * bends.axis, before * bends.centre};
+      before = scan_from_hand * posed.segment[static_cast<std::size_t>(*segment)];
+      last = *segment;
+    }
+    placed.fingertip[last] = before * skeleton.fingertips[static_cast<std::size_t>(f)];
+  }
+  return placed;
+}
+
+}  // namespace palmar

@@ -1,0 +1,48 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palmar/capture/sheet/outline_model.h"
+#include "palmar/population/person_estimate.h"
+
+namespace palmar {
+
+/// Standard errors of measures from an outline, mm: docs/method/outline.md says on whom they were
+/// found.
+struct OutlineErrors {
+  double length = 2.0;  ///< hand length
+  double width = 1.2;   ///< breadth over the metacarpal heads
+  double finger = 2.5;  ///< fingers II to V
+  /// Widths of phalanges, proximal to distal.
+  std::array<double, 3> breadth{1.0, 0.5, 0.5};
+};
+
+/// Measures of a person as an outline has them; not the thumb's length, which an outline tells no
+/// better than the rest of the hand does. `scale_error`: of all lengths, as a share.
+std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineErrors& errors,
+                                      double scale_error = 0.0);
+
+/// What the user measured replaces what the photograph says of the same.
+std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
+                                            const std::vector<KnownMeasure>& photo);
+
+struct OutlinePerson {
+  HandOutline outline;  ///< with what its measures missed on the model taken off
+  PersonEstimate estimate;
+  Hand hand;  ///< in the person's size, of the photographed side
+  int measures = 0;
+  std::optional<ModelOutline> model;  ///< nothing: none could be laid as the hand lies
+  std::vector<std::string> notes;
+};
+
+/// The person of an outline, by analysis and synthesis: a hand in the size that the measures give
+/// is laid as the photographed one lies, its silhouette measured in the same way, and what the
+/// measures miss of that hand's true dimensions taken off those of the photograph; `rounds` times.
+/// That takes care of height over the paper, of the slant of view and of where base creases lie
+/// beside webs, as far as hands are alike. `template_hand`: a right one; `seen`: measured in
+/// `scene`.
+OutlinePerson person_of_outline(const Hand& template_hand, const Population& population,
+                                const std::vector<KnownMeasure>& own, const HandOutline& seen,
+                                const OutlineScene& scene, int rounds = 3);
+
+}  // namespace palmar

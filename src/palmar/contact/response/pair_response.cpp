@@ -1,0 +1,47 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/response/pair_response.h"
+
+#include <algorithm>
+
+#include "palmar/contact/response/response.h"
+#include "palmar/contact/response/skin_response.h"
+
+namespace palmar {
+namespace {
+
+/// 1 up to two thirds of the reach, 0 beyond it.
+double fade(double distance) {
+  const double t = std::clamp(3.0 * (1.0 - distance / kResponseReach), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+}  // namespace
+
+PairResponse::PairResponse(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+                           const std::vector<double>& thickness)
+    : skin_(&skin), model_(model), thickness_(&thickness) {
+  if (model.tissue != TissueModel::kLayered) return;
+  for (const Region region : hand.region) {
+    kernel_.push_back(
+        &layer_kernel(hand.tissue.region[static_cast<std::size_t>(region)].poisson_layered));
+  }
+}
+
+float PairResponse::operator()(int i, int j, double r) const {
+  const auto v = static_cast<std::size_t>(i);
+  const auto w = static_cast<std::size_t>(j);
+  const double a_i = skin_->radius[v];
+  const double a_j = skin_->radius[w];
+  const double weight = model_.coupling == RegionCoupling::kCoupled ? fade(r) : 1.0;
+  if (model_.tissue != TissueModel::kLayered) {
+    return static_cast<float>(weight * boussinesq_response(model_.kernel, r, a_i, a_j));
+  }
+  const double h = 0.5 * ((*thickness_)[v] + (*thickness_)[w]);
+  return static_cast<float>(
+      0.25 * weight *
+      (layered_response(*kernel_[v], r, a_i, h) + layered_response(*kernel_[v], r, a_j, h) +
+       layered_response(*kernel_[w], r, a_i, h) + layered_response(*kernel_[w], r, a_j, h)));
+}
+
+}  // namespace palmar

@@ -1,0 +1,225 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/response/skin_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+#include "palmar/contact/response/response.h"
+
+namespace palmar {
+
+std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
+                                 const std::vector<Triangle>& triangles) {
+  std::vector<Vec3> normals;
+  vertex_normals(positions, triangles, normals);
+  return normals;
+}
+
+void vertex_normals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                    std::vector<Vec3>& normals) {
+  normals.assign(positions.size(), Vec3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vec3 n = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
+    for (const int corner : t) normals[corner] += n;
+  }
+  for (Vec3& n : normals) {
+    const double length = n.norm();
+    n = length > 0.0 ? Vec3(n / length) : Vec3::UnitZ();
+  }
+}
+
+std::vector<double> voronoi_areas(const TriangleMesh& mesh) {
+  std::vector<double> area(mesh.vertices.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 edge[3] = {mesh.vertices[t[2]] - mesh.vertices[t[1]],
+                          mesh.vertices[t[0]] - mesh.vertices[t[2]],
+                          mesh.vertices[t[1]] - mesh.vertices[t[0]]};
+    const double twice_area = edge[0].cross(edge[1]).norm();
+    if (!(twice_area > 0.0)) continue;
+    // Cotangent of the angle at corner k, opposite edge k.
+    double cotangent[3];
+    for (int k = 0; k < 3; ++k)
+      cotangent[k] = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / twice_area;
+    int obtuse = -1;
+    for (int k = 0; k < 3; ++k) {
+      if (cotangent[k] < 0.0) obtuse = k;
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (obtuse >= 0) {
+        area[t[k]] += twice_area * (k == obtuse ? 0.25 : 0.125);
+      } else {
+        const int a = (k + 1) % 3;
+        const int b = (k + 2) % 3;
+        area[t[k]] +=
+            0.125 * (edge[a].squaredNorm() * cotangent[a] + edge[b].squaredNorm() * cotangent[b]);
+      }
+    }
+  }
+  return area;
+}
+
+namespace {
+
+/// Everything but the neighbours, which `result` has.
+void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
+  result.position = skin.vertices;
+  result.normal = vertex_normals(skin.vertices, skin.triangles);
+  result.area = voronoi_areas(skin);
+  result.radius.clear();
+  result.radius.reserve(result.area.size());
+  for (const double a : result.area) result.radius.push_back(std::sqrt(a / std::numbers::pi));
+  result.edge_length.resize(result.ring.size());
+  std::vector<int> all(skin.vertices.size());
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    all[v] = static_cast<int>(v);
+    for (int k = result.ring_begin[v]; k < result.ring_begin[v + 1]; ++k) {
+      const auto e = static_cast<std::size_t>(k);
+      const auto w = static_cast<std::size_t>(result.ring[e]);
+      result.edge_length[e] = (skin.vertices[v] - skin.vertices[w]).norm();
+    }
+  }
+  result.cells = sensor_cells(result, all, kUsualCellArea);
+}
+
+}  // namespace
+
+SkinGeometry skin_geometry(const TriangleMesh& skin) {
+  SkinGeometry result;
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(6 * skin.triangles.size());
+  for (const Triangle& t : skin.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      edges.emplace_back(t[k], t[(k + 1) % 3]);
+      edges.emplace_back(t[(k + 1) % 3], t[k]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  result.ring_begin.assign(skin.vertices.size() + 1, 0);
+  result.ring.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    ++result.ring_begin[a + 1];
+    result.ring.push_back(b);
+  }
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
+    result.ring_begin[v + 1] += result.ring_begin[v];
+  }
+  measure_skin(skin, result);
+  return result;
+}
+
+SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other) {
+  SkinGeometry result;
+  result.ring_begin = other.ring_begin;
+  result.ring = other.ring;
+  measure_skin(skin, result);
+  return result;
+}
+
+SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area) {
+  const double cell_radius = std::sqrt(cell_area / std::numbers::pi);
+  SensorCells cells;
+  cells.cell_area = cell_area;
+  cells.begin.reserve(centres.size() + 1);
+  cells.begin.push_back(0);
+  std::vector<int> near;
+  std::vector<int> mark(skin.position.size(), -1);
+  for (const int centre : centres) {
+    near.assign(1, centre);
+    mark[centre] = centre;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const int v = near[k];
+      // No arc is shorter than its chord.
+      const double farthest = cell_radius + skin.radius[v];
+      if ((skin.position[v] - skin.position[centre]).squaredNorm() >= farthest * farthest) continue;
+      const double shared =
+          disc_overlap(arc_distance(skin, centre, v), cell_radius, skin.radius[v]);
+      if (shared <= 0.0) continue;
+      cells.vertex.push_back(v);
+      cells.shared.push_back(shared);
+      for (const int w : skin.neighbours(v)) {
+        if (mark[w] == centre) continue;
+        mark[w] = centre;
+        near.push_back(w);
+      }
+    }
+    cells.begin.push_back(static_cast<int>(cells.vertex.size()));
+  }
+  return cells;
+}
+
+double arc_distance(const SkinGeometry& skin, int i, int j) {
+  const Vec3 chord = skin.position[j] - skin.position[i];
+  const Vec3 turn = skin.normal[j] - skin.normal[i];
+  // |turn| = 2 sin(phi / 2) for unit normals.
+  const double turn2 = turn.squaredNorm();
+  const double chord2 = chord.squaredNorm();
+  if (turn2 < 1e-8) return std::sqrt(chord2);
+  const double sine = std::min(1.0, 0.5 * std::sqrt(turn2));
+  const double stretch = std::asin(sine) / sine;
+  const double along = chord.dot(turn);
+  return std::sqrt(chord2 + along * along / turn2 * (stretch * stretch - 1.0));
+}
+
+std::vector<GrownVertex> grow(const SkinGeometry& skin, std::span<const int> sources,
+                              double distance) {
+  std::vector<double> reached(skin.position.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  std::vector<int> touched;
+  for (const int s : sources) {
+    if (reached[s] == 0.0) continue;
+    reached[s] = 0.0;
+    touched.push_back(s);
+    front.emplace(0.0, s);
+  }
+  while (!front.empty()) {
+    const auto [d, v] = front.top();
+    front.pop();
+    if (d > reached[v]) continue;
+    for (int k = skin.ring_begin[v]; k < skin.ring_begin[v + 1]; ++k) {
+      const int w = skin.ring[k];
+      const double candidate = d + skin.edge_length[k];
+      if (candidate > distance || candidate >= reached[w]) continue;
+      if (!std::isfinite(reached[w])) touched.push_back(w);
+      reached[w] = candidate;
+      front.emplace(candidate, w);
+    }
+  }
+  std::sort(touched.begin(), touched.end());
+  std::vector<GrownVertex> result;
+  result.reserve(touched.size());
+  for (const int v : touched) result.push_back({v, reached[v]});
+  return result;
+}
+
+std::vector<std::vector<int>> connected_parts(const SkinGeometry& skin,
+                                              const std::vector<int>& vertices) {
+  std::vector<std::vector<int>> parts;
+  std::vector<char> pending(skin.position.size(), 0);
+  for (const int v : vertices) pending[v] = 1;
+  for (const int seed : vertices) {
+    if (!pending[seed]) continue;
+    std::vector<int> part = {seed};
+    pending[seed] = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      for (const int w : skin.neighbours(part[k])) {
+        if (!pending[w]) continue;
+        pending[w] = 0;
+        part.push_back(w);
+      }
+    }
+    std::sort(part.begin(), part.end());
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace palmar

@@ -1,0 +1,422 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/solve/contact_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "palmar/contact/contact_totals.h"
+#include "palmar/contact/response/deformed_skin.h"
+#include "palmar/contact/response/layered_response.h"
+#include "palmar/contact/response/response.h"
+#include "palmar/core/error.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kMostExtensions = 8;     // of the problem by skin that bulges into the product
+constexpr double kBulgeRange = 4.0;    // mm; gaps beyond this don't close by bulging
+constexpr double kCoatingReach = 5.0;  // thicknesses; beyond, a layer's response is gone
+
+void append(std::string& message, const std::string& text) {
+  if (!message.empty()) message += "; ";
+  message += text;
+}
+
+}  // namespace
+
+ContactSolver::Impl::Impl(const PreparedHand& prepared_hand, const ContactOptions& contact_options)
+    : hand(&prepared_hand),
+      prepared(&prepared_hand.impl()),
+      options(contact_options),
+      system(prepared->blocks) {}
+
+void ContactSolver::Impl::set_depth(const SkinOnProduct& skin, SkinLoad& load) const {
+  if (prepared->model.coupling == RegionCoupling::kCoupled) {
+    load.depth =
+        local_depth(prepared->stiffness, prepared->skin, load.vertex, skin.collision, skin.sample);
+    return;
+  }
+  // d_max of the sub-active region; of the dorsum's connected patch.
+  std::array<double, kRegionCount> d_max{};
+  std::vector<int> dorsal;
+  for (const int v : skin.collision) {
+    const Region region = prepared->hand->region[static_cast<std::size_t>(v)];
+    double& d = d_max[static_cast<std::size_t>(region)];
+    d = std::max(d, -skin.sample[static_cast<std::size_t>(v)].distance);
+    if (region == Region::kDorsum) dorsal.push_back(v);
+  }
+  std::vector<double> by_vertex(skin.sample.size(), 0.0);
+  for (const std::vector<int>& patch : connected_parts(prepared->skin, dorsal)) {
+    double d = 0.0;
+    for (const int v : patch) d = std::max(d, -skin.sample[static_cast<std::size_t>(v)].distance);
+    for (const int v : patch) by_vertex[static_cast<std::size_t>(v)] = d;
+  }
+  load.depth.clear();
+  for (const int v : load.vertex) {
+    const Region region = prepared->hand->region[static_cast<std::size_t>(v)];
+    load.depth.push_back(region == Region::kDorsum ? by_vertex[static_cast<std::size_t>(v)]
+                                                   : d_max[static_cast<std::size_t>(region)]);
+  }
+}
+
+std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLevel level) const {
+  std::vector<double> result;
+  result.reserve(load.vertex.size());
+  const std::vector<StiffeningLaw>& law = prepared->stiffness.law[static_cast<std::size_t>(level)];
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    result.push_back(options.shear_modulus.value_or(
+        shear_modulus_at(law[static_cast<std::size_t>(load.vertex[k])], load.depth[k])));
+  }
+  return result;
+}
+
+int ContactSolver::Impl::coating_at(const Vec3& at) const {
+  for (std::size_t c = 0; c < options.coatings.size(); ++c) {
+    const Box3& box = options.coatings[c].where;
+    if (box.isEmpty() || box.contains(at)) return static_cast<int>(c);
+  }
+  return -1;
+}
+
+double ContactSolver::Impl::coating_displacement(const SkinOnProduct& skin, const SkinLoad& load,
+                                                 std::size_t v) const {
+  const int own = coating_at(skin.sample[v].closest);
+  if (own < 0) return 0.0;
+  const Coating& coating = options.coatings[static_cast<std::size_t>(own)];
+  const LayerKernel& kernel = layer_kernel(coating.poisson);
+  const double reach = kCoatingReach * coating.thickness;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    if (!(load.force[k] > 0.0)) continue;
+    const auto w = static_cast<std::size_t>(load.vertex[k]);
+    const double r2 = (skin.sample[v].closest - skin.sample[w].closest).squaredNorm();
+    if (r2 >= reach * reach || coating_at(skin.sample[w].closest) != own) continue;
+    sum += load.force[k] *
+           layered_response(kernel, std::sqrt(r2), prepared->skin.radius[w], coating.thickness);
+  }
+  return sum / coating.shear_modulus;
+}
+
+/// Compliance of the coatings times the mean modulus of the two rows; see ContactSystem.
+void ContactSolver::Impl::set_coating(const SkinOnProduct& skin, const SkinLoad& load) {
+  coating_ = {};
+  if (options.coatings.empty()) return;
+  const std::size_t m = load.vertex.size();
+  coating_.diagonal.assign(m, 0.0);
+  std::vector<int> coat(m, -1);
+  for (std::size_t k = 0; k < m; ++k) {
+    coat[k] = coating_at(skin.sample[static_cast<std::size_t>(load.vertex[k])].closest);
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    if (coat[i] < 0) continue;
+    const Coating& coating = options.coatings[static_cast<std::size_t>(coat[i])];
+    const LayerKernel& kernel = layer_kernel(coating.poisson);
+    const auto v = static_cast<std::size_t>(load.vertex[i]);
+    const auto compliance = [&](double r, double a) {
+      return layered_response(kernel, r, a, coating.thickness) / coating.shear_modulus;
+    };
+    coating_.diagonal[i] = load.shear_modulus[i] * compliance(0.0, prepared->skin.radius[v]);
+    const double reach = kCoatingReach * coating.thickness;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (coat[j] != coat[i]) continue;
+      const auto w = static_cast<std::size_t>(load.vertex[j]);
+      const double r2 = (skin.sample[v].closest - skin.sample[w].closest).squaredNorm();
+      if (r2 >= reach * reach) continue;
+      const double r = std::sqrt(r2);
+      const double mean =
+          0.5 * (compliance(r, prepared->skin.radius[v]) + compliance(r, prepared->skin.radius[w]));
+      coating_.entries.push_back({static_cast<int>(i), static_cast<int>(j),
+                                  std::sqrt(load.shear_modulus[i] * load.shear_modulus[j]) * mean});
+    }
+  }
+}
+
+void ContactSolver::Impl::assemble(const SkinOnProduct& skin, const SkinLoad& load) {
+  const bool is_coupled = prepared->model.coupling == RegionCoupling::kCoupled;
+  system.assemble(prepared->response, load.vertex, is_coupled ? nullptr : &prepared->hand->region);
+  set_coating(skin, load);
+  if (!coating_.diagonal.empty()) system.add(coating_.diagonal, coating_.entries);
+}
+
+bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load,
+                                       ContactResult& result) {
+  assemble(skin, load);
+  std::vector<double> b(load.vertex.size());
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b[k] = load.shear_modulus[k] * skin.sample[static_cast<std::size_t>(load.vertex[k])].distance;
+  }
+  const ContactSystem::Outcome outcome = system.solve(b, load.in_contact, load.force, load.gap);
+  result.iterations += outcome.pivots;
+  double complementarity = 0.0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    load.gap[k] /= load.shear_modulus[k];
+    complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
+  }
+  if (outcome.is_solved) {
+    result.complementarity_error = std::max(result.complementarity_error, complementarity);
+  }
+  return outcome.is_solved;
+}
+
+/// After the whole problem has failed: each region alone; what has no solution carries no force.
+void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& load,
+                                          ContactResult& result) {
+  result.status = ContactStatus::kNotConverged;
+  if (prepared->model.coupling == RegionCoupling::kCoupled) {
+    append(result.message, "the contact of " + std::to_string(load.vertex.size()) +
+                               " coupled vertices has no solution; regions were solved one by one");
+  }
+  for (int r = 0; r < kRegionCount; ++r) {
+    std::vector<std::size_t> rows;
+    SkinLoad part;
+    for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      if (static_cast<int>(prepared->hand->region[v]) != r) continue;
+      rows.push_back(k);
+      part.vertex.push_back(load.vertex[k]);
+      part.depth.push_back(load.depth[k]);
+      part.shear_modulus.push_back(load.shear_modulus[k]);
+      part.in_contact.push_back(skin.sample[v].distance < -0.5 * load.depth[k]);
+    }
+    if (rows.empty()) continue;
+    if (!solve_system(skin, part, result)) {
+      append(result.message, "contact of region " + std::string(name_of(static_cast<Region>(r))) +
+                                 " (" + std::to_string(rows.size()) +
+                                 " vertices) has no solution; it carries no force");
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      load.force[rows[i]] = part.force[i];
+      load.gap[rows[i]] = part.gap[i];
+      load.in_contact[rows[i]] = part.force[i] > 0.0;
+    }
+  }
+}
+
+std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
+                                                 const SkinLoad& load) const {
+  const std::size_t n = skin.sample.size();
+  std::vector<double> sum(n, 0.0);
+  const SkinResponse& response = prepared->response;
+  const bool is_coupled = prepared->model.coupling == RegionCoupling::kCoupled;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    if (!(load.force[k] > 0.0)) continue;
+    const auto j = static_cast<std::size_t>(load.vertex[k]);
+    for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
+      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      if (is_coupled || prepared->hand->region[i] == prepared->hand->region[j]) {
+        sum[i] += load.force[k] * static_cast<double>(response.response[e]);
+      }
+    }
+  }
+  if (response.has_far()) {
+    std::vector<double> total(response.cluster_count(), 0.0);
+    std::vector<double> moved(total.size(), 0.0);
+    for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+      response.to_clusters(static_cast<std::size_t>(load.vertex[k]), load.force[k], total);
+    }
+    for (std::size_t c = 0; c < total.size(); ++c) {
+      if (total[c] == 0.0) continue;
+      for (std::size_t e = response.far.begin[c]; e < response.far.begin[c + 1]; ++e) {
+        moved[static_cast<std::size_t>(response.far.vertex[e])] +=
+            total[c] * static_cast<double>(response.far.response[e]);
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) sum[i] += response.from_clusters(i, moved);
+  }
+  SkinLoad near;
+  std::vector<char> is_known(n, 0);
+  for (const int v : load.vertex) is_known[static_cast<std::size_t>(v)] = 1;
+  for (const int v : skin.near) {
+    const auto i = static_cast<std::size_t>(v);
+    const double d = skin.sample[i].distance;
+    const bool may_bulge = sum[i] < 0.0 || !options.coatings.empty();
+    if (!is_known[i] && may_bulge && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
+  }
+  set_depth(skin, near);
+  const std::vector<double> modulus = moduli(near, TissueLevel::kNominal);
+  std::vector<int> result;
+  for (std::size_t k = 0; k < near.vertex.size(); ++k) {
+    const auto i = static_cast<std::size_t>(near.vertex[k]);
+    double gap = skin.sample[i].distance + sum[i] / modulus[k];
+    if (!options.coatings.empty()) gap += coating_displacement(skin, load, i);
+    if (gap < 0.0) result.push_back(near.vertex[k]);
+  }
+  return result;
+}
+
+bool ContactSolver::Impl::may_bulge() const {
+  return prepared->model.tissue == TissueModel::kLayered || !options.coatings.empty();
+}
+
+void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
+                                     ContactResult& result) {
+  // A half-space is moved inwards everywhere; a layer bulges beside the contact, and skin that
+  // comes to touch that way joins the problem.
+  load.vertex = skin.collision;
+  std::vector<char> start(skin.sample.size(), 0);
+  for (int round = 0;; ++round) {
+    set_depth(skin, load);
+    load.shear_modulus = moduli(load, TissueLevel::kNominal);
+    load.in_contact.clear();
+    load.force.clear();
+    for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      // Under a smooth product the contact ends where the penetration is half the deepest (Hertz:
+      // at r^2 = R depth).
+      const bool is_new = was_in_contact.empty() && round == 0;
+      load.in_contact.push_back(is_new       ? skin.sample[v].distance < -0.5 * load.depth[k]
+                                : round == 0 ? was_in_contact[v] != 0
+                                             : start[v] != 0);
+      load.force.push_back(was_force.empty() ? 0.0 : was_force[v]);
+    }
+    if (!solve_system(skin, load, result)) {
+      solve_by_region(skin, load, result);
+      return;
+    }
+    if (!may_bulge()) return;
+    const std::vector<int> more = pressed_in(skin, load);
+    if (more.empty()) return;
+    if (round == kMostExtensions) {
+      append(result.message,
+             std::to_string(more.size()) +
+                 " vertices beside the contact still bulge into the product after " +
+                 std::to_string(kMostExtensions) + " extensions of the problem");
+      return;
+    }
+    was_force.resize(skin.sample.size(), 0.0);
+    for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      start[v] = load.in_contact[k];
+      was_force[v] = load.force[k];
+    }
+    for (const int v : more) start[static_cast<std::size_t>(v)] = 1;
+    load.vertex.insert(load.vertex.end(), more.begin(), more.end());
+    std::sort(load.vertex.begin(), load.vertex.end());
+  }
+}
+
+namespace {
+
+struct DeepestOfRegion {
+  std::array<double, kRegionCount> depth{}, shear_modulus{};
+};
+
+DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
+                           const std::vector<Region>& region) {
+  DeepestOfRegion deepest;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    const auto r = static_cast<std::size_t>(region[v]);
+    if (-skin.sample[v].distance < deepest.depth[r]) continue;
+    deepest.depth[r] = -skin.sample[v].distance;
+    deepest.shear_modulus[r] = load.shear_modulus[k];
+  }
+  return deepest;
+}
+
+}  // namespace
+
+SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
+                                          const Rigid3& product_from_hand,
+                                          const DistanceField& product, std::optional<Region> only,
+                                          double wanted, ContactResult& result) {
+  const std::size_t n = prepared->hand->skin.vertices.size();
+  if (posed_skin.size() != n) {
+    throw UsageError("contact: posed skin has " + std::to_string(posed_skin.size()) +
+                     " points; the hand's skin has " + std::to_string(n) + " vertices");
+  }
+  result.model = prepared->model;
+  result.undeformed.resize(n);
+  for (std::size_t v = 0; v < n; ++v) result.undeformed[v] = product_from_hand * posed_skin[v];
+  find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_, wanted);
+  const SkinOnProduct& skin = skin_;
+  result.message = skin.message;
+  result.force.assign(n, 0.0);
+  result.pressure.assign(n, 0.0);
+  result.regions.clear();
+  result.total = {};
+  result.band.reset();
+  result.iterations = 0;
+  result.complementarity_error = 0.0;
+  result.residual_penetration_contact = 0.0;
+  result.residual_penetration_other = 0.0;
+  result.status = skin.collision.empty() ? ContactStatus::kNoContact : ContactStatus::kSolved;
+  if (skin.is_too_deep) result.status = ContactStatus::kTooDeep;
+
+  SkinLoad load;
+  if (!skin.collision.empty()) solve_load(skin, load, result);
+  const std::vector<double>& covered = coating_.diagonal;
+  if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
+    append(result.message, "no skin in contact lies on a coated part of the product");
+  }
+  was_in_contact.assign(n, 0);
+  was_force = result.force;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    result.force[v] = load.force[k];
+    result.pressure[v] = load.force[k] / prepared->skin.area[v];
+    was_in_contact[v] = load.in_contact[k];
+    was_force[v] = load.force[k];
+  }
+  return load;
+}
+
+void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
+                                       const Rigid3& product_from_hand,
+                                       const DistanceField& product, ContactResult& result) {
+  const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {},
+                                    may_bulge() ? kNearRange : 0.0, result);
+  const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);
+  result.deformed = result.undeformed;
+  std::array<double, kRegionCount> force{};
+  for (std::size_t v = 0; v < result.force.size(); ++v) {
+    if (!(result.force[v] > 0.0)) continue;
+    result.deformed[v] = skin_.sample[v].closest;
+    force[static_cast<std::size_t>(prepared->hand->region[v])] += result.force[v];
+  }
+  for (std::size_t r = 0; r < force.size(); ++r) {
+    result.total.max_penetration = std::max(result.total.max_penetration, deepest.depth[r]);
+    if (!(force[r] > 0.0)) continue;
+    RegionContact& region = result.regions.emplace_back();
+    region.region = static_cast<Region>(r);
+    region.force = force[r];
+    region.max_penetration = deepest.depth[r];
+    region.shear_modulus = deepest.shear_modulus[r];
+    result.total.force += force[r];
+  }
+}
+
+void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
+                                const Rigid3& product_from_hand, const DistanceField& product,
+                                std::optional<Region> only, ContactResult& result) {
+  const SkinLoad load =
+      find_forces(posed_skin, product_from_hand, product, only, kNearRange, result);
+  const SkinOnProduct& skin = skin_;
+  const std::size_t n = posed_skin.size();
+  std::vector<double> modulus(n, 0.0);
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    modulus[static_cast<std::size_t>(load.vertex[k])] = load.shear_modulus[k];
+  }
+  const std::vector<LoadedPart> parts = loaded_parts(*prepared, load);
+  SkinDisplacement u = skin_displacement(*prepared, skin, load, parts, options.swelling);
+  result.displacement = std::move(u.with_bulge);
+  deform_skin(prepared->skin, skin, product, u.is_active, result);
+
+  result.distance.resize(n);
+  std::vector<double> gap(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    result.distance[v] = skin.sample[v].distance;
+    gap[v] = result.distance[v] + u.elastic[v];
+  }
+  const DeepestOfRegion deepest = deepest_of(skin, load, prepared->hand->region);
+  add_totals(*prepared, skin, gap, modulus, deepest.depth, deepest.shear_modulus, options.cell_area,
+             result);
+  if (options.error_band && !load.vertex.empty()) {
+    result.band = band(skin, load, gap, result);
+  }
+}
+
+}  // namespace palmar

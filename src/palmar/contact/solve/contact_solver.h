@@ -1,0 +1,76 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/solve/contact_system.h"
+#include "palmar/contact/solve/skin_product.h"
+
+namespace palmar {
+
+/// What stands behind ContactSolver and solve_hand_contact(); the contact of one hand, with its
+/// memory.
+struct ContactSolver::Impl {
+  Impl(const PreparedHand& prepared_hand, const ContactOptions& contact_options);
+
+  /// `only`: the skin of other regions is let through (indentation test of one region).
+  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+             const DistanceField& product, std::optional<Region> only, ContactResult& result);
+  /// The same for who wants forces only: loaded skin is put on the product, all else stays where it
+  /// was; of regions and totals just force, largest penetration and shear modulus are set. A third
+  /// of the time.
+  void solve_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+                    const DistanceField& product, ContactResult& result);
+
+  const PreparedHand* hand;
+  const PreparedHand::Impl* prepared;
+  ContactOptions options;
+  ContactSystem system;
+  // Of the last call, per skin vertex; empty before the first.
+  std::vector<char> was_in_contact;
+  std::vector<double> was_force;  ///< N
+
+ private:
+  SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+                       const DistanceField& product, std::optional<Region> only, double wanted,
+                       ContactResult& result);
+  /// Skin outside the problem may come to touch as other skin is pressed.
+  bool may_bulge() const;
+  /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
+  /// rows' shear moduli, 1/mm; symmetric.
+  struct CoatingCompliance {
+    std::vector<double> diagonal;               ///< empty without coatings
+    std::vector<ContactSystem::Entry> entries;  ///< row > column
+  };
+
+  void set_depth(const SkinOnProduct& skin, SkinLoad& load) const;
+  std::vector<double> moduli(const SkinLoad& load, TissueLevel level) const;
+  /// The coating over a point of the surface; -1 for none.
+  int coating_at(const Vec3& at) const;
+  void set_coating(const SkinOnProduct& skin, const SkinLoad& load);
+  /// How far a coating gives way at skin vertex v under the load, mm.
+  double coating_displacement(const SkinOnProduct& skin, const SkinLoad& load, std::size_t v) const;
+  void assemble(const SkinOnProduct& skin, const SkinLoad& load);
+  bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  void solve_by_region(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  void solve_load(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  /// Near skin outside the problem that the solution moves into the product.
+  std::vector<int> pressed_in(const SkinOnProduct& skin, const SkinLoad& load) const;
+  std::array<double, kRegionCount> force_per_modulus(const SkinOnProduct& skin,
+                                                     const SkinLoad& load);
+  ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
+                   const ContactResult& nominal);
+
+  CoatingCompliance coating_;
+  SkinSampler sampler_;
+  SkinOnProduct skin_;
+};
+
+}  // namespace palmar

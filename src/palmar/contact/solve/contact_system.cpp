@@ -1,0 +1,437 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/solve/contact_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "palmar/contact/solve/lcp.h"
+#include "palmar/contact/solve/lemke.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kLast = 1e-12;  // largest gap of a loaded vertex / largest |b| at the end
+constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers the residual
+constexpr double kInner = 1e-5;  // by what each further one does; single precision gives as much
+constexpr int kMostCorrections = 8;
+constexpr int kMaxFruitless = 8;  // exchanges of blocks without progress before single ones
+constexpr int kMostPivots = 400;
+constexpr int kMostDense = 3000;  // rows that the last resort can take
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+/// Sum of value[k] x[column[k]] over a row.
+double row_times(const int* column, const float* value, std::size_t count, const double* x) {
+  double sum[4] = {};
+  std::size_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      sum[c] += static_cast<double>(value[k + c]) * x[column[k + c]];
+    }
+  }
+  for (; k < count; ++k) sum[0] += static_cast<double>(value[k]) * x[column[k]];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+}  // namespace
+
+void ContactSystem::assemble(const SkinResponse& response, const std::vector<int>& vertices,
+                             const std::vector<Region>* region) {
+  for (const int v : vertex_) local_[static_cast<std::size_t>(v)] = -1;
+  local_.resize(response.begin.size() - 1, -1);
+  vertex_ = vertices;
+  for (std::size_t i = 0; i < vertex_.size(); ++i) {
+    local_[static_cast<std::size_t>(vertex_[i])] = static_cast<int>(i);
+  }
+  std::size_t most = 0;
+  for (const int v : vertex_) {
+    const auto j = static_cast<std::size_t>(v);
+    most += response.begin[j + 1] - response.begin[j];
+  }
+  all_rows_.resize(vertex_.size());
+  std::iota(all_rows_.begin(), all_rows_.end(), 0);
+  begin_.assign(1, 0);
+  column_.resize(most);
+  value_.resize(most);
+  std::size_t count = 0;
+  for (const int v : vertex_) {
+    const auto j = static_cast<std::size_t>(v);
+    const std::size_t end = response.begin[j + 1];
+    for (std::size_t k = response.begin[j]; k < end; ++k) {
+      // Written in any case, kept only if the vertex takes part: no branch.
+      const int w = response.vertex[k];
+      const int row = local_[static_cast<std::size_t>(w)];
+      column_[count] = row;
+      value_[count] = response.response[k];
+      const bool is_kept =
+          row >= 0 && (region == nullptr || (*region)[static_cast<std::size_t>(w)] == (*region)[j]);
+      count += is_kept ? 1 : 0;
+    }
+    begin_.push_back(count);
+  }
+  column_.resize(count);
+  value_.resize(count);
+  has_blocks_ = false;
+  assemble_far(response);
+}
+
+void ContactSystem::assemble_far(const SkinResponse& response) {
+  has_far_ = response.has_far();
+  if (!has_far_) return;
+  local_cluster_.assign(response.cluster_count(), -1);
+  std::vector<std::size_t> cluster;  // of each local one
+  support_begin_.assign(1, 0);
+  support_.clear();
+  support_weight_.clear();
+  for (const int v : vertex_) {
+    const auto i = static_cast<std::size_t>(v);
+    for (std::size_t k = response.support_begin[i]; k < response.support_begin[i + 1]; ++k) {
+      const auto c = static_cast<std::size_t>(response.support[k]);
+      if (local_cluster_[c] < 0) {
+        local_cluster_[c] = static_cast<int>(cluster.size());
+        cluster.push_back(c);
+      }
+      support_.push_back(local_cluster_[c]);
+      support_weight_.push_back(response.support_weight[k]);
+    }
+    support_begin_.push_back(support_.size());
+  }
+  far_begin_.assign(1, 0);
+  far_column_.clear();
+  far_value_.clear();
+  for (const std::size_t c : cluster) {
+    for (std::size_t k = response.far.begin[c]; k < response.far.begin[c + 1]; ++k) {
+      const int local = local_cluster_[static_cast<std::size_t>(response.far.vertex[k])];
+      if (local < 0) continue;
+      far_column_.push_back(local);
+      far_value_.push_back(response.far.response[k]);
+    }
+    far_begin_.push_back(far_column_.size());
+  }
+}
+
+/// Adds the far part: add(row, moved) for each of `rows`, whose forces force(row) tells.
+template <typename Force, typename Add>
+void ContactSystem::add_far(const std::vector<int>& rows, const Force& force,
+                            const Add& add) const {
+  const std::size_t clusters = far_begin_.size() - 1;
+  cluster_force_.assign(clusters, 0.0);
+  cluster_moved_.resize(clusters);
+  for (const int row : rows) {
+    const double p = force(row);
+    if (p == 0.0) continue;
+    const auto i = static_cast<std::size_t>(row);
+    for (std::size_t k = support_begin_[i]; k < support_begin_[i + 1]; ++k) {
+      cluster_force_[static_cast<std::size_t>(support_[k])] +=
+          p * static_cast<double>(support_weight_[k]);
+    }
+  }
+  for (std::size_t c = 0; c < clusters; ++c) {
+    cluster_moved_[c] =
+        row_times(far_column_.data() + far_begin_[c], far_value_.data() + far_begin_[c],
+                  far_begin_[c + 1] - far_begin_[c], cluster_force_.data());
+  }
+  for (const int row : rows) {
+    const auto i = static_cast<std::size_t>(row);
+    add(row,
+        row_times(support_.data() + support_begin_[i], support_weight_.data() + support_begin_[i],
+                  support_begin_[i + 1] - support_begin_[i], cluster_moved_.data()));
+  }
+}
+
+void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<Entry>& entries) {
+  const auto m = static_cast<std::size_t>(size());
+  std::vector<std::vector<std::pair<int, double>>> rows(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      rows[i].emplace_back(column_[k], static_cast<double>(value_[k]));
+    }
+    rows[i].emplace_back(static_cast<int>(i), diagonal[i]);
+  }
+  for (const Entry& entry : entries) {
+    rows[static_cast<std::size_t>(entry.row)].emplace_back(entry.column, entry.value);
+    rows[static_cast<std::size_t>(entry.column)].emplace_back(entry.row, entry.value);
+  }
+  has_blocks_ = false;
+  column_.clear();
+  value_.clear();
+  begin_.assign(1, 0);
+  for (auto& row : rows) {
+    std::stable_sort(row.begin(), row.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t k = 0; k < row.size();) {
+      double sum = 0.0;
+      const int column = row[k].first;
+      for (; k < row.size() && row[k].first == column; ++k) sum += row[k].second;
+      column_.push_back(column);
+      value_.push_back(static_cast<float>(sum));
+    }
+    begin_.push_back(column_.size());
+  }
+}
+
+/// All of A as dense blocks, one per pair of patches that act on each other.
+void ContactSystem::make_blocks() {
+  const auto m = static_cast<std::size_t>(size());
+  by_patch_ = all_rows_;
+  const auto patch_of = [&](int row) {
+    return patches_->patch[static_cast<std::size_t>(vertex_[static_cast<std::size_t>(row)])];
+  };
+  std::stable_sort(by_patch_.begin(), by_patch_.end(),
+                   [&](int a, int b) { return patch_of(a) < patch_of(b); });
+  std::vector<Place> place(m);
+  std::vector<int> sizes;
+  first_.clear();
+  for (std::size_t k = 0; k < m; ++k) {
+    if (k == 0 || patch_of(by_patch_[k]) != patch_of(by_patch_[k - 1])) {
+      sizes.push_back(0);
+      first_.push_back(k);
+    }
+    place[static_cast<std::size_t>(by_patch_[k])] = {static_cast<int>(sizes.size()) - 1,
+                                                     sizes.back()++};
+  }
+  first_.push_back(m);
+  all_.begin(sizes);
+  const int blocks = static_cast<int>(sizes.size());
+  const auto for_entries = [&](int block, const auto& visit) {
+    const std::size_t first = first_[static_cast<std::size_t>(block)];
+    for (std::size_t s = first; s < first_[static_cast<std::size_t>(block) + 1]; ++s) {
+      const auto i = static_cast<std::size_t>(by_patch_[s]);
+      for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+        visit(s - first, place[static_cast<std::size_t>(column_[k])], k);
+      }
+    }
+  };
+  std::vector<char> is_met(sizes.size());
+  for (int block = 0; block < blocks; ++block) {
+    is_met.assign(sizes.size(), 0);
+    for_entries(block, [&](std::size_t, const Place& column, std::size_t) {
+      is_met[static_cast<std::size_t>(column.block)] = 1;
+    });
+    for (int other = 0; other < blocks; ++other) {
+      if (is_met[static_cast<std::size_t>(other)]) all_.add_block(block, other);
+    }
+  }
+  all_.allocate();
+  std::vector<float*> values(sizes.size(), nullptr);
+  for (int block = 0; block < blocks; ++block) {
+    for (int other = 0; other < blocks; ++other) {
+      values[static_cast<std::size_t>(other)] =
+          all_.has_block(block, other) ? all_.values(block, other) : nullptr;
+    }
+    const std::size_t stride = all_.stride(block);
+    for_entries(block, [&](std::size_t i, const Place& column, std::size_t k) {
+      values[static_cast<std::size_t>(column.block)]
+            [static_cast<std::size_t>(column.inside) * stride + i] = value_[k];
+    });
+  }
+}
+
+bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
+  if (!has_blocks_) make_blocks();
+  has_blocks_ = true;
+  const std::size_t blocks = first_.size() - 1;
+  kept_.resize(blocks);
+  place_.resize(in_contact.size());
+  set_.clear();
+  int block = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    kept_[b].clear();
+    for (std::size_t s = first_[b]; s < first_[b + 1]; ++s) {
+      const int row = by_patch_[s];
+      if (!in_contact[static_cast<std::size_t>(row)]) continue;
+      place_[static_cast<std::size_t>(row)] = {block, static_cast<int>(kept_[b].size())};
+      kept_[b].push_back(static_cast<int>(s - first_[b]));
+      set_.push_back(row);
+    }
+    if (!kept_[b].empty()) ++block;
+  }
+  matrix_.take_part(all_, kept_);
+  return matrix_.factor();
+}
+
+bool ContactSystem::correct(double tolerance, const std::vector<double>& residual,
+                            std::vector<double>& x, int& iterations) {
+  double scale = 0.0;
+  for (const int i : set_) {
+    scale = std::max(scale, std::abs(residual[static_cast<std::size_t>(i)]));
+  }
+  if (scale == 0.0) return true;
+  right_.assign(matrix_.padded_size(), 0.0F);
+  const auto at = [&](int i) {
+    const Place& place = place_[static_cast<std::size_t>(i)];
+    return matrix_.row(place.block, place.inside);
+  };
+  for (const int i : set_) {
+    right_[at(i)] = static_cast<float>(-residual[static_cast<std::size_t>(i)] / scale);
+  }
+  BlockMatrix::AddProduct far;
+  if (has_far_) {
+    far = [&](const std::vector<float>& from, std::vector<float>& to) {
+      add_far(
+          set_, [&](int row) { return static_cast<double>(from[at(row)]); },
+          [&](int row, double moved) { to[at(row)] += static_cast<float>(moved); });
+    };
+  }
+  if (!matrix_.solve(right_, tolerance, step_, iterations, far)) return false;
+  for (const int i : set_) {
+    x[static_cast<std::size_t>(i)] += scale * static_cast<double>(step_[at(i)]);
+  }
+  return true;
+}
+
+void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<double>& s) const {
+  const auto m = static_cast<std::size_t>(size());
+  s.resize(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    s[i] = row_times(column_.data() + begin_[i], value_.data() + begin_[i],
+                     begin_[i + 1] - begin_[i], p.data());
+  }
+  if (!has_far_) return;
+  add_far(
+      all_rows_, [&](int row) { return p[static_cast<std::size_t>(row)]; },
+      [&](int row, double moved) { s[static_cast<std::size_t>(row)] += moved; });
+}
+
+void ContactSystem::measure(const std::vector<double>& b, const std::vector<double>& force,
+                            std::vector<double>& gap, Outcome& outcome) const {
+  multiply_all(force, gap);
+  const double b_scale = std::max(largest(b), 1e-300);
+  const double p_scale = std::max(largest(force), 1e-300);
+  outcome.complementarity = 0.0;
+  outcome.relative_residual = 0.0;
+  for (std::size_t i = 0; i < gap.size(); ++i) {
+    gap[i] += b[i];
+    outcome.complementarity = std::max(outcome.complementarity, std::abs(gap[i] * force[i]));
+    outcome.relative_residual = std::max(outcome.relative_residual,
+                                         std::abs(std::min(gap[i] / b_scale, force[i] / p_scale)));
+  }
+}
+
+bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
+                                std::vector<double>& force, std::vector<double>& gap,
+                                Outcome& outcome) const {
+  const int m = size();
+  if (m > kMostDense || has_far_) return false;
+  ContactProblem problem;
+  problem.response = Eigen::MatrixXd::Zero(m, m);
+  problem.distance = Eigen::Map<const Eigen::VectorXd>(b.data(), m);
+  for (int i = 0; i < m; ++i) {
+    for (std::size_t k = begin_[static_cast<std::size_t>(i)];
+         k < begin_[static_cast<std::size_t>(i) + 1]; ++k) {
+      problem.response(column_[k], i) = value_[k];
+    }
+  }
+  ContactSolution solution = solve_contact(problem);
+  if (solution.status != LcpStatus::kSolved) solution = solve_contact_lemke(problem);
+  outcome.pivots += solution.pivots;
+  if (solution.status != LcpStatus::kSolved) return false;
+  for (int i = 0; i < m; ++i) {
+    force[static_cast<std::size_t>(i)] = solution.force[i];
+    in_contact[static_cast<std::size_t>(i)] = solution.force[i] > 0.0;
+  }
+  measure(b, force, gap, outcome);
+  return true;
+}
+
+ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
+                                            std::vector<char>& in_contact,
+                                            std::vector<double>& force, std::vector<double>& gap) {
+  const auto m = static_cast<std::size_t>(size());
+  Outcome outcome;
+  if (force.size() != m) force.assign(m, 0.0);
+  const double b_scale = largest(b);
+  int fewest = static_cast<int>(m) + 1;
+  int fruitless_left = kMaxFruitless;
+  bool is_exact = false;  // whether every set is to be solved to the end
+  std::vector<int> infeasible;
+  const auto find_gap = [&] {
+    multiply_all(force, gap);
+    for (std::size_t i = 0; i < m; ++i) gap[i] += b[i];
+  };
+  const auto error_on_set = [&] {
+    double most = 0.0;
+    for (const int i : set_) most = std::max(most, std::abs(gap[static_cast<std::size_t>(i)]));
+    return most;
+  };
+  bool is_regular = true;
+  while (is_regular && outcome.pivots < kMostPivots) {
+    if (!set_contact(in_contact)) break;
+    for (std::size_t i = 0; i < m; ++i) {
+      if (!in_contact[i]) force[i] = 0.0;
+    }
+    find_gap();
+    for (int round = 0;; ++round) {
+      is_regular =
+          correct(round == 0 && !is_exact ? kFirst : kInner, gap, force, outcome.iterations);
+      if (!is_regular) break;
+      find_gap();
+      const double error = error_on_set() / b_scale;
+      const bool is_last = error <= kLast || round == kMostCorrections;
+      // What the solution isn't good enough to tell counts as feasible for now.
+      const double slack = std::max(10.0 * error, 1e-11);
+      const double p_slack = slack * largest(force);
+      infeasible.clear();
+      for (std::size_t i = 0; i < m; ++i) {
+        const bool ok = in_contact[i] ? force[i] >= -p_slack : gap[i] >= -slack * b_scale;
+        if (!ok) infeasible.push_back(static_cast<int>(i));
+      }
+      if (infeasible.empty() ? is_last : (is_last || !is_exact)) break;
+    }
+    if (!is_regular) break;
+    if (infeasible.empty()) {
+      outcome.is_solved = true;
+      for (double& p : force) p = std::max(p, 0.0);  // rounding
+      measure(b, force, gap, outcome);
+      return outcome;
+    }
+    ++outcome.pivots;
+    const int count = static_cast<int>(infeasible.size());
+    if (count < fewest) {
+      fewest = count;
+      fruitless_left = kMaxFruitless;
+    } else if (fruitless_left > 0) {
+      --fruitless_left;
+    } else {
+      is_exact = true;
+      infeasible = {infeasible.back()};
+    }
+    for (const int i : infeasible) {
+      in_contact[static_cast<std::size_t>(i)] = !in_contact[static_cast<std::size_t>(i)];
+    }
+  }
+  force.assign(m, 0.0);
+  gap.assign(m, 0.0);
+  outcome.is_solved = solve_dense(b, in_contact, force, gap, outcome);
+  return outcome;
+}
+
+std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<char>& in_contact,
+                                                           const std::vector<double>& right) {
+  if (!set_contact(in_contact)) return std::nullopt;
+  const auto m = static_cast<std::size_t>(size());
+  std::vector<double> x(m, 0.0);
+  std::vector<double> residual(m);
+  const double scale = largest(right);
+  for (int round = 0; round <= kMostCorrections; ++round) {
+    multiply_all(x, residual);
+    double error = 0.0;
+    for (const int i : set_) {
+      double& r = residual[static_cast<std::size_t>(i)];
+      r -= right[static_cast<std::size_t>(i)];
+      error = std::max(error, std::abs(r));
+    }
+    if (error <= kLast * scale) break;
+    int iterations = 0;
+    if (!correct(kInner, residual, x, iterations)) return std::nullopt;
+  }
+  return x;
+}
+
+}  // namespace palmar

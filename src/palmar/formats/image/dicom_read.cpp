@@ -1,0 +1,204 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/formats/bytes.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/image/dicom_compressed.h"
+#include "palmar/formats/image/dicom_slice.h"
+#include "palmar/formats/image/image_formats.h"
+#include "palmar/imaging/odd_slices.h"
+
+namespace palmar {
+namespace {
+
+std::string listing(const std::vector<DicomStack>& stacks) {
+  std::string text;
+  for (const DicomStack& stack : stacks) {
+    const DicomSeries& series = stack.series;
+    text += fmt::format("\n  {} \"{}\", {} of {} x {}{}", series.number, series.description,
+                        series.slices == 1 ? "1 slice" : fmt::format("{} slices", series.slices),
+                        series.columns, series.rows,
+                        series.refusal.empty() ? "" : " (no volume: " + series.refusal + ")");
+  }
+  return text;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return text;
+}
+
+bool fits(const DicomSeries& series, const SeriesChoice& choice) {
+  if (series.uid.empty()) return false;
+  if (choice.number && *choice.number != series.number) return false;
+  return choice.description.empty() ||
+         lower(series.description).find(lower(choice.description)) != std::string::npos;
+}
+
+std::string text_of(const SeriesChoice& choice) {
+  std::string text;
+  if (choice.number) text = fmt::format(" with number {}", *choice.number);
+  if (!choice.description.empty()) {
+    text += fmt::format("{} with \"{}\" in its description", text.empty() ? "" : " and",
+                        choice.description);
+  }
+  return text;
+}
+
+DicomStack& chosen(std::vector<DicomStack>& stacks, const std::string& folder,
+                   const SeriesChoice& choice) {
+  // A damaged file that doesn't say where it belongs may be a slice of any series.
+  for (const DicomStack& stack : stacks) {
+    if (stack.series.uid.empty()) {
+      throw InputError(
+          fmt::format("{} (it may be a slice of the series: restore it, or move it out of {})",
+                      stack.series.refusal, folder));
+    }
+  }
+  const bool is_choice = choice.number || !choice.description.empty();
+  std::vector<DicomStack*> candidates;
+  for (DicomStack& stack : stacks) {
+    if (fits(stack.series, choice)) candidates.push_back(&stack);
+  }
+  // Without a choice, what can't be meant (localisers) doesn't stand in the way.
+  if (candidates.size() > 1) {
+    std::vector<DicomStack*> volumes;
+    for (DicomStack* stack : candidates) {
+      if (stack->series.refusal.empty()) volumes.push_back(stack);
+    }
+    if (!volumes.empty()) candidates = volumes;
+  }
+  if (candidates.size() == 1) {
+    const DicomSeries& series = candidates[0]->series;
+    if (series.refusal.empty()) return *candidates[0];
+    throw InputError(fmt::format("{}: series {} \"{}\": {}", folder, series.number,
+                                 series.description, series.refusal));
+  }
+  if (candidates.empty()) {
+    throw InputError(
+        fmt::format("{}: no series{}; there are:{}", folder, text_of(choice), listing(stacks)));
+  }
+  throw InputError(
+      fmt::format("{}: several series{}; choose one by its number or a part of its "
+                  "description:{}",
+                  folder, is_choice ? " fit" + text_of(choice) : "", listing(stacks)));
+}
+
+/// Of slices at one position the first is kept; the others must show the same.
+std::vector<DicomSlice> without_doubles(const DicomStack& stack, std::vector<std::string>& notes) {
+  std::vector<DicomSlice> kept;
+  std::vector<std::string> doubles;
+  for (const DicomSlice& slice : stack.slices) {
+    if (kept.empty() || slice.along_normal() - kept.back().along_normal() > kSamePosition) {
+      kept.push_back(slice);
+      continue;
+    }
+    if (read_dicom_pixels(slice) != read_dicom_pixels(kept.back())) {
+      throw InputError(fmt::format(
+          "{} and {}: two different images at one position ({:.2f} mm along the slices' normal)",
+          kept.back().path, slice.path, slice.along_normal()));
+    }
+    doubles.push_back(std::filesystem::path(slice.path).filename().string());
+  }
+  if (!doubles.empty()) {
+    notes.push_back(fmt::format(
+        "{} left out that another repeats: {}{}",
+        doubles.size() == 1 ? "1 slice was" : fmt::format("{} slices were", doubles.size()),
+        doubles.front(), doubles.size() > 1 ? ", ..." : ""));
+  }
+  return kept;
+}
+
+double stored_value(const DicomSlice& slice, std::string_view bytes, std::size_t index) {
+  std::uint32_t raw = 0;
+  switch (slice.bits_allocated) {
+    case 8:
+      raw = static_cast<unsigned char>(bytes[index]);
+      break;
+    case 16:
+      raw = read_value<std::uint16_t>(bytes, 2 * index);
+      break;
+    default:
+      raw = read_value<std::uint32_t>(bytes, 4 * index);
+  }
+  raw >>= slice.high_bit + 1 - slice.bits_stored;
+  const std::uint64_t range = std::uint64_t{1} << slice.bits_stored;
+  raw &= static_cast<std::uint32_t>(range - 1);
+  if (slice.is_signed && (raw & (range >> 1)) != 0) {
+    return static_cast<double>(raw) - static_cast<double>(range);
+  }
+  return static_cast<double>(raw);
+}
+
+}  // namespace
+
+std::vector<float> read_dicom_pixels(const DicomSlice& slice) {
+  check_image_size(slice.path, slice.columns, slice.rows, 1.0);
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const std::size_t size = count * static_cast<std::size_t>(slice.bits_allocated / 8);
+  const std::string file = read_file(slice.path, kMaxImageBytes);
+  std::string unpacked;
+  if (slice.is_encapsulated) unpacked = decompressed_pixels(slice, file);
+  const std::uint64_t offset = slice.is_encapsulated ? 0 : slice.pixel_offset;
+  const std::string& source = slice.is_encapsulated ? unpacked : file;
+  if (offset > source.size() || source.size() - offset < size) {
+    throw InputError(slice.path + ": changed while it was read");
+  }
+  const auto bytes = std::string_view(source).substr(static_cast<std::size_t>(offset));
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = static_cast<float>(stored_value(slice, bytes, i) * slice.slope + slice.intercept);
+  }
+  return values;
+}
+
+ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choice,
+                            const Progress& progress) {
+  std::vector<DicomStack> stacks = find_dicom_stacks(folder, {});
+  const DicomStack& stack = chosen(stacks, folder, choice);
+  ImageFile file;
+  file.description = stack.series.description;
+  file.laterality = stack.series.laterality;
+  file.notes = stack.notes;
+  const std::vector<DicomSlice> slices = without_doubles(stack, file.notes);
+  const DicomSlice& first = slices.front();
+  check_image_size(folder, first.columns, first.rows, static_cast<double>(slices.size()));
+
+  VolumeGrid& grid = file.image.grid;
+  grid.size = {first.columns, first.rows, static_cast<int>(slices.size())};
+  const double last = slices.back().along_normal() - first.along_normal();
+  grid.spacing =
+      Vec3(first.pixel_width, first.pixel_height, last / static_cast<double>(slices.size() - 1));
+  grid.axes << first.row, first.column, first.row.cross(first.column);
+  grid.origin = first.position;
+  file.image.value.resize(grid.count());
+  const std::size_t plane = grid.at(0, 0, 1);
+  constexpr std::size_t kAtOnce = 16;  // slices between two looks at the user's wish to stop
+  for (std::size_t start = 0; start < slices.size(); start += kAtOnce) {
+    progress.update(static_cast<double>(start) / static_cast<double>(slices.size()),
+                    "reading " + folder);
+    const std::size_t count = std::min(kAtOnce, slices.size() - start);
+    parallel_for(static_cast<int>(count), [&](int i) {
+      const std::size_t s = start + static_cast<std::size_t>(i);
+      const std::vector<float> pixels = read_dicom_pixels(slices[s]);
+      std::copy(pixels.begin(), pixels.end(),
+                file.image.value.begin() + static_cast<std::ptrdiff_t>(s * plane));
+    });
+  }
+  for (const OddSlice& odd : odd_slices(file.image)) {
+    file.odd_slices.push_back(
+        odd_slice_text(slices[static_cast<std::size_t>(odd.index)].path, odd));
+  }
+  return file;
+}
+
+}  // namespace palmar

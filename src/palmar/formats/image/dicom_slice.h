@@ -1,0 +1,67 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/formats/image/dicom.h"
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// What a DICOM file says about its image, without the pixels.
+struct DicomSlice {
+  std::string path;
+  std::string series_uid, description, modality, laterality, frame_of_reference;
+  std::string image_type, transfer_syntax, photometric;
+  int series_number = 0;
+  int instance = 0;               ///< Instance Number, 0 if none
+  int images_in_acquisition = 0;  ///< 0 if not said
+  int rows = 0, columns = 0, samples = 1, frames = 1;
+  int bits_allocated = 0, bits_stored = 0, high_bit = 0;
+  bool is_signed = false;
+  double slope = 1.0, intercept = 0.0;
+  Vec3 row = Vec3::UnitX(), column = Vec3::UnitY();  ///< directions of growing i and j
+  Vec3 position = Vec3::Zero();                      ///< centre of the first pixel, mm
+  double pixel_width = 1.0, pixel_height = 1.0;      ///< mm, along i and j
+  std::optional<double> thickness;                   ///< mm
+  bool has_pixels = false, is_encapsulated = false;
+  std::uint64_t pixel_offset = 0, pixel_length = 0;
+  /// Why it is no slice of a volume; empty if it is one.
+  std::string damage;
+
+  double along_normal() const { return row.cross(column).dot(position); }
+};
+
+/// Reads the header of one file; nothing if it isn't DICOM. What is wrong goes into `damage`.
+std::optional<DicomSlice> read_dicom_header(const std::string& path);
+
+/// A series with its slices' headers, in the order of `series.files`.
+struct DicomStack {
+  DicomSeries series;
+  std::vector<DicomSlice> slices;
+  std::vector<std::string> notes;
+};
+
+/// As find_dicom_series().
+std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progress& progress);
+
+/// Orders the slices by position and fills `series`, with the refusal, and `notes`. Slices at one
+/// position stay, side by side.
+DicomStack order_slices(std::vector<DicomSlice> slices);
+
+/// Stored values of a slice, after rescaling, row by row. Throws InputError naming the file.
+std::vector<float> read_dicom_pixels(const DicomSlice& slice);
+
+/// Positions closer than this are one position, mm: writers round.
+inline constexpr double kSamePosition = 0.01;
+/// Largest image in memory, as float.
+inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t{2} << 30;
+
+/// Throws InputError naming `what` if an image of this size is empty or above kMaxImageBytes.
+void check_image_size(const std::string& what, double width, double height, double slices);
+
+}  // namespace palmar

@@ -1,0 +1,426 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/power/closing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "palmar/grasp/power/site_distance.h"
+#include "palmar/grasp/power/skin_sampling.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kWidestGap = 12.0;     // mm between neighbours that one round closes
+constexpr double kUsualGap = 0.5;       // mm; fingers round a handle lie side by side
+constexpr double kLeastSpread = 0.015;  // rad; less isn't worth closing again for
+constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coarse there
+constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
+constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
+constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
+constexpr double kWideOpen = -20.0 * std::numbers::pi / 180.0;  // MCP when the hand reaches out
+constexpr double kPreshape = 0.8;        // of the bend that fits the handle, before closing
+constexpr double kCoupling = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
+constexpr double kDipLag = 10.0 * std::numbers::pi / 180.0;     // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * std::numbers::pi / 180.0;   // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * std::numbers::pi / 180.0;   // that a hook's MCP may flex
+constexpr double kReleaseMcp = 8.0 * std::numbers::pi / 180.0;  // opened to move a finger aside
+constexpr double kReleasePip = 20.0 * std::numbers::pi / 180.0;
+constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
+constexpr double kShareRange = 0.3;   // over which that fades
+constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
+constexpr double kIdleMore = 5.0 * std::numbers::pi / 180.0;  // that it bends beyond its neighbour
+constexpr int kLongestAdvance = 60;                           // steps
+
+constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
+                                            Finger::kLittle};
+
+std::size_t index_of(Segment segment) { return static_cast<std::size_t>(segment); }
+
+}  // namespace
+
+HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
+  if (spacing > 0.0) care_ = {0.1, 3.0};
+  const SkinSample sample = sample_skin(hand, spacing);
+  const auto group_of = [&](auto&& belongs) {
+    std::vector<int> vertices;
+    std::vector<double> area;
+    for (std::size_t k = 0; k < sample.vertex.size(); ++k) {
+      const auto v = static_cast<std::size_t>(sample.vertex[k]);
+      if (!belongs(hand.segment[v], hand.region[v])) continue;
+      vertices.push_back(sample.vertex[k]);
+      area.push_back(sample.area[k]);
+    }
+    SkinGroup group{PosableSkin(hand, vertices), {}, {}, std::move(area)};
+    for (const int v : vertices) {
+      group.segment.push_back(hand.segment[static_cast<std::size_t>(v)]);
+      group.region.push_back(hand.region[static_cast<std::size_t>(v)]);
+    }
+    return group;
+  };
+  all_ = group_of([](Segment, Region) { return true; });
+  palm_ = group_of([](Segment, Region region) { return is_palmar(region); });
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    for (int level = 0; level < 3; ++level) {
+      groups_[static_cast<std::size_t>(f)][static_cast<std::size_t>(level)] =
+          group_of([&](Segment segment, Region region) {
+            const int own = level_of(finger, segment);
+            // The third group of the thumb is what its CMC joint moves.
+            const bool is_cmc = finger == Finger::kThumb && level == 2;
+            return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
+          });
+    }
+  }
+  thumb_.emplace(hand, cones_, groups_[static_cast<std::size_t>(Finger::kThumb)], care_);
+  const Skeleton& skeleton = hand.skeleton;
+  Posture& posture = open_posture_;
+  posture = reference_posture(skeleton);
+  for (const Finger finger : kFingers) {
+    for (int level = 0; level < 3; ++level) {
+      const JointDof& dof = skeleton.dof(flexion_of(finger, level));
+      posture[dof.dof] = std::clamp(0.0, dof.lower, dof.upper);
+    }
+  }
+  const auto at_share = [&](Dof d, double share) {
+    const JointDof& dof = skeleton.dof(d);
+    posture[d] = dof.lower + share * (dof.upper - dof.lower);
+  };
+  at_share(Dof::kThumbCmcFlexion, 0.05);
+  at_share(Dof::kThumbCmcAbduction, 0.35);
+  posture[Dof::kThumbMpFlexion] = std::clamp(0.0, lower_of(*hand_, Dof::kThumbMpFlexion),
+                                             upper_of(*hand_, Dof::kThumbMpFlexion));
+  posture[Dof::kThumbIpFlexion] = std::clamp(0.0, lower_of(*hand_, Dof::kThumbIpFlexion),
+                                             upper_of(*hand_, Dof::kThumbIpFlexion));
+  palm_.skin.pose(posture, open_palm_);
+}
+
+Posture HandCloser::start_posture(const ClosingStyle& style) const {
+  Posture posture = open_posture_;
+  const auto fan = [&](Finger finger, double share) {
+    const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
+    const double end = share > 0.0 ? dof.upper : dof.lower;
+    posture[dof.dof] += std::abs(share) * (end - posture[dof.dof]);
+  };
+  if (style.hook) {
+    const Posture rest = reference_posture(hand_->skeleton);
+    for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
+                          Dof::kThumbIpFlexion}) {
+      posture[dof] = rest[dof];
+    }
+  }
+  if (style.spread > 0.0) {
+    fan(Finger::kIndex, style.spread);
+    fan(Finger::kRing, -0.5 * style.spread);
+    fan(Finger::kLittle, -style.spread);
+  }
+  return posture;
+}
+
+double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& limits,
+                               const ClosingStyle& style, const Vec3& direction,
+                               double longest) const {
+  const std::vector<Vec3>& posed = open_palm_;
+  const double shared = style.hook ? 1.0 : kSharedLimit;
+  const Vec3 step = product.product_from_hand.rotation * direction;
+  std::vector<Vec3> points(posed.size());
+  std::vector<DistanceSample> samples(posed.size());
+  double travel = 0.0;
+  for (int i = 0; i < kLongestAdvance && travel < longest; ++i) {
+    // The product goes along +direction; seen from it, the hand goes along -direction.
+    for (std::size_t k = 0; k < posed.size(); ++k) {
+      points[k] = product.product_from_hand * posed[k] - travel * step;
+    }
+    product.distance->sample(points, kSkinRange, samples);
+    double advance = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < posed.size(); ++k) {
+      double limit = limits.palm;
+      if (palm_.segment[k] != Segment::kPalm) {
+        limit = shared * limits.finger;
+      } else if (palm_.region[k] == Region::kThenar) {
+        limit = kBallShare * limits.palm;
+      }
+      const double slack = samples[k].distance + limit;
+      least = std::min(least, slack);
+      const double approach = samples[k].normal.dot(step);
+      const double planar = !is_near(samples[k]) ? slack
+                            : approach > 0.0     ? 0.9 * slack / approach
+                                                 : std::numeric_limits<double>::infinity();
+      advance = std::min(advance, std::max(slack, std::min(planar, care_.glide)));
+    }
+    if (least <= care_.tolerance) break;
+    travel += std::max(advance, 0.5 * care_.tolerance);
+  }
+  return std::min(travel, longest);
+}
+
+Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                              double diameter, double share, const Posture& start) const {
+  const Skeleton& skeleton = hand_->skeleton;
+  const auto segments = segments_of(finger);
+  std::array<double, 3> turn{};  // that each phalanx takes round the handle, half of it
+  for (std::size_t level = 0; level < 3; ++level) {
+    const Vec3& a = skeleton.joint(joint_of(*segments[level])).centre;
+    const Vec3& b = level == 2 ? skeleton.fingertips[static_cast<std::size_t>(finger)]
+                               : skeleton.joint(joint_of(*segments[level + 1])).centre;
+    turn[level] = std::atan((b - a).norm() / (diameter + 2.0 * kHalfFinger));
+  }
+  Posture posture = start;
+  const Dof mcp = flexion_of(finger, 0);
+  posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
+  for (; share > 0.05; share -= 0.25) {
+    const JointDof& pip = skeleton.dof(flexion_of(finger, 1));
+    const JointDof& dip = skeleton.dof(flexion_of(finger, 2));
+    posture[pip.dof] = std::clamp(share * (turn[0] + turn[1]), pip.lower, pip.upper);
+    posture[dip.dof] =
+        std::clamp(std::min(share * (turn[1] + turn[2]), kCoupling * posture[pip.dof] + kDipLeave),
+                   dip.lower, dip.upper);
+    if (is_free(product, limits, finger, posture)) return posture;
+  }
+  return start;
+}
+
+bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                         const Posture& posture) const {
+  const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][0];
+  const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
+  return std::all_of(samples.begin(), samples.end(), [&](const DistanceSample& sample) {
+    return sample.distance > -kSharedLimit * limits.finger;
+  });
+}
+
+Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& limits,
+                                 const ClosingStyle& style, Finger finger, Posture posture,
+                                 std::array<SegmentStop, kSegmentCount>& stops) const {
+  std::vector<Obstacle> palm;
+  for (const RoundCone& cone : cones_.posed(hand_->skeleton, posture)) {
+    if (cone.level == 0) palm.push_back({cone, kPalmGive});
+  }
+  const auto segments = segments_of(finger);
+  const auto stop_of = [&](std::size_t level) -> SegmentStop& {
+    return stops[index_of(*segments[level])];
+  };
+  const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+  const JointDof& pip = hand_->skeleton.dof(flexion_of(finger, 1));
+  const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
+  const auto coupled = [&](double off) {
+    return std::clamp(kCoupling * posture[pip.dof] + off, dip.lower, dip.upper);
+  };
+  const auto advance = [&](std::size_t level, const Posture& to) {
+    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][level];
+    // A proximal phalanx can't meet the palm.
+    const Advance way = advance_skin(
+        group, product, limits, level == 0 ? std::vector<Obstacle>{} : palm, posture, to, care_);
+    posture = way.posture;
+    stop_of(level).segment = *segments[level];
+    stop_of(level).reason = way.reason_for(*segments[level]);
+    return way;
+  };
+  for (SegmentStop* stop : {&stop_of(0), &stop_of(1), &stop_of(2)}) stop->penetration = -kSkinRange;
+  Posture to = posture;
+  to[mcp.dof] = style.hook ? std::clamp(*style.hook + kHookGive, mcp.lower, mcp.upper) : mcp.upper;
+  const Advance first = advance(0, to);
+  stop_of(0).penetration = first.deepest[0];
+  stop_of(1).penetration = first.deepest[1];
+  // DIP goes along with PIP. If it brings the tip to the product before the middle phalanx lies on
+  // it, it gives way.
+  to = posture;
+  to[pip.dof] = pip.upper;
+  to[dip.dof] =
+      std::max(posture[dip.dof], std::clamp(kCoupling * pip.upper - kDipLag, dip.lower, dip.upper));
+  Advance way = advance(1, to);
+  if (way.is_stopped && way.by_product && way.segment == *segments[2] &&
+      way.deepest[1] < limits.finger) {
+    const double back = coupled(-kDipLeave);
+    if (back < posture[dip.dof]) {
+      posture[dip.dof] = back;
+      to = posture;
+      to[pip.dof] = pip.upper;
+      to[dip.dof] =
+          std::max(back, std::clamp(kCoupling * pip.upper - kDipLeave, dip.lower, dip.upper));
+      advance(1, to);
+    }
+  }
+  to = posture;
+  to[dip.dof] = std::max(posture[dip.dof], coupled(kDipLeave));
+  advance(2, to);
+  return posture;
+}
+
+Posture HandCloser::reach_and_close(const HeldProduct& product, const DepthLimits& limits,
+                                    const ClosingStyle& style, Finger finger, const Posture& start,
+                                    std::array<SegmentStop, kSegmentCount>& stops) const {
+  if (style.hook) {
+    Posture straight = start;
+    const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+    straight[mcp.dof] = std::clamp(*style.hook, mcp.lower, mcp.upper);
+    return close_finger(product, limits, style, finger, straight, stops);
+  }
+  // Bent too much, the fingertip meets the product first and the rest hangs in the air.
+  for (const double share : {kPreshape, 0.5 * kPreshape, 0.0}) {
+    const Posture shaped = preshaped(product, limits, finger, product.diameter, share, start);
+    const Posture closed = close_finger(product, limits, style, finger, shaped, stops);
+    const auto segments = segments_of(finger);
+    const SegmentStop& proximal = stops[index_of(*segments[0])];
+    if (share == 0.0 || proximal.reason != StopReason::kDistalStop || proximal.penetration > 0.0 ||
+        stops[index_of(*segments[1])].penetration > 0.0) {
+      return closed;
+    }
+  }
+  return start;
+}
+
+Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits& limits,
+                                  const ClosingStyle& style, Posture start, int rounds,
+                                  std::array<SegmentStop, kSegmentCount>& stops) const {
+  Posture posture = start;
+  for (const Finger finger : kFingers) {
+    posture = reach_and_close(product, limits, style, finger, posture, stops);
+  }
+  for (int round = 0; round < rounds; ++round) {
+    // Flexing fingers converge; where two would share space, spread them at the knuckle and close
+    // again. The middle finger stays, the others give way outwards.
+    const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, posture);
+    const auto crossing = [&](Finger a, Finger b) {
+      double deepest = -kWidestGap;
+      const double arm = 60.0;
+      for (const RoundCone& p : cones) {
+        if (p.finger != a || p.level == 0) continue;
+        for (const RoundCone& q : cones) {
+          if (q.finger != b || q.level == 0) continue;
+          deepest = std::max(deepest, overlap(p, q));
+        }
+      }
+      if (deepest > 0.5 * kNeighbourGive) return deepest / arm;
+      return deepest < -kUsualGap && style.spread == 0.0 ? (deepest + kUsualGap) / arm : 0.0;
+    };
+    const double index = crossing(Finger::kIndex, Finger::kMiddle);
+    const double ring = crossing(Finger::kMiddle, Finger::kRing);
+    const double little = crossing(Finger::kRing, Finger::kLittle);
+    bool is_changed = false;
+    const auto spread = [&](Finger finger, double angle) {
+      if (std::abs(angle) < kLeastSpread) return;
+      const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
+      const double next = std::clamp(posture[dof.dof] + angle, dof.lower, dof.upper);
+      if (std::abs(next - posture[dof.dof]) < 0.5 * kLeastSpread) return;
+      is_changed = true;
+      // A little open is enough to move aside, as a rule.
+      Posture aside = posture;
+      aside[dof.dof] = next;
+      const auto open = [&](int level, double by) {
+        const JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
+        aside[flexion.dof] = std::max(flexion.lower, aside[flexion.dof] - by);
+      };
+      open(0, kReleaseMcp);
+      open(1, kReleasePip);
+      open(2, kReleasePip);
+      if (is_free(product, limits, finger, aside)) {
+        posture = close_finger(product, limits, style, finger, aside, stops);
+        return;
+      }
+      for (int level = 0; level < 3; ++level) {
+        aside[flexion_of(finger, level)] = start[flexion_of(finger, level)];
+      }
+      posture = reach_and_close(product, limits, style, finger, aside, stops);
+    };
+    spread(Finger::kIndex, index);
+    spread(Finger::kRing, -ring);
+    spread(Finger::kLittle, -ring - little);
+    if (!is_changed) break;
+  }
+  rest_idle_fingers(product, limits, posture);
+  return posture;
+}
+
+// A finger that meets nothing isn't clenched in the air: it goes with its neighbour.
+void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
+                                   Posture& posture) const {
+  const auto is_idle = [&](Finger finger) {
+    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][0];
+    const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
+    return std::all_of(samples.begin(), samples.end(),
+                       [](const DistanceSample& sample) { return sample.distance > kIdleGap; });
+  };
+  using Pair = std::pair<Finger, Finger>;
+  for (const auto& [finger, neighbour] :
+       {Pair{Finger::kIndex, Finger::kMiddle}, Pair{Finger::kRing, Finger::kMiddle},
+        Pair{Finger::kLittle, Finger::kRing}}) {
+    if (!is_idle(finger)) continue;
+    Posture resting = posture;
+    for (int level = 0; level < 3; ++level) {
+      const JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
+      resting[dof.dof] =
+          std::clamp(std::min(posture[dof.dof], posture[flexion_of(neighbour, level)] + kIdleMore),
+                     dof.lower, dof.upper);
+    }
+    if (is_free(product, limits, finger, resting)) posture = resting;
+  }
+}
+
+std::array<double, kSegmentCount> HandCloser::depths(const HeldProduct& product,
+                                                     const Posture& posture) const {
+  const std::vector<DistanceSample> samples = look_at_skin(palm_, product, posture).sample;
+  std::array<double, kSegmentCount> depth;
+  depth.fill(-kSkinRange);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    double& deepest = depth[index_of(palm_.segment[k])];
+    deepest = std::max(deepest, -samples[k].distance);
+  }
+  return depth;
+}
+
+HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& limits,
+                                const Posture& posture, const Vec3& axis_in_hand) const {
+  const SkinLook look = look_at_skin(all_, product, posture);
+  const std::vector<DistanceSample>& samples = look.sample;
+  HoldMeasure measure;
+  measure.penetration.fill(-kSkinRange);
+  const Vec3 u = axis_in_hand.unitOrthogonal();
+  const Vec3 v = axis_in_hand.cross(u);
+  std::vector<double> turns;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double depth = -samples[k].distance;
+    double& deepest = measure.penetration[index_of(all_.segment[k])];
+    if (!is_palmar(all_.region[k])) {
+      if (depth > 0.0) measure.other_area += all_.area[k];
+      measure.deepest_other = std::max(measure.deepest_other, depth);
+      continue;
+    }
+    deepest = std::max(deepest, depth);
+    if (depth <= 0.0) continue;
+    // Skin gives way beside the deepest place: as under a ball, about half of the overlap stays.
+    const double limit = all_.segment[k] == Segment::kPalm ? limits.palm : limits.finger;
+    const double share = std::clamp((depth / limit - kLeastShare) / kShareRange, 0.0, 1.0);
+    measure.contact_area += share * all_.area[k];
+    if (finger_of(all_.segment[k]) == Finger::kThumb || all_.region[k] == Region::kThenar) {
+      measure.thumb_area += share * all_.area[k];
+    }
+    const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
+    if (Vec3(normal - axis_in_hand * axis_in_hand.dot(normal)).norm() > 0.5) {
+      turns.push_back(std::atan2(v.dot(normal), u.dot(normal)));
+    }
+  }
+  std::array<bool, kFingerCount> touches{};
+  for (std::size_t s = 1; s < measure.penetration.size(); ++s) {
+    measure.touching += std::clamp(0.25 * (measure.penetration[s] + 3.0), 0.0, 1.0);
+    if (measure.penetration[s] <= 0.0) continue;
+    ++measure.segments;
+    touches[static_cast<std::size_t>(*finger_of(static_cast<Segment>(s)))] = true;
+  }
+  for (const bool t : touches) measure.fingers += t ? 1 : 0;
+  if (!turns.empty()) {
+    std::sort(turns.begin(), turns.end());
+    double widest = turns.front() + 2.0 * std::numbers::pi - turns.back();
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+      widest = std::max(widest, turns[i] - turns[i - 1]);
+    }
+    measure.wrap = 1.0 - widest / (2.0 * std::numbers::pi);
+  }
+  return measure;
+}
+
+}  // namespace palmar

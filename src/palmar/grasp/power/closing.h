@@ -1,0 +1,118 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "palmar/geometry/distance/distance_field.h"
+#include "palmar/geometry/rigid3.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/power/skin_advance.h"
+#include "palmar/grasp/power/thumb_closing.h"
+#include "palmar/grasp/precision/posable_skin.h"
+#include "palmar/grasp/rest/finger_cones.h"
+
+namespace palmar {
+
+/// What a posed hand and a product do to each other, before skin gives way.
+struct HoldMeasure {
+  double contact_area = 0.0;   ///< palmar skin that will stay in contact, estimated, mm^2
+  double thumb_area = 0.0;     ///< of that the thumb's phalanges and its ball, mm^2
+  double other_area = 0.0;     ///< dorsal or side skin inside the product, mm^2
+  double deepest_other = 0.0;  ///< how deep that goes, mm
+  int segments = 0;            ///< phalanges whose palmar skin touches
+  double touching = 0.0;       ///< the same without steps: from 0 to 1 each over 4 mm of approach
+  int fingers = 0;             ///< fingers (thumb included) with such a segment
+  std::array<double, kSegmentCount> penetration{};  ///< deepest palmar skin, mm; negative: gap
+  double wrap = 0.0;  ///< share of a turn about the grip axis between the outermost contacts
+};
+
+/// How fingers go round a product.
+struct ClosingStyle {
+  /// Share of their range of abduction by which fingers are fanned out before closing; 0: they lie
+  /// side by side. For round bodies.
+  double spread = 0.0;
+  /// MCP joints stay within 20 degrees of this flexion, rad; PIP and DIP close: a hook.
+  std::optional<double> hook;
+};
+
+/// Closes one hand round a product, joint by joint, MCP -> PIP -> DIP, until the deepest skin of a
+/// finger reaches its limit or the joint the end of its range (Xie 2014, 5.5.1). DIP goes along
+/// with PIP at two thirds of its angle (Rijkpema & Girard 1991) and may leave that by 25 degrees to
+/// lie on the product: back, so that the middle phalanx comes down to it, or further on.
+///
+/// Every step is so small that no skin point can pass through the product unseen: the distance
+/// field changes by at most the way travelled. Fingers stop at each other's round cones (at most
+/// 1.5 mm of give) and at the palm's.
+class HandCloser {
+ public:
+  /// Looks at skin vertices `spacing` [mm] apart (0: at all of them). Keeps a pointer to `hand`.
+  HandCloser(const Hand& hand, double spacing);
+  HandCloser(const HandCloser&) = delete;
+  HandCloser& operator=(const HandCloser&) = delete;
+
+  const Hand& hand() const { return *hand_; }
+
+  /// Fingers straight and a little spread, thumb out to the side.
+  const Posture& open_posture() const { return open_posture_; }
+
+  /// Largest travel [mm] of the product along `direction` (unit, hand frame) before palmar skin
+  /// reaches a limit, the hand open. Phalanges hold back a part of theirs, to be used in closing;
+  /// for a hook all of it is theirs.
+  double free_travel(const HeldProduct& product, const DepthLimits& limits,
+                     const ClosingStyle& style, const Vec3& direction, double longest) const;
+
+  /// Closes the four fingers; the thumb stays as in `start`. Fingers begin with the abduction that
+  /// `start` gives them and are then spread or drawn together up to `rounds` times, until they lie
+  /// side by side. `stops` tells what stopped them.
+  Posture close_fingers(const HeldProduct& product, const DepthLimits& limits,
+                        const ClosingStyle& style, Posture start, int rounds,
+                        std::array<SegmentStop, kSegmentCount>& stops) const;
+  /// The posture from which close_fingers() starts: open, fanned out as the style says.
+  Posture start_posture(const ClosingStyle& style) const;
+
+  const ThumbCloser& thumb() const { return *thumb_; }
+
+  /// HoldMeasure::penetration alone.
+  std::array<double, kSegmentCount> depths(const HeldProduct& product,
+                                           const Posture& posture) const;
+  /// Contact and penetrations in a posture. `axis_in_hand`: grip axis, unit.
+  HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
+                      const Vec3& axis_in_hand) const;
+
+ private:
+  /// Fingers reach out already bent to the handle's curvature, as far as it is out of the way.
+  Posture preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+                    double diameter, double share, const Posture& start) const;
+  bool is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
+               const Posture& posture) const;
+  /// Reaches out and closes; several tries if the tip meets the product too early.
+  Posture reach_and_close(const HeldProduct& product, const DepthLimits& limits,
+                          const ClosingStyle& style, Finger finger, const Posture& start,
+                          std::array<SegmentStop, kSegmentCount>& stops) const;
+  Posture close_finger(const HeldProduct& product, const DepthLimits& limits,
+                       const ClosingStyle& style, Finger finger, Posture posture,
+                       std::array<SegmentStop, kSegmentCount>& stops) const;
+
+  void rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
+                         Posture& posture) const;
+
+  const Hand* hand_;
+  AdvanceCare care_;
+  Posture open_posture_;
+  /// Per finger and joint level: what the joint moves; the thumb's third is the CMC's.
+  std::array<std::array<SkinGroup, 3>, kFingerCount> groups_;
+  SkinGroup palm_;  ///< palmar skin of the whole hand
+  SkinGroup all_;
+  std::vector<Vec3> open_palm_;  ///< palm_ in the open posture, hand frame, mm
+  FingerCones cones_;
+  std::optional<ThumbCloser> thumb_;
+};
+
+/// Range of one degree of freedom.
+inline double lower_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).lower; }
+inline double upper_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).upper; }
+
+}  // namespace palmar

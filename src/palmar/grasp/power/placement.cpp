@@ -1,0 +1,408 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/power/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palmar {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kThinShare = 0.8;        // of half the thickness may be filled with skin
+constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
+constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
+constexpr double kClash = 3.0;            // mm^2 per mm^2 of skin outside the palm in the product
+constexpr double kNoseCredit = 3000.0;    // mm^2 for a working end that points away from the wrist
+constexpr double kStrainCost = 5.0;       // mm^2 per degree
+// Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small
+// changes of a product then change its grasp a little, not from one lay to another.
+constexpr double kLeaveCost = 400.0;   // mm^2
+constexpr double kProximalUnit = 6.0;  // mm
+constexpr double kAlongUnit = 16.0;    // mm
+constexpr double kMostAlong = 24.0;    // mm from the site along its axis
+constexpr double kSlantUnit = 6.0 * kDeg;
+constexpr double kStart =
+    140.0;  // mm between palm and section before the push: room for what sticks out
+constexpr double kUsualProximal = 0.074;  // hand lengths from the knuckles to the grip axis
+constexpr double kPalmToAxis = 30.0;      // mm from the bones of the palm to an ordinary grip axis
+constexpr double kThinTilt = 0.13;        // rad more out of the palm ...
+constexpr double kThin = 0.13,
+                 kThick = 0.165;        // ... from the one diameter / hand length to the other
+constexpr double kLeastProximal = 8.0;  // mm from the knuckles: nearer, the thumb can't reach over
+constexpr double kMostProximal = 45.0;  // mm
+constexpr double kHookShare = 0.5;  // of the middle finger's proximal phalanx, to a hooked handle
+constexpr double kHookOblique =
+    0.15;  // rad; the finger joints lie more obliquely than the knuckles
+// A slab is held by its edges with the palm behind it, if the hand spans it: as one holds a phone.
+constexpr double kFlat = 0.35;          // thickness / width up to which a section is a slab
+constexpr double kSpan = 0.55;          // hand lengths between its edges that a hand spans
+constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
+constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
+constexpr double kAlike = 0.01;         // share of the score within which holds are the same
+constexpr int kTurns = 8;
+// Steps by which a kept lay may be bettered for another hand.
+constexpr double kNearProximal = 3.0;  // mm
+constexpr double kNearSlant = 3.0 * kDeg;
+constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
+constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
+constexpr std::size_t kBettered = 3;  // holds that are looked at more finely
+constexpr std::size_t kKept = 4;      // holds that are given back
+constexpr double kOtherAngle = 30.0 * kDeg;  // beyond which a way of holding is another one
+constexpr double kOtherPlace = 20.0;         // mm; the same
+
+// Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
+struct PalmFrame {
+  Vec3 heads, across, distal, palmar;
+};
+
+PalmFrame palm_frame(const Skeleton& skeleton) {
+  PalmFrame frame;
+  const Vec3 index = skeleton.joint(JointId::kIndexMcp).centre;
+  const Vec3 little = skeleton.joint(JointId::kLittleMcp).centre;
+  frame.heads =
+      0.5 * (skeleton.joint(JointId::kMiddleMcp).centre + skeleton.joint(JointId::kRingMcp).centre);
+  frame.palmar = Vec3::UnitZ();
+  frame.across = index - little;
+  frame.across.z() = 0.0;
+  frame.across.normalize();
+  frame.distal = (Vec3::UnitY() - frame.across * frame.across.y()).normalized();
+  return frame;
+}
+
+// How far fingers stray from what hands do of themselves, degrees in all: knuckles of neighbours
+// bend alike (within 25-30 degrees at most) and DIP follows PIP at two thirds, within 15 degrees
+// (Rijkpema & Girard 1991).
+double strain_of(const Posture& posture) {
+  double strain = 0.0;
+  for (int f = 1; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    const double mcp = posture[flexion_of(finger, 0)], pip = posture[flexion_of(finger, 1)],
+                 dip = posture[flexion_of(finger, 2)];
+    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / kDeg - 15.0);
+    if (f == 1) continue;
+    const double before = posture[flexion_of(static_cast<Finger>(f - 1), 0)];
+    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / kDeg - 15.0);
+  }
+  return strain;
+}
+
+double leave_cost(const Lay& lay, const Lay& usual) {
+  const auto square = [](double x) { return x * x; };
+  return kLeaveCost * (square((lay.oblique - usual.oblique) / kSlantUnit) +
+                       square((lay.tilt - usual.tilt) / kSlantUnit) +
+                       square((lay.proximal - usual.proximal) / kProximalUnit) +
+                       square((lay.along - usual.along) / kAlongUnit));
+}
+
+double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
+                const Lay& usual, double hand_length, const Posture& posture) {
+  double score = measure.contact_area + kSegmentCredit * measure.touching +
+                 kWrapCredit * measure.wrap - kClash * measure.other_area -
+                 200.0 * std::max(0.0, measure.deepest_other - 2.0) -
+                 kStrainCost * strain_of(posture) - leave_cost(placement.lay, usual);
+  if (site.thickness < kFlat * site.width && site.width < kSpan * hand_length) {
+    const Vec3 palm = placement.product_from_hand.rotation * placement.push_in_hand;
+    score += kFlatCredit * std::abs(palm.dot(site.axis.cross(site.wide).normalized()));
+  }
+  if (site.nose) {
+    const Vec3 nose = placement.product_from_hand.rotation.conjugate() * *site.nose;
+    score += kNoseCredit * nose.dot(Vec3(0.0, 1.0, 1.0).normalized());
+  }
+  return score;
+}
+
+// One placement closed from a given start, and what it is worth.
+struct Trial {
+  const HandCloser& closer;
+  const DistanceField& product;
+  const GripSite& site;
+  DepthLimits limits;
+  Lay usual;
+
+  HeldProduct held(const Placement& placement) const {
+    return {&product, placement.product_from_hand, site.point, site.axis,
+            site.girth / std::numbers::pi};
+  }
+  void judge(Hold& hold) const {
+    hold.measure =
+        closer.measure(held(hold.placement), limits, hold.posture, hold.placement.axis_in_hand);
+    hold.score = score_of(hold.measure, site, hold.placement, usual,
+                          closer.hand().dimensions.hand_length, hold.posture);
+  }
+  void add_thumb(Hold& hold) const {
+    if (hold.style.hook) return;
+    const HeldProduct at = held(hold.placement);
+    const Vec3& axis = hold.placement.axis_in_hand;
+    const ThumbCloser& thumb = closer.thumb();
+    hold.thumb = thumb.find_way(at, limits, hold.posture, axis);
+    std::array<SegmentStop, kSegmentCount> stops;
+    hold.posture = thumb.wrap(at, limits, hold.posture, hold.thumb, stops);
+    judge(hold);
+    hold.score += kThumbShare * thumb.score(at, hold.posture, axis);
+  }
+  Hold run(std::size_t site_index, const ClosingStyle& style, const Lay& lay, const Posture& start,
+           int rounds) const {
+    Hold hold;
+    hold.site = site_index;
+    hold.style = style;
+    hold.placement = place(closer, product, limits, style, site, lay);
+    std::array<SegmentStop, kSegmentCount> stops;
+    hold.posture = closer.close_fingers(held(hold.placement), limits, style, start, rounds, stops);
+    judge(hold);
+    return hold;
+  }
+};
+
+// The open hand with the fingers abducted as in a hold that was found.
+Posture start_like(const HandCloser& closer, const Hold& hold) {
+  Posture start = closer.start_posture(hold.style);
+  for (int f = 1; f < kFingerCount; ++f) {
+    const Dof dof = abduction_of(static_cast<Finger>(f));
+    start[dof] = hold.posture[dof];
+  }
+  return start;
+}
+
+}  // namespace
+
+// A short product moves towards the little finger, so that the thumb meets it and not its rim.
+Lay usual_lay(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+              bool is_place_fixed) {
+  Lay lay;
+  lay.proximal = kUsualProximal * hand.dimensions.hand_length;
+  // Round a thin handle the index finger finds room only if the handle leaves its base.
+  const double share = site.girth / std::numbers::pi / hand.dimensions.hand_length;
+  lay.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
+  if (style.hook) {
+    const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;
+    const Vec3& pip = hand.skeleton.joint(JointId::kMiddlePip).centre;
+    lay.proximal = -kHookShare * (pip - mcp).norm();
+    lay.oblique = kHookOblique;
+    lay.tilt = 0.0;
+  } else if (!is_place_fixed) {
+    lay.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
+  }
+  return lay;
+}
+
+PalmLine palm_line(const Hand& hand) {
+  const PalmFrame palm = palm_frame(hand.skeleton);
+  const Lay lay;
+  return {palm.heads - kUsualProximal * hand.dimensions.hand_length * palm.distal +
+              kPalmToAxis * palm.palmar,
+          std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal};
+}
+
+bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other) {
+  const Vec3 heads = palm_frame(hand.skeleton).heads;
+  return product_from_hand.rotation.angularDistance(other.rotation) > kOtherAngle ||
+         (product_from_hand * heads - other * heads).norm() > kOtherPlace;
+}
+
+DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
+  const double thickness = std::min(site.thickness, site.wall);
+  const double most = kThinShare * 0.5 * thickness;
+  return {std::min(asked.palm, most), std::min(asked.finger, most)};
+}
+
+Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
+                const ClosingStyle& style, const GripSite& site, const Lay& lay) {
+  const PalmFrame palm = palm_frame(closer.hand().skeleton);
+  Vec3 axis = std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal;
+  axis = std::cos(lay.tilt) * axis + std::sin(lay.tilt) * palm.palmar;
+  const Vec3 outward = (palm.palmar - axis * axis.dot(palm.palmar)).normalized();
+
+  Eigen::Matrix3d in_hand;  // grip axis, towards the palm, third
+  in_hand << axis, -outward, axis.cross(-outward);
+  const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
+  // A left hand turns its product the other way.
+  const double turn = closer.hand().side == Side::kRight ? lay.turn : -lay.turn;
+  const Vec3 facing = Eigen::AngleAxisd(turn, site.axis) * wide;
+  Eigen::Matrix3d in_product;
+  in_product << site.axis, facing, site.axis.cross(facing);
+
+  Placement placement;
+  placement.lay = lay;
+  placement.axis_in_hand = axis;
+  placement.push_in_hand = -outward;
+  placement.product_from_hand.rotation = Quat(in_product * in_hand.transpose()).normalized();
+  const double reach = kStart + 0.5 * site.width;
+  const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
+  const Vec3 grip = site.point + lay.along * site.axis;
+  placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
+  const HeldProduct held{&product, placement.product_from_hand, site.point, site.axis,
+                         site.girth / std::numbers::pi};
+  const double travel =
+      closer.free_travel(held, limits, style, placement.push_in_hand, 2.0 * reach);
+  placement.product_from_hand.translation -=
+      placement.product_from_hand.rotation * (travel * placement.push_in_hand);
+  return placement;
+}
+
+HoldsFound find_holds(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+                      const std::vector<GripSite>& sites, const DepthLimits& limits,
+                      const HoldSearch& search, const Progress& progress) {
+  HoldsFound found;
+  const Hand& hand = closer.hand();
+  const double best_site = sites.empty() ? 1.0 : sites.front().score;
+  const auto finish = [&](Hold& hold) {
+    // A part that is less of a handle must hold much better to be preferred.
+    const double share = sites[hold.site].score / best_site;
+    hold.rank = hold.score * (hold.score > 0.0 ? std::pow(share, 4) : 1.0);
+    ++found.tried;
+  };
+  const auto trial_at = [&](std::size_t s, const ClosingStyle& style) {
+    return Trial{closer, *distances[s], sites[s], limits_for(limits, sites[s]),
+                 usual_lay(hand, style, sites[s], search.is_place_fixed)};
+  };
+  std::vector<Hold> tried;
+  for (std::size_t s = 0; s < distances.size(); ++s) {
+    for (const ClosingStyle& style : search.styles) {
+      const Trial trial = trial_at(s, style);
+      Posture start = closer.start_posture(style);
+      const std::size_t first = tried.size();
+      for (int k = 0; k < (search.turn ? 1 : kTurns); ++k) {
+        progress.throw_if_cancelled();
+        Lay lay = trial.usual;
+        lay.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
+        Hold hold = trial.run(s, style, lay, start, k == 0 ? 2 : 1);
+        finish(hold);
+        if (k == 0) start = start_like(closer, hold);
+        tried.push_back(std::move(hold));
+        // Round: it lies the same whichever way it is turned.
+        const auto is_alike = [&](const Hold& other) {
+          return std::abs(other.score - tried[first].score) < kAlike * std::abs(tried[first].score);
+        };
+        if (k == 2 && is_alike(tried[first + 1]) && is_alike(tried[first + 2])) {
+          tried.resize(first + 1);
+          break;
+        }
+      }
+    }
+  }
+  const auto by_rank = [](const Hold& a, const Hold& b) { return a.rank > b.rank; };
+  std::stable_sort(tried.begin(), tried.end(), by_rank);
+
+  // A finer look at the best: one number after the other, with smaller and smaller steps.
+  const auto better = [&](Hold& current, double scale) {
+    const GripSite& site = sites[current.site];
+    const Trial trial = trial_at(current.site, current.style);
+    const Posture start = start_like(closer, current);
+    bool is_changed = false;
+    const auto improve = [&](double Lay::*what, double step, double low, double high) {
+      const Lay from = current.placement.lay;
+      for (const double by : {scale * step, -scale * step}) {
+        if (found.tried >= search.most) return;
+        progress.throw_if_cancelled();
+        Lay lay = from;
+        lay.*what += by;
+        if (lay.*what < low || lay.*what > high) continue;
+        Hold hold = trial.run(current.site, current.style, lay, start, 0);
+        finish(hold);
+        if (hold.rank <= current.rank) continue;
+        current = std::move(hold);
+        is_changed = true;
+      }
+    };
+    const double usual = trial.usual.proximal;
+    const bool is_hook = current.style.hook.has_value();
+    improve(&Lay::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
+            is_hook ? usual + 8.0 : kMostProximal);
+    improve(&Lay::tilt, 5.0 * kDeg, -15.0 * kDeg, 15.0 * kDeg);
+    improve(&Lay::oblique, 6.0 * kDeg, 2.0 * kDeg, 30.0 * kDeg);
+    if (!search.is_place_fixed) improve(&Lay::along, 8.0, -kMostAlong, kMostAlong);
+    if (!search.turn && site.thickness < 0.98 * site.width) {
+      improve(&Lay::turn, 15.0 * kDeg, -100.0, 100.0);
+    }
+    return is_changed;
+  };
+  // Fingers fanned out in more than one way leave more to be told apart.
+  const std::size_t finest = search.styles.size() > 1 ? 2 : 1;
+  std::vector<Hold> bettered;
+  for (std::size_t k = 0; k < tried.size() && bettered.size() < kBettered + finest - 1; ++k) {
+    if (tried[k].rank < kPromising * tried.front().rank && !bettered.empty()) break;
+    Hold current = tried[k];
+    better(current, 1.0);
+    bettered.push_back(std::move(current));
+  }
+  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
+  for (std::size_t k = 0; k < std::min(bettered.size(), finest); ++k) {
+    for (const double scale : {0.6, 0.3}) better(bettered[k], scale);
+  }
+  for (std::size_t k = 0; k < bettered.size(); ++k) {
+    // Once more with the fingers brought side by side, and with the thumb, for which the best are
+    // shifted along the product, too.
+    const Hold from = bettered[k];
+    const Trial trial = trial_at(from.site, from.style);
+    const auto with_thumb = [&](double along) {
+      progress.throw_if_cancelled();
+      Lay lay = from.placement.lay;
+      lay.along = std::clamp(lay.along + along, -kMostAlong, kMostAlong);
+      Hold hold = trial.run(from.site, from.style, lay, start_like(closer, from), 2);
+      trial.add_thumb(hold);
+      finish(hold);
+      return hold;
+    };
+    bettered[k] = with_thumb(0.0);
+    if (k >= finest || search.is_place_fixed || from.style.hook) continue;
+    for (const double along : {-16.0, -8.0, 8.0}) {
+      Hold other = with_thumb(along);
+      if (other.rank > bettered[k].rank) bettered[k] = std::move(other);
+    }
+  }
+  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
+  for (Hold& hold : bettered) {
+    const bool is_new = std::all_of(found.holds.begin(), found.holds.end(), [&](const Hold& other) {
+      return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
+    });
+    if (is_new && found.holds.size() < kKept) found.holds.push_back(std::move(hold));
+  }
+  return found;
+}
+
+Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+               const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
+               int& tried, const Progress& progress) {
+  progress.throw_if_cancelled();
+  const Hand& hand = closer.hand();
+  const Lay theirs = usual_lay(other, of_other.style, site, !may_shift);
+  const Trial trial{closer, product, site, limits_for(limits, site),
+                    usual_lay(hand, of_other.style, site, !may_shift)};
+  Lay lay = of_other.placement.lay;
+  const double size = hand.dimensions.hand_length / other.dimensions.hand_length;
+  lay.proximal = trial.usual.proximal + size * (lay.proximal - theirs.proximal);
+  lay.tilt += trial.usual.tilt - theirs.tilt;
+  lay.along += trial.usual.along - theirs.along;
+  Posture start = start_like(closer, of_other);
+  for (int f = 1; f < kFingerCount; ++f) {
+    const JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<Finger>(f)));
+    start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
+  }
+  Hold hold = trial.run(of_other.site, of_other.style, lay, start, 2);
+  tried = 1;
+  // A few placements near it: what fits one size is a little off for another.
+  start = start_like(closer, hold);
+  const auto better = [&](double Lay::*what, double step) {
+    const Lay from = hold.placement.lay;
+    for (const double by : {step, -step}) {
+      progress.throw_if_cancelled();
+      Lay next = from;
+      next.*what += by;
+      Hold other_hold = trial.run(of_other.site, of_other.style, next, start, 0);
+      ++tried;
+      if (other_hold.score <= hold.score) continue;
+      hold = std::move(other_hold);
+      break;
+    }
+  };
+  better(&Lay::proximal, kNearProximal);
+  better(&Lay::tilt, kNearSlant);
+  better(&Lay::oblique, kNearSlant);
+  hold.rank = hold.score;
+  hold.thumb = of_other.thumb;
+  return hold;
+}
+
+}  // namespace palmar

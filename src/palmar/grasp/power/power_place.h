@@ -1,0 +1,43 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/power/closing.h"
+#include "palmar/grasp/power/placement.h"
+
+namespace palmar {
+
+/// Distance between the skin vertices that a search looks at, mm.
+constexpr double kSearchSpacing = 4.2;
+
+/// A place on a product and the way in which a hand holds it there, before the hand is closed on
+/// all of its skin: what close_power_grasp() finds first.
+struct PowerPlace {
+  bool is_found = false;  ///< there is something to close the hand on; else `grasp` says why not
+  Grasp grasp;            ///< grip, score and runners-up; nothing closed yet
+  GripSite site;
+  std::shared_ptr<const DistanceField> quick;  ///< distance_near() the site
+  Hold hold;                                   ///< closed on a sparse skin
+  bool is_fixed = false;    ///< the placement was given in full: only the fingers close
+  bool is_carried = false;  ///< over from another hand: fewer rounds of closing, same limits
+  bool may_shift = true;    ///< the hand may go along the product's axis
+};
+
+PowerPlace find_power_place(const Hand& hand, const Product& product,
+                            const PowerGraspOptions& options, const Progress& progress);
+
+/// Closes the hand there on all of its skin and by the exact distance. `coarse` and `fine`: the
+/// hand's skin kSearchSpacing apart and all of it.
+Grasp close_at(const PowerPlace& place, const HandCloser& coarse, const HandCloser& fine,
+               const Product& product, const PowerGraspOptions& options, const Progress& progress);
+
+/// The same way of holding by another hand (`coarse`): its lay differs from the usual lay as that
+/// of `reference` does (lengths in hand lengths), the best of a few near it is kept.
+PowerPlace carried_over(const PowerPlace& place, const Hand& reference, const HandCloser& coarse,
+                        const PowerGraspOptions& options, const Progress& progress);
+
+}  // namespace palmar

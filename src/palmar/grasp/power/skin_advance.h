@@ -1,0 +1,93 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "palmar/geometry/distance/distance_field.h"
+#include "palmar/geometry/rigid3.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/power/site_distance.h"
+#include "palmar/grasp/precision/posable_skin.h"
+#include "palmar/grasp/rest/finger_cones.h"
+
+namespace palmar {
+
+constexpr double kSkinRange = kSiteBand;  ///< mm; farther skin needn't know how far
+constexpr double kNeighbourGive = 1.5;    ///< mm; skin of two fingers pressed together
+
+/// How deep skin may go into the product, mm.
+struct DepthLimits {
+  double palm = 7.0;
+  double finger = 4.0;
+};
+
+/// Where the product stands and what it is, seen from a closing hand.
+struct HeldProduct {
+  const DistanceField* distance = nullptr;
+  Rigid3 product_from_hand;
+  Vec3 grip_point = Vec3::Zero();  ///< on the grip axis, product frame, mm
+  Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
+  double diameter = 35.0;  ///< of the circle with the grip's girth, mm; fingers preshape to it
+};
+
+/// Skin that one joint moves.
+struct SkinGroup {
+  PosableSkin skin;
+  std::vector<Segment> segment;
+  std::vector<Region> region;
+  std::vector<double> area;  ///< skin that the vertex stands for, mm^2
+};
+
+/// Where the skin of a group stands in the hand, and what the product's distance says there.
+struct SkinLook {
+  std::vector<Vec3> in_hand, in_product;  ///< mm
+  std::vector<DistanceSample> sample;     ///< normals in the product frame
+};
+SkinLook look_at_skin(const SkinGroup& group, const HeldProduct& product, const Posture& posture);
+
+struct Obstacle {
+  RoundCone cone;
+  double give = 0.0;  ///< mm
+};
+
+/// How closely a movement is followed.
+struct AdvanceCare {
+  double tolerance = 0.02;  ///< mm; how near to a limit counts as there
+  double glide = 1.5;       ///< mm; longest step along a surface between two looks
+};
+
+/// How far a movement got.
+struct Advance {
+  Posture posture;
+  double share = 0.0;  ///< of the way from `from` to `to`
+  bool is_stopped = false;
+  bool by_product = false;
+  Segment segment{};  ///< whose skin was at its limit
+  /// Per phalanx from the palm, mm.
+  std::array<double, 3> deepest = {-kSkinRange, -kSkinRange, -kSkinRange};
+
+  /// Why a phalanx whose joint was to move stands where it does.
+  StopReason reason_for(Segment moved) const;
+};
+
+/// Moves skin from one posture towards another until some of it reaches its limit in the product
+/// or meets an obstacle. Every step is so small that no skin point can pass through the product
+/// unseen: the distance field changes by at most the way travelled.
+Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const DepthLimits& limits,
+                     const std::vector<Obstacle>& obstacles, const Posture& from, const Posture& to,
+                     const AdvanceCare& care = {});
+
+/// Whether a sample says more than "far".
+bool is_near(const DistanceSample& sample);
+
+constexpr bool is_palmar(Region region) { return region != Region::kDorsum; }
+/// 0, 1, 2 from the palm; -1 if the segment is none of the finger's.
+int level_of(Finger finger, Segment segment);
+/// The flexion of a finger's joint at level 0 (MCP, thumb MP), 1 (PIP, thumb IP), 2 (DIP).
+Dof flexion_of(Finger finger, int level);
+/// Abduction of a finger's MCP joint; of the CMC joint for the thumb.
+Dof abduction_of(Finger finger);
+
+}  // namespace palmar

@@ -1,0 +1,76 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/power/skin_sampling.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace palmar {
+namespace {
+
+std::vector<double> vertex_areas(const TriangleMesh& mesh) {
+  std::vector<double> area(mesh.vertices.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
+    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const double third = (b - a).cross(c - a).norm() / 6.0;
+    for (const int v : t) area[static_cast<std::size_t>(v)] += third;
+  }
+  return area;
+}
+
+}  // namespace
+
+SkinSample sample_skin(const Hand& hand, double spacing) {
+  const std::vector<double> area = vertex_areas(hand.skin);
+  SkinSample sample;
+  if (spacing <= 0.0) {
+    for (int v = 0; v < hand.skin.vertex_count(); ++v) sample.vertex.push_back(v);
+    sample.area = area;
+    return sample;
+  }
+  std::map<std::array<int, 3>, std::vector<int>> cells;  // entries of the sample by grid cell
+  for (int v = 0; v < hand.skin.vertex_count(); ++v) {
+    const auto i = static_cast<std::size_t>(v);
+    const Vec3& p = hand.skin.vertices[i];
+    std::array<int, 3> cell{};
+    for (int c = 0; c < 3; ++c) {
+      cell[static_cast<std::size_t>(c)] = static_cast<int>(std::floor(p[c] / spacing));
+    }
+    int nearest = -1;
+    double distance = spacing;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dz = -1; dz <= 1; ++dz) {
+          const auto found = cells.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
+          if (found == cells.end()) continue;
+          for (const int entry : found->second) {
+            const auto other =
+                static_cast<std::size_t>(sample.vertex[static_cast<std::size_t>(entry)]);
+            if (hand.region[other] != hand.region[i] || hand.segment[other] != hand.segment[i]) {
+              continue;
+            }
+            const double d = (hand.skin.vertices[other] - p).norm();
+            if (d < distance) {
+              distance = d;
+              nearest = entry;
+            }
+          }
+        }
+      }
+    }
+    if (nearest >= 0) {
+      sample.area[static_cast<std::size_t>(nearest)] += area[i];
+    } else {
+      cells[cell].push_back(static_cast<int>(sample.vertex.size()));
+      sample.vertex.push_back(v);
+      sample.area.push_back(area[i]);
+    }
+  }
+  return sample;
+}
+
+}  // namespace palmar

@@ -1,0 +1,96 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/precision/fingertip_press.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace palmar {
+namespace {
+
+constexpr double kPulp = 11.0;   // mm round a fingertip point that can touch
+constexpr double kRange = 10.0;  // mm; farther skin needn't know how far
+constexpr int kRounds = 8;
+constexpr double kTolerance = 0.05;  // mm
+constexpr double kMissed = 0.3;      // mm; a goal missed by more isn't pressed on
+constexpr int kIterations = 30;
+
+std::vector<int> all_vertices(const Hand& hand) {
+  std::vector<int> vertices(hand.skin.vertices.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  return vertices;
+}
+
+}  // namespace
+
+FingertipPress::FingertipPress(const FingertipIk& ik)
+    : ik_(&ik), skin_(ik.hand(), all_vertices(ik.hand())) {}
+
+SkinDepth FingertipPress::look(const DistanceField& product, const Posture& posture,
+                               const Rigid3& product_from_hand) const {
+  std::vector<Vec3> posed;
+  skin_.pose(posture, posed);
+  for (Vec3& p : posed) p = product_from_hand * p;
+  std::vector<DistanceSample> samples(posed.size());
+  product.sample(posed, kRange, samples);
+  const Hand& hand = ik_->hand();
+  SkinDepth result;
+  result.palmar.fill(-kRange);
+  result.any.fill(-kRange);
+  for (std::size_t v = 0; v < posed.size(); ++v) {
+    const auto s = static_cast<std::size_t>(hand.segment[v]);
+    result.any[s] = std::max(result.any[s], -samples[v].distance);
+    if (hand.region[v] == Region::kDorsum) continue;
+    result.palmar[s] = std::max(result.palmar[s], -samples[v].distance);
+  }
+  return result;
+}
+
+std::vector<double> FingertipPress::depth_at(const DistanceField& product,
+                                             const FingertipSolution& solution,
+                                             const std::vector<FingertipGoal>& goals) const {
+  const Hand& hand = ik_->hand();
+  std::vector<double> result;
+  for (const FingertipGoal& goal : goals) {
+    std::vector<int> pulp;
+    for (int v = 0; v < hand.skin.vertex_count(); ++v) {
+      const auto i = static_cast<std::size_t>(v);
+      if (hand.segment[i] != goal.fingertip.segment) continue;
+      if ((hand.skin.vertices[i] - goal.fingertip.point).norm() < kPulp) pulp.push_back(v);
+    }
+    std::vector<Vec3> posed;
+    PosableSkin(hand, std::move(pulp)).pose(solution.posture, posed);
+    for (Vec3& p : posed) p = solution.product_from_hand * p;
+    std::vector<DistanceSample> samples(posed.size());
+    product.sample(posed, kRange, samples);
+    double deepest = -kRange;
+    for (const DistanceSample& sample : samples) deepest = std::max(deepest, -sample.distance);
+    result.push_back(deepest);
+  }
+  return result;
+}
+
+FingertipSolution FingertipPress::press(FingertipProblem& problem, double depth) const {
+  problem.max_iterations = kIterations;
+  problem.is_refining = true;
+  for (FingertipGoal& goal : problem.goals) goal.depth = depth;
+  FingertipSolution best;
+  for (int round = 0; round < kRounds; ++round) {
+    best = ik_->solve(problem);
+    problem.start = best.posture;
+    problem.product_from_hand = best.product_from_hand;
+    const std::vector<double> reached = depth_at(*problem.product, best, problem.goals);
+    double worst = 0.0;
+    for (std::size_t k = 0; k < problem.goals.size(); ++k) {
+      const double lack = depth - reached[k];
+      if (best.miss[k] > kMissed && lack > 0.0) continue;
+      worst = std::max(worst, std::abs(lack));
+      problem.goals[k].depth = std::clamp(problem.goals[k].depth + lack, -8.0, 2.0 * depth + 4.0);
+    }
+    if (worst < kTolerance) break;
+  }
+  return best;
+}
+
+}  // namespace palmar

@@ -1,0 +1,349 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/precision/precision_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palmar {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr int kTurns = 12;
+constexpr std::size_t kFinalists = 40;
+constexpr std::size_t kPerPair = 3;  // finalists
+constexpr std::size_t kStarts = 8;   // for given points
+constexpr double kClashRate = 0.12;  // cost per mm of a coarse look
+constexpr double kStrainUnit = 10.0;
+constexpr double kTiltUnit = 40.0 * kDeg;
+constexpr double kClashUnit = 1.0;  // mm
+constexpr double kMissUnit = 0.5;   // mm
+constexpr double kBalanceUnit = 30.0 * kDeg;
+constexpr double kOffsetUnit = 10.0;       // mm
+constexpr double kBallSlide = 8.0;         // mm
+constexpr double kBallSquare = 0.9;        // rad
+constexpr double kPenLean = 0.4;           // cost of a pen square to the way it likes to lean
+constexpr double kAxisWeight = 2.0;        // of the asked axis
+constexpr double kLikeShift = 12.0;        // mm; holds nearer than that ...
+constexpr double kLikeTurn = 25.0 * kDeg;  // ... and turned less are the same
+constexpr std::size_t kMostHolds = 8;
+
+/// Directions of a hand about which placements are said.
+struct HandAxes {
+  Vec3 radial, distal, dorsal;  ///< unit
+};
+
+HandAxes hand_axes(const Skeleton& skeleton) {
+  HandAxes axes;
+  axes.radial =
+      (skeleton.joint(JointId::kIndexMcp).centre - skeleton.joint(JointId::kLittleMcp).centre)
+          .normalized();
+  axes.distal = Vec3::UnitY();
+  axes.dorsal = -Vec3::UnitZ();
+  return axes;
+}
+
+/// Rigid motion that lays the hand's opening on two points, the thumb at `thumb`.
+Rigid3 laid(const GripOpening& opening, const Vec3& radial, const Vec3& thumb, const Vec3& other,
+            const Vec3& zero, double turn) {
+  const auto frame = [](const Vec3& z, const Vec3& towards) {
+    Eigen::Matrix3d axes;
+    axes.col(2) = z;
+    axes.col(0) = (towards - z * z.dot(towards)).normalized();
+    axes.col(1) = z.cross(axes.col(0));
+    return axes;
+  };
+  const Vec3 z = (other - thumb).normalized();
+  const Eigen::Matrix3d in_hand = frame((opening.others - opening.thumb).normalized(), radial);
+  const Eigen::Matrix3d in_product =
+      frame(z, zero) * Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+  Rigid3 result;
+  result.rotation = Quat(Eigen::Matrix3d(in_product * in_hand.transpose())).normalized();
+  result.translation =
+      0.5 * (thumb + other) - result.rotation * Vec3(0.5 * (opening.thumb + opening.others));
+  return result;
+}
+
+/// The product's principal axis that is most square to a direction; turns are counted from it.
+Vec3 zero_for(const PinchShape& shape, const Vec3& direction) {
+  int best = 0;
+  for (int c = 1; c < 3; ++c) {
+    if (std::abs(shape.axes.col(c).dot(direction)) <
+        std::abs(shape.axes.col(best).dot(direction)) - 1e-3) {
+      best = c;
+    }
+  }
+  return shape.axes.col(best);
+}
+
+struct Candidate {
+  std::size_t pair = 0;
+  int way = 0;  ///< which side the thumb is on, and the turn
+  Vec3 thumb, other;
+  Rigid3 product_from_hand;
+  double cost = 0.0;
+};
+
+bool costs_less(double a, double b) { return std::llround(1e6 * a) < std::llround(1e6 * b); }
+
+class Search {
+ public:
+  Search(const FingertipIk& ik, const GripOpenings& openings, const Product& product,
+         const PrecisionGripOptions& options)
+      : ik_(&ik),
+        openings_(&openings),
+        product_(&product),
+        options_(&options),
+        shape_(pinch_shape(product.mesh)),
+        axes_(hand_axes(ik.hand().skeleton)) {}
+
+  PrecisionSearch run(const Progress& progress) const;
+
+ private:
+  std::vector<OpposingPair> pairs(double& widest) const;
+  double placing_cost(const Rigid3& product_from_hand) const;
+  PrecisionHold set_down(const Candidate& candidate, const OpposingPair& pair) const;
+  double hold_cost(const PrecisionHold& hold) const;
+
+  const FingertipIk* ik_;
+  const GripOpenings* openings_;
+  const Product* product_;
+  const PrecisionGripOptions* options_;
+  PinchShape shape_;
+  HandAxes axes_;
+};
+
+std::vector<OpposingPair> Search::pairs(double& widest) const {
+  const bool is_lateral = openings_->grip() == Grip::kLateral;
+  const bool is_ball = openings_->grip() == Grip::kPrecisionSphere;
+  const double length = ik_->hand().dimensions.hand_length;
+  OpposingOptions options;
+  options.widest = std::min(openings_->widest() + 4.0, is_lateral ? 0.25 * length : 0.55 * length);
+  options.comfortable = (is_lateral ? 0.06 : is_ball ? 0.40 : 0.28) * length;
+  options.central = is_lateral ? 0.5 : 1.0;
+  options.most = options_->candidates;
+  options.at = options_->placement.at;
+  widest = options.widest;
+  return find_opposing_pairs(*product_, shape_, options);
+}
+
+double Search::placing_cost(const Rigid3& product_from_hand) const {
+  double cost = 0.0;
+  if (options_->placement.axis) {
+    const Vec3 radial = product_from_hand.rotation * axes_.radial;
+    cost += kAxisWeight * (1.0 - radial.dot(options_->placement.axis->normalized()));
+  }
+  if (shape_.is_pen && openings_->grip() != Grip::kLateral) {
+    // The far end of a pen lies on the web between thumb and index finger or sticks out over it.
+    const Vec3 grip = product_from_hand * Vec3(openings_->all().front().thumb);
+    const Vec3& tip = *std::min_element(
+        shape_.tips.begin(), shape_.tips.end(),
+        [&](const Vec3& a, const Vec3& b) { return (a - grip).norm() < (b - grip).norm(); });
+    const Vec3 back = product_from_hand.rotation.conjugate() * (shape_.centre - tip).normalized();
+    const Vec3 lean = (0.6 * axes_.radial - 0.45 * axes_.distal + 0.65 * axes_.dorsal).normalized();
+    cost += kPenLean * (1.0 - back.dot(lean));
+  }
+  return cost;
+}
+
+PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& pair) const {
+  const GripOpening& opening = openings_->at(pair.width());
+  PrecisionHold hold;
+  FingertipProblem& problem = hold.problem;
+  problem.product = product_->distance.get();
+  problem.natural = opening.posture;
+  problem.start = opening.posture;
+  problem.product_from_hand = candidate.product_from_hand;
+  const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
+  for (const FingertipPoint& tip : openings_->fingertips()) {
+    FingertipGoal goal;
+    goal.fingertip = tip;
+    goal.is_sliding = true;
+    if (openings_->grip() == Grip::kPrecisionSphere) {
+      goal.slide = kBallSlide;
+      goal.square = kBallSquare;
+    }
+    const Vec3 there = candidate.product_from_hand *
+                       (posed.segment[static_cast<std::size_t>(tip.segment)] * tip.point);
+    const bool is_pinch = openings_->fingertips().size() == 2;
+    goal.point = tip.finger == Finger::kThumb ? candidate.thumb
+                 : is_pinch                   ? candidate.other
+                                              : product_->distance->at(there).closest;
+    problem.goals.push_back(goal);
+  }
+  hold.solution = ik_->solve(problem);
+  hold.cost = pair.cost + opening.strain / kStrainUnit + hold_cost(hold);
+  return hold;
+}
+
+double Search::hold_cost(const PrecisionHold& hold) const {
+  const FingertipSolution& solution = hold.solution;
+  double cost = placing_cost(solution.product_from_hand);
+  cost += solution.strain / kStrainUnit;
+  cost += std::pow(solution.clash / kClashUnit, 2);
+  Vec3 others = Vec3::Zero(), push = Vec3::Zero();
+  for (std::size_t k = 0; k < solution.reached.size(); ++k) {
+    cost += 0.5 * std::pow(solution.tilt[k] / kTiltUnit, 2);
+    cost += std::pow(solution.miss[k] / kMissUnit, 2);
+    if (k == 0) continue;
+    others += solution.reached[k] / static_cast<double>(solution.reached.size() - 1);
+    push -= solution.normal[k];
+  }
+  const Vec3 thumb = -solution.normal[0];
+  const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
+  cost += std::pow(balance / kBalanceUnit, 2);
+  const Vec3 arm = others - solution.reached[0];
+  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / kOffsetUnit, 2);
+  return cost;
+}
+
+bool is_like(const PrecisionHold& a, const PrecisionHold& b) {
+  const Rigid3& p = a.solution.product_from_hand;
+  const Rigid3& q = b.solution.product_from_hand;
+  Vec3 shift = Vec3::Zero();
+  for (std::size_t k = 0; k < a.solution.reached.size(); ++k) {
+    shift += (a.solution.reached[k] - b.solution.reached[k]) /
+             static_cast<double>(a.solution.reached.size());
+  }
+  return shift.norm() < kLikeShift && p.rotation.angularDistance(q.rotation) < kLikeTurn;
+}
+
+void sort_and_thin(std::vector<PrecisionHold>& holds) {
+  std::stable_sort(holds.begin(), holds.end(), [](const PrecisionHold& a, const PrecisionHold& b) {
+    return costs_less(a.cost, b.cost);
+  });
+  std::vector<PrecisionHold> kept;
+  for (PrecisionHold& hold : holds) {
+    if (kept.size() == kMostHolds) break;
+    const bool is_new = std::none_of(kept.begin(), kept.end(),
+                                     [&](const PrecisionHold& one) { return is_like(one, hold); });
+    if (is_new) kept.push_back(std::move(hold));
+  }
+  holds = std::move(kept);
+}
+
+double width_of(const FingertipSolution& solution) {
+  Vec3 others = Vec3::Zero();
+  for (std::size_t k = 1; k < solution.reached.size(); ++k) {
+    others += solution.reached[k] / static_cast<double>(solution.reached.size() - 1);
+  }
+  return (others - solution.reached[0]).norm();
+}
+
+PrecisionSearch Search::run(const Progress& progress) const {
+  PrecisionSearch result;
+  const std::vector<OpposingPair> all = pairs(result.widest);
+  result.pairs = static_cast<int>(all.size());
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    progress.throw_if_cancelled();
+    const OpposingPair& pair = all[i];
+    const GripOpening& opening = openings_->at(pair.width());
+    for (const bool is_swapped : {false, true}) {
+      Candidate one;
+      one.pair = i;
+      one.thumb = is_swapped ? pair.b : pair.a;
+      one.other = is_swapped ? pair.a : pair.b;
+      const Vec3 zero = zero_for(shape_, (one.other - one.thumb).normalized());
+      for (int turn = 0; turn < kTurns; ++turn) {
+        one.product_from_hand = laid(opening, axes_.radial, one.thumb, one.other, zero,
+                                     2.0 * std::numbers::pi * turn / kTurns);
+        one.way = turn + (is_swapped ? kTurns : 0);
+        const double clash = ik_->clash_of(*product_->distance, opening.posture,
+                                           one.product_from_hand, openings_->fingertips());
+        one.cost = pair.cost + opening.strain / kStrainUnit + kClashRate * clash +
+                   placing_cost(one.product_from_hand);
+        candidates.push_back(one);
+      }
+    }
+  }
+  result.candidates = static_cast<int>(candidates.size());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return costs_less(a.cost, b.cost); });
+  std::vector<std::vector<int>> used(all.size());
+  std::size_t taken = 0;
+  for (const Candidate& candidate : candidates) {
+    if (taken == kFinalists) break;
+    std::vector<int>& ways = used[candidate.pair];
+    // Neighbouring turns slide to the same end.
+    const bool is_like = std::any_of(ways.begin(), ways.end(), [&](int way) {
+      const int apart = std::abs(way - candidate.way) % kTurns;
+      return way / kTurns == candidate.way / kTurns && std::min(apart, kTurns - apart) < 2;
+    });
+    if (ways.size() == kPerPair || is_like) continue;
+    ways.push_back(candidate.way);
+    progress.throw_if_cancelled();
+    ++taken;
+    result.holds.push_back(set_down(candidate, all[candidate.pair]));
+    result.holds.back().width = width_of(result.holds.back().solution);
+  }
+  sort_and_thin(result.holds);
+  return result;
+}
+
+}  // namespace
+
+PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings& openings,
+                                      const Product& product, const PrecisionGripOptions& options,
+                                      const Progress& progress) {
+  return Search(ik, openings, product, options).run(progress);
+}
+
+PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpenings& openings,
+                                        const Product& product,
+                                        const std::vector<FingertipGoal>& goals,
+                                        const Progress& progress) {
+  PrecisionSearch result;
+  result.pairs = 1;
+  const PinchShape shape = pinch_shape(product.mesh);
+  const HandAxes axes = hand_axes(ik.hand().skeleton);
+  const Vec3 thumb = goals[0].point;
+  Vec3 other = Vec3::Zero();
+  for (std::size_t k = 1; k < goals.size(); ++k) {
+    other += goals[k].point / static_cast<double>(goals.size() - 1);
+  }
+  // Points on one spot have no line between them: any will do to start from.
+  if ((other - thumb).norm() < 0.1) other = thumb - 0.1 * goals[0].normal.value_or(Vec3::UnitZ());
+  const GripOpening& opening = openings.at((other - thumb).norm());
+  const Vec3 zero = zero_for(shape, (other - thumb).normalized());
+  std::vector<Candidate> candidates;
+  const PosedSkeleton posed = pose_skeleton(ik.hand().skeleton, opening.posture);
+  for (int turn = 0; turn < 2 * kTurns; ++turn) {
+    Candidate one;
+    one.product_from_hand =
+        laid(opening, axes.radial, thumb, other, zero, std::numbers::pi * turn / kTurns);
+    one.cost = 0.1 * kClashRate *
+               ik.clash_of(*product.distance, opening.posture, one.product_from_hand,
+                           openings.fingertips());
+    for (const FingertipGoal& goal : goals) {
+      const Vec3 there =
+          one.product_from_hand *
+          (posed.segment[static_cast<std::size_t>(goal.fingertip.segment)] * goal.fingertip.point);
+      one.cost += (there - goal.point).squaredNorm() / 400.0;
+    }
+    candidates.push_back(one);
+  }
+  result.candidates = static_cast<int>(candidates.size());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return costs_less(a.cost, b.cost); });
+  for (std::size_t i = 0; i < std::min(kStarts, candidates.size()); ++i) {
+    progress.throw_if_cancelled();
+    PrecisionHold hold;
+    hold.problem.goals = goals;
+    hold.problem.product = product.distance.get();
+    hold.problem.natural = hold.problem.start = opening.posture;
+    hold.problem.product_from_hand = candidates[i].product_from_hand;
+    hold.problem.max_iterations = 150;
+    hold.solution = ik.solve(hold.problem);
+    hold.width = (other - thumb).norm();
+    for (const double miss : hold.solution.miss) hold.cost += std::pow(miss / kMissUnit, 2);
+    for (const double tilt : hold.solution.tilt) hold.cost += 0.5 * std::pow(tilt / kTiltUnit, 2);
+    hold.cost += std::pow(hold.solution.clash / kClashUnit, 2) + hold.solution.strain / kStrainUnit;
+    result.holds.push_back(hold);
+  }
+  sort_and_thin(result.holds);
+  return result;
+}
+
+}  // namespace palmar

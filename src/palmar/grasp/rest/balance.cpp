@@ -1,0 +1,502 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/rest/balance.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/joint_strength.h"
+#include "palmar/grasp/power/skin_advance.h"
+#include "palmar/grasp/rest/finger_cones.h"
+#include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/hand/skeleton.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
+constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
+constexpr double kJointSaid = 0.05;  // the same; more is told
+constexpr double kLevelAim = 0.005;  // of the grip force asked for
+constexpr int kMostSteps = 60;
+constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
+constexpr double kLeastRelaxation = 0.1;
+constexpr double kReach = 40.0;      // mm; arm by which turns are counted as way
+constexpr double kOut = 25.0;        // mm; a product that went farther has left the hand
+constexpr double kOutTurn = 0.8;     // rad
+constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
+// Passive coupling of DIP and PIP (Rijkpema & Girard 1991; tolerance: joint_coupling table of
+// modelling rules, 15 deg): beyond it a moment of kCoupling per radian.
+constexpr double kDipPerPip = 2.0 / 3.0;
+constexpr double kCouplingFree = 10.0 / 57.29578;  // rad
+constexpr double kCoupling = 1500.0;               // N mm/rad; our choice
+constexpr double kMostMuscles = 1.5;  // of flexion_strength(); its figures are the lowest measured
+constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
+
+std::string format(const char* text, double a, double b = 0.0) {
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), text, a, b);
+  return buffer.data();
+}
+
+/// The main direction of a way in the hand, in words.
+std::string way_words(const Hand& hand, Vec3 way) {
+  if (hand.side == Side::kLeft) way.x() = -way.x();
+  int most = 0;
+  for (int c = 1; c < 3; ++c) {
+    if (std::abs(way[c]) > std::abs(way[most])) most = c;
+  }
+  static constexpr std::array<const char*, 6> kWords = {
+      "the thumb's side", "the little finger's side",  "the fingertips",
+      "the wrist",        "the open side of the palm", "the palm"};
+  return kWords[static_cast<std::size_t>(2 * most + (way[most] < 0.0 ? 1 : 0))];
+}
+
+/// One run of the search for rest.
+class Settling {
+ public:
+  Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+           const BalanceOptions& options, const ContactOptions& contact, bool is_by_muscles)
+      : hand_(&hand.hand()),
+        options_(&options),
+        is_by_muscles_(is_by_muscles),
+        has_level_(is_power(grasp.grip) || options.grip_force),
+        start_{grasp.posture, grasp.product_from_hand},
+        state_(start_),
+        cones_(hand.hand()),
+        start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
+        mechanics_(hand, product, contact, options.friction, start_) {
+    is_held_[static_cast<std::size_t>(Finger::kThumb)] = is_by_muscles_;
+    const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
+    has_load_ = needs_centre || !options.load.torque.isZero(0.0);
+    load_ =
+        wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
+    has_level_ = has_level_ || extra_grip() > 0.0;
+  }
+
+  Balance run(const Progress& progress);
+  const GripState& state() const { return state_; }
+
+ private:
+  struct Misfit {
+    GripVector residual = GripVector::Zero();  ///< N, N mm
+    GripMatrix stiffness = GripMatrix::Zero();
+    double force = 0.0, moment = 0.0;  ///< on the product, N and N mm
+    double of_product = 0.0;           ///< those over the grip force
+    double of_joints = 0.0;            ///< largest moment left over the strongest muscle moment
+    double of_level = 0.0;             ///< of the grip force against the one asked for
+    double sum() const { return of_product + of_joints + of_level; }
+  };
+
+  /// Skin beyond the joint is loaded, and no other digit holds it.
+  bool is_loaded(std::size_t joint) const {
+    return mechanics_.is_loaded()[joint] && !is_held_[joint / 3];
+  }
+  bool is_stuck(std::size_t joint, double residual) const;
+  void add_coupling(GripVector& residual, GripMatrix& stiffness) const;
+  void add_load(GripVector& residual) const;
+  double first_level() const;
+  double extra_grip() const;
+  Misfit misfit(double grip) const;
+  void step(const Misfit& misfit, double missing);
+  void finish(Balance& balance) const;
+  bool judge_way(Balance& balance) const;
+  Posture without_crossing(const Posture& next);
+
+  const Hand* hand_;
+  const BalanceOptions* options_;
+  bool is_by_muscles_;
+  double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
+  bool has_level_;           // the squeeze is brought to the grip force asked for
+  GripState start_, state_;
+  FingerCones cones_;
+  std::vector<RoundCone> start_cones_;
+  std::array<bool, kFingerCount> is_held_{};  // stays as it is: the thumb, a finger that met it
+  GripMechanics mechanics_;
+  Wrench load_;  // product frame
+  bool has_load_ = false;
+  double target_ = 0.0;      // grip force, N
+  double muscles_ = 0.0;     // moments over flexion_strength()
+  double relaxation_ = 1.0;  // share of a step that is taken
+  GripVector last_way_ = GripVector::Zero();
+  Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
+};
+
+void Settling::add_coupling(GripVector& residual, GripMatrix& stiffness) const {
+  for (int finger = 0; finger < 4; ++finger) {
+    const int pip = 4 + 3 * finger, dip = pip + 1;
+    const double off = state_.posture[kSqueezeDofs[static_cast<std::size_t>(dip)]] -
+                       kDipPerPip * state_.posture[kSqueezeDofs[static_cast<std::size_t>(pip)]];
+    const double excess = off - std::clamp(off, -kCouplingFree, kCouplingFree);
+    if (excess == 0.0) continue;
+    residual[dip] -= kCoupling * excess;
+    residual[pip] += kDipPerPip * kCoupling * excess;
+    stiffness(dip, dip) += kCoupling;
+    stiffness(pip, pip) += kDipPerPip * kDipPerPip * kCoupling;
+    stiffness(dip, pip) -= kDipPerPip * kCoupling;
+    stiffness(pip, dip) -= kDipPerPip * kCoupling;
+  }
+}
+
+void Settling::add_load(GripVector& residual) const {
+  // From the origin of the product frame to the centre of contact in the hand frame.
+  const Rigid3 hand_from_product = state_.product_from_hand.inverse();
+  const Vec3 centre = state_.product_from_hand * mechanics_.centre();
+  residual.segment<3>(kSqueezeJoints) += load_share_ * (hand_from_product.rotation * load_.force);
+  residual.tail<3>() +=
+      load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
+}
+
+/// The common level of muscle moments that suits the moments of the contact best.
+double Settling::first_level() const {
+  double along = 0.0, size = 0.0;
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    if (!is_loaded(j)) continue;
+    const double muscles = flexion_strength(kSqueezeDofs[j]);
+    along -= muscles * mechanics_.force()[static_cast<Eigen::Index>(j)];
+    size += muscles * muscles;
+  }
+  return size > 0.0 ? std::max(1e-4, along / size) : 1e-4;
+}
+
+/// People press the harder the heavier a thing is: by what two opposed contacts need to hold the
+/// load by friction (Westling & Johansson 1984), N.
+double Settling::extra_grip() const {
+  return options_->friction > 0.0 ? 0.5 * load_.force.norm() / options_->friction : 0.0;
+}
+
+/// At the end of its range and pushed against it.
+bool Settling::is_stuck(std::size_t joint, double residual) const {
+  const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[joint]);
+  const double angle = state_.posture[dof.dof];
+  return (angle >= dof.upper - 1e-9 && residual > 0.0) ||
+         (angle <= dof.lower + 1e-9 && residual < 0.0);
+}
+
+/// What is missing to rest in the state that mechanics_ looks at.
+Settling::Misfit Settling::misfit(double grip) const {
+  Misfit result;
+  result.residual = mechanics_.force();
+  result.stiffness = mechanics_.stiffness();
+  add_load(result.residual);
+  if (is_by_muscles_) {
+    double strongest = 1e-9;
+    for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+      const double moment = muscles_ * flexion_strength(kSqueezeDofs[j]);
+      result.residual[static_cast<Eigen::Index>(j)] += moment;
+      if (is_loaded(j)) strongest = std::max(strongest, moment);
+    }
+    add_coupling(result.residual, result.stiffness);
+    for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+      const double residual = result.residual[static_cast<Eigen::Index>(j)];
+      if (!is_loaded(j) || is_stuck(j, residual)) continue;
+      result.of_joints = std::max(result.of_joints, std::abs(residual) / strongest);
+    }
+  }
+  if (has_level_) result.of_level = std::abs(grip / target_ - 1.0);
+  result.force = result.residual.segment<3>(kSqueezeJoints).norm();
+  result.moment = result.residual.tail<3>().norm();
+  result.of_product = std::max(result.force, result.moment / mechanics_.arm()) / grip;
+  return result;
+}
+
+/// `next` without the flexion of fingers that would go into the thumb: their cones overlap at most
+/// as at the start or by kNeighbourGive. Such a finger stays where it is from then on: the thumb
+/// carries it.
+Posture Settling::without_crossing(const Posture& next) {
+  Posture result = next;
+  const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, result);
+  for (std::size_t a = 0; a < cones.size(); ++a) {
+    if (cones[a].finger != Finger::kThumb || cones[a].level == 0) continue;
+    for (std::size_t b = 0; b < cones.size(); ++b) {
+      if (cones[b].finger == Finger::kThumb || cones[b].level == 0) continue;
+      const double allowed = std::max(kNeighbourGive, overlap(start_cones_[a], start_cones_[b]));
+      if (overlap(cones[a], cones[b]) > allowed + 1e-6) {
+        is_held_[static_cast<std::size_t>(cones[b].finger)] = true;
+      }
+    }
+  }
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    if (is_held_[j / 3]) result[kSqueezeDofs[j]] = state_.posture[kSqueezeDofs[j]];
+  }
+  return result;
+}
+
+/// One Newton step towards rest and the grip force asked for. The level of the muscles (of the
+/// common closing, where joints are held) is an unknown beside the coordinates:
+///
+///     stiffness dx = residual + muscles d_level,    squeeze . dx = missing sum of normal forces.
+void Settling::step(const Misfit& misfit, double missing) {
+  std::vector<int> free;
+  for (int j = 0; j < kSqueezeJoints; ++j) {
+    const auto index = static_cast<std::size_t>(j);
+    if (is_by_muscles_ && is_loaded(index) && !is_stuck(index, misfit.residual[j])) {
+      free.push_back(j);
+    }
+  }
+  const auto joints = static_cast<Eigen::Index>(free.size());
+  for (int j = kSqueezeJoints; j < kGripCoordinates; ++j) free.push_back(j);
+  Eigen::MatrixXd k = misfit.stiffness(free, free);
+  const auto stiffen = [&](Eigen::Index begin, Eigen::Index count) {
+    if (count == 0) return;
+    k.diagonal().segment(begin, count).array() +=
+        kSoftest * k.diagonal().segment(begin, count).mean() + 1e-9;
+  };
+  stiffen(0, joints);
+  stiffen(joints, 3);
+  stiffen(joints + 3, 3);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
+  // What one unit of level does: to the forces on the coordinates, and to held joints themselves.
+  GripVector per_level = GripVector::Zero(), closing = GripVector::Zero();
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    if (!is_loaded(j)) continue;
+    const auto row = static_cast<Eigen::Index>(j);
+    if (is_by_muscles_) {
+      per_level[row] = flexion_strength(kSqueezeDofs[j]);
+    } else {
+      closing[row] = 1.0;
+    }
+  }
+  if (!is_by_muscles_) per_level = -(misfit.stiffness * closing);
+  const auto solved = [&](const GripVector& right) {
+    const Eigen::VectorXd part = factor.solve(Eigen::VectorXd(right(free)));
+    GripVector whole = GripVector::Zero();
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      whole[free[i]] = part[static_cast<Eigen::Index>(i)];
+    }
+    return whole;
+  };
+  GripVector way = solved(misfit.residual);
+  double level = 0.0;
+  if (has_level_) {
+    const GripVector gain = solved(per_level) + closing;
+    const double rate = mechanics_.squeeze().dot(gain);
+    if (rate > 1e-12) {
+      level = (missing - mechanics_.squeeze().dot(way)) / rate;
+      if (is_by_muscles_) level = std::clamp(level, -0.4 * muscles_, 0.6 * muscles_);
+      way += level * gain;
+    }
+  }
+
+  double longest = std::max(way.segment<3>(kSqueezeJoints).norm(), kReach * way.tail<3>().norm());
+  for (int j = 0; j < kSqueezeJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
+  double share = std::min(1.0, kLongestStep / longest);
+  // Going to and fro tells that forces change faster than the stiffness says: shorter steps.
+  GripVector scaled = way;
+  scaled.head<kSqueezeJoints>() *= kReach;
+  scaled.tail<3>() *= kReach;
+  const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
+  relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
+                                          : cosine > 0.2 ? 1.25
+                                                         : 1.0),
+                           kLeastRelaxation, 1.0);
+  last_way_ = scaled;
+  share *= relaxation_;
+  way *= share;
+  level *= share;
+  if (is_by_muscles_) muscles_ = std::min(muscles_ + level, kMostMuscles);
+
+  Posture turned = state_.posture;
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[j]);
+    const double angle = state_.posture[dof.dof];
+    turned[dof.dof] = std::clamp(angle + way[static_cast<Eigen::Index>(j)],
+                                 std::min(dof.lower, angle), std::max(dof.upper, angle));
+  }
+  state_.posture = without_crossing(turned);
+  const Vec3 turn = way.tail<3>(), shift = way.segment<3>(kSqueezeJoints);
+  Rigid3 motion;
+  if (turn.norm() > 0.0) {
+    motion = Rigid3::about_axis(turn.normalized(), mechanics_.centre(), turn.norm());
+  }
+  motion.translation += shift;
+  moved_ += shift;
+  state_.product_from_hand = state_.product_from_hand * motion.inverse();
+}
+
+bool Settling::judge_way(Balance& balance) const {
+  const Rigid3 motion = state_.product_from_hand.inverse() * start_.product_from_hand;
+  balance.turned = Eigen::AngleAxisd(motion.rotation).angle();
+  balance.moved = moved_.norm();
+  return balance.moved > kOut || balance.turned > kOutTurn;
+}
+
+void Settling::finish(Balance& balance) const {
+  const Squeeze grip = mechanics_.grip();
+  balance.grip_force = grip.force;
+  balance.sum_of_normals = grip.sum_of_normals;
+  balance.friction = options_->friction;
+  balance.friction_use = mechanics_.friction_use();
+  balance.friction_force = mechanics_.friction_force();
+  if (is_by_muscles_) balance.strength_use = muscles_;
+  judge_way(balance);
+}
+
+Balance Settling::run(const Progress& progress) {
+  Balance balance;
+  double start_grip = 0.0;
+  Misfit now;
+  struct {
+    GripState state;
+    Misfit misfit;
+    double muscles = 0.0;
+    Vec3 moved = Vec3::Zero();
+  } best;
+  best.misfit.of_product = std::numeric_limits<double>::infinity();
+  for (int i = 0;; ++i) {
+    progress.throw_if_cancelled();
+    balance.iterations = i;
+    if (!mechanics_.look(state_)) {
+      balance.status = BalanceStatus::kFailed;
+      balance.message = "the contact could not be solved while the grasp came to rest";
+      break;
+    }
+    const double grip = mechanics_.grip().force;
+    if (i == 0) {
+      start_grip = grip;
+      target_ = options_->grip_force.value_or(grip + extra_grip());
+      if (grip == 0.0) {
+        balance.status = BalanceStatus::kNoContact;
+        balance.message = "nothing is touched, so nothing can come to rest";
+        break;
+      }
+    }
+    const bool is_lost = grip < kLostShare * std::min(start_grip, target_);
+    if (is_lost || judge_way(balance)) {
+      balance.status = BalanceStatus::kSlipsOut;
+      balance.slip = moved_.norm() > 0.0 ? Vec3(moved_.normalized()) : Vec3(Vec3::UnitY());
+      balance.message = balance.turned > kOutTurn && balance.moved < kOut
+                            ? format("turns by more than %.0f degrees in the hand",
+                                     kOutTurn * 180.0 / std::numbers::pi)
+                            : "slips out, towards " + way_words(*hand_, *balance.slip);
+      break;
+    }
+
+    // People take hold before they lift.
+    load_share_ =
+        has_load_ && has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
+    if (i == 0) muscles_ = first_level() * target_ / grip;
+    now = misfit(grip);
+    balance.residual_force = now.force;
+    balance.residual_moment = now.moment;
+    balance.residual_share = now.of_product;
+    const bool is_last = i > kMostSteps;
+    const bool is_there =
+        now.of_product < options_->aim && now.of_joints < kJointAim && now.of_level < kLevelAim;
+    if (is_there || is_last) {
+      balance.status =
+          now.of_product < kBalanced ? BalanceStatus::kBalanced : BalanceStatus::kNotConverged;
+      break;
+    }
+    if (now.sum() < best.misfit.sum()) best = {state_, now, muscles_, moved_};
+    progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
+                    "letting the grasp come to rest");
+    if (i < kMostSteps) {
+      step(now, (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals);
+    } else {
+      state_ = best.state;
+      muscles_ = best.muscles;
+      moved_ = best.moved;
+    }
+  }
+  if (balance.status == BalanceStatus::kBalanced && load_share_ < 1.0) {
+    balance.status = BalanceStatus::kSlipsOut;
+    const Vec3 pull = state_.product_from_hand.rotation.conjugate() * load_.force;
+    if (pull.norm() > 0.0) balance.slip = pull.normalized();
+    balance.message = format(
+        "slips out under its load: the hand reaches a grip force of %.0f N, "
+        "%.0f N are needed",
+        mechanics_.grip().force, target_);
+  }
+  if (balance.status == BalanceStatus::kBalanced) {
+    balance.message = format("in balance at a grip force of %.0f N", mechanics_.grip().force);
+    if (now.of_level > 0.05) {
+      balance.message += format("; %.0f N were asked for, which the hand doesn't reach", target_);
+    }
+    if (now.of_joints > kJointSaid) {
+      balance.message += format("; a finger joint is still %.0f %% off its muscles' moment",
+                                100.0 * now.of_joints);
+    }
+  } else if (balance.status == BalanceStatus::kNotConverged) {
+    balance.message = format("not in balance after %.0f steps: ", kMostSteps) +
+                      format("%.1f N are left over at a grip force of %.0f N",
+                             balance.residual_force, mechanics_.grip().force);
+  }
+  finish(balance);
+  return balance;
+}
+
+}  // namespace
+
+void BalanceOptions::check() const {
+  if (!(friction >= 0.0 && friction <= 5.0)) {
+    throw UsageError(format("balance: friction is %g; 0 to 5 is allowed", friction));
+  }
+  if (grip_force && !(*grip_force > 0.0 && *grip_force <= 2000.0)) {
+    throw UsageError(format(
+        "balance: grip force is %g N; more than 0 and at most 2000 N is allowed", *grip_force));
+  }
+  if (!(aim >= 1e-4 && aim <= kBalanced)) {
+    throw UsageError(format("balance: aim is %g; 0.0001 to 0.01 is allowed", aim));
+  }
+  FrictionOptions with_load;
+  with_load.coefficient = 1.0;
+  with_load.load = load;
+  with_load.check();
+}
+
+Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,
+                      const BalanceOptions& options, const ContactOptions& contact,
+                      const Progress& progress) {
+  options.check();
+  contact.check();
+  if (!options.is_on) return {};
+  ContactOptions plain = contact;
+  plain.error_band = false;
+  // A large body slips past fingers that all give the same share of their strength. Then the hand
+  // is tried stiff: all joints held as they were closed.
+  Balance balance;
+  for (const bool is_by_muscles : {true, false}) {
+    if (is_by_muscles && !is_power(grasp.grip)) continue;
+    Settling settling(hand, product, grasp, options, plain, is_by_muscles);
+    Balance attempt = settling.run(progress);
+    const bool is_second = !is_by_muscles && is_power(grasp.grip);
+    const bool is_at_rest = attempt.status == BalanceStatus::kBalanced;
+    const bool slips = attempt.status == BalanceStatus::kSlipsOut;
+    if (is_at_rest || (!is_second && attempt.status == BalanceStatus::kNotConverged)) {
+      grasp.posture = settling.state().posture;
+      grasp.product_from_hand = settling.state().product_from_hand;
+    }
+    if (is_at_rest || !is_second) balance = std::move(attempt);
+    if (is_at_rest && is_second) balance.message += ", by fingers that are held stiff";
+    if (!slips) break;
+  }
+  return balance;
+}
+
+std::string_view name_of(BalanceStatus status) {
+  switch (status) {
+    case BalanceStatus::kOff:
+      return "off";
+    case BalanceStatus::kBalanced:
+      return "balanced";
+    case BalanceStatus::kSlipsOut:
+      return "slips_out";
+    case BalanceStatus::kNoContact:
+      return "no_contact";
+    case BalanceStatus::kNotConverged:
+      return "not_converged";
+    case BalanceStatus::kFailed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+}  // namespace palmar

@@ -1,0 +1,77 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/friction/friction.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/product/product.h"
+
+namespace palmar {
+
+struct BalanceOptions {
+  bool is_on = true;
+  /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
+  /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
+  double friction = 0.5;
+  ProductLoad load;                  ///< weight and further forces; none by default
+  std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was closed
+  /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
+  /// as balanced.
+  double aim = 0.002;
+  void check() const;  ///< throws UsageError: field, value, allowed range
+};
+
+enum class BalanceStatus {
+  kOff,
+  kBalanced,      ///< forces and moments add up to less than 1 % of the grip force
+  kSlipsOut,      ///< the product leaves the hand; `slip` tells which way
+  kNoContact,     ///< nothing is touched
+  kNotConverged,  ///< neither within the allowed number of steps
+  kFailed         ///< the contact couldn't be solved on the way
+};
+std::string_view name_of(BalanceStatus status);  ///< "balanced", "slips_out", ...
+
+/// How a grasp came to rest.
+struct Balance {
+  BalanceStatus status = BalanceStatus::kOff;
+  std::string message;           ///< one sentence for people
+  double friction = 0.0;         ///< coefficient that was used
+  double grip_force = 0.0;       ///< N, across the plane of largest squeeze
+  double sum_of_normals = 0.0;   ///< N
+  double residual_force = 0.0;   ///< N; what the forces on the product add up to, load included
+  double residual_moment = 0.0;  ///< N mm, about the centre of contact
+  double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
+  double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
+  /// Flexion moments over flexion_strength(); nothing for a grip held by stiff joints.
+  std::optional<double> strength_use;
+  double moved = 0.0;                ///< of the product in the hand since it was closed, mm
+  double turned = 0.0;               ///< rad
+  std::optional<Vec3> slip;          ///< kSlipsOut: unit direction, hand frame
+  std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
+                                     ///< frame, N
+  int iterations = 0;
+};
+
+/// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
+/// friction and load add up to nothing on the product; in a power grip also at every flexion joint
+/// of a finger in contact, with muscle moments in the proportions of flexion_strength(); palm and
+/// thumb hold against them. `grasp` gets the new posture and placement. Precision grips: joints are
+/// held, all of them close or open together to reach a grip force.
+///
+/// Friction is that of skin that sticks where it was when the hand was closed and gives way
+/// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal
+/// force. docs/method/balance.md has the equations.
+///
+/// Not coming to rest is a status, never an exception. Throws UsageError on bad options, Cancelled.
+Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,
+                      const BalanceOptions& options = {}, const ContactOptions& contact = {},
+                      const Progress& progress = {});
+
+}  // namespace palmar

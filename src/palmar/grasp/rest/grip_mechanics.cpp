@@ -1,0 +1,189 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/rest/grip_mechanics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/contact/contact_normals.h"
+#include "palmar/hand/skin/skinning.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kPower = 2.0;           // of depth, with which forces grow
+constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mindlin 1949
+constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
+constexpr double kTurn = 1e-3;           // rad; of the differences
+
+constexpr std::array<JointId, kSqueezeJoints> kSqueezeJointIds = {
+    JointId::kThumbCmc,  JointId::kThumbMp,   JointId::kThumbIp,   JointId::kIndexMcp,
+    JointId::kIndexPip,  JointId::kIndexDip,  JointId::kMiddleMcp, JointId::kMiddlePip,
+    JointId::kMiddleDip, JointId::kRingMcp,   JointId::kRingPip,   JointId::kRingDip,
+    JointId::kLittleMcp, JointId::kLittlePip, JointId::kLittleDip};
+
+}  // namespace
+
+const std::array<Dof, kSqueezeJoints> kSqueezeDofs = {
+    Dof::kThumbCmcFlexion,  Dof::kThumbMpFlexion,   Dof::kThumbIpFlexion,   Dof::kIndexMcpFlexion,
+    Dof::kIndexPipFlexion,  Dof::kIndexDipFlexion,  Dof::kMiddleMcpFlexion, Dof::kMiddlePipFlexion,
+    Dof::kMiddleDipFlexion, Dof::kRingMcpFlexion,   Dof::kRingPipFlexion,   Dof::kRingDipFlexion,
+    Dof::kLittleMcpFlexion, Dof::kLittlePipFlexion, Dof::kLittleDipFlexion};
+
+GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
+                             const ContactOptions& options, double friction, const GripState& start)
+    : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
+  const Hand& h = hand.hand();
+  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+    is_moved_[j].assign(h.skin.vertices.size(), 0);
+    for (const JointWeights& weights : h.weights) {
+      if (weights.joint != kSqueezeJointIds[j]) continue;
+      for (const int v : weights.vertex) is_moved_[j][static_cast<std::size_t>(v)] = 1;
+    }
+    // The correction of the thumb's ball goes with the CMC joint.
+    if (kSqueezeJointIds[j] != JointId::kThumbCmc) continue;
+    for (const int v : h.thumb_ball.vertex) is_moved_[j][static_cast<std::size_t>(v)] = 1;
+  }
+  anchor_ = pose_skin(h, start.posture);
+  for (Vec3& point : anchor_) point = start.product_from_hand * point;
+}
+
+GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  Column result;
+  std::vector<int> vertices;
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    if (is_moved_[j][static_cast<std::size_t>(loaded_[k])] == 0) continue;
+    result.row.push_back(static_cast<int>(k));
+    vertices.push_back(loaded_[k]);
+  }
+  if (vertices.empty()) return result;
+  Posture turned = posture;
+  turned[kSqueezeDofs[j]] += kTurn;
+  result.speed = pose_skin_vertices(hand_->hand(), turned, vertices);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    result.speed[i] = (result.speed[i] - posed_[static_cast<std::size_t>(vertices[i])]) / kTurn;
+  }
+  return result;
+}
+
+bool GripMechanics::look(const GripState& state) {
+  const Hand& hand = hand_->hand();
+  posed_ = pose_skin(hand, state.posture);
+  solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, contact_);
+  force_.setZero();
+  squeeze_.setZero();
+  stiffness_.setZero();
+  is_loaded_.fill(false);
+  tangential_.clear();
+  normal_.clear();
+  friction_use_ = 0.0;
+  grip_ = {};
+  if (contact_.status == ContactStatus::kNotConverged) return false;
+  loaded_ = loaded_vertices(contact_);
+  if (loaded_.empty()) return true;
+  hand_from_product_ = state.product_from_hand.rotation.conjugate();
+
+  std::array<double, kRegionCount> depth;
+  depth.fill(kLeastDepth);
+  for (const RegionContact& region : contact_.regions) {
+    double& d = depth[static_cast<std::size_t>(region.region)];
+    d = std::max(d, region.max_penetration);
+  }
+  normal_ = contact_normals(contact_, *product_->distance, loaded_);
+  double sum = 0.0;
+  centre_ = Vec3::Zero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded_[k]);
+    normal_[k] = hand_from_product_ * normal_[k];
+    sum += contact_.force[v];
+    centre_ += contact_.force[v] * posed_[v];
+  }
+  centre_ /= sum;
+
+  // Motions of each loaded vertex: over the product, per coordinate.
+  std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
+  for (int j = 0; j < kSqueezeJoints; ++j) {
+    const Column one = column(state.posture, j);
+    for (std::size_t i = 0; i < one.row.size(); ++i) {
+      motion[static_cast<std::size_t>(one.row[i])].emplace_back(j, one.speed[i]);
+    }
+    is_loaded_[static_cast<std::size_t>(j)] = !one.row.empty();
+  }
+
+  double spread = 0.0, rubbing = 0.0, limit = 0.0;
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded_[k]);
+    const Vec3& n = normal_[k];
+    const Vec3 x = posed_[v] - centre_;
+    spread += contact_.force[v] * x.squaredNorm();
+    auto& moves = motion[k];
+    for (int c = 0; c < 3; ++c) {
+      moves.emplace_back(kSqueezeJoints + c, -Vec3::Unit(c));
+      moves.emplace_back(kSqueezeJoints + 3 + c, -Vec3::Unit(c).cross(x));
+    }
+    const double p = contact_.force[v];
+    const double stiff = kPower * p / depth[static_cast<std::size_t>(hand.region[v])];
+    // Tangential way since the start, of the skin over the product.
+    Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
+    way -= n * n.dot(way);
+    const double most = friction_ * p;
+    double drag = friction_ > 0.0 ? kTangential * stiff : 0.0;
+    Vec3 pull = -drag * way;
+    if (pull.norm() > most) {
+      const double share = most / pull.norm();
+      pull *= share;
+      drag *= share * share;  // of skin that slips little resists further motion
+    }
+    tangential_.push_back(pull);
+    rubbing += pull.norm();
+    limit += most;
+    const Vec3 total = p * n + pull;  // of the product on the skin
+    for (const auto& [a, speed] : moves) {
+      force_[a] += total.dot(speed);
+      squeeze_[a] -= stiff * n.dot(speed);
+    }
+    for (const auto& [a, va] : moves) {
+      const double normal_a = n.dot(va);
+      for (const auto& [b, vb] : moves) {
+        const double normal_b = n.dot(vb);
+        stiffness_(a, b) += stiff * normal_a * normal_b + drag * (va.dot(vb) - normal_a * normal_b);
+      }
+    }
+  }
+  arm_ = std::max(1.0, std::sqrt(spread / sum));
+  friction_use_ = limit > 0.0 ? rubbing / limit : 0.0;
+  grip_ = squeeze_of_normals();
+  return true;
+}
+
+Squeeze GripMechanics::squeeze_of_normals() const {
+  std::vector<Vec3> forces(loaded_.size());
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    forces[k] = -contact_.force[static_cast<std::size_t>(loaded_[k])] * normal_[k];
+  }
+  return grip_force(forces);
+}
+
+Eigen::Matrix<double, 6, 1> GripMechanics::wrench_of(std::optional<Finger> finger) const {
+  Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded_[k]);
+    if (finger_of(hand_->hand().segment[v]) != finger) continue;
+    const Vec3 force = -contact_.force[v] * normal_[k];
+    wrench.head<3>() += force;
+    wrench.tail<3>() += (posed_[v] - centre_).cross(force);
+  }
+  return wrench;
+}
+
+std::vector<Vec3> GripMechanics::friction_force() const {
+  std::vector<Vec3> result(contact_.force.size(), Vec3::Zero());
+  const Quat product_from_hand = hand_from_product_.conjugate();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    result[static_cast<std::size_t>(loaded_[k])] = product_from_hand * -tangential_[k];
+  }
+  return result;
+}
+
+}  // namespace palmar

@@ -1,0 +1,92 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/hand/posture/posture.h"
+#include "palmar/product/product.h"
+
+namespace palmar {
+
+/// Flexion joints that squeeze, finger by finger (thumb CMC, MP, IP; MCP, PIP, DIP).
+inline constexpr int kSqueezeJoints = 15;
+extern const std::array<Dof, kSqueezeJoints> kSqueezeDofs;
+/// Generalised coordinates of a grasp: the flexion joints [rad], then the product's motion in the
+/// hand frame: translation of the centre of contact [mm] and rotation about it [rad].
+inline constexpr int kGripCoordinates = kSqueezeJoints + 6;
+using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
+using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
+
+struct GripState {
+  Posture posture;
+  Rigid3 product_from_hand;
+};
+
+/// Contact and friction of a hand and a product in one state, in generalised coordinates.
+///
+/// Normal forces p_v come from the contact solver. With J_v = d(gap of vertex v) / dx their
+/// generalised force is sum p_v J_v, and their stiffness sum k_v J_v^T J_v with k_v = 2 p_v / d_r,
+/// d_r the largest penetration of the vertex' region: a force that grows with the square of the
+/// depth, as those of stiffening skin do. The stiffness only steers the search.
+///
+/// Friction: skin that has gone a tangential way s_v over the product since the start pulls with
+/// t_v = -(2/3) k_v s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v.
+class GripMechanics {
+ public:
+  /// Keeps references; skin sticks where it is in `start`.
+  GripMechanics(const PreparedHand& hand, const Product& product, const ContactOptions& options,
+                double friction, const GripState& start);
+
+  /// Solves the contact of a state and fills what follows. False if it can't be solved.
+  bool look(const GripState& state);
+
+  const ContactResult& contact() const { return contact_; }
+  const GripVector& force() const { return force_; }  ///< of the contact on the coordinates
+  const GripMatrix& stiffness() const { return stiffness_; }
+  /// Change of the sum of normal forces with the coordinates, N per mm and rad.
+  const GripVector& squeeze() const { return squeeze_; }
+  const std::array<bool, kSqueezeJoints>& is_loaded() const { return is_loaded_; }
+  const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
+  double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
+  double friction_use() const { return friction_use_; }
+  const Squeeze& grip() const { return grip_; }
+  /// Wrench on the product of the normal forces of one digit's phalanges; about the centre, hand
+  /// frame, N and N mm. Nothing: of the palm (and all else).
+  Eigen::Matrix<double, 6, 1> wrench_of(std::optional<Finger> finger) const;
+  /// Of the skin on the product, per skin vertex, product frame, N.
+  std::vector<Vec3> friction_force() const;
+
+ private:
+  /// d(posed vertex)/d(joint), hand frame, of the loaded vertices that the joint moves.
+  struct Column {
+    std::vector<int> row;     ///< index into loaded_
+    std::vector<Vec3> speed;  ///< mm/rad
+  };
+  Column column(const Posture& posture, int joint) const;
+  Squeeze squeeze_of_normals() const;
+
+  const PreparedHand* hand_;
+  const Product* product_;
+  double friction_ = 0.0;
+  ContactSolver::Impl solver_;
+  ContactResult contact_;
+  std::vector<Vec3> posed_;
+  std::array<std::vector<char>, kSqueezeJoints> is_moved_;  ///< per joint and skin vertex
+  std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
+  std::vector<int> loaded_;
+  std::vector<Vec3> normal_, tangential_;  ///< per loaded vertex, hand frame; on the skin, N
+  Quat hand_from_product_;
+  GripVector force_, squeeze_;
+  GripMatrix stiffness_;
+  std::array<bool, kSqueezeJoints> is_loaded_{};
+  Vec3 centre_ = Vec3::Zero();
+  double arm_ = 1.0, friction_use_ = 0.0;
+  Squeeze grip_;
+};
+
+}  // namespace palmar

@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "palmar/capture/mri/scan_posture.h"
+#include "palmar/hand/hand.h"
+#include "palmar/phantom/mri/held_bar.h"
+#include "palmar/phantom/person/subject_joints.h"
+
+namespace palmar {
+
+/// Size, outline and joints of a person, drawn from a seed; a right hand in the hand frame.
+struct SubjectPerson {
+  TriangleMesh skin;  ///< relaxed: the posture of the reference scan
+  Skeleton skeleton;  ///< in the same posture: joints where the bones turn
+  Posture reference;  ///< its angles
+  SubjectJoints joints;
+  std::array<double, kFingerCount> finger_width{};  ///< at the interphalangeal joint, mm
+  std::map<ScanPosture, Posture> postures;          ///< what the person does in each scan
+  HeldBar bar;                                      ///< that fingers are closed on in kGrasp
+};
+
+/// `base`: a right hand. Hand length and circumference follow the survey of ANSUR II (Gordon et al.
+/// 2014), women and men alike often, hand length held to what a field of view of 200 mm shows (165
+/// to 194 mm); the palm's share and every finger vary by themselves.
+SubjectPerson make_person(const Hand& base, std::uint64_t seed);
+
+}  // namespace palmar

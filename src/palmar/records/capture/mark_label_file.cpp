@@ -1,0 +1,104 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/capture/mark_label_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/csv_reader.h"
+
+namespace palmar {
+namespace {
+
+using Kind = MarkLabel::Kind;
+
+constexpr const char* kWrist = "wrist";
+constexpr const char* kNone = "none";
+
+/// Names that a mark may have.
+std::vector<std::string> names_of(Kind kind) {
+  std::vector<std::string> names{
+      kind == Kind::kCrease ? kWrist : std::string(name_of(Segment::kPalm)), kNone};
+  for (int k = 1; k < kSegmentCount; ++k) names.emplace_back(name_of(static_cast<Segment>(k)));
+  return names;
+}
+
+std::optional<Segment> segment_of(const CsvFile& file, int line, const std::string& name,
+                                  Kind kind) {
+  if (name == kNone) return {};
+  if (kind == Kind::kCrease && name == kWrist) return Segment::kPalm;
+  const auto segment = segment_named(name);
+  if (segment && (kind == Kind::kDot || *segment != Segment::kPalm)) return segment;
+  file.fail(line, fmt::format("\"{}\" names no {}; the nearest name is \"{}\"", name,
+                              kind == Kind::kCrease ? "crease" : "segment with dots",
+                              nearest_name(name, names_of(kind))));
+}
+
+std::string text_of(Kind kind, const std::optional<Segment>& segment) {
+  if (!segment) return {};
+  return kind == Kind::kCrease && *segment == Segment::kPalm ? kWrist
+                                                             : std::string(name_of(*segment));
+}
+
+}  // namespace
+
+std::vector<MarkLabel> read_mark_labels(const std::string& path) {
+  const CsvFile file = read_csv(path);
+  const std::array<const char*, 6> names = {"posture", "mark", "name", "x_mm", "y_mm", "z_mm"};
+  std::array<std::size_t, 6> column{};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const int found = file.column(names[k]);
+    if (found < 0) {
+      file.fail(file.header_line, std::string("has no column ") + names[k] +
+                                      "; posture, mark, name, x_mm, y_mm and z_mm are needed");
+    }
+    column[k] = static_cast<std::size_t>(found);
+  }
+  std::vector<MarkLabel> labels;
+  for (const CsvFile::Row& row : file.rows) {
+    MarkLabel label;
+    label.place = path + ":" + std::to_string(row.line);
+    const std::string &posture = row.cells[column[0]], &mark = row.cells[column[1]],
+                      &name = row.cells[column[2]];
+    const auto known = scan_posture_in(posture);
+    if (!known) {
+      file.fail(row.line, "\"" + posture +
+                              "\" is no posture; reference, finger_flexion, finger_abduction ... "
+                              "are allowed");
+    }
+    label.posture = *known;
+    label.is_added = mark == "added_crease" || mark == "added_dot";
+    if (!label.is_added && mark != "crease" && mark != "dot") {
+      file.fail(row.line,
+                "mark \"" + mark + "\"; crease, dot, added_crease or added_dot is allowed");
+    }
+    label.kind = mark == "crease" || mark == "added_crease" ? Kind::kCrease : Kind::kDot;
+    for (int a = 0; a < 3; ++a) {
+      label.point[a] = file.number(row, column[static_cast<std::size_t>(a) + 3]);
+    }
+    if (name.empty() && !label.is_added) continue;
+    label.segment = segment_of(file, row.line, name, label.kind);
+    if (label.is_added && !label.segment) {
+      file.fail(row.line,
+                "a mark that is added must have a name; \"none\" takes away what was "
+                "found");
+    }
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+CsvTable mark_table(const std::vector<TakenMark>& marks) {
+  CsvTable table{{"posture", "mark", "name", "x_mm", "y_mm", "z_mm"}, {}};
+  for (const TakenMark& mark : marks) {
+    table.rows.push_back(
+        {std::string(name_of(mark.posture)), mark.kind == Kind::kCrease ? "crease" : "dot",
+         text_of(mark.kind, mark.segment), fmt::format("{:.2f}", mark.point.x()),
+         fmt::format("{:.2f}", mark.point.y()), fmt::format("{:.2f}", mark.point.z())});
+  }
+  return table;
+}
+
+}  // namespace palmar

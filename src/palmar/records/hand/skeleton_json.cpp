@@ -1,0 +1,254 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/hand/skeleton_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/hand/tissue.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::json;
+
+Json to_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+double finite(const Json& json) {
+  const double value = json.get<double>();
+  if (!std::isfinite(value)) throw InputError("a number is not finite");
+  return value;
+}
+
+Vec3 vec3_from(const Json& json) {
+  if (!json.is_array() || json.size() != 3) throw InputError("a point needs 3 numbers");
+  return {finite(json[0]), finite(json[1]), finite(json[2])};
+}
+
+Json to_json(const CmcLimit& limit) {
+  return {{"q_xyzw", {limit.q.x(), limit.q.y(), limit.q.z(), limit.q.w()}},
+          {"t_mm", to_json(limit.t)}};
+}
+
+CmcLimit limit_from(const Json& json) {
+  const Json& q = json.at("q_xyzw");
+  if (!q.is_array() || q.size() != 4) throw InputError("a quaternion needs 4 numbers");
+  CmcLimit limit;
+  limit.q = Quat(finite(q[3]), finite(q[0]), finite(q[1]), finite(q[2]));
+  if (std::abs(limit.q.norm() - 1.0) > 1e-6) {
+    throw InputError("a CMC limit posture has a quaternion of length " +
+                     std::to_string(limit.q.norm()) + "; 1 is needed");
+  }
+  limit.t = vec3_from(json.at("t_mm"));
+  return limit;
+}
+
+struct LimitName {
+  const char* name;
+  CmcLimit ThumbCmc::*limit;
+};
+constexpr std::array<LimitName, 4> kLimits = {{{"flexion", &ThumbCmc::flexion},
+                                               {"extension", &ThumbCmc::extension},
+                                               {"abduction", &ThumbCmc::abduction},
+                                               {"adduction", &ThumbCmc::adduction}}};
+
+struct TissueName {
+  const char* name;
+  double RegionTissue::*value;
+};
+constexpr std::array<TissueName, 5> kTissue = {
+    {{"poisson_layered", &RegionTissue::poisson_layered},
+     {"swelling_height_mm", &RegionTissue::swelling_height},
+     {"swelling_radius_mm", &RegionTissue::swelling_radius},
+     {"swelling_width_mm", &RegionTissue::swelling_width},
+     {"neighbourhood_mm", &RegionTissue::neighbourhood}}};
+
+Json to_json(const StiffeningLaw& law) {
+  return {{"g0_mpa", law.g0}, {"g_limit_mpa", law.g_limit}, {"limit_depth_mm", law.limit_depth}};
+}
+
+StiffeningLaw law_from(const Json& json) {
+  return {finite(json.at("g0_mpa")), finite(json.at("g_limit_mpa")),
+          finite(json.at("limit_depth_mm"))};
+}
+
+Json to_json(const TissueStiffness& stiffness) {
+  return {{"nominal", to_json(stiffness.nominal)},
+          {"low", to_json(stiffness.low)},
+          {"high", to_json(stiffness.high)}};
+}
+
+TissueStiffness stiffness_from(const Json& json) {
+  return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
+}
+
+/// Version 1 of the file has one law per region, that of the half-space.
+RegionTissue region_tissue_version_1(const Json& json, const RegionTissue& standard) {
+  RegionTissue region = standard;
+  TissueStiffness& stiffness = region.half_space;
+  stiffness.nominal = law_from(json);
+  for (double StiffeningLaw::*value : {&StiffeningLaw::g0, &StiffeningLaw::g_limit}) {
+    stiffness.low.*value = std::min(stiffness.low.*value, stiffness.nominal.*value);
+    stiffness.high.*value = std::max(stiffness.high.*value, stiffness.nominal.*value);
+  }
+  region.source = "";
+  return region;
+}
+
+JointDof dof_from(const Json& json) {
+  JointDof dof;
+  const auto name = json.at("dof").get<std::string>();
+  const auto known = dof_named(name);
+  if (!known) throw InputError("degree of freedom \"" + name + "\" is unknown");
+  dof.dof = *known;
+  dof.axis = vec3_from(json.at("axis"));
+  if (std::abs(dof.axis.norm() - 1.0) > 1e-6) {
+    throw InputError("axis of \"" + name + "\" has length " + std::to_string(dof.axis.norm()) +
+                     "; a unit vector is needed");
+  }
+  dof.centre = vec3_from(json.at("centre_mm"));
+  dof.reference = finite(json.at("reference_rad"));
+  dof.lower = finite(json.at("lower_rad"));
+  dof.upper = finite(json.at("upper_rad"));
+  if (!(dof.lower <= dof.upper)) {
+    throw InputError("range of \"" + name + "\" is from " + std::to_string(dof.lower) + " to " +
+                     std::to_string(dof.upper) + " rad; lower must not be above upper");
+  }
+  dof.source = json.at("source").get<std::string>();
+  return dof;
+}
+
+}  // namespace
+
+Json skeleton_to_json(const Skeleton& skeleton) {
+  Json json;
+  json["joints"] = Json::array();
+  for (const Joint& joint : skeleton.joints) {
+    Json entry = {{"joint", name_of(joint.id)}, {"centre_mm", to_json(joint.centre)}};
+    entry["dofs"] = Json::array();
+    for (const JointDof& dof : joint.dofs) {
+      entry["dofs"].push_back({{"dof", name_of(dof.dof)},
+                               {"axis", to_json(dof.axis)},
+                               {"centre_mm", to_json(dof.centre)},
+                               {"reference_rad", dof.reference},
+                               {"lower_rad", dof.lower},
+                               {"upper_rad", dof.upper},
+                               {"source", dof.source}});
+    }
+    json["joints"].push_back(std::move(entry));
+  }
+  for (const LimitName& limit : kLimits) {
+    json["thumb_cmc"][limit.name] = to_json(skeleton.thumb_cmc.*limit.limit);
+  }
+  json["fingertips_mm"] = Json::array();
+  for (const Vec3& tip : skeleton.fingertips) json["fingertips_mm"].push_back(to_json(tip));
+  return json;
+}
+
+Skeleton skeleton_from_json(const Json& json) {
+  Skeleton skeleton;
+  const Json& joints = json.at("joints");
+  if (joints.size() != kJointCount) {
+    throw InputError(std::to_string(joints.size()) + " joints; " + std::to_string(kJointCount) +
+                     " are needed");
+  }
+  std::array<bool, kDofCount> has_dof{};
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto name = joints[j].at("joint").get<std::string>();
+    if (joint_named(name) != static_cast<JointId>(j)) {
+      throw InputError("joint " + std::to_string(j) + " is \"" + name + "\"; \"" +
+                       std::string(name_of(static_cast<JointId>(j))) + "\" is needed there");
+    }
+    Joint& joint = skeleton.joints[j];
+    joint.id = static_cast<JointId>(j);
+    joint.centre = vec3_from(joints[j].at("centre_mm"));
+    for (const Json& entry : joints[j].at("dofs")) {
+      joint.dofs.push_back(dof_from(entry));
+      has_dof[static_cast<std::size_t>(joint.dofs.back().dof)] = true;
+    }
+  }
+  for (std::size_t d = 0; d < has_dof.size(); ++d) {
+    if (!has_dof[d]) {
+      throw InputError("degree of freedom \"" + std::string(name_of(static_cast<Dof>(d))) +
+                       "\" is missing");
+    }
+  }
+  for (const LimitName& limit : kLimits) {
+    skeleton.thumb_cmc.*limit.limit = limit_from(json.at("thumb_cmc").at(limit.name));
+  }
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    skeleton.fingertips[f] = vec3_from(json.at("fingertips_mm").at(f));
+  }
+  return skeleton;
+}
+
+Json dimensions_to_json(const HandDimensions& dimensions) {
+  Json json = {{"hand_length_mm", dimensions.hand_length},
+               {"hand_circumference_mm", dimensions.hand_circumference},
+               {"hand_width_mm", dimensions.hand_width},
+               {"hand_thickness_mm", dimensions.hand_thickness}};
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentDimensions& one = dimensions.segment[static_cast<std::size_t>(s)];
+    json["segments"][std::string(name_of(static_cast<Segment>(s)))] = {
+        {"length_mm", one.length}, {"width_mm", one.width}, {"thickness_mm", one.thickness}};
+  }
+  return json;
+}
+
+HandDimensions dimensions_from_json(const Json& json) {
+  HandDimensions dimensions;
+  dimensions.hand_length = finite(json.at("hand_length_mm"));
+  dimensions.hand_circumference = finite(json.at("hand_circumference_mm"));
+  dimensions.hand_width = finite(json.at("hand_width_mm"));
+  dimensions.hand_thickness = finite(json.at("hand_thickness_mm"));
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const Json& one = json.at("segments").at(std::string(name_of(static_cast<Segment>(s))));
+    dimensions.segment[static_cast<std::size_t>(s)] = {
+        finite(one.at("length_mm")), finite(one.at("width_mm")), finite(one.at("thickness_mm"))};
+  }
+  return dimensions;
+}
+
+Json tissue_to_json(const Tissue& tissue) {
+  Json json = {{"source", tissue.source}};
+  for (int r = 0; r < kRegionCount; ++r) {
+    Json& entry = json["regions"][std::string(name_of(static_cast<Region>(r)))];
+    const RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    entry["half_space"] = to_json(region.half_space);
+    entry["layered"] = to_json(region.layered);
+    for (const TissueName& item : kTissue) entry[item.name] = region.*item.value;
+    entry["source"] = region.source;
+  }
+  return json;
+}
+
+Tissue tissue_from_json(const Json& json) {
+  const Tissue standard = default_tissue();
+  Tissue tissue;
+  tissue.source = json.at("source").get<std::string>();
+  for (int r = 0; r < kRegionCount; ++r) {
+    const std::string name(name_of(static_cast<Region>(r)));
+    const Json& entry = json.at("regions").at(name);
+    RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    const bool is_version_1 = entry.contains("g0_mpa");
+    if (is_version_1) {
+      region = region_tissue_version_1(entry, standard.region[static_cast<std::size_t>(r)]);
+    } else {
+      region.half_space = stiffness_from(entry.at("half_space"));
+      region.layered = stiffness_from(entry.at("layered"));
+      region.source = entry.value("source", "");
+    }
+    for (const TissueName& item : kTissue) {
+      const bool is_newer = item.value == &RegionTissue::poisson_layered;
+      if (!(is_version_1 && is_newer)) region.*item.value = finite(entry.at(item.name));
+    }
+    const std::string fault = fault_of(region);
+    if (!fault.empty()) throw InputError("tissue of " + name + ": " + fault);
+  }
+  return tissue;
+}
+
+}  // namespace palmar

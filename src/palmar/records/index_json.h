@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "palmar/grasp/indices/grasp_index.h"
+#include "palmar/records/csv.h"
+
+namespace palmar {
+
+/// {"epsilon_l1": 0.21, "coordination_distance": null, ...}: value of every index, null where it
+/// can't be said; in the order of the rows. What stands as "indices" of an assessment.
+nlohmann::ordered_json index_values(const GraspIndices& indices);
+
+/// [{"key", "name", "group", "value", "unit", "lowest", "highest", "better", "definition",
+/// "source", "remark"}, ...]: the rows in full, null where there is no value or no end of the
+/// range. What stands as "index_table".
+nlohmann::ordered_json index_rows(const GraspIndices& indices);
+
+/// The rows with one line each: group, key, value, unit, better, lowest, highest, name, definition,
+/// source, remark.
+CsvTable index_csv(const GraspIndices& indices);
+
+/// Table for a terminal: group, name, value with unit, which way is better, and the remark unless
+/// the row above has the same. Values with three significant digits, columns aligned; ends with a
+/// line break, empty for no rows.
+std::string index_text(const GraspIndices& indices);
+
+}  // namespace palmar

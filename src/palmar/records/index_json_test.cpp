@@ -1,0 +1,85 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/index_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace palmar {
+namespace {
+
+using ::testing::HasSubstr;
+
+GraspIndices two_rows() {
+  GraspIndex firm;
+  firm.key = "epsilon_l1";
+  firm.name = "largest disturbance";
+  firm.group = "stability";
+  firm.value = 0.1 + 0.2;
+  firm.lowest = 0.0;
+  firm.better = Better::kUp;
+  firm.definition = "distance from 0, in \"wrench\" space";
+  firm.source = "Ferrari and Canny 1992";
+  GraspIndex sore;
+  sore.key = "skin_above_50_kpa_mm2";
+  sore.name = "skin without blood flow";
+  sore.group = "comfort";
+  sore.unit = "mm2";
+  sore.better = Better::kDown;
+  sore.remark = "nothing is touched";
+  return {firm, sore};
+}
+
+TEST(IndexJson, ValuesReadBackExactlyAndNothingIsNull) {
+  const auto json = nlohmann::json::parse(index_values(two_rows()).dump());
+  EXPECT_EQ(json.size(), 2u);
+  EXPECT_EQ(json["epsilon_l1"].get<double>(), 0.1 + 0.2);
+  EXPECT_TRUE(json["skin_above_50_kpa_mm2"].is_null());
+}
+
+TEST(IndexJson, RowsTellEverything) {
+  const auto json = nlohmann::json::parse(index_rows(two_rows()).dump());
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0]["better"], "up");
+  EXPECT_EQ(json[0]["lowest"], 0.0);
+  EXPECT_TRUE(json[0]["highest"].is_null());
+  EXPECT_EQ(json[0]["definition"], "distance from 0, in \"wrench\" space");
+  EXPECT_EQ(json[1]["remark"], "nothing is touched");
+  EXPECT_TRUE(json[1]["value"].is_null());
+}
+
+TEST(IndexJson, InfinityIsNull) {
+  GraspIndices rows = two_rows();
+  rows[0].value = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(index_values(rows)["epsilon_l1"].is_null());
+}
+
+TEST(IndexJson, NoRowsAreEmptyAndValidJson) {
+  EXPECT_EQ(index_values({}).dump(), "{}");
+  EXPECT_EQ(index_rows({}).dump(), "[]");
+  EXPECT_EQ(index_text({}), "");
+}
+
+TEST(IndexJson, TextGroupsRowsAndLeavesNoBlanksAtLineEnds) {
+  const std::string text = index_text(two_rows());
+  EXPECT_THAT(text, HasSubstr("stability\n  largest disturbance"));
+  EXPECT_THAT(text, HasSubstr("0.3"));
+  EXPECT_THAT(text, HasSubstr("more is better\n"));
+  EXPECT_THAT(text, HasSubstr("comfort\n  skin without blood flow"));
+  EXPECT_THAT(text, HasSubstr("nothing is touched\n"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr(" \n")));
+}
+
+TEST(IndexJson, CsvHasARowPerIndex) {
+  const CsvTable table = index_csv(two_rows());
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
+  EXPECT_EQ(table.rows[1][2], "");  // no value
+  EXPECT_THAT(format_csv(table), HasSubstr("\"distance from 0, in \"\"wrench\"\" space\""));
+}
+
+}  // namespace
+}  // namespace palmar

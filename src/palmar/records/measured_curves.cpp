@@ -1,0 +1,187 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/measured_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/csv_reader.h"
+#include "palmar/formats/text_scan.h"
+
+namespace palmar {
+namespace {
+
+enum class Quantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
+
+struct Column {
+  const char* name;
+  Quantity quantity;
+  double factor;  ///< to ours
+};
+constexpr std::array<Column, 9> kColumns = {{{"depth_mm", Quantity::kDepth, 1.0},
+                                             {"force_n", Quantity::kForce, 1.0},
+                                             {"force_mn", Quantity::kForce, 1e-3},
+                                             {"area_mm2", Quantity::kArea, 1.0},
+                                             {"area_cm2", Quantity::kArea, 100.0},
+                                             {"weight", Quantity::kWeight, 1.0},
+                                             {"force_sd_n", Quantity::kForceSd, 1.0},
+                                             {"force_sd_mn", Quantity::kForceSd, 1e-3},
+                                             {"subject", Quantity::kSubject, 1.0}}};
+
+/// Beginnings of columns that need a unit behind them, the longer ones first.
+struct NeedsUnit {
+  std::string_view stem, units;
+};
+constexpr std::array<NeedsUnit, 4> kNeedsUnit = {
+    {{"force_sd", "n or mn"}, {"depth", "mm"}, {"force", "n or mn"}, {"area", "mm2 or cm2"}}};
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+class Reader {
+ public:
+  explicit Reader(const CsvFile& file) : file_(file) {}
+
+  MeasuredCurves read() {
+    read_header();
+    for (const CsvFile::Row& row : file_.rows) read_row(row);
+    if (curves_.points.empty()) {
+      throw InputError(file_.path + ": it has no readings below the header");
+    }
+    return std::move(curves_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const { file_.fail(file_.header_line, why); }
+
+  void read_header() {
+    const std::vector<std::string>& names = file_.header;
+    column_.assign(names.size(), nullptr);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string name = lower(names[i]);
+      if (names[i].size() > 3 && names[i].substr(names[i].size() - 3) == "_MN") {
+        fail("column " + in_quotes(names[i]) + ": MN could be meganewton; force_mN is millinewton");
+      }
+      const auto* known = std::find_if(kColumns.begin(), kColumns.end(),
+                                       [&](const Column& c) { return name == c.name; });
+      if (known == kColumns.end()) {
+        check_unit(names[i], name);
+        curves_.ignored.push_back(names[i]);
+        continue;
+      }
+      column_[i] = known;
+      const auto [other, is_new] = of_quantity_.emplace(known->quantity, i);
+      if (!is_new) {
+        fail("columns " + in_quotes(names[other->second]) + " and " + in_quotes(names[i]) +
+             " say the same; one is needed");
+      }
+    }
+    if (of_quantity_.count(Quantity::kWeight) + of_quantity_.count(Quantity::kForceSd) > 1) {
+      fail("columns weight and force_sd exclude each other: weight is 1 / sd^2");
+    }
+    require(Quantity::kDepth, "depth_mm");
+    require(Quantity::kForce, "force_n (or force_mn)");
+  }
+
+  /// A known quantity without a unit, or with one that isn't known.
+  void check_unit(const std::string& shown, const std::string& name) const {
+    for (const NeedsUnit& one : kNeedsUnit) {
+      if (name.rfind(one.stem, 0) != 0) continue;
+      const std::string rest = name.substr(one.stem.size());
+      if (rest.empty()) {
+        fail("column " + in_quotes(shown) + " has no unit; " + std::string(one.stem) + "_" +
+             std::string(one.units) + " is needed");
+      }
+      if (rest.front() == '_' || rest.front() == ' ' || rest.front() == '(' ||
+          rest.front() == '[') {
+        fail("column " + in_quotes(shown) + ": unit " + in_quotes(rest.substr(1)) +
+             " is not known; " + std::string(one.stem) + "_ with " + std::string(one.units) +
+             " is allowed");
+      }
+    }
+  }
+
+  void require(Quantity quantity, const std::string& name) const {
+    if (of_quantity_.count(quantity) > 0) return;
+    std::string found;
+    for (const std::string& one : file_.header) found += (found.empty() ? "" : ", ") + one;
+    const std::string nearest = nearest_name(name.substr(0, name.find(' ')), curves_.ignored);
+    fail("column " + name + " is missing; the header has " + found +
+         (nearest.empty() ? "" : " (is " + nearest + " meant?)"));
+  }
+
+  double number(const CsvFile::Row& row, std::size_t i) const {
+    return file_.number(row, i) * column_[i]->factor;
+  }
+
+  double at_least_zero(const CsvFile::Row& row, std::size_t i) const {
+    const double value = number(row, i);
+    if (value < 0.0) file_.fail(row.line, shown(row, i) + "; 0 or more is needed");
+    return value;
+  }
+
+  double above_zero(const CsvFile::Row& row, std::size_t i) const {
+    const double value = number(row, i);
+    if (!(value > 0.0)) file_.fail(row.line, shown(row, i) + "; more than 0 is needed");
+    return value;
+  }
+
+  std::string shown(const CsvFile::Row& row, std::size_t i) const {
+    return file_.header[i] + " is " + row.cells[i];
+  }
+
+  void read_row(const CsvFile::Row& row) {
+    MeasuredPoint point;
+    point.line = row.line;
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      if (column_[i] == nullptr) continue;
+      switch (column_[i]->quantity) {
+        case Quantity::kDepth:
+          point.depth = at_least_zero(row, i);
+          break;
+        case Quantity::kForce:
+          point.force = at_least_zero(row, i);
+          break;
+        case Quantity::kArea:
+          if (!row.cells[i].empty()) point.area = at_least_zero(row, i);
+          break;
+        case Quantity::kWeight:
+          point.weight = above_zero(row, i);
+          break;
+        case Quantity::kForceSd:
+          point.weight = std::pow(above_zero(row, i), -2);
+          break;
+        case Quantity::kSubject:
+          point.subject = row.cells[i];
+          break;
+      }
+    }
+    if (point.depth == 0.0) {
+      ++curves_.zero_depths;
+    } else {
+      curves_.points.push_back(std::move(point));
+    }
+  }
+
+  const CsvFile& file_;
+  std::vector<const Column*> column_;  ///< per cell; null: ignored
+  std::map<Quantity, std::size_t> of_quantity_;
+  MeasuredCurves curves_;
+};
+
+}  // namespace
+
+MeasuredCurves read_measured_curves(const std::string& path) {
+  const CsvFile file = read_csv(path);
+  return Reader(file).read();
+}
+
+}  // namespace palmar

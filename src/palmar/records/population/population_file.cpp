@@ -1,0 +1,304 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/population/population_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/formats/toml_section.h"
+#include "palmar/population/built_in_populations.h"
+#include "palmar/population/segment_regressions.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1 << 22;
+constexpr double kLargestLength = 400.0;  // mm; as fault_of() allows
+constexpr double kLargestNumber = 1e6;    // of intercepts and slopes
+constexpr double kSmallest = 1e-6;        // stands for "more than 0"
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+HandDimension dimension_named(const TomlSection& section, std::string_view key,
+                              const std::string& name) {
+  if (const auto dimension = hand_dimension_named(name)) return *dimension;
+  std::vector<std::string> known;
+  for (const HandDimension one : all_hand_dimensions()) known.push_back(name_of(one));
+  const std::string nearest = nearest_name(name, known);
+  section.fail(key, "names " + in_quotes(name) + ", which is no dimension of a hand; " +
+                        (nearest.empty() ? "hand_length, index_middle_width ... are"
+                                         : "did you mean \"" + nearest + "\"?"));
+}
+
+HandDimension dimension_of(const TomlSection& section) {
+  return dimension_named(section, "dimension", section.need_text("dimension"));
+}
+
+Evidence evidence_of(const TomlSection& section, Evidence otherwise) {
+  const auto word = section.text("evidence");
+  if (!word) return otherwise;
+  const auto evidence = evidence_named(*word);
+  if (!evidence) {
+    section.fail("evidence", "is " + in_quotes(*word) +
+                                 "; \"measured\", \"regressed\" or \"scaled\" is allowed");
+  }
+  return *evidence;
+}
+
+std::optional<Sex> sex_of(const TomlSection& section) {
+  const auto word = section.text("sex");
+  if (!word) return std::nullopt;
+  if (*word == "female") return Sex::kFemale;
+  if (*word == "male") return Sex::kMale;
+  section.fail("sex", "is " + in_quotes(*word) + "; \"female\" or \"male\" is allowed");
+}
+
+/// Mean sizes [mm] that people can have, children to giants: wide about the template's.
+std::array<double, 2> mean_range(HandDimension dimension) {
+  if (dimension.kind == DimensionKind::kHandLength) return {60.0, 300.0};
+  if (dimension.kind == DimensionKind::kHandCircumference) return {70.0, 350.0};
+  const double usual = value_of(template_proportions(), dimension);
+  return {0.4 * usual, 2.5 * usual};
+}
+
+void check_size(const TomlSection& section, std::string_view key, HandDimension dimension,
+                double mean) {
+  const auto [low, high] = mean_range(dimension);
+  if (mean >= low && mean <= high) return;
+  const bool is_cm = 10.0 * mean >= low && 10.0 * mean <= high;
+  section.fail(key, "of " + name_of(dimension) + " is " + number_text(mean) + " mm; " +
+                        number_text(low) + " to " + number_text(high) + " mm is allowed" +
+                        (is_cm ? ": these figures look like cm" : ""));
+}
+
+DrivingDimension read_driving(const TomlSection& section) {
+  section.allow({"dimension", "mean_mm", "sd_mm", "evidence", "source"});
+  DrivingDimension driving;
+  driving.dimension = dimension_of(section);
+  driving.mean = section.need_number("mean_mm", "mm", 1.0, kLargestLength);
+  check_size(section, "mean_mm", driving.dimension, driving.mean);
+  driving.sd = section.number("sd_mm", "mm", kSmallest, 0.2 * driving.mean).value_or(0.0);
+  driving.evidence = evidence_of(section, Evidence::kMeasured);
+  driving.source = section.text("source").value_or("");
+  return driving;
+}
+
+DimensionRegression read_regression(const TomlSection& section) {
+  section.allow({"dimension", "intercept_mm", "slope", "residual_sd_mm", "evidence", "source"});
+  DimensionRegression regression;
+  regression.dimension = dimension_of(section);
+  regression.intercept =
+      section.number("intercept_mm", "mm", -kLargestNumber, kLargestNumber).value_or(0.0);
+  if (const auto slopes = section.table("slope")) {
+    for (const auto& [key, ignored] : slopes->values()) {
+      regression.terms.push_back(
+          {dimension_named(*slopes, key.str(), std::string(key.str())),
+           slopes->need_number(key.str(), "", -kLargestNumber, kLargestNumber)});
+    }
+  }
+  regression.residual_sd =
+      section.number("residual_sd_mm", "mm", 0.0, kLargestLength).value_or(0.0);
+  regression.evidence = evidence_of(section, Evidence::kRegressed);
+  regression.source = section.text("source").value_or("");
+  return regression;
+}
+
+Eigen::Index driving_index(const Stratum& stratum, HandDimension dimension) {
+  const auto found = std::find_if(stratum.driving.begin(), stratum.driving.end(),
+                                  [&](const auto& one) { return one.dimension == dimension; });
+  return found == stratum.driving.end() ? -1 : found - stratum.driving.begin();
+}
+
+void read_correlations(const TomlSection& section, Stratum& stratum) {
+  const auto n = static_cast<Eigen::Index>(stratum.driving.size());
+  stratum.correlation = Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXi is_given = Eigen::MatrixXi::Identity(n, n);
+  for (const TomlSection& pair : section.tables("correlation")) {
+    pair.allow({"between", "r", "source"});
+    const std::vector<std::string> names = pair.texts("between");
+    if (names.size() != 2) {
+      pair.fail("between names " + std::to_string(names.size()) +
+                " dimensions; two driving dimensions are required");
+    }
+    std::array<Eigen::Index, 2> at{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      at[k] = driving_index(stratum, dimension_named(pair, "between", names[k]));
+      if (at[k] < 0) {
+        pair.fail("between", "names " + in_quotes(names[k]) +
+                                 ", which doesn't drive this stratum; add it as "
+                                 "[[stratum.driving]]");
+      }
+    }
+    if (at[0] == at[1]) pair.fail("between", "names one dimension twice; two are required");
+    if (is_given(at[0], at[1]) != 0) {
+      pair.fail("between", "names a pair whose correlation is given already");
+    }
+    const double r = pair.need_number("r", "", -1.0, 1.0);
+    if (r == 1.0 || r == -1.0)
+      pair.fail("r", "is " + shortest(r) + "; between -1 and 1 is allowed");
+    stratum.correlation(at[0], at[1]) = stratum.correlation(at[1], at[0]) = r;
+    is_given(at[0], at[1]) = is_given(at[1], at[0]) = 1;
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const DrivingDimension& a = stratum.driving[static_cast<std::size_t>(j)];
+      const DrivingDimension& b = stratum.driving[static_cast<std::size_t>(i)];
+      if (is_given(i, j) != 0 || a.sd == 0.0 || b.sd == 0.0) continue;
+      section.fail("correlation of " + name_of(a.dimension) + " and " + name_of(b.dimension) +
+                   " is missing; [[stratum.correlation]] is required for every pair of driving "
+                   "dimensions with a deviation");
+    }
+  }
+}
+
+Stratum read_stratum(const TomlSection& section) {
+  section.allow({"name", "sex", "share", "age_years", "driving", "correlation", "regression"});
+  Stratum stratum;
+  stratum.name = section.need_text("name");
+  stratum.sex = sex_of(section);
+  stratum.share = section.number("share", "", kSmallest, 1.0).value_or(1.0);
+  stratum.age = section.number("age_years", "years", 0.0, 120.0);
+  for (const TomlSection& one : section.tables("driving")) {
+    const DrivingDimension driving = read_driving(one);
+    if (driving_index(stratum, driving.dimension) >= 0) {
+      one.fail("dimension", "names " + name_of(driving.dimension) +
+                                ", which drives this stratum already; each may stand once");
+    }
+    stratum.driving.push_back(driving);
+  }
+  read_correlations(section, stratum);
+  for (const TomlSection& one : section.tables("regression")) {
+    stratum.regressions.push_back(read_regression(one));
+    // What is wrong with this regression is told where it stands.
+    const std::string fault = fault_of(stratum);
+    if (!fault.empty() && fault.starts_with("regression")) one.fail(fault);
+    if (!fault.empty()) continue;
+    const HandDimension dimension = stratum.regressions.back().dimension;
+    if (const auto moments = moments_of(stratum, dimension)) {
+      check_size(one, "mean", dimension, moments->mean);
+    }
+  }
+  const std::string fault = fault_of(stratum);
+  if (!fault.empty()) section.fail("stratum \"" + stratum.name + "\": " + fault);
+  return stratum;
+}
+
+void check_version(const TomlSection& file) {
+  const auto version = file.integer("version", 1, std::numeric_limits<int>::max());
+  if (version.value_or(1) > kPopulationFileVersion) {
+    file.fail("version", "is " + std::to_string(*version) + "; this program reads up to version " +
+                             std::to_string(kPopulationFileVersion) +
+                             " (a newer Palmar wrote the file)");
+  }
+}
+
+std::string driving_toml(const DrivingDimension& driving) {
+  std::string text = "\n[[stratum.driving]]\n";
+  text += "dimension = " + toml_string(name_of(driving.dimension)) + "\n";
+  text += "mean_mm = " + toml_number(driving.mean) + "\n";
+  if (driving.sd > 0.0) text += "sd_mm = " + toml_number(driving.sd) + "\n";
+  text += "evidence = " + toml_string(name_of(driving.evidence)) + "\n";
+  if (!driving.source.empty()) text += "source = " + toml_string(driving.source) + "\n";
+  return text;
+}
+
+std::string regression_toml(const DimensionRegression& regression) {
+  std::string text = "\n[[stratum.regression]]\n";
+  text += "dimension = " + toml_string(name_of(regression.dimension)) + "\n";
+  text += "intercept_mm = " + toml_number(regression.intercept) + "\n";
+  std::string slopes;
+  for (const DimensionRegression::Term& term : regression.terms) {
+    slopes +=
+        (slopes.empty() ? " " : ", ") + name_of(term.predictor) + " = " + toml_number(term.slope);
+  }
+  if (!slopes.empty()) text += "slope = {" + slopes + " }\n";
+  text += "residual_sd_mm = " + toml_number(regression.residual_sd) + "\n";
+  text += "evidence = " + toml_string(name_of(regression.evidence)) + "\n";
+  if (!regression.source.empty()) text += "source = " + toml_string(regression.source) + "\n";
+  return text;
+}
+
+std::string stratum_toml(const Stratum& stratum) {
+  std::string text = "\n[[stratum]]\nname = " + toml_string(stratum.name) + "\n";
+  if (stratum.sex) {
+    text += std::string("sex = ") + (*stratum.sex == Sex::kMale ? "\"male\"\n" : "\"female\"\n");
+  }
+  text += "share = " + toml_number(stratum.share) + "\n";
+  if (stratum.age) text += "age_years = " + toml_number(*stratum.age) + "\n";
+  for (const DrivingDimension& one : stratum.driving) text += driving_toml(one);
+  const auto n = static_cast<Eigen::Index>(stratum.driving.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = i + 1; j < n; ++j) {
+      const auto name = [&](Eigen::Index k) {
+        return toml_string(name_of(stratum.driving[static_cast<std::size_t>(k)].dimension));
+      };
+      text += "\n[[stratum.correlation]]\nbetween = [" + name(i) + ", " + name(j) + "]\n";
+      text += "r = " + toml_number(stratum.correlation(i, j)) + "\n";
+    }
+  }
+  for (const DimensionRegression& one : stratum.regressions) text += regression_toml(one);
+  return text;
+}
+
+}  // namespace
+
+Population read_population(const std::string& path) {
+  return parse_population(read_file(path, kMaxBytes), path);
+}
+
+Population parse_population(const std::string& text, const std::string& path) {
+  const toml::table values = parse_toml(text, path);
+  const TomlSection file(path, "", values);
+  file.allow({"version", "name", "title", "source", "cautions", "stratum"});
+  check_version(file);
+  Population population;
+  population.name = file.need_text("name");
+  population.title = file.text("title").value_or(population.name);
+  population.source = file.text("source").value_or("");
+  population.cautions = file.texts("cautions");
+  for (const TomlSection& one : file.tables("stratum")) {
+    population.strata.push_back(read_stratum(one));
+  }
+  const std::string fault = fault_of(population);
+  if (!fault.empty()) file.fail(fault);
+  return population;
+}
+
+Population load_population(const std::string& name_or_path) {
+  return name_or_path.ends_with(".toml") ? read_population(name_or_path)
+                                         : population_named(name_or_path);
+}
+
+std::string population_toml(const Population& population) {
+  std::string text = "# Population of hands; see docs/using/populations.md. Lengths in mm.\n";
+  text += "version = " + std::to_string(kPopulationFileVersion) + "\n";
+  text += "name = " + toml_string(population.name) + "\n";
+  text += "title = " + toml_string(population.title) + "\n";
+  text += "source = " + toml_string(population.source) + "\n";
+  text += "cautions = [";
+  for (const std::string& caution : population.cautions) {
+    text += "\n  " + toml_string(caution) + ",";
+  }
+  text += population.cautions.empty() ? "]\n" : "\n]\n";
+  for (const Stratum& stratum : population.strata) text += stratum_toml(stratum);
+  return text;
+}
+
+void write_population(const std::string& path, const Population& population) {
+  population.check();
+  write_file(path, population_toml(population));
+}
+
+}  // namespace palmar

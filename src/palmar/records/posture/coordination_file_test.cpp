@@ -1,0 +1,101 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/posture/coordination_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+
+namespace palmar {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Joints with ranges alone.
+Skeleton plain_skeleton() {
+  Skeleton skeleton;
+  for (int d = 0; d < kDofCount; ++d) {
+    JointDof dof;
+    dof.dof = static_cast<Dof>(d);
+    dof.lower = -1.5;
+    dof.upper = 2.0;
+    skeleton.joints[0].dofs.push_back(dof);
+  }
+  return skeleton;
+}
+
+std::string header(int count = kDigitDofCount) {
+  std::string text;
+  for (int k = 0; k < count; ++k) {
+    text += (k > 0 ? "," : "") + std::string(name_of(digit_dof(k))) + "_deg";
+  }
+  return text + "\n";
+}
+
+/// Row i: angle k is 20 + 10 sin(i + k) degrees.
+std::string rows(int count, int columns = kDigitDofCount) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    for (int k = 0; k < columns; ++k) {
+      text += (k > 0 ? "," : "") + std::to_string(20.0 + 10.0 * std::sin(i + k));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string written(const std::string& text) {
+  const std::string path =
+      (std::filesystem::path(::testing::TempDir()) / "palmar_natural_postures.csv").string();
+  write_file(path, text);
+  return path;
+}
+
+std::string coordination_message(const std::string& text) {
+  try {
+    read_coordination(written(text), plain_skeleton());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
+  const std::string path = written(header() + rows(400));
+  const CoordinationBasis basis = read_coordination(path, plain_skeleton());
+  EXPECT_EQ(basis.postures, 400);
+  EXPECT_EQ(basis.source, path);
+  constexpr double kDeg = std::numbers::pi / 180.0;
+  EXPECT_NEAR(basis.mean[3] / kDeg, 20.0, 0.1);  // the sine's mean over 400 rad
+  // sin(i + k) spans two dimensions, so two components carry all but what is regularised.
+  EXPECT_EQ(basis.retained, 2);
+  EXPECT_NEAR(std::sqrt(basis.covariance(5, 5)) / kDeg, 10.0 / std::sqrt(2.0), 0.1);
+}
+
+TEST(CoordinationFile, TooFewRowsAreNamed) {
+  EXPECT_THAT(coordination_message(header() + rows(29)),
+              HasSubstr("palmar_natural_postures.csv: it has 29 postures; at least 30"));
+}
+
+TEST(CoordinationFile, MissingColumnIsNamed) {
+  EXPECT_THAT(coordination_message(header(19) + rows(40, 19)),
+              HasSubstr("no little_dip_flexion_deg"));
+}
+
+TEST(CoordinationFile, BadValueIsNamedWithItsPlace) {
+  std::string text = header() + rows(40);
+  text.replace(text.find('\n') + 1, 2, "xx");
+  const std::string message = coordination_message(text);
+  EXPECT_THAT(message, HasSubstr("palmar_natural_postures.csv:2"));
+  EXPECT_THAT(message, HasSubstr("thumb_cmc_flexion_deg"));
+  EXPECT_THAT(message, HasSubstr("xx"));
+}
+
+}  // namespace
+}  // namespace palmar

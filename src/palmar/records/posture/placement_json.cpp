@@ -1,0 +1,78 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/posture/placement_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/text_scan.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kRoundingOfFiles = 0.01;  // of a unit length: numbers in files are rounded
+
+double finite(const Json& json) {
+  if (!json.is_number() || !std::isfinite(json.get<double>())) {
+    throw InputError(in_quotes(json.dump()) + " stands where a number is needed");
+  }
+  return json.get<double>();
+}
+
+const Json& list_of(const Json& json, const char* name, std::size_t size) {
+  if (!json.contains(name)) throw InputError(std::string("\"") + name + "\" is missing");
+  const Json& list = json[name];
+  if (!list.is_array() || list.size() != size) {
+    throw InputError(std::string("\"") + name + "\" needs " + std::to_string(size) + " entries");
+  }
+  return list;
+}
+
+Rigid3 from_matrix(const Json& json) {
+  const Json& rows = list_of(json, "matrix_rows_mm", 4);
+  Eigen::Matrix4d m;
+  for (std::size_t r = 0; r < 4; ++r) {
+    if (!rows[r].is_array() || rows[r].size() != 4) {
+      throw InputError("\"matrix_rows_mm\" needs 4 rows of 4 numbers");
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+      m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = finite(rows[r][c]);
+    }
+  }
+  const Eigen::Matrix3d turn = m.topLeftCorner<3, 3>();
+  const bool is_rotation =
+      (turn * turn.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <
+          kRoundingOfFiles &&
+      turn.determinant() > 0 &&
+      (m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() < 1e-9;
+  if (!is_rotation) {
+    throw InputError(
+        "\"matrix_rows_mm\" is no rotation (without mirroring or scale) beside a "
+        "translation, last row 0 0 0 1");
+  }
+  return {Quat(turn).normalized(), m.topRightCorner<3, 1>()};
+}
+
+}  // namespace
+
+Rigid3 placement_from_json(const Json& json) {
+  if (!json.is_object()) throw InputError("an object is needed");
+  if (!json.contains("quaternion_wxyz") && json.contains("matrix_rows_mm")) {
+    return from_matrix(json);
+  }
+  const Json& q = list_of(json, "quaternion_wxyz", 4);
+  const Json& t = list_of(json, "translation_mm", 3);
+  const Quat turn(finite(q[0]), finite(q[1]), finite(q[2]), finite(q[3]));
+  if (!(std::abs(turn.norm() - 1.0) < kRoundingOfFiles)) {
+    throw InputError("\"quaternion_wxyz\" has length " + shortest(turn.norm()) + "; 1 is needed");
+  }
+  // A unit quaternion stays as it is to the last bit.
+  return {std::abs(turn.norm() - 1.0) < 1e-14 ? turn : turn.normalized(),
+          Vec3(finite(t[0]), finite(t[1]), finite(t[2]))};
+}
+
+}  // namespace palmar

@@ -1,0 +1,83 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/press_json.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "palmar/core/version.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/records/json_values.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Column {
+  const char* name;
+  double PressStep::*value;
+};
+
+constexpr Column kColumns[] = {{"depth_mm", &PressStep::depth},
+                               {"force_n", &PressStep::force},
+                               {"contact_area_mm2", &PressStep::area},
+                               {"peak_pressure_mpa", &PressStep::peak_pressure},
+                               {"peak_pressure_cells_mpa", &PressStep::peak_pressure_cells},
+                               {"mean_pressure_mpa", &PressStep::mean_pressure},
+                               {"shear_modulus_mpa", &PressStep::shear_modulus},
+                               {"complementarity_error_n_mm", &PressStep::complementarity_error},
+                               {"relative_residual", &PressStep::relative_residual},
+                               {"spacing_mm", &PressStep::spacing}};
+
+const char* name_of_level(TissueLevel level) {
+  if (level == TissueLevel::kLow) return "low";
+  return level == TissueLevel::kHigh ? "high" : "nominal";
+}
+
+Json coating_object(const std::optional<Coating>& coating) {
+  if (!coating) return nullptr;
+  return {{"thickness_mm", coating->thickness},
+          {"shear_modulus_mpa", coating->shear_modulus},
+          {"poisson", coating->poisson}};
+}
+
+}  // namespace
+
+std::string press_json(const PressOptions& options, const PressSetting& setting,
+                       const std::vector<PressStep>& steps) {
+  Json list = Json::array();
+  for (const PressStep& step : steps) {
+    Json object = Json::object();
+    for (const Column& column : kColumns) object[column.name] = step.*column.value;
+    object["vertices"] = step.vertices;
+    list.push_back(std::move(object));
+  }
+  const Json test = {{"specimen", name_of(options.specimen)},
+                     {"hand", setting.hand.empty() ? Json(nullptr) : Json(setting.hand)},
+                     {"indenter", name_of(options.indenter)},
+                     {"tilt_deg", options.tilt * 180.0 / std::numbers::pi},
+                     {"equations", name_of(setting.model)},
+                     {"kernel", name_of(setting.model.kernel)},
+                     {"tissue_model", name_of(setting.model.tissue)},
+                     {"tissue_level", name_of_level(options.tissue_level)},
+                     {"layer_mm", or_null(options.layer_thickness)},
+                     {"poisson", or_null(options.poisson)},
+                     {"coating", coating_object(options.coating)}};
+  const Json json = {{"test", test},
+                     {"steps", std::move(list)},
+                     {"versions", {{"palmar", version()}, {"build", build_description()}}}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+CsvTable press_table(const std::vector<PressStep>& steps) {
+  CsvTable table;
+  for (const Column& column : kColumns) table.header.emplace_back(column.name);
+  for (const PressStep& step : steps) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (const Column& column : kColumns) row.push_back(shortest(step.*column.value));
+  }
+  return table;
+}
+
+}  // namespace palmar

@@ -1,0 +1,102 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/product/product_file.h"
+
+#include <array>
+#include <cstdio>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/product/make_product.h"
+#include "palmar/product/unit_guard.h"
+#include "palmar/records/product/cad_format.h"
+#include "palmar/records/product/made_product.h"
+
+namespace palmar {
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+/// The unit that the file tells, if it is one of Palmar's.
+std::optional<LengthUnit> told_unit(const ImportedCad& cad) {
+  if (cad.unit == "millimetre" || cad.unit == "mm") return LengthUnit::kMillimetre;
+  if (cad.unit == "centimetre" || cad.unit == "cm") return LengthUnit::kCentimetre;
+  if (cad.unit == "metre" || cad.unit == "m") return LengthUnit::kMetre;
+  if (cad.unit == "inch" || cad.unit == "in") return LengthUnit::kInch;
+  return std::nullopt;
+}
+
+/// In which unit the size is judged. A foot, say, is none of Palmar's: its lengths are in mm
+/// already.
+UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
+                    const std::string& object) {
+  std::optional<LengthUnit> from_file = told_unit(cad);
+  if (!from_file && !cad.unit.empty() && !options.unit) from_file = LengthUnit::kMillimetre;
+  const double per_unit =
+      millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));
+  Box3 box;
+  for (const Vec3& v : cad.mesh.mesh.vertices) box.extend(Vec3(v / per_unit));
+  return decide_unit(box, from_file, options.unit, object);
+}
+
+/// read_mesh() for a place that takes CAD as well, which its messages tell.
+MeshFile read_shape(const std::filesystem::path& path) {
+  try {
+    return read_mesh(path);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string meshes = "glTF and GLB are read";
+    if (!text.ends_with(meshes)) throw;
+    text.replace(text.size() - meshes.size(), meshes.size(), "glTF, GLB, STEP and IGES are read");
+    throw InputError(text);
+  }
+}
+
+}  // namespace
+
+CadProduct load_cad_product(const std::filesystem::path& path, const LoadProductOptions& options) {
+  const std::string object = path.string();
+  ImportCadOptions import;
+  import.chordal_error = options.chordal_error;
+  if (options.unit) import.millimetres_per_unit = millimetres_per(*options.unit);
+  CadProduct result;
+  result.cad = import_cad(path, import, options.limits, options.progress);
+  UnitDecision decision = decide(result.cad, options, object);
+  if (decision.source == UnitSource::kProposed && decision.unit != LengthUnit::kMillimetre) {
+    // A file without a unit whose size doesn't tell mm: once more, so that the chordal error is in
+    // mm.
+    import.millimetres_per_unit = millimetres_per(decision.unit);
+    result.cad = import_cad(path, import, options.limits, options.progress);
+  }
+  const ImportedCad& cad = result.cad;
+  const LengthUnit unit = decision.unit;
+  decision.unit = LengthUnit::kMillimetre;  // the child has turned everything into mm
+  Product& product = result.product;
+  product = make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
+  product.unit = unit;
+  const std::string in_file = cad.unit.empty() ? "not told" : cad.unit;
+  product.notes.push_back(
+      cad.format + ", unit " +
+      (options.unit ? name_of(*options.unit) + " as told (file: " + in_file + ")" : in_file) +
+      "; chordal error " + number(cad.chordal_error) + " mm (" + cad.chordal_reason + ")");
+  product.notes.insert(product.notes.end(), cad.notes.begin(), cad.notes.end());
+  return result;
+}
+
+Product load_product(const std::filesystem::path& path, const LoadProductOptions& options) {
+  if (is_made(path.string())) return make_solid(made_from(path.string()));
+  if (is_cad_file(path)) return load_cad_product(path, options).product;
+  const MeshFile file = read_shape(path);
+  Box3 box;
+  for (const Vec3& v : file.mesh.vertices) box.extend(v);
+  const UnitDecision unit = decide_unit(box, file.unit, options.unit, path.string());
+  Product product = make_product(path.stem().string(), file.mesh, unit, path.string());
+  product.notes.insert(product.notes.end(), file.notes.begin(), file.notes.end());
+  return product;
+}
+
+}  // namespace palmar

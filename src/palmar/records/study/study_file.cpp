@@ -1,0 +1,401 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/study/study_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/formats/toml_section.h"
+#include "palmar/product/parametric_kinds.h"
+#include "palmar/records/product/parameter_sweep.h"
+#include "palmar/study/assessment/grasp_indices.h"
+#include "palmar/study/statistics/study_results.h"
+
+namespace palmar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxStudyBytes = 1 << 20;
+constexpr double kAny = 1e6;  // mm; bound of coordinates
+
+/// Runs `body`; what a module below complains of gets the file's line.
+template <typename Body>
+auto at_key(const TomlSection& section, const std::string& key, const Body& body) {
+  try {
+    return body();
+  } catch (const UsageError& error) {
+    section.fail(key, std::string("= ") + *section.text(key) + ": " + error.what());
+  }
+}
+
+std::string place_of(const TomlSection& section) {
+  const auto line = std::max<std::uint32_t>(1, section.values().source().begin.line);
+  return section.path() + ":" + std::to_string(line) + ": ";
+}
+
+/// A path in the file starts from the file's folder.
+std::string from_folder(const TomlSection& section, const std::string& path) {
+  if (fs::path(path).is_absolute()) return path;
+  return (fs::path(section.path()).parent_path() / path).string();
+}
+
+std::optional<Vec3> read_vector(const TomlSection& section, const std::string& key,
+                                const std::string& unit) {
+  if (!section.has(key)) return std::nullopt;
+  const std::vector<double> values = section.numbers(key, unit, -kAny, kAny);
+  if (values.size() != 3) {
+    section.fail(key, "has " + std::to_string(values.size()) +
+                          " numbers; three, x, y and z, are "
+                          "needed");
+  }
+  return Vec3(values[0], values[1], values[2]);
+}
+
+PopulationRequest read_population_request(const TomlSection& section) {
+  section.allow({"preset", "file", "table", "design", "hands", "residuals", "boundary",
+                 "boundary_points", "percentiles", "seed"});
+  PopulationRequest request;
+  request.where = place_of(section);
+  request.preset = section.text("preset").value_or("");
+  request.file = section.text("file").value_or("");
+  request.table = section.text("table").value_or("");
+  const int given = static_cast<int>(section.has("preset")) +
+                    static_cast<int>(section.has("file")) + static_cast<int>(section.has("table"));
+  if (given != 1) {
+    section.fail(given == 0 ? "says not whose hands: preset, file or table is required"
+                            : "preset, file and table exclude each other; one is allowed");
+  }
+  if (!request.file.empty()) request.file = from_folder(section, request.file);
+  if (!request.table.empty()) {
+    request.table = from_folder(section, request.table);
+    for (const char* key :
+         {"design", "hands", "residuals", "boundary", "boundary_points", "percentiles", "seed"}) {
+      if (section.has(key)) section.fail(key, "has no meaning with table: its hands are given");
+    }
+  }
+  SamplingOptions& sampling = request.sampling;
+  if (const auto design = section.text("design")) {
+    const auto known = design_named(*design);
+    if (!known) {
+      section.fail("design", "is " + in_quotes(*design) +
+                                 "; latin_hypercube, random, boundary or percentiles is allowed");
+    }
+    sampling.design = *known;
+  }
+  if (const auto hands = section.integer("hands", 1, 1'000'000)) {
+    sampling.hands = static_cast<int>(*hands);
+  }
+  sampling.residuals = section.boolean("residuals").value_or(sampling.residuals);
+  sampling.boundary = section.number("boundary", "", 0.01, 0.9999).value_or(sampling.boundary);
+  if (const auto points = section.integer("boundary_points", 1, 10'000)) {
+    sampling.boundary_points = static_cast<int>(*points);
+  }
+  if (section.has("percentiles")) {
+    sampling.percentiles = section.numbers("percentiles", "", 0.01, 99.99);
+  }
+  if (const auto seed = section.integer("seed", 0, INT64_MAX)) {
+    sampling.seed = static_cast<std::uint64_t>(*seed);
+    request.has_seed = true;
+  }
+  try {
+    sampling.check();
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+  return request;
+}
+
+HandProfile read_profile(const TomlSection& section) {
+  section.allow({"name", "range_share", "strength_share", "glove_thickness_mm",
+                 "glove_shear_modulus_mpa", "nail_length_mm", "size_factor", "source"});
+  const std::string name = section.need_text("name");
+  HandProfile profile;
+  profile.name = name;
+  const bool is_own = section.values().size() > 1;  // only a name: one of ours
+  for (const HandProfile& known : built_in_profiles()) {
+    if (known.name == name) profile = known;
+  }
+  if (!is_own) profile = at_key(section, "name", [&] { return profile_named(name); });
+  const auto set = [&](const char* key, const char* unit, double lowest, double highest,
+                       double& value) {
+    value = section.number(key, unit, lowest, highest).value_or(value);
+  };
+  set("range_share", "", 0.01, 1.0, profile.range_share);
+  set("strength_share", "", 0.01, 10.0, profile.strength_share);
+  set("glove_thickness_mm", "mm", 0.0, 10.0, profile.glove_thickness);
+  set("glove_shear_modulus_mpa", "MPa", 1e-3, 100.0, profile.glove_shear_modulus);
+  set("nail_length_mm", "mm", 0.0, 50.0, profile.nail_length);
+  set("size_factor", "", 0.2, 2.0, profile.size_factor);
+  if (const auto source = section.text("source")) {
+    profile.source = *source;
+  } else if (is_own) {
+    profile.source = "given in " + fs::path(section.path()).filename().string();
+  }
+  try {
+    profile.check();
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+  return profile;
+}
+
+/// 35, [30, 35, 40], {from = 30, to = 50, step = 5} or "30:50:5".
+std::vector<double> read_sweep(const TomlSection& section, const KindParameter& parameter) {
+  const std::string& key = parameter.name;
+  const std::string unit = unit_of_parameter(key);
+  const double lowest = parameter.lowest, highest = parameter.highest;
+  const toml::node* node = section.values().get(key);
+  if (node->is_string()) {
+    return at_key(section, key, [&] { return parse_sweep(key, *section.text(key)); });
+  }
+  if (node->is_array()) {
+    const std::vector<double> values = section.numbers(key, unit, lowest, highest);
+    if (values.empty()) section.fail(key, "is an empty list; at least one value is needed");
+    return values;
+  }
+  if (!node->is_table()) return {section.need_number(key, unit, lowest, highest)};
+  const TomlSection sweep = *section.table(key);
+  sweep.allow({"from", "to", "step"});
+  const double from = sweep.need_number("from", unit, lowest, highest);
+  const double to = sweep.need_number("to", unit, from, highest);
+  const double step = sweep.need_number("step", unit, 1e-3, highest);
+  try {
+    return sweep_values(key, from, to, step);
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+}
+
+/// A product of the file; a sweep over a parameter makes several.
+std::vector<ProductRequest> read_products(const TomlSection& section) {
+  std::vector<std::string> known = {"name", "file",    "unit",       "sizes", "at_mm",
+                                    "axis", "mass_kg", "posture_of", "kind",  "family"};
+  const std::string kind = section.text("kind").value_or("");
+  const ParametricKind* made = nullptr;
+  if (section.has("kind")) {
+    made = at_key(section, "kind", [&] { return &parametric_kind(kind); });
+    for (const KindParameter& one : made->parameters) known.push_back(one.name);
+  }
+  section.allow(known);
+  if (section.has("file") == section.has("kind")) {
+    section.fail(section.has("file") ? "file and kind exclude each other; one is allowed"
+                                     : "has neither file nor kind; one of them is required");
+  }
+  ProductRequest request;
+  request.where = place_of(section);
+  request.name = section.text("name").value_or("");
+  if (const auto file = section.text("file")) {
+    request.file = from_folder(section, *file);
+    request.written = *file;
+  }
+  if (const auto unit = section.text("unit")) {
+    if (request.file.empty()) section.fail("unit", "has no meaning for a solid: it is in mm");
+    request.unit = at_key(section, "unit", [&] { return length_unit(*unit); });
+  }
+  if (section.has("sizes")) {
+    request.sizes = section.numbers("sizes", "", 0.05, 20.0);
+    if (request.sizes.empty()) section.fail("sizes", "is an empty list; [1.0] is usual");
+    const std::set<double> different(request.sizes.begin(), request.sizes.end());
+    if (different.size() < request.sizes.size()) section.fail("sizes", "has a size twice");
+  }
+  request.held.at = read_vector(section, "at_mm", "mm");
+  request.held.axis = read_vector(section, "axis", "");
+  if (request.held.axis && !(request.held.axis->norm() > 0.0)) {
+    section.fail("axis", "is 0, 0, 0; a direction is required");
+  }
+  request.held.mass = section.number("mass_kg", "kg", 0.0, 100.0).value_or(0.0);
+  request.held.posture_of = section.text("posture_of").value_or("");
+  request.held.family = section.text("family").value_or("");
+  if (made == nullptr) return {request};
+
+  MadeSweep sweep{kind, {}};
+  for (const KindParameter& one : made->parameters) {
+    if (section.has(one.name)) sweep.given.emplace_back(one.name, read_sweep(section, one));
+  }
+  std::vector<MadeVariant> variants;
+  try {
+    variants = variants_of(sweep);
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+  std::vector<ProductRequest> requests;
+  for (MadeVariant& one : variants) {
+    requests.push_back(request);
+    requests.back().made = std::move(one.product);
+    if (one.suffix.empty()) continue;
+    const std::string name = request.name.empty() ? kind : request.name;
+    if (request.held.family.empty()) requests.back().held.family = name;
+    requests.back().name = name + " " + one.suffix;
+  }
+  return requests;
+}
+
+template <typename Enum, std::size_t kCount>
+void read_word(const TomlSection& section, const char* key,
+               const std::array<const char*, kCount>& words, Enum& value) {
+  const auto word = section.text(key);
+  if (!word) return;
+  std::string list;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (*word == words[i]) {
+      value = static_cast<Enum>(i);
+      return;
+    }
+    list += (i == 0 ? "" : " or ") + std::string(words[i]);
+  }
+  section.fail(key, "is " + in_quotes(*word) + "; " + list + " is allowed");
+}
+
+StudySetting read_setting(const TomlSection& section, const std::string& default_name) {
+  section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
+                 "strength_share", "friction", "balance", "preset", "kernel", "tissue_model",
+                 "regions", "indices", "wrench_volume", "place"});
+  StudySetting setting;
+  setting.name = section.text("name").value_or(default_name);
+  const auto set = [&](const char* key, const char* unit, double lowest, double highest,
+                       double& value) {
+    value = section.number(key, unit, lowest, highest).value_or(value);
+  };
+  set("palm_limit_depth_mm", "mm", 0.1, 15.0, setting.palm_limit_depth);
+  set("finger_limit_depth_mm", "mm", 0.1, 15.0, setting.finger_limit_depth);
+  set("friction", "", 0.0, 3.0, setting.friction);
+  setting.grip_force = section.number("grip_force_n", "N", 0.1, 5000.0);
+  setting.strength_share = section.number("strength_share", "", 0.001, 1.0);
+  if (setting.grip_force && setting.strength_share) {
+    section.fail("strength_share", "and grip_force_n exclude each other; one is allowed");
+  }
+  if (const auto preset = section.text("preset")) {
+    const auto model = contact_model_named(*preset);
+    if (!model) {
+      section.fail("preset", "is " + in_quotes(*preset) + "; palmar or xie2014 is allowed");
+    }
+    setting.model = *model;
+    // The thesis leaves the hand as it was closed.
+    if (*preset == "xie2014") setting.is_balanced = false;
+  }
+  read_word(section, "kernel", std::array{"patch", "point"}, setting.model.kernel);
+  read_word(section, "tissue_model", std::array{"halfspace", "layered"}, setting.model.tissue);
+  read_word(section, "regions", std::array{"coupled", "independent"}, setting.model.coupling);
+  setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
+  setting.indices = section.boolean("indices").value_or(setting.indices);
+  setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);
+  read_word(section, "place", std::array{"shared", "per_hand"}, setting.is_place_per_hand);
+  return setting;
+}
+
+/// Keys of every number that a grasp can have.
+std::vector<std::string> quantity_keys() {
+  std::vector<std::string> keys;
+  for (const StudyQuantity& one : hand_quantities()) keys.push_back(one.key);
+  for (const GraspIndex& one : index_catalogue()) keys.push_back(one.key);
+  return keys;
+}
+
+StudyLimit read_limit(const TomlSection& section) {
+  section.allow({"quantity", "lowest", "highest"});
+  StudyLimit limit;
+  limit.quantity = section.need_text("quantity");
+  const std::vector<std::string> keys = quantity_keys();
+  if (std::find(keys.begin(), keys.end(), limit.quantity) == keys.end()) {
+    const std::string nearest = nearest_name(limit.quantity, keys);
+    section.fail("quantity", "is " + in_quotes(limit.quantity) + ", which no grasp has" +
+                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  }
+  constexpr double kMost = 1e12;
+  limit.lowest = section.number("lowest", "", -kMost, kMost);
+  limit.highest = section.number("highest", "", -kMost, kMost);
+  if (!limit.lowest && !limit.highest) {
+    section.fail("has neither lowest nor highest; at least one is required");
+  }
+  if (limit.lowest && limit.highest && *limit.lowest > *limit.highest) {
+    section.fail("lowest",
+                 "is " + shortest(*limit.lowest) + ", above highest, " + shortest(*limit.highest));
+  }
+  return limit;
+}
+
+}  // namespace
+
+std::optional<SamplingDesign> design_named(const std::string& name) {
+  if (name == "random") return SamplingDesign::kRandom;
+  if (name == "latin_hypercube" || name == "lhs") return SamplingDesign::kLatinHypercube;
+  if (name == "boundary") return SamplingDesign::kBoundary;
+  if (name == "percentiles") return SamplingDesign::kPercentiles;
+  return std::nullopt;
+}
+
+std::optional<Grip> asked_grip_named(const std::string& name) {
+  if (name == "auto") return std::nullopt;
+  if (const auto grip = grip_named(name)) return grip;
+  std::vector<std::string> known = {"auto"};
+  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  const std::string nearest = nearest_name(name, known);
+  throw UsageError("grip " + in_quotes(name) + " is not known; " +
+                   (nearest.empty() ? "allowed are " + list : "did you mean \"" + nearest + "\"?"));
+}
+
+StudyRequest read_study_file(const std::string& path) {
+  const std::string text = read_file(path, kMaxStudyBytes);
+  const toml::table values = parse_toml(text, path);
+  const TomlSection file(path, "", values);
+  file.allow({"study", "population", "profile", "product", "settings", "setting", "limit"});
+  StudyRequest request;
+  request.where = path;
+  request.name = fs::path(path).stem().string();
+  if (const auto study = file.table("study")) {
+    study->allow({"name", "title", "seed", "hand", "grips"});
+    request.name = study->text("name").value_or(request.name);
+    request.title = study->text("title").value_or("");
+    request.seed = static_cast<std::uint64_t>(study->integer("seed", 0, INT64_MAX).value_or(1));
+    request.hand = study->text("hand").value_or("template");
+    if (request.hand != "template") request.hand = from_folder(*study, request.hand);
+    for (const std::string& name : study->texts("grips")) {
+      try {
+        request.grips.push_back(asked_grip_named(name));
+      } catch (const UsageError& error) {
+        study->fail("grips", std::string("has ") + error.what());
+      }
+    }
+  }
+  for (const TomlSection& one : file.tables("population")) {
+    request.populations.push_back(read_population_request(one));
+  }
+  if (request.populations.empty()) {
+    file.fail("no [[population]]: whose hands is not said; preset = \"xie2014\" is one");
+  }
+  for (const TomlSection& one : file.tables("profile")) {
+    request.profiles.push_back(read_profile(one));
+  }
+  for (const TomlSection& one : file.tables("product")) {
+    for (ProductRequest& product : read_products(one)) {
+      request.products.push_back(std::move(product));
+    }
+  }
+  if (request.products.empty()) {
+    file.fail("no [[product]]: what is held is not said; file = \"handle.stl\" is one");
+  }
+  if (file.has("settings") && file.has("setting")) {
+    file.fail("setting", "and [settings] exclude each other; one of them is allowed");
+  }
+  if (const auto settings = file.table("settings")) {
+    request.settings.push_back(read_setting(*settings, "default"));
+  }
+  for (const TomlSection& one : file.tables("setting")) {
+    request.settings.push_back(
+        read_setting(one, "setting " + std::to_string(request.settings.size() + 1)));
+  }
+  for (const TomlSection& one : file.tables("limit")) request.limits.push_back(read_limit(one));
+  return request;
+}
+
+}  // namespace palmar

@@ -1,0 +1,365 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/study/study_plan_json.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/records/population/population_file.h"
+#include "palmar/records/product/made_product.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Words by the numbers of their enumerators.
+constexpr std::array kDesigns = {"random", "latin_hypercube", "boundary", "percentiles"};
+constexpr std::array kKernels = {"patch", "point"};
+constexpr std::array kTissues = {"halfspace", "layered"};
+constexpr std::array kCouplings = {"coupled", "independent"};
+constexpr std::array kDistances = {"surface", "isomap"};
+constexpr std::array kBulges = {"held", "printed"};
+
+template <typename Enum, typename Words>
+Enum word_from(const Json& json, const Words& words) {
+  const std::string word = json;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (word == words[i]) return static_cast<Enum>(i);
+  }
+  throw InputError("its plan has an unknown word: " + in_quotes(word));
+}
+
+Json vector_json(const std::optional<Vec3>& v) { return v ? Json{v->x(), v->y(), v->z()} : Json(); }
+std::optional<Vec3> vector_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+}
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+std::optional<double> optional_from(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+
+Json sex_json(const std::optional<Sex>& sex) {
+  return sex ? Json(*sex == Sex::kMale ? "male" : "female") : Json();
+}
+std::optional<Sex> sex_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return json.get<std::string>() == "male" ? Sex::kMale : Sex::kFemale;
+}
+
+Json population_json(const StudyPopulation& one) {
+  const SamplingOptions& sampling = one.sampling;
+  return {{"name", one.population.name},
+          {"title", one.population.title},
+          {"source", one.population.source},
+          {"cautions", one.population.cautions},
+          // Given hands have no distribution.
+          {"toml", one.population.strata.empty() ? "" : population_toml(one.population)},
+          {"design", kDesigns[static_cast<std::size_t>(sampling.design)]},
+          {"hands", sampling.hands},
+          {"seed", sampling.seed},
+          {"residuals", sampling.residuals},
+          {"boundary", sampling.boundary},
+          {"boundary_points", sampling.boundary_points},
+          {"percentiles", sampling.percentiles}};
+}
+
+StudyPopulation population_from(const Json& json, const std::string& name) {
+  StudyPopulation one;
+  const std::string toml = json.at("toml");
+  if (!toml.empty()) one.population = parse_population(toml, name);
+  one.population.name = json.at("name");
+  one.population.title = json.at("title");
+  one.population.source = json.at("source");
+  one.population.cautions = json.at("cautions").get<std::vector<std::string>>();
+  SamplingOptions& sampling = one.sampling;
+  sampling.design = word_from<SamplingDesign>(json.at("design"), kDesigns);
+  sampling.hands = json.at("hands");
+  sampling.seed = json.at("seed");
+  sampling.residuals = json.at("residuals");
+  sampling.boundary = json.at("boundary");
+  sampling.boundary_points = json.at("boundary_points");
+  sampling.percentiles = json.at("percentiles").get<std::vector<double>>();
+  return one;
+}
+
+Json profile_json(const HandProfile& profile) {
+  return {{"name", profile.name},
+          {"range_share", profile.range_share},
+          {"strength_share", profile.strength_share},
+          {"glove_thickness_mm", profile.glove_thickness},
+          {"glove_shear_modulus_mpa", profile.glove_shear_modulus},
+          {"nail_length_mm", profile.nail_length},
+          {"size_factor", profile.size_factor},
+          {"source", profile.source}};
+}
+
+HandProfile profile_from(const Json& json) {
+  HandProfile profile;
+  profile.name = json.at("name");
+  profile.range_share = json.at("range_share");
+  profile.strength_share = json.at("strength_share");
+  profile.glove_thickness = json.at("glove_thickness_mm");
+  profile.glove_shear_modulus = json.at("glove_shear_modulus_mpa");
+  profile.nail_length = json.at("nail_length_mm");
+  profile.size_factor = json.at("size_factor");
+  profile.source = json.at("source");
+  return profile;
+}
+
+Json hand_json(const StudyHand& hand) {
+  Json dimensions = Json::object();
+  for (const SizedDimension& one : hand.sample.dimensions) {
+    dimensions[name_of(one.dimension)] = one.value;
+  }
+  return {{"population", hand.population},
+          {"label", hand.sample.label},
+          {"stratum", hand.sample.stratum},
+          {"sex", sex_json(hand.sample.sex)},
+          {"age_years", optional_json(hand.sample.age)},
+          {"grip_strength_n", hand.sample.grip_strength},
+          {"dimensions_mm", std::move(dimensions)}};
+}
+
+StudyHand hand_from(const Json& json, const std::string& name) {
+  StudyHand hand;
+  hand.population = json.at("population");
+  hand.sample.label = json.at("label");
+  hand.sample.stratum = json.at("stratum");
+  hand.sample.sex = sex_from(json.at("sex"));
+  hand.sample.age = optional_from(json.at("age_years"));
+  hand.sample.grip_strength = json.at("grip_strength_n");
+  for (const auto& [key, value] : json.at("dimensions_mm").items()) {
+    const auto dimension = hand_dimension_named(key);
+    if (!dimension) throw InputError(name + ": unknown dimension " + in_quotes(key));
+    hand.sample.dimensions.push_back({*dimension, value.get<double>()});
+  }
+  return hand;
+}
+
+Json product_json(const StudyProduct& product) {
+  return {{"name", product.name},
+          {"family", product.family},
+          {"size", product.size},
+          {"file", product.file},
+          {"content_sha256", product.content_hash},
+          {"unit", product.unit},
+          {"at_mm", vector_json(product.at)},
+          {"axis", vector_json(product.axis)},
+          {"mass_kg", product.mass},
+          {"posture_of", product.posture_of}};
+}
+
+StudyProduct product_from(const Json& json) {
+  StudyProduct product;
+  product.name = json.at("name");
+  product.family = json.at("family");
+  product.size = json.at("size");
+  product.file = json.at("file");
+  product.content_hash = json.at("content_sha256");
+  product.unit = json.at("unit");
+  product.at = vector_from(json.at("at_mm"));
+  product.axis = vector_from(json.at("axis"));
+  product.mass = json.at("mass_kg");
+  product.posture_of = json.at("posture_of");
+  return product;
+}
+
+Json setting_json(const StudySetting& setting) {
+  const ContactModel& model = setting.model;
+  return {{"name", setting.name},
+          {"palm_limit_depth_mm", setting.palm_limit_depth},
+          {"finger_limit_depth_mm", setting.finger_limit_depth},
+          {"grip_force_n", optional_json(setting.grip_force)},
+          {"strength_share", optional_json(setting.strength_share)},
+          {"friction", setting.friction},
+          {"is_balanced", setting.is_balanced},
+          {"kernel", kKernels[static_cast<std::size_t>(model.kernel)]},
+          {"tissue_model", kTissues[static_cast<std::size_t>(model.tissue)]},
+          {"coupling", kCouplings[static_cast<std::size_t>(model.coupling)]},
+          {"skin_distance", kDistances[static_cast<std::size_t>(model.distance)]},
+          {"bulge", kBulges[static_cast<std::size_t>(model.bulge)]},
+          {"indices", setting.indices},
+          {"wrench_volume", setting.wrench_volume},
+          {"place_per_hand", setting.is_place_per_hand}};
+}
+
+StudySetting setting_from(const Json& json) {
+  StudySetting setting;
+  setting.name = json.at("name");
+  setting.palm_limit_depth = json.at("palm_limit_depth_mm");
+  setting.finger_limit_depth = json.at("finger_limit_depth_mm");
+  setting.grip_force = optional_from(json.at("grip_force_n"));
+  setting.strength_share = optional_from(json.at("strength_share"));
+  setting.friction = json.at("friction");
+  setting.is_balanced = json.at("is_balanced");
+  setting.model.kernel = word_from<Kernel>(json.at("kernel"), kKernels);
+  setting.model.tissue = word_from<TissueModel>(json.at("tissue_model"), kTissues);
+  setting.model.coupling = word_from<RegionCoupling>(json.at("coupling"), kCouplings);
+  setting.model.distance = word_from<SkinDistance>(json.at("skin_distance"), kDistances);
+  setting.model.bulge = word_from<BulgeLaw>(json.at("bulge"), kBulges);
+  setting.indices = json.at("indices");
+  setting.wrench_volume = json.at("wrench_volume");
+  setting.is_place_per_hand = json.at("place_per_hand");
+  return setting;
+}
+
+Json limit_json(const StudyLimit& limit) {
+  return {{"quantity", limit.quantity},
+          {"lowest", optional_json(limit.lowest)},
+          {"highest", optional_json(limit.highest)}};
+}
+
+template <typename List, typename Function>
+Json list_json(const List& list, const Function& one) {
+  Json result = Json::array();
+  for (const auto& item : list) result.push_back(one(item));
+  return result;
+}
+
+Json plan_json(const StudyPlan& plan) {
+  Json grips = Json::array();
+  for (const std::optional<Grip>& grip : plan.grips) {
+    grips.push_back(grip ? std::string(name_of(*grip)) : "auto");
+  }
+  return {{"name", plan.name},
+          {"title", plan.title},
+          {"seed", plan.seed},
+          {"hand_sha256", plan.hand_hash},
+          {"populations", list_json(plan.populations, population_json)},
+          {"profiles", list_json(plan.profiles, profile_json)},
+          {"products", list_json(plan.products, product_json)},
+          {"grips", std::move(grips)},
+          {"settings", list_json(plan.settings, setting_json)},
+          {"limits", list_json(plan.limits, limit_json)},
+          {"hands", list_json(plan.hands, hand_json)}};
+}
+
+/// "product \"handle\"", "setting \"default\"", for people.
+std::string label_of(const std::string& list, const Json& item, std::size_t index) {
+  const std::string noun = list.substr(0, list.size() - 1);
+  const char* key = list == "hands" ? "label" : list == "limits" ? "quantity" : "name";
+  if (item.is_object() && item.contains(key)) {
+    return noun + " \"" + item.at(key).get<std::string>() + "\"";
+  }
+  return noun + " " + std::to_string(index + 1);
+}
+
+std::string short_text(const Json& json) {
+  std::string text = json.is_null() ? "not set" : json.dump();
+  constexpr std::size_t kMost = 40;
+  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  return text;
+}
+
+void compare(const std::string& where, const Json& before, const Json& now,
+             std::vector<std::string>& found) {
+  for (const auto& [key, value] : now.items()) {
+    if (!before.contains(key) || before.at(key) == value) continue;
+    const Json& old = before.at(key);
+    if (key == "file" && !is_made(old) && !is_made(value)) continue;  // its content counts
+    if (key == "content_sha256") {
+      found.push_back(where + "its shape has changed (" + now.at("file").get<std::string>() + ")");
+    } else if (key == "hand_sha256") {
+      found.push_back(where + "the hand that is scaled is another one");
+    } else if (key == "toml") {
+      found.push_back(where + "its figures have changed");
+    } else if (key == "dimensions_mm") {
+      found.push_back(where + "its dimensions have changed");
+    } else {
+      found.push_back(where + key + " was " + short_text(old) + ", now " + short_text(value));
+    }
+  }
+}
+
+void compare_lists(const std::string& list, const Json& before, const Json& now,
+                   std::vector<std::string>& found) {
+  if (before.size() != now.size()) {
+    found.push_back("had " + std::to_string(before.size()) + " " + list + ", now " +
+                    std::to_string(now.size()));
+    return;
+  }
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (before[i] == now[i]) continue;
+    if (now[i].is_object()) {
+      compare(label_of(list, before[i], i) + ": ", before[i], now[i], found);
+    } else {
+      found.push_back(list + " " + std::to_string(i + 1) + " was " + short_text(before[i]) +
+                      ", now " + short_text(now[i]));
+    }
+  }
+}
+
+}  // namespace
+
+std::string format_plan(const StudyPlan& plan) {
+  return plan_json(plan).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string format_identity(const StudyPlan& plan) {
+  Json json = plan_json(plan);
+  for (Json& product : json.at("products")) {
+    if (!is_made(product.at("file"))) product.erase("file");
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+StudyPlan parse_plan(const std::string& text, const std::string& name) {
+  try {
+    const Json json = Json::parse(text);
+    StudyPlan plan;
+    plan.name = json.at("name");
+    plan.title = json.at("title");
+    plan.seed = json.at("seed");
+    plan.hand_hash = json.at("hand_sha256");
+    for (const Json& one : json.at("populations")) {
+      plan.populations.push_back(population_from(one, name));
+    }
+    for (const Json& one : json.at("profiles")) plan.profiles.push_back(profile_from(one));
+    for (const Json& one : json.at("products")) plan.products.push_back(product_from(one));
+    for (const Json& one : json.at("grips")) {
+      const std::string grip = one;
+      plan.grips.push_back(grip == "auto" ? std::nullopt : grip_named(grip));
+    }
+    for (const Json& one : json.at("settings")) plan.settings.push_back(setting_from(one));
+    for (const Json& one : json.at("limits")) {
+      plan.limits.push_back({.quantity = one.at("quantity"),
+                             .lowest = optional_from(one.at("lowest")),
+                             .highest = optional_from(one.at("highest"))});
+    }
+    for (const Json& one : json.at("hands")) plan.hands.push_back(hand_from(one, name));
+    return plan;
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": its plan can't be read: " + error.what());
+  }
+}
+
+std::vector<std::string> plan_differences(const StudyPlan& before, const StudyPlan& now,
+                                          std::size_t most) {
+  const Json old_json = plan_json(before);
+  const Json new_json = plan_json(now);
+  std::vector<std::string> found;
+  Json old_plain = Json::object(), new_plain = Json::object();
+  for (const auto& [key, value] : new_json.items()) {
+    if (value.is_array()) continue;
+    old_plain[key] = old_json.at(key);
+    new_plain[key] = value;
+  }
+  compare("", old_plain, new_plain, found);
+  for (const auto& [key, value] : new_json.items()) {
+    if (value.is_array()) compare_lists(key, old_json.at(key), value, found);
+  }
+  if (found.size() > most) {
+    const std::size_t more = found.size() - most;
+    found.resize(most);
+    found.push_back("and " + std::to_string(more) + " more");
+  }
+  return found;
+}
+
+}  // namespace palmar

@@ -1,0 +1,84 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/formats/sha256.h"
+#include "palmar/records/sqlite_file.h"
+#include "palmar/study/study_plan.h"
+#include "palmar/study/study_record.h"
+#include "palmar/study/study_run.h"
+
+namespace palmar {
+
+// The tables of a study store (docs/using/study-store.md). For use inside `io` only; what SQLite
+// can't do is a SqliteFailure.
+
+inline constexpr int kStudyApplicationId = 0x504C4D52;  ///< "PLMR"
+inline constexpr int kStudyPageSize = 16384;            ///< bytes
+
+/// Writes records into the tables of an open file.
+class StudyTableWriter {
+ public:
+  StudyTableWriter(SqliteFile& file, const StudyPlan& plan);
+  /// All rows of one record; the caller begins and ends the transaction.
+  void write(const StudyRecord& record);
+  /// The time it took; only while the store isn't finished.
+  void write_time(const StudyRecord& record);
+  /// SHA-256 of what add_to_digest() got and of all records written, in their order.
+  std::string digest() const { return digest_.hex(); }
+  void add_to_digest(const std::string& bytes) { digest_.add(bytes); }
+
+ private:
+  std::int64_t quantity_id(const std::string& key);
+
+  SqliteFile& file_;
+  const StudyPlan& plan_;
+  std::map<std::string, std::int64_t> quantity_;
+  Sha256 digest_;
+  SqliteStatement grasp_, region_, index_, field_;
+};
+
+/// Reads records one by one, ascending by number. Throws InputError: a record is damaged.
+class StudyTableReader {
+ public:
+  /// Of one number only, if given.
+  StudyTableReader(SqliteFile& file, bool with_fields, std::optional<std::int64_t> only = {});
+  bool next(StudyRecord& record);
+
+ private:
+  void read_regions(StudyRecord& record);
+  void read_indices(StudyRecord& record);
+
+  bool with_fields_, has_times_;
+  std::map<std::int64_t, std::string> quantity_;
+  SqliteStatement grasp_, region_, index_;
+  bool has_region_ = false, has_index_ = false;  ///< a row that isn't taken yet
+};
+
+/// Text of a key of table `study`, or "".
+std::string study_value(SqliteFile& file, const std::string& key);
+
+/// What a new store begins with: everything but records.
+struct StudyHead {
+  const StudyPlan& plan;
+  std::string hand;                   ///< packed, as in table `input`
+  std::vector<std::string> products;  ///< packed
+  std::vector<std::string> faces;     ///< packed, by product; "": has none, or Palmar makes it
+  StudyShard shard;
+  std::string program;
+};
+
+/// A new store at `path` (which must not exist), synced to the disk: `fill` writes its records.
+/// With `is_finished` it gets its digest. Same arguments, same bytes.
+void build_store(const std::filesystem::path& path, const StudyHead& head, bool is_finished,
+                 const std::function<void(StudyTableWriter&)>& fill);
+
+}  // namespace palmar

@@ -1,0 +1,314 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/tissue_file.h"
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/hand/tissue.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1 << 20;  // a set of all regions has 20 kB
+constexpr double kKpaPerMpa = 1000.0;
+
+/// One number of a law: its key is name + level + unit, as in g0_low_kpa.
+struct LawKey {
+  const char* name;
+  const char* ending;
+  const char* unit;
+  double StiffeningLaw::*value;
+  double factor;  ///< file's unit / ours
+  double lowest, highest;
+};
+constexpr double kSmallest = 1e-3;  // mm; stands for "more than 0"
+constexpr std::array<LawKey, 3> kLawKeys = {
+    {{"g0", "_kpa", "kPa", &StiffeningLaw::g0, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
+      kKpaPerMpa* kMaxShearModulus},
+     {"g_limit", "_kpa", "kPa", &StiffeningLaw::g_limit, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
+      kKpaPerMpa* kMaxShearModulus},
+     {"limit_depth", "_mm", "mm", &StiffeningLaw::limit_depth, 1.0, kSmallest, kMaxTissueLength}}};
+
+struct Level {
+  const char* suffix;
+  StiffeningLaw TissueStiffness::*law;
+};
+constexpr std::array<Level, 3> kLevels = {{{"", &TissueStiffness::nominal},
+                                           {"_low", &TissueStiffness::low},
+                                           {"_high", &TissueStiffness::high}}};
+
+std::string key_of(const LawKey& key, const Level& level) {
+  return std::string(key.name) + level.suffix + key.ending;
+}
+
+struct RegionKey {
+  const char* name;
+  const char* unit;
+  double RegionTissue::*value;
+  double lowest, highest;
+};
+constexpr std::array<RegionKey, 5> kRegionKeys = {
+    {{"poisson_layered", "", &RegionTissue::poisson_layered, 0.0, 0.5},
+     {"swelling_height_mm", "mm", &RegionTissue::swelling_height, 0.0, kMaxTissueLength},
+     {"swelling_radius_mm", "mm", &RegionTissue::swelling_radius, kSmallest, kMaxTissueLength},
+     {"swelling_width_mm", "mm", &RegionTissue::swelling_width, kSmallest, kMaxTissueLength},
+     {"neighbourhood_mm", "mm", &RegionTissue::neighbourhood, kSmallest, kMaxTissueLength}}};
+
+struct ModelKey {
+  const char* name;
+  TissueStiffness RegionTissue::*stiffness;
+};
+constexpr std::array<ModelKey, 2> kModelKeys = {
+    {{"half_space", &RegionTissue::half_space}, {"layered", &RegionTissue::layered}}};
+
+/// Reads one file over a base set.
+class Reader {
+ public:
+  Reader(std::string path, Tissue base) : path_(std::move(path)), tissue_(std::move(base)) {}
+
+  Tissue read(const toml::table& file) {
+    std::vector<std::string> known = {"version", "source", "region"};
+    for (int c = 0; c < kTissueClassCount; ++c) {
+      known.emplace_back(name_of(static_cast<TissueClass>(c)));
+    }
+    for (const auto& [key, node] : file) {
+      const std::string name(key.str());
+      if (name == "version") {
+        check_version(key, node);
+      } else if (name == "source") {
+        tissue_.source = text(key, node, "");
+      } else if (tissue_class_named(name)) {
+        table(key, node, name);
+      } else if (name == "region") {
+        for (const auto& [region, ignored] : table(key, node, name)) check_region(region);
+      } else {
+        unknown(key, "the file", known);
+      }
+    }
+    for (int r = 0; r < kRegionCount; ++r) {
+      const auto region = static_cast<Region>(r);
+      RegionTissue& one = tissue_.region[static_cast<std::size_t>(r)];
+      const std::string group(name_of(tissue_class_of(region)));
+      if (const toml::table* values = file[group].as_table()) apply(*values, group, one);
+      const std::string name(name_of(region));
+      if (const toml::node* values = file["region"][name].node()) {
+        if (!values->is_table()) fail(*values, "[region." + name + "] must be a table");
+        apply(*values->as_table(), "region." + name, one);
+      }
+      const std::string fault = fault_of(one);
+      if (!fault.empty()) throw InputError(path_ + ": tissue of " + name + ": " + fault);
+    }
+    return std::move(tissue_);
+  }
+
+ private:
+  [[noreturn]] void fail(const toml::source_region& where, const std::string& why) const {
+    throw InputError(path_ + ":" + std::to_string(where.begin.line) + ": " + why);
+  }
+  [[noreturn]] void fail(const toml::node& node, const std::string& why) const {
+    fail(node.source(), why);
+  }
+  [[noreturn]] void unknown(const toml::key& key, const std::string& section,
+                            const std::vector<std::string>& known) const {
+    const std::string name(key.str());
+    const std::string nearest = nearest_name(name, known);
+    std::string list;
+    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+    fail(key.source(),
+         section + ": key " + in_quotes(name) + " is not known; " +
+             (nearest.empty() ? "allowed are " + list : "did you mean \"" + nearest + "\"?"));
+  }
+
+  void check_version(const toml::key& key, const toml::node& node) const {
+    const auto version = node.value_exact<std::int64_t>();
+    if (!version || *version < 1) fail(key.source(), "version must be a whole number from 1");
+    if (*version > kTissueFileVersion) {
+      fail(key.source(), "tissue file of version " + std::to_string(*version) +
+                             "; this program reads up to version " +
+                             std::to_string(kTissueFileVersion) + " (a newer Palmar wrote it)");
+    }
+  }
+
+  void check_region(const toml::key& key) const {
+    if (region_named(key.str())) return;
+    std::vector<std::string> known;
+    for (int r = 0; r < kRegionCount; ++r) known.emplace_back(name_of(static_cast<Region>(r)));
+    unknown(key, "[region]", known);
+  }
+
+  const toml::table& table(const toml::key& key, const toml::node& node,
+                           const std::string& section) const {
+    if (const toml::table* values = node.as_table()) return *values;
+    fail(key.source(), "\"" + section + "\" must be a table, as in [" + section + "]");
+  }
+
+  std::string text(const toml::key& key, const toml::node& node, const std::string& section) const {
+    if (const auto value = node.value_exact<std::string>()) return *value;
+    fail(key.source(), section + std::string(key.str()) + " must be text in quotes");
+  }
+
+  double number(const toml::key& key, const toml::node& node, const std::string& section,
+                const std::string& unit, double lowest, double highest) const {
+    const std::string what = "[" + section + "] " + std::string(key.str());
+    std::ostringstream allowed;
+    allowed << lowest << " to " << highest << (unit.empty() ? "" : " ") << unit << " is allowed";
+    const auto value = node.value<double>();
+    if (!value || node.is_boolean()) fail(key.source(), what + " is no number; " + allowed.str());
+    if (!(*value >= lowest && *value <= highest)) {
+      std::ostringstream message;
+      message << what << " is " << *value << (unit.empty() ? "" : " ") << unit << "; "
+              << allowed.str();
+      fail(key.source(), message.str());
+    }
+    return *value;
+  }
+
+  void apply(const toml::table& values, const std::string& section, RegionTissue& region) const {
+    std::vector<std::string> known = {"source"};
+    for (const ModelKey& model : kModelKeys) known.emplace_back(model.name);
+    for (const RegionKey& item : kRegionKeys) known.emplace_back(item.name);
+    for (const auto& [key, node] : values) {
+      const std::string name(key.str());
+      const auto is_named = [&name](const auto& item) { return name == item.name; };
+      const auto* number_key = std::find_if(kRegionKeys.begin(), kRegionKeys.end(), is_named);
+      const auto* model_key = std::find_if(kModelKeys.begin(), kModelKeys.end(), is_named);
+      if (name == "source") {
+        region.source = text(key, node, "[" + section + "] ");
+      } else if (number_key != kRegionKeys.end()) {
+        region.*number_key->value =
+            number(key, node, section, number_key->unit, number_key->lowest, number_key->highest);
+      } else if (model_key != kModelKeys.end()) {
+        const std::string below = section + "." + name;
+        apply_law(table(key, node, below), below, region.*model_key->stiffness);
+      } else {
+        unknown(key, "[" + section + "]", known);
+      }
+    }
+  }
+
+  void apply_law(const toml::table& values, const std::string& section,
+                 TissueStiffness& stiffness) const {
+    std::vector<std::string> known;
+    for (const LawKey& item : kLawKeys) {
+      for (const Level& level : kLevels) known.push_back(key_of(item, level));
+    }
+    for (const auto& [key, ignored] : values) {
+      if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+        unknown(key, "[" + section + "]", known);
+      }
+    }
+    for (const LawKey& item : kLawKeys) {
+      for (const Level& level : kLevels) {
+        const auto found = values.find(key_of(item, level));
+        if (found == values.end()) continue;
+        const double value =
+            number(found->first, found->second, section, item.unit, item.lowest, item.highest) /
+            item.factor;
+        (stiffness.*level.law).*item.value = value;
+        // A value without a range has none; keys of the range come after it and put it back.
+        if (level.law == &TissueStiffness::nominal) {
+          stiffness.low.*item.value = value;
+          stiffness.high.*item.value = value;
+        }
+      }
+    }
+  }
+
+  std::string path_;
+  Tissue tissue_;
+};
+
+/// 15 digits where they say it to the last bit but one, so that 0.07 MPa is written as 70 kPa.
+std::string decimal(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(15);
+  text << value;
+  std::string digits = text.str();
+  const double back = parse_double(digits).value_or(0.0);
+  constexpr double kOneBit = 2.3e-16;  // relative
+  if (std::abs(back - value) > kOneBit * std::abs(value)) digits = shortest(value);
+  const bool is_float = digits.find_first_of(".en") != std::string::npos;
+  return is_float ? digits : digits + ".0";
+}
+
+/// TOML's basic strings have JSON's escapes.
+std::string quoted(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string region_toml(const std::string& section, const RegionTissue& region) {
+  std::string text = "\n[" + section + "]\n";
+  if (!region.source.empty()) text += "source = " + quoted(region.source) + "\n";
+  for (const RegionKey& item : kRegionKeys) {
+    text += std::string(item.name) + " = " + decimal(region.*item.value) + "\n";
+  }
+  for (const ModelKey& model : kModelKeys) {
+    text += "\n[" + section + "." + model.name + "]\n";
+    const TissueStiffness& stiffness = region.*model.stiffness;
+    for (const LawKey& item : kLawKeys) {
+      for (const Level& level : kLevels) {
+        const double value = (stiffness.*level.law).*item.value;
+        const bool is_nominal = level.law == &TissueStiffness::nominal;
+        if (!is_nominal && value == stiffness.nominal.*item.value) continue;
+        text += key_of(item, level) + " = " + decimal(value * item.factor) + "\n";
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+Tissue read_tissue(const std::string& path, const Tissue& base) {
+  const std::string text = read_file(path, kMaxBytes);
+  try {
+    return Reader(path, base).read(toml::parse(text, path));
+  } catch (const toml::parse_error& error) {
+    throw InputError(path + ":" + std::to_string(error.source().begin.line) +
+                     ": no TOML: " + std::string(error.description()));
+  }
+}
+
+std::string tissue_toml(const Tissue& tissue) {
+  std::string text =
+      "# Tissue of a hand; see docs/using/tissue.md. Moduli in kPa, lengths in mm.\n";
+  text += "version = " + std::to_string(kTissueFileVersion) + "\n";
+  text += "source = " + quoted(tissue.source) + "\n";
+  std::array<const RegionTissue*, kTissueClassCount> group{};
+  for (int r = 0; r < kRegionCount; ++r) {
+    const RegionTissue*& first =
+        group[static_cast<std::size_t>(tissue_class_of(static_cast<Region>(r)))];
+    if (first == nullptr) first = &tissue.region[static_cast<std::size_t>(r)];
+  }
+  for (int c = 0; c < kTissueClassCount; ++c) {
+    text += region_toml(std::string(name_of(static_cast<TissueClass>(c))),
+                        *group[static_cast<std::size_t>(c)]);
+  }
+  for (int r = 0; r < kRegionCount; ++r) {
+    const auto region = static_cast<Region>(r);
+    const RegionTissue& one = tissue.region[static_cast<std::size_t>(r)];
+    if (one == *group[static_cast<std::size_t>(tissue_class_of(region))]) continue;
+    text += region_toml("region." + std::string(name_of(region)), one);
+  }
+  return text;
+}
+
+void write_tissue(const std::string& path, const Tissue& tissue) {
+  write_file(path, tissue_toml(tissue));
+}
+
+}  // namespace palmar

@@ -1,0 +1,218 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/page/assessment_report.h"
+
+#include <cctype>
+#include <filesystem>
+#include <set>
+
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/mesh/glb_fields.h"
+#include "palmar/formats/mesh/vtk.h"
+#include "palmar/records/assessment_json.h"
+#include "palmar/records/csv.h"
+#include "palmar/report/page/html_report.h"
+#include "palmar/report/picture/assessment_pictures.h"
+
+namespace palmar {
+
+namespace {
+
+constexpr int kEmbeddedWidth = 720;  // pixels; the page shows pictures about 540 wide
+
+// A folder name that every file system takes, different from those already used.
+std::string folder_name(const std::string& product, std::set<std::string>& used) {
+  std::string name;
+  for (const char c : product) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ||
+                          c == '_' || (c == '.' && !name.empty());
+    name += is_plain ? c : '_';
+  }
+  if (name.empty()) name = "product";
+  if (name.size() > 80) name.resize(80);
+  std::string unique = name;
+  for (int k = 2; !used.insert(unique).second; ++k) unique = name + "_" + std::to_string(k);
+  return unique;
+}
+
+std::vector<MeshNote> notes_of(const ContactResult& contact) {
+  return {{"contact_model", name_of(contact.model)},
+          {"kernel", std::string(name_of(contact.model.kernel))},
+          {"tissue_model", std::string(name_of(contact.model.tissue))},
+          {"regions", std::string(name_of(contact.model.coupling))}};
+}
+
+std::string hand_vtp(const Hand& hand, const Assessment& assessment) {
+  const std::size_t n = hand.skin.vertices.size();
+  const auto sized = [&](std::vector<double> values) {
+    values.resize(n, 0.0);
+    return values;
+  };
+  const ContactResult& contact = assessment.contact;
+  const TriangleMesh deformed = deformed_skin(hand, assessment);
+  const TriangleMesh undeformed = undeformed_skin(hand, assessment);
+  std::vector<Vec3> moved(n);
+  for (std::size_t i = 0; i < n; ++i) moved[i] = deformed.vertices[i] - undeformed.vertices[i];
+  std::vector<double> region;
+  for (const Region r : hand.region) region.push_back(static_cast<double>(r));
+  std::vector<PointField> fields = {{"pressure_mpa", sized(contact.pressure)},
+                                    {"force_n", sized(contact.force)},
+                                    {"distance_before_mm", sized(contact.distance)},
+                                    {"indentation_mm", sized(contact.displacement)},
+                                    {"region", sized(region)},
+                                    vector_field("displacement_mm", moved)};
+  if (assessment.options.friction.is_on()) {
+    std::vector<Vec3> friction = assessment.friction.force;
+    friction.resize(n, Vec3::Zero());
+    fields.push_back({"mobilised_friction", sized(assessment.friction.mobilised)});
+    fields.push_back(vector_field("friction_force_n", friction));
+  }
+  return format_vtp(deformed, fields, notes_of(contact));
+}
+
+std::vector<VertexColour> glb_colours(const std::vector<double>& field, const ColourScale& scale,
+                                      Rgb neutral) {
+  std::vector<VertexColour> colours;
+  for (const Rgb c : field_colours(field, scale.upper, scale.map, neutral, 0.005 * scale.upper)) {
+    colours.push_back({c.r, c.g, c.b});
+  }
+  return colours;
+}
+
+std::string grasp_glb(const Hand& hand, const AssessedProduct& one, const ColourScale& scale) {
+  const std::vector<double> pressure = skin_pressure(hand, one.assessment);
+  const ProductFootprint footprint = footprint_of(one);
+  FieldMesh skin{"hand",
+                 deformed_skin(hand, one.assessment),
+                 glb_colours(pressure, scale, kSkinColour),
+                 {{"pressure_mpa", pressure}}};
+  if (one.assessment.options.friction.is_on()) {
+    std::vector<double> mobilised = one.assessment.friction.mobilised;
+    mobilised.resize(pressure.size(), 0.0);
+    skin.field.push_back({"mobilised_friction", std::move(mobilised)});
+  }
+  return format_glb_fields({std::move(skin),
+                            {"product",
+                             footprint.surface,
+                             glb_colours(footprint.pressure, scale, kProductColour),
+                             {{"pressure_mpa", footprint.pressure}}}});
+}
+
+void write_fields(const std::filesystem::path& folder, const Hand& hand, const AssessedProduct& one,
+                  const ColourScale& scale, const Progress& progress) {
+  const auto write = [&](const char* name, const auto& make) {
+    if (!progress.is_cancelled()) write_file(folder / name, make());
+  };
+  write("hand.vtp", [&] { return hand_vtp(hand, one.assessment); });
+  write("product.vtp", [&] {
+    const ProductFootprint footprint = footprint_of(one);
+    return format_vtp(footprint.surface, {{"pressure_mpa", footprint.pressure}},
+                      notes_of(one.assessment.contact));
+  });
+  write("grasp.glb", [&] { return grasp_glb(hand, one, scale); });
+}
+
+// Writes the pictures at full size and gives them back at the size in which report.html shows them.
+std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, const Hand& hand,
+                                           const AssessedProduct& one, const ColourScale& scale,
+                                           const ReportOptions& options, const Progress& progress) {
+  const std::vector<Picture> pictures = assessment_pictures(
+      hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
+      progress);
+  std::vector<EncodedPicture> embedded(pictures.size());
+  std::vector<std::string> full(pictures.size());
+  parallel_for(static_cast<int>(pictures.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Picture& picture = pictures[i];
+    full[i] = encode_png(picture.image);
+    embedded[i] = {picture.name, picture.title, picture.alt,
+                   encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall)};
+  });
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    write_file(folder / (pictures[i].name + ".png"), full[i]);
+  }
+  return embedded;
+}
+
+}  // namespace
+
+void ReportOptions::check() const {
+  for (const auto& [field, value] :
+       {std::pair{"picture_width", picture_width}, std::pair{"picture_height", picture_height}}) {
+    if (value < 64 || value > 8192) {
+      throw UsageError(std::string("report option ") + field + " is " + std::to_string(value) +
+                       " pixels; 64 to 8192 are allowed");
+    }
+  }
+}
+
+void check_report_folder(const std::string& folder) {
+  const std::filesystem::path root(folder);
+  std::error_code error;
+  const auto status = std::filesystem::status(root, error);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_directory(status)) {
+    throw OutputError(folder + ": is a file; a report needs a folder");
+  }
+  const auto refuse_unless = [&](const char* name, bool (*is_ours)(const std::string&)) {
+    const std::filesystem::path path = root / name;
+    if (!std::filesystem::exists(path)) return;
+    // An empty file holds nothing that could be lost.
+    if (std::filesystem::is_regular_file(path)) {
+      if (std::filesystem::file_size(path) == 0 || is_ours(read_file(path))) return;
+    }
+    throw UsageError(path.string() +
+                     ": was not written by Palmar and would be overwritten; choose another folder "
+                     "or move the file");
+  };
+  refuse_unless("assessment.json", is_assessment_json);
+  refuse_unless("report.html", [](const std::string& text) {
+    return text.find("<meta name=\"generator\" content=\"Palmar ") != std::string::npos;
+  });
+  refuse_unless("faces.csv",
+                [](const std::string& text) { return text.starts_with("product,hand,face,"); });
+  refuse_unless("regions.csv",
+                [](const std::string& text) { return text.starts_with("product,hand,region,"); });
+}
+
+void write_report(const std::string& folder, const AssessmentSet& set, const ReportOptions& options,
+                  const Progress& progress) {
+  options.check();
+  if (!set.hand) throw UsageError("report: the set has no hand");
+  check_report_folder(folder);
+  const Hand& hand = *set.hand;
+  const std::filesystem::path root(folder);
+  create_folder(root);
+  const std::string json = assessment_json(set);
+  write_file(root / "assessment.json", json);
+  write_file(root / "regions.csv", format_csv(region_table(set)));
+  const CsvTable faces = face_table(set);
+  // One of an earlier run must not stand beside results that it isn't of.
+  if (!faces.rows.empty() || std::filesystem::exists(root / "faces.csv")) {
+    write_file(root / "faces.csv", format_csv(faces));
+  }
+
+  const ColourScale scale = pressure_scale(set);
+  std::vector<std::vector<EncodedPicture>> embedded(set.assessments.size());
+  std::set<std::string> used;
+  for (std::size_t i = 0; i < set.assessments.size() && !progress.is_cancelled(); ++i) {
+    const AssessedProduct& one = set.assessments[i];
+    if (progress.report) {
+      progress.report(static_cast<double>(i) / static_cast<double>(set.assessments.size()),
+                      "pictures and fields of " + one.product.name);
+    }
+    const std::filesystem::path own = root / folder_name(one.product.name, used);
+    create_folder(own);
+    write_fields(own, hand, one, scale, progress);
+    if (options.pictures) embedded[i] = write_pictures(own, hand, one, scale, options, progress);
+  }
+  const bool is_cut_short = progress.is_cancelled();
+  if (progress.report) progress.report(0.98, "report.html");
+  write_file(root / "report.html", html_report(set, embedded, scale, json, is_cut_short));
+  if (is_cut_short)
+    throw Cancelled("cancelled; " + folder + "/report.html holds what was finished");
+}
+
+}  // namespace palmar

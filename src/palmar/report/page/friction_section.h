@@ -1,0 +1,18 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/study/assessment/assessment.h"
+
+namespace palmar {
+
+/// Whether friction holds the load, how much it could hold, how the product moves or slips (told in
+/// directions of the hand), in a few plain sentences; empty if friction is off.
+std::string friction_verdict(const Hand& hand, const Assessment& assessment);
+
+/// That, and a table of the slip margins per region, for the HTML report; empty if friction is off.
+std::string friction_section(const Hand& hand, const AssessedProduct& assessed);
+
+}  // namespace palmar

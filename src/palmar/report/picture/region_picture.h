@@ -1,0 +1,30 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/redesign/contact_region.h"
+#include "palmar/report/picture/image.h"
+
+namespace palmar {
+
+/// Colours of the parts of the hand, in pictures and CAD files alike: fingers red, thumb orange,
+/// palm blue (Xie 2014, fig. 5-16: red and blue); the whole hand violet.
+Rgb colour_of(std::optional<HandPart> part);
+
+struct RegionPictureOptions {
+  int width = 1500;  ///< pixels
+  int height = 900;  ///< pixels
+};
+
+/// A product with the regions of the parts of the hand on it, from four sides about its axis, side
+/// by side: first from the palm's. Where regions overlap, the first of `regions` is shown. `map` is
+/// the mesh that the regions' fields belong to; `axis` is upwards.
+Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
+                     const Vec3& axis, const std::string& title,
+                     const RegionPictureOptions& options = {}, const Progress& progress = {});
+
+}  // namespace palmar

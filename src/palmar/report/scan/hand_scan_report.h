@@ -1,0 +1,32 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "palmar/capture/scan/scan_truth.h"
+#include "palmar/core/progress.h"
+#include "palmar/geometry/mesh/textured_mesh.h"
+
+namespace palmar {
+
+/// What a report shows of one scan.
+struct ShownScan {
+  std::string file;
+  ColouredMesh surface;  ///< mm; colours may be empty
+  SkinMarks marks;
+};
+
+/// Writes into `folder`: report.html (works offline: what was scanned and found in it, with
+/// pictures; how far the hand lies from the scan; joints and dimensions; notes), scan.json,
+/// dimensions.csv, joints_by_dots.csv, marks.csv, and with
+/// `errors` against a truth truth_errors.csv. Same input, same bytes. Throws OutputError,
+/// Cancelled.
+void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
+                            const std::map<ScanPosture, ShownScan>& scans,
+                            const std::optional<ScanErrors>& errors = {},
+                            const Progress& progress = {});
+
+}  // namespace palmar

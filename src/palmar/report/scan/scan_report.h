@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/capture/scan/scan_record.h"
+#include "palmar/core/progress.h"
+#include "palmar/report/picture/assessment_pictures.h"
+
+namespace palmar {
+
+/// Pictures of a person's hand made from scans, each from the palm and from the thumb's side:
+///
+///     hand_palm ...           the new hand, see-through, with its bones
+///     error_POSTURE_palm ...  the hand posed as scanned, coloured by its distance to the scan
+///     scan_POSTURE_palm ...   what was found in a scan: skin, bones, markers
+///
+/// When cancelled, those that are finished.
+std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options = {},
+                                   const Progress& progress = {});
+
+/// Writes into `folder`: report.html (works offline: what was scanned, tables 2-2 to 2-5 of Xie
+/// 2014 for this person with charts, ranges, dimensions, pictures, notes), scan.json,
+/// bone_errors.csv, skin_errors.csv and, with a product, grasp_contact.csv. Same record, same
+/// bytes. Throws OutputError, Cancelled.
+void write_scan_report(const std::string& folder, const ScanRecord& record,
+                       const Progress& progress = {});
+
+}  // namespace palmar

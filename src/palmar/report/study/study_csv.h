@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/records/csv.h"
+#include "palmar/study/statistics/study_analysis.h"
+
+namespace palmar {
+
+/// A table with the name of its file.
+struct NamedTable {
+  std::string name;  ///< "comparison.csv"
+  CsvTable table;
+};
+
+/// The statistics of a study in full digits: statistics.csv (per condition, product and quantity),
+/// comparison.csv (per pair), accommodation.csv, outcomes.csv (how grasps ended), regions.csv,
+/// size_dependence.csv, sizes.csv. Units stand in the headers or in a column beside the quantity.
+std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis);
+
+/// Population, profile, setting and grip of a condition: what every table begins with.
+std::vector<std::string> condition_cells(const StudyPlan& plan, const StudyCondition& one);
+
+/// The comparison alone; only of one quantity if `key` isn't empty.
+CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analysis,
+                        const std::string& key = {});
+
+}  // namespace palmar

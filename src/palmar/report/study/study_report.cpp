@@ -1,0 +1,209 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/study/study_report.h"
+
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/formats/file.h"
+#include "palmar/hand/instance/hand_instance.h"
+#include "palmar/report/chart/study_figures.h"
+#include "palmar/report/page/face_tables.h"
+#include "palmar/report/picture/study_pictures.h"
+#include "palmar/report/study/study_csv.h"
+#include "palmar/report/study/study_page.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kEmbeddedWidth = 640;  // pixels; the page shows pictures about 540 wide
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// A file name that every file system takes, different from those already used.
+std::string file_name(const std::string& text, std::set<std::string>& used) {
+  std::string name;
+  for (const char c : text) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+    name += is_plain ? c : '_';
+  }
+  if (name.empty()) name = "product";
+  if (name.size() > 80) name.resize(80);
+  std::string unique = name;
+  for (int k = 2; !used.insert(unique).second; ++k) unique = name + "_" + std::to_string(k);
+  return unique;
+}
+
+void check_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
+    throw OutputError(folder.string() + ": is a file; a report needs a folder");
+  }
+  const std::filesystem::path page = folder / "report.html";
+  if (!std::filesystem::is_regular_file(page) || std::filesystem::file_size(page) == 0) return;
+  if (read_file(page).find("<meta name=\"generator\" content=\"Palmar ") == std::string::npos) {
+    throw UsageError(page.string() +
+                     ": was not written by Palmar and would be overwritten; choose another folder "
+                     "or move the file");
+  }
+}
+
+/// How the typical hand of a condition holds a product; identity if nobody does.
+Rigid3 typical_placement(const StudyResults& results, const StudyCondition& condition,
+                         int product) {
+  std::vector<int> holding;
+  for (const int hand : hands_of(results.plan, condition)) {
+    const StudyRecord* record = record_of(results, condition, product, hand);
+    if (record != nullptr && is_in_hand(*record)) holding.push_back(hand);
+  }
+  if (holding.empty()) return {};
+  return record_of(results, condition, product, typical_hand(results.plan, holding))
+      ->product_from_hand;
+}
+
+std::vector<std::vector<EncodedPicture>> write_pictures(
+    const std::filesystem::path& folder, const StudyReportInput& input,
+    const StudyCondition& condition, const std::vector<StudyMaps>& maps, const StudyScales& scales,
+    const StudyReportOptions& options, const Progress& progress) {
+  create_folder(folder);
+  const StudyPlan& plan = input.results.plan;
+  std::vector<std::vector<EncodedPicture>> embedded(plan.products.size());
+  std::set<std::string> used;
+  for (std::size_t p = 0; p < plan.products.size(); ++p) {
+    progress.update(0.55 + 0.35 * static_cast<double>(p) / static_cast<double>(embedded.size()),
+                    "maps of " + plan.products[p].name);
+    const std::string name = file_name(plan.products[p].name, used);
+    if (maps[p].hands == 0) continue;
+    const std::vector<Picture> pictures = study_pictures(
+        *input.inputs.base, input.inputs.products[p], plan.products[p].name, maps[p],
+        typical_placement(input.results, condition, static_cast<int>(p)), scales, options.threshold,
+        {.width = options.picture_width, .height = options.picture_height}, progress);
+    progress.throw_if_cancelled();
+    std::vector<std::string> full(pictures.size());
+    embedded[p].resize(pictures.size());
+    parallel_for(static_cast<int>(pictures.size()), [&](int k) {
+      const Picture& picture = pictures[at(k)];
+      full[at(k)] = encode_png(picture.image);
+      embedded[p][at(k)] = {picture.name, picture.title, picture.alt,
+                            encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall)};
+    });
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      write_file(folder / (name + "_" + pictures[k].name + ".png"), full[k]);
+    }
+  }
+  return embedded;
+}
+
+void write_figures(const std::filesystem::path& folder, const std::vector<StudyFigure>& figures) {
+  create_folder(folder);
+  struct Files {
+    std::string svg, png, pdf;
+  };
+  std::vector<Files> files(figures.size());
+  parallel_for(static_cast<int>(figures.size()), [&](int i) {
+    const Figure& figure = figures[at(i)].figure;
+    files[at(i)] = {to_svg(figure), to_png(figure), to_pdf(figure)};
+  });
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    write_file(folder / (figures[i].name + ".svg"), files[i].svg);
+    write_file(folder / (figures[i].name + ".png"), files[i].png);
+    write_file(folder / (figures[i].name + ".pdf"), files[i].pdf);
+  }
+}
+
+}  // namespace
+
+void StudyReportOptions::check() const {
+  comparison.check();
+  MeanMapOptions{threshold}.check();
+  if (most_grasps < 0 || most_grasps > 5000) {
+    throw UsageError("study report: most_grasps is " + std::to_string(most_grasps) +
+                     "; 0 to 5000 are allowed");
+  }
+  for (const auto& [field, value] :
+       {std::pair{"picture_width", picture_width}, std::pair{"picture_height", picture_height}}) {
+    if (value < 64 || value > 8192) {
+      throw UsageError(std::string("study report: ") + field + " is " + std::to_string(value) +
+                       " pixels; 64 to 8192 are allowed");
+    }
+  }
+}
+
+void write_study_report(const std::string& folder, const StudyReportInput& input,
+                        const StudyReportOptions& options, const Progress& progress) {
+  options.check();
+  const StudyResults& results = input.results;
+  const StudyPlan& plan = results.plan;
+  results.check();
+  if (results.records.empty()) {
+    throw UsageError("study report: no grasp was run yet; there is nothing to report");
+  }
+  if (!input.inputs.base || input.inputs.products.size() != plan.products.size()) {
+    throw UsageError("study report: hand or products are missing");
+  }
+  const std::filesystem::path root(folder);
+  check_folder(root);
+  create_folder(root);
+
+  progress.update(0.0, "statistics");
+  const StudyAnalysis analysis = analyse_study(results, options.comparison);
+  for (const NamedTable& one : study_csv(results, analysis)) {
+    write_file(root / one.name, format_csv(one.table));
+  }
+  progress.update(0.1, "figures");
+  const std::vector<StudyFigure> figures = study_figures(results, analysis);
+  if (options.figure_files) write_figures(root / "figures", figures);
+
+  progress.update(0.2, "maps");
+  const StudyCondition& condition = analysis.conditions.front().condition;
+  std::vector<int> vertices;
+  for (const Product& product : input.inputs.products) {
+    vertices.push_back(product_map(product.mesh).vertex_count());
+  }
+  std::vector<StudyMaps> maps =
+      mean_maps(plan, input.records, input.inputs.base->skin.vertex_count(), vertices,
+                {.threshold = options.threshold});
+  maps.resize(plan.products.size());  // the first condition's
+  const StudyScales scales = study_scales(results, maps);
+
+  const std::vector<FaceStatistics> faces =
+      face_statistics(plan, input.inputs.products, input.records, {.threshold = options.threshold});
+  if (!faces.empty()) {
+    write_file(root / "faces.csv", format_csv(face_statistics_csv(plan, input.inputs.products,
+                                                                  faces, options.threshold)));
+  }
+  progress.update(0.3, "3-D view");
+  const StudyHandMaker hand_of = study_hand_maker(plan, input.inputs.base);
+  std::string scene;
+  if (options.most_grasps > 0) {
+    scene = study_scene_json({results, input.inputs, maps, condition, input.records, hand_of,
+                              scales, faces, options.most_grasps});
+  }
+  std::vector<std::vector<EncodedPicture>> pictures(plan.products.size());
+  if (options.pictures) {
+    pictures = write_pictures(root / "maps", input, condition, maps, scales, options, progress);
+  }
+  progress.update(0.95, "report.html");
+  const std::vector<StudyWarning> warnings =
+      study_warnings(results, input.inputs.products, input.inputs.base->dimensions);
+  const StudyPage page{results,
+                       analysis,
+                       *input.inputs.base,
+                       warnings,
+                       figures,
+                       scales,
+                       pictures,
+                       input.inputs.products,
+                       faces,
+                       std::move(scene),
+                       shown_hands(plan, condition, options.most_grasps),
+                       options.threshold,
+                       input.program,
+                       input.digest};
+  write_file(root / "report.html", study_page(page));
+}
+
+}  // namespace palmar

@@ -1,0 +1,40 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/core/progress.h"
+#include "palmar/report/picture/study_scene.h"
+#include "palmar/study/statistics/study_comparison.h"
+
+namespace palmar {
+
+struct StudyReportOptions {
+  ComparisonOptions comparison;
+  double threshold = kBloodFlowStop;  ///< MPa, of the maps of shares; blood-flow family
+  int most_grasps = 160;              ///< in the 3-D view; 0: none. Some 50 kB each
+  bool pictures = true;               ///< of the maps
+  bool figure_files = true;           ///< figures/*.svg, .png, .pdf
+  int picture_width = 1000;           ///< pixels
+  int picture_height = 700;           ///< pixels
+  void check() const;                 ///< throws UsageError: field, value, allowed range
+};
+
+/// What a report is made of.
+struct StudyReportInput {
+  const StudyResults& results;
+  const StudyInputs& inputs;
+  RecordSource records;  ///< with fields
+  std::string program;   ///< that ran the study
+  std::string digest;    ///< of its results; "": not finished
+};
+
+/// Writes a study's report into a folder (made if missing): report.html (everything in one file, no
+/// network), the tables of study_csv(), figures/*.svg, *.png, *.pdf, maps/PRODUCT_*.png. Same
+/// results, same bytes. Throws UsageError: nothing was run yet, or the folder holds a report.html
+/// that Palmar didn't write; OutputError; Cancelled.
+void write_study_report(const std::string& folder, const StudyReportInput& input,
+                        const StudyReportOptions& options = {}, const Progress& progress = {});
+
+}  // namespace palmar

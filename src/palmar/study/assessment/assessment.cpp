@@ -1,0 +1,108 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/assessment.h"
+
+#include <chrono>
+
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/hand/skin/skinning.h"
+
+namespace palmar {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+                    const AssessOptions& options, const Progress& progress, Balance balance) {
+  options.contact.check();
+  options.friction.check();
+
+  Assessment result;
+  result.hand_name = hand.hand().name;
+  result.options = options;
+  result.grasp = grasp;
+  result.balance = std::move(balance);
+
+  progress.update(0.6, "solving the contact");
+  const Stopwatch contact_watch;
+  result.posed_skin = pose_skin(hand.hand(), result.grasp.posture);
+  result.contact = solve_hand_contact(hand, result.posed_skin, result.grasp.product_from_hand,
+                                      *product.distance, options.contact);
+  result.times.contact = contact_watch.seconds();
+
+  if (options.friction.is_on()) {
+    progress.update(0.8, "balancing the load by friction");
+    const Stopwatch friction_watch;
+    result.friction = solve_friction(hand, result.contact, *product.distance,
+                                     centre_of_volume(product.mesh), options.friction);
+    result.times.friction = friction_watch.seconds();
+  }
+
+  progress.update(0.85, "judging the grasp");
+  const Stopwatch index_watch;
+  IndexOptions indices = options.indices;
+  // One coefficient in one run.
+  indices.stability.reduction.friction =
+      options.friction.is_on() ? options.friction.coefficient : options.balance.friction;
+  const ProductLoad& load = options.friction.is_on() ? options.friction.load : options.balance.load;
+  if (load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0)) {
+    indices.stability.load = load;
+  }
+  result.indices = grasp_indices(
+      hand.hand(), product, {result.grasp, result.balance, result.contact, result.posed_skin},
+      load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
+  result.times.indices = index_watch.seconds();
+
+  if (options.footprint) {
+    progress.update(0.9, "mapping the pressure to the product");
+    result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+    result.faces = face_contacts(result.footprint, product);
+  }
+  // Finished is finished: who cancels now still gets it.
+  if (progress.report) progress.report(1.0, "assessed");
+  return result;
+}
+
+Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
+                  const Progress& progress) {
+  options.grasp.check();
+  options.balance.check();
+  options.contact.check();
+  options.friction.check();
+
+  progress.update(0.0, "closing the hand");
+  const Stopwatch watch;
+  Grasp grasp = find_grasp(hand.hand(), product, options.grasp, progress);
+  const double seconds = watch.seconds();
+  progress.update(0.5, "letting the grasp come to rest");
+  const Stopwatch balance_watch;
+  const bool is_held =
+      grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
+  Balance balance;
+  Progress stoppable = progress;
+  stoppable.report = nullptr;  // its share is not that of the whole
+  if (is_held) {
+    balance = balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
+  }
+  const double balance_seconds = balance_watch.seconds();
+  if (balance.status == BalanceStatus::kSlipsOut) {
+    grasp.status = GraspStatus::kPartlyHeld;
+    grasp.message += "; but it " + balance.message;
+  }
+  Assessment result = evaluate(hand, product, grasp, options, progress, std::move(balance));
+  result.times.grasp = seconds;
+  result.times.balance = balance_seconds;
+  return result;
+}
+
+}  // namespace palmar

@@ -1,0 +1,86 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/contact/footprint.h"
+#include "palmar/contact/friction/friction.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/rest/balance.h"
+#include "palmar/product/product.h"
+#include "palmar/study/assessment/face_contacts.h"
+#include "palmar/study/assessment/grasp_indices.h"
+
+namespace palmar {
+
+struct AssessOptions {
+  GraspOptions grasp;
+  BalanceOptions balance;  ///< on unless switched off
+  ContactOptions contact;
+  IndexOptions indices;
+  FrictionOptions friction;  ///< off unless it has a coefficient
+  bool footprint = true;     ///< map the pressure to the product
+  std::uint64_t seed =
+      0;  ///< written into the results; the power grasp itself draws no random numbers
+};
+
+/// Seconds spent, for the record; not part of the deterministic result.
+struct AssessTimes {
+  double grasp = 0.0;     ///< s
+  double contact = 0.0;   ///< s
+  double friction = 0.0;  ///< s
+  double indices = 0.0;   ///< s
+  double balance = 0.0;   ///< s
+};
+
+/// One hand holding one product: grasp, contact, footprint.
+struct Assessment {
+  std::string hand_name;
+  Grasp grasp;                   ///< posture and placement at rest; stops as the hand was closed
+  Balance balance;               ///< how it came to rest
+  std::vector<Vec3> posed_skin;  ///< hand frame, mm
+  ContactResult contact;
+  FrictionResult friction;
+  ProductFootprint footprint;
+  std::vector<FaceContact> faces;  ///< touched; empty without footprint or faces of the product
+  GraspIndices indices;            ///< empty if switched off
+  AssessOptions options;
+  AssessTimes times;
+};
+
+/// A product with what came of it.
+struct AssessedProduct {
+  Product product;
+  Assessment assessment;
+};
+
+/// What one `palmar assess` found: one hand, one or more products.
+struct AssessmentSet {
+  std::shared_ptr<const Hand> hand;
+  std::vector<AssessedProduct> assessments;
+  std::string command_line;  ///< for provenance
+};
+
+/// What a given way of holding does to hand and product: contact, friction, footprint. Posture and
+/// placement are taken as they are, from find_grasp() or from a measurement; `balance` tells how
+/// they came to rest, if they did. Throws UsageError,
+/// Cancelled.
+Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+                    const AssessOptions& options = {}, const Progress& progress = {},
+                    Balance balance = {});
+
+/// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
+/// an assessment whose grasp says why; one that slips out is partly held and shown as the hand was
+/// closed. Throws
+/// UsageError, Cancelled.
+Assessment assess(const PreparedHand& hand, const Product& product,
+                  const AssessOptions& options = {}, const Progress& progress = {});
+
+}  // namespace palmar

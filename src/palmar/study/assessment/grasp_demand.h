@@ -1,0 +1,49 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "palmar/contact/friction/friction.h"
+#include "palmar/study/assessment/grasp_indices.h"
+#include "palmar/study/study_record.h"
+
+namespace palmar {
+
+/// Smallest share s of its ranges of motion, taken about the relaxed posture, with which the hand
+/// can take the posture: every angle lies within with_range_share(hand, s). `hand` has its whole
+/// range. Above 1 for a posture that even that hand can't take.
+double range_share_of(const Hand& hand, const Posture& posture);
+
+/// Smallest grip strength of a dynamometer [N] with which a hand can hold the load by friction
+/// where it touches the product. Of all normal forces whose friction cones balance the load those
+/// of least sum are taken (least_grip_force(), stability.h), however the fingers would share them
+/// out;
+///
+///     strength = grip_force(these) / strength_share(grip).
+///
+/// So weaker people can't hold it, and stronger ones may still fail. Infinite where no forces hold
+/// the load; 0 without load.
+struct StrengthQuestion {
+  double friction = 0.5;  ///< of skin on the product
+  ProductLoad load;
+  Vec3 mass_centre = Vec3::Zero();  ///< product frame, mm; unless the load has its own
+  Grip grip = Grip::kMediumWrap;
+};
+double strength_needed(const Hand& hand, const ContactResult& contact,
+                       const StrengthQuestion& question);
+
+/// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
+/// one with the least room. A nail is a flat strip, two thirds of the distal segment wide, that
+/// leaves the fingertip straight along the distal phalanx, four tenths of the segment's thickness
+/// dorsal of the most distal skin; its room ends where it meets the product or the palm's skin. 0
+/// where pressing the pulp in has brought the product there already. Curved nails, nails that bend,
+/// and fingers that give way to them have more.
+inline constexpr double kLongestNail = 30.0;  // mm
+double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
+                    const Rigid3& product_from_hand, const Product& product);
+
+/// All three of one grasp. `hand` has its whole range of motion, even where the grasp was found
+/// with less of it.
+GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProductState& held,
+                      const StrengthQuestion& question);
+
+}  // namespace palmar

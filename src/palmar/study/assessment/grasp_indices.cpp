@@ -1,0 +1,141 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/grasp_indices.h"
+
+#include "palmar/grasp/indices/comfort.h"
+#include "palmar/grasp/indices/ease.h"
+#include "palmar/grasp/indices/fitness.h"
+
+namespace palmar {
+namespace {
+
+GraspIndex grip_row(const char* key, const char* name, const char* unit,
+                    std::optional<double> value) {
+  GraspIndex row;
+  row.key = key;
+  row.name = name;
+  row.group = "grip";
+  row.unit = unit;
+  row.value = value;
+  row.lowest = 0.0;
+  return row;
+}
+
+GraspIndices grip_indices(const Balance& balance) {
+  // A grasp that slips out is shown as it was closed: its last state on the way out says nothing.
+  const bool slips = balance.status == BalanceStatus::kSlipsOut;
+  const bool is_known = balance.grip_force > 0.0 && !slips;
+  const auto known = [&](double value) { return is_known ? std::optional(value) : std::nullopt; };
+  GraspIndices rows;
+
+  GraspIndex force = grip_row("grip_force_n", "grip force", "N", known(balance.grip_force));
+  force.definition =
+      "half the sum of |normal force . e| for the direction e that makes it largest: what a "
+      "dynamometer between the product's halves would read";
+  force.source = "docs/method/balance.md";
+  rows.push_back(force);
+
+  GraspIndex ratio = grip_row("normal_over_grip_force", "sum of normal forces over grip force", "",
+                              known(balance.sum_of_normals / balance.grip_force));
+  ratio.lowest = 2.0;
+  ratio.definition =
+      "2: two opposed contacts; pi: even pressure round a cylinder; people on a 51 mm handle: 2.5";
+  ratio.source = "docs/method/validation.md, case G4";
+  rows.push_back(ratio);
+
+  GraspIndex rest = grip_row("unbalanced_over_grip_force", "forces left out of balance", "",
+                             known(balance.residual_share));
+  rest.better = Better::kDown;
+  rest.definition =
+      "sum of all forces on the product (or their moment over its arm) over the grip force; below "
+      "0.01 counts as at rest";
+  rest.source = "docs/method/balance.md";
+  rows.push_back(rest);
+
+  GraspIndex friction =
+      grip_row("friction_in_use", "friction in use at rest", "", known(balance.friction_use));
+  friction.highest = 1.0;
+  friction.better = Better::kDown;
+  friction.definition = "sum of tangential forces over the most that friction allows";
+  friction.source = "Mindlin 1949; docs/method/balance.md";
+  rows.push_back(friction);
+
+  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the joints' flexion strength",
+                                 "", slips ? std::nullopt : balance.strength_use);
+  strength.better = Better::kDown;
+  strength.definition =
+      "common level of the flexion moments that hold the grip, over those that the muscles of a "
+      "power grip reach; above "
+      "1 the grip can't be held";
+  strength.source = "Li, Zatsiorsky & Latash 2000 (fingers); docs/method/balance.md (thumb)";
+  if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
+  rows.push_back(strength);
+  if (!is_known) {
+    for (GraspIndex& row : rows) {
+      row.remark = slips ? "the product slips out; all other rows are of the hand as it was closed"
+                         : "the grasp was not let come to rest";
+    }
+  }
+  return rows;
+}
+
+void append(GraspIndices& rows, GraspIndices more) {
+  rows.insert(rows.end(), std::make_move_iterator(more.begin()),
+              std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+void IndexOptions::check() const {
+  stability.check();
+  effort.check();
+}
+
+GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldProductState& held,
+                           const Vec3& mass_centre, const IndexOptions& options) {
+  GraspIndices rows;
+  if (!options.is_on) return rows;
+  options.check();
+  append(rows, grip_indices(held.balance));
+  append(rows, to_indices(assess_stability(hand, held.contact, mass_centre, options.stability)));
+  append(rows,
+         to_indices(assess_ease(
+             hand.skeleton, held.grasp.posture,
+             options.coordination ? *options.coordination : built_in_coordination(hand.skeleton))));
+  append(rows, to_indices(assess_fitness(hand, held.posed_skin, held.grasp.product_from_hand,
+                                         *product.distance)));
+  append(rows, to_indices(assess_comfort(hand, held.contact)));
+  FrictionResult friction;
+  if (held.balance.status != BalanceStatus::kSlipsOut) {
+    friction.force = held.balance.friction_force;
+  }
+  append(rows,
+         effort_indices(assess_effort(
+             hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
+             *product.distance, options.effort, friction.force.empty() ? nullptr : &friction)));
+  return rows;
+}
+
+const GraspIndices& index_catalogue() {
+  static const GraspIndices catalogue = [] {
+    GraspIndices rows;
+    append(rows, grip_indices({}));
+    StabilityResult stability;  // with everything that is optional
+    stability.linf.norm = WrenchNorm::kLinf;
+    stability.volume.emplace();
+    stability.grip.emplace();
+    append(rows, to_indices(stability));
+    append(rows, to_indices(EaseResult{}));
+    append(rows, to_indices(FitnessResult{}));
+    append(rows, to_indices(ComfortResult{}));
+    append(rows, effort_indices(EffortResult{}));
+    for (GraspIndex& row : rows) {
+      row.value.reset();
+      row.remark.clear();
+    }
+    return rows;
+  }();
+  return catalogue;
+}
+
+}  // namespace palmar
