@@ -12,8 +12,8 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
-#include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
+#include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar::cli {
 
@@ -48,14 +48,6 @@ void add_validate_command(CLI::App& app, Context& context);
 /// Adds a verb with its worked example under the help text.
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
                    const std::string& example);
-
-/// Folder with the template hand: beside the executable (../share/palmar), or $PALMAR_SHARE.
-std::string share_folder();
-
-/// The hand called `name`: "template", or a *.hand.glb file. Throws InputError.
-std::shared_ptr<const Hand> load_hand(const std::string& name);
-/// The same with the tissue of a file (docs/using/tissue.md) over its own; "": as it is.
-std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file);
 
 /// "1,2,3" as a vector. Throws UsageError naming the option.
 Vec3 parse_vector(const std::string& option, const std::string& text);
