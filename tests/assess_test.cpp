@@ -68,9 +68,9 @@ TEST(Assess, TotalsAreTheSumsOfTheRegions) {
 }
 
 TEST(Assess, HoldsAHandleAsAHandDoes) {
-  // Prototype on the same template hand (METHOD.md section 2), cylinder of 48 mm at 4 mm: 7-15 N,
-  // 70-200 mm2 and 0.1-0.3 MPa per phalanx. Half and double of that are allowed here: limits and
-  // placement differ.
+  // An early prototype of ours found on the same template hand, cylinder of 48 mm at 4 mm depth:
+  // 7-15 N, 70-200 mm2 and 0.1-0.3 MPa per phalanx. Half and double of that are allowed here:
+  // limits and placement differ. This is no measurement.
   ASSERT_EQ(cylinder().run.exit_code, 0) << cylinder().run.err;
   const Json& one = cylinder().json.at("assessments").at(0);
   EXPECT_EQ(one.at("grasp").at("status"), "held");

@@ -60,7 +60,7 @@ TEST_F(TemplateRegions, EachPalmarRegionLiesOnItsSegment) {
 }
 
 TEST_F(TemplateRegions, SlidingOntoCreasesLeavesGoodTriangles) {
-  // Issue and METHOD.md: above 20 degrees for 99 % of the triangles.
+  // Asked of the template: above 20 degrees for 99 % of the triangles.
   std::vector<double> angle = smallest_angles(hand().skin);
   std::sort(angle.begin(), angle.end());
   EXPECT_GT(angle[angle.size() / 100], 20.0 * kDeg);

@@ -15,7 +15,7 @@
 
 namespace palmar {
 
-/// Response of the skin to a vertex force (METHOD.md section 2).
+/// Response of the skin to a vertex force (docs/method/contact.md).
 enum class Kernel {
   kPatch,  ///< uniform pressure on the vertex's Voronoi disc; mesh-independent (default)
   kPoint   ///< Xie 2014, eq. (3-1), (3-2): point force, r held at 0.5 mm

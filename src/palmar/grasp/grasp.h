@@ -95,7 +95,7 @@ struct Grasp {
   std::vector<GraspRunnerUp> runners_up;     ///< best first
 };
 
-/// Power grasp (METHOD.md section 3; Xie 2014, 5.5.1). Deterministic. Not being able to hold the
+/// Power grasp (docs/method/grasp.md; Xie 2014, 5.5.1). Deterministic. Not being able to hold the
 /// product is a status, never an exception. Throws UsageError on bad options, Cancelled.
 Grasp close_power_grasp(const Hand& hand, const Product& product,
                         const PowerGraspOptions& options = {}, const Progress& progress = {});

@@ -48,7 +48,7 @@ struct Joint {
   std::vector<JointDof> dofs;  ///< in the order in which they are applied, most distal axis first
 };
 
-/// Joints of one hand in the hand frame (METHOD.md: x radial, y distal, z palmar for a right hand;
+/// Joints of one hand in the hand frame (x radial, y distal, z palmar for a right hand;
 /// origin at the wrist joint centre), reference posture.
 struct Skeleton {
   std::array<Joint, kJointCount> joints;

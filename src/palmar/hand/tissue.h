@@ -19,7 +19,7 @@ TissueClass tissue_class_of(Region region);
 std::string_view name_of(TissueClass tissue);  ///< "finger", "palm", "dorsum"
 std::optional<TissueClass> tissue_class_named(std::string_view name);
 
-/// Half-space: Xie 2014 as restated in METHOD.md section 2. A figure given there as a range is
+/// Half-space: Xie 2014, section 3.4 (docs/method/contact.md). A figure given there as a range is
 /// nominal at its middle, low and high at its ends:
 ///
 ///     d_lim            4 mm (finger), 7 mm (palm)

@@ -26,7 +26,7 @@ struct PrecisionGripOptions {
   void check() const;                    ///< throws UsageError: field, value, allowed range
 };
 
-/// Precision grip (METHOD.md section 3): pads of the grip's fingers on points of the product by
+/// Precision grip (docs/method/precision.md): pads of the grip's fingers on points of the product by
 /// inverse kinematics under the ranges of motion, fingers not crossing, near their natural
 /// coordination. Deterministic. Not being able to reach is a status with a message that says which
 /// finger misses by how much, never an exception. Throws UsageError (bad options, a target farther

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kJointGap = 1.2;            // mm, between the ends of two bones of a ray
 constexpr double kTypicalWristToMcp = 92.5;  // mm; see bones.h
-// Buryanov & Kotiuk 2010, Table I (66 adults): metacarpals II to V, soft tissue beyond the tip, mm.
+// Buryanov & Kotiuk 2010, Table I (66 adults), I to V: metacarpals, soft tissue beyond the tip, mm.
 constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
 constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
 
