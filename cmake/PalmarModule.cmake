@@ -8,66 +8,70 @@
 # added before it, so the order of add_subdirectory() in src/palmar/CMakeLists.txt is the layering;
 # tests/check_layers.cmake holds the #include lines to the same order.
 
+# palmar_export(TARGET NAME): installed, for other projects palmar::NAME (cmake/PalmarInstall.cmake).
+function(palmar_export target name)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT palmar ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/palmar)
+endfunction()
+
 # One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
 # assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests.
 # palmar_add_tests(PROGRAM slow): minutes under the sanitizers, so ./check runs it in Release only.
 function(palmar_add_tests program)
   add_test(NAME ${program} COMMAND ${program})
   set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
-  palmar_use_headers(${program} palmar_test_headers ${palmar_light})
+  palmar_use_headers(${program} palmar_test_headers)
   palmar_batches(${program})
 endfunction()
 
 # With PALMAR_PRECOMPILE: half of what a module's source costs to compile is reading Eigen and the standard
 # library, half of what a test costs is GoogleTest, and a command reads CLI11, fmt and nlohmann_json. Each
-# set is read once and used by all. GCC takes the level of optimisation from the precompiled header;
-# tests, commands and BATCHED modules hold no loops that take time, so theirs is lower. Sources include
-# what they use all the same: the `tidy` preset and builds by hand do without.
+# set is read once and used by all. Sources include what they use all the same: the `tidy` preset and
+# builds by hand do without.
 #
-# At -O1 GCC can't tell whether a std::optional has been set; such a warning is none to stop at.
-set(palmar_light -O1 -Wno-error=maybe-uninitialized)
-
-# palmar_headers(NAME HEADERS ... LINKS ... OPTIONS ...); palmar_use_headers(TARGET NAME OPTION...)
+# palmar_headers(NAME HEADERS ... LINKS ...); palmar_use_headers(TARGET NAME)
 function(palmar_headers name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS;OPTIONS" ${ARGN})
-  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS" ${ARGN})
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/cmake/precompiled/headers.cpp)
   target_link_libraries(${name} PRIVATE palmar::compiler ${ARG_LINKS})
-  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
 function(palmar_use_headers target headers)
   if(PALMAR_PRECOMPILE)
-    target_compile_options(${target} PRIVATE ${ARGN})
-    target_link_libraries(${target} PRIVATE Eigen3::Eigen)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen> fmt::fmt palmar_eigen)
     target_precompile_headers(${target} REUSE_FROM ${headers})
   endif()
 endfunction()
 
 if(PALMAR_PRECOMPILE)
-  set(palmar_common <Eigen/Dense> <algorithm> <cmath> <functional> <map> <memory> <optional> <sstream>
-                    <string> <unordered_map> <vector>)
-  palmar_headers(palmar_module_headers HEADERS ${palmar_common} LINKS Eigen3::Eigen)
-  palmar_headers(palmar_light_headers
-                 HEADERS ${palmar_common} <CLI/CLI.hpp> <fmt/format.h> <nlohmann/json.hpp>
-                 LINKS Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${palmar_light})
+  # What the headers declare as made elsewhere (see there).
+  set(folder ${PROJECT_SOURCE_DIR}/cmake/precompiled)
+  add_library(palmar_eigen STATIC ${folder}/eigen_cholesky.cpp ${folder}/eigen_orthogonal.cpp
+                                  ${folder}/eigen_products.cpp)
+  target_link_libraries(palmar_eigen PRIVATE $<BUILD_INTERFACE:palmar::compiler> Eigen3::Eigen)
+  palmar_export(palmar_eigen eigen)
+  set(palmar_common <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
+                    <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>
+                    <unordered_map> <vector> <fmt/format.h> ${folder}/eigen_instances.h)
+  palmar_headers(palmar_module_headers HEADERS ${palmar_common} LINKS Eigen3::Eigen fmt::fmt)
+  # CLI11's classes have virtual functions, which GCC makes in every source that knows them: 5 s each.
+  palmar_headers(palmar_json_headers HEADERS ${palmar_common} <nlohmann/json.hpp>
+                 LINKS Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+  palmar_headers(palmar_command_headers HEADERS ${palmar_common} <CLI/CLI.hpp> <nlohmann/json.hpp>
+                 LINKS Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
   if(PALMAR_TESTS)
-    palmar_headers(palmar_test_headers HEADERS <gmock/gmock.h> <gtest/gtest.h> <Eigen/Dense>
-                   LINKS Eigen3::Eigen GTest::gmock OPTIONS ${palmar_light})
+    palmar_headers(palmar_test_headers HEADERS <gmock/gmock.h> <gtest/gtest.h> ${folder}/eigen_instances.h
+                   LINKS Eigen3::Eigen GTest::gmock fmt::fmt)
   endif()
 endif()
 
 # Sources of tests, commands and BATCHED modules are compiled six at a time, in the order of their list:
 # what GoogleTest, nlohmann_json and CLI11 put into each is made once for all of them, which halves their
-# time. Names in the anonymous namespaces of a batch have to differ; what is local may have the name of
-# something in another source (builds without batches still warn of shadows in one source). Eigen's
-# templates hardly repeat from source to source, so the other modules gain nothing.
-add_library(palmar_batch_warnings INTERFACE)  # linked last: after palmar::compiler's -Wshadow
-target_compile_options(palmar_batch_warnings INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
+# time. Names in the anonymous namespaces of a batch have to differ.
 function(palmar_batches target)
   if(PALMAR_PRECOMPILE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    target_link_libraries(${target} PRIVATE palmar_batch_warnings)
   endif()
 endfunction()
 
@@ -79,12 +83,31 @@ function(palmar_module name)
                           "See the order in src/palmar/CMakeLists.txt.")
     endif()
   endforeach()
+  if(NOT ARG_SOURCES)  # a part that has none yet
+    add_library(palmar_${name} INTERFACE)
+    add_library(palmar::${name} ALIAS palmar_${name})
+    target_link_libraries(palmar_${name} INTERFACE ${ARG_PUBLIC} ${ARG_PRIVATE})
+    palmar_export(palmar_${name} ${name})
+    return()
+  endif()
   add_library(palmar_${name} STATIC ${ARG_SOURCES})
   add_library(palmar::${name} ALIAS palmar_${name})
-  target_include_directories(palmar_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
-  target_link_libraries(palmar_${name} PUBLIC palmar::compiler ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_include_directories(palmar_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
+                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(palmar_${name} PUBLIC cxx_std_20)
+  # Who links an installed module needs neither our warnings nor the libraries that are headers only.
+  if("tomlplusplus::tomlplusplus" IN_LIST ARG_PRIVATE)  # has a library beside its headers
+    list(APPEND ARG_PRIVATE $<INSTALL_INTERFACE:tomlplusplus>)
+  endif()
+  list(TRANSFORM ARG_PRIVATE REPLACE "^(nlohmann_json::nlohmann_json|tomlplusplus::tomlplusplus)$"
+                                     "$<BUILD_INTERFACE:\\1>")
+  target_link_libraries(palmar_${name} PUBLIC $<BUILD_INTERFACE:palmar::compiler> ${ARG_PUBLIC}
+                                       PRIVATE ${ARG_PRIVATE})
+  if(NOT name MATCHES "^(cad|board)$")  # of the programs palmar-cad and palmar-photo alone
+    palmar_export(palmar_${name} ${name})
+  endif()
   if(ARG_BATCHED)
-    palmar_use_headers(palmar_${name} palmar_light_headers ${palmar_light})
+    palmar_use_headers(palmar_${name} palmar_json_headers)
     palmar_batches(palmar_${name})
   elseif(NOT name STREQUAL core)  # knows no Eigen
     palmar_use_headers(palmar_${name} palmar_module_headers)

@@ -1,9 +1,13 @@
 # Copyright the Palmar authors.
 # SPDX-License-Identifier: Apache-2.0
 #
-# palmar::opencascade: the parts of OpenCASCADE that the module cad uses. Its own CMake package wants
-# all of it, graphics too.
-find_path(PALMAR_OCCT_INCLUDE Standard_Version.hxx PATH_SUFFIXES opencascade REQUIRED)
+# palmar::opencascade: the parts of OpenCASCADE that the module cad uses, where it is installed; without
+# it palmar-cad isn't built. Its own CMake package wants all of it, graphics too.
+find_path(PALMAR_OCCT_INCLUDE Standard_Version.hxx PATH_SUFFIXES opencascade)
+if(NOT PALMAR_OCCT_INCLUDE)
+  message(STATUS "OpenCASCADE (libocct-data-exchange-dev) isn't installed: CAD files can't be read")
+  return()
+endif()
 add_library(palmar_opencascade INTERFACE)
 add_library(palmar::opencascade ALIAS palmar_opencascade)
 target_include_directories(palmar_opencascade SYSTEM INTERFACE ${PALMAR_OCCT_INCLUDE})

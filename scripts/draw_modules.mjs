@@ -290,6 +290,7 @@ function page(modules, files, uses) {
   const program_purpose = {
     palmar: "program: the command line, one folder per noun",
     "palmar-cad": "program: reads and writes STEP; `palmar` starts it as a child",
+    "palmar-dicom": "program: unpacks compressed DICOM pixels; `palmar` starts it as a child",
     "palmar-photo": "program: finds the board in photographs; `palmar` starts it as a child",
   };
   return `<!-- Made by: node scripts/draw_modules.mjs. Edit the script or src/palmar/modules.txt, not this page. -->
@@ -310,7 +311,8 @@ ${modules.map(({ name, purpose }) => row(name, purpose)).join("\n")}
 ${programs().map((name) => row(name, program_purpose[name] ?? "program")).join("\n")}
 | | together | | ${sum(false)} | ${sum(true)} |
 
-\`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Only \`formats\` and \`records\` open files. Only the programs in
+\`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Users' files are read and written in \`formats\` and \`records\`, CAD
+files by the kernel in \`cad\`. Only the programs in
 \`apps\` read arguments, print or exit. Tests of whole programs are in \`tests/\`, benchmarks in \`benchmarks/\`.
 
 ## The values that flow

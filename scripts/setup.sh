@@ -4,11 +4,18 @@
 # Installs what a fresh Debian 12 machine lacks; says nothing when nothing is to do. Sourced by
 # ./demo, ./check and .ci/run from the root of the checkout.
 
+# What the program palmar needs.
 palmar_packages=(
   build-essential cmake ninja-build ccache pkg-config git
   libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libtomlplusplus-dev libboost-dev libsqlite3-dev
-  libocct-data-exchange-dev libopencv-contrib-dev libnlopt-cxx-dev
+  libnlopt-cxx-dev libexif-dev duktape-dev
+)
+# What palmar-cad needs: CAD files.
+palmar_cad_packages=(libocct-data-exchange-dev)
+# What photographs, tests, benchmarks and checks need.
+palmar_check_packages=(
+  libopencv-contrib-dev libgdcm-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format
 )
@@ -32,9 +39,10 @@ palmar_apt_install() {
   rm -f "$log"
 }
 
+# palmar_setup [PACKAGE...]: what palmar needs, and these.
 palmar_setup() {
   local missing=() package
-  for package in "${palmar_packages[@]}"; do
+  for package in "${palmar_packages[@]}" "$@"; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
   done
   command -v node >/dev/null 2>&1 || missing+=(nodejs)
@@ -54,11 +62,15 @@ palmar_setup() {
   fi
 }
 
-# palmar_build PRESET [OPTION...]: configures (when needed) and builds, quietly unless something fails.
+# palmar_build PRESET [OPTION...]: configures (when needed) and builds; says how far it is when that takes
+# long, and the end of the log when it fails.
 palmar_build() {
   local preset=$1 log; log=$(mktemp)
   shift
-  if ! { cmake --preset "$preset" && cmake --build --preset "$preset" "$@"; } >"$log" 2>&1; then
+  if ! { cmake --preset "$preset" >"$log" 2>&1 &&
+         cmake --build --preset "$preset" "$@" 2>&1 | tee -a "$log" | awk -F'[][/]' '
+           /^\[[0-9]+\/[0-9]+\]/ && $3 > 20 && int(10 * $2 / $3) > tenths {
+             tenths = int(10 * $2 / $3); printf "  %3d %% of %d steps\n", 10 * tenths, $3; fflush() }' >&2; }; then
     tail -n 60 "$log" >&2; rm -f "$log"
     echo "The $preset build failed; the end of its log is above." >&2
     return 1

@@ -66,6 +66,28 @@ TEST(HandCommand, MirrorOfTheMirrorIsTheHand) {
   }
 }
 
+TEST(CommandsOfOtherPrograms, AreListedWithTheWordsThatTheyUseThemselves) {
+  for (const std::string command :
+       {"mri", "phantom", "photos", "redesign", "validate", "hand from-mri", "hand from-photos",
+        "hand from-scan", "hand quick"}) {
+    const std::size_t blank = command.find(' ');
+    const std::string list =
+        run_palmar((blank == std::string::npos ? "" : command.substr(0, blank) + " ") + "--help")
+            .out;
+    const ProgramRun own = run_palmar(command + " --help");
+    ASSERT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_THAT(own.out, HasSubstr("palmar " + command));
+    EXPECT_THAT(list, HasSubstr("  " + own.out.substr(0, own.out.find('\n')) + "\n")) << command;
+  }
+}
+
+TEST(CommandsOfOtherPrograms, KeepExitCodesAndMessages) {
+  const ProgramRun unknown = run_palmar("mri infos");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean info?"));
+  EXPECT_EQ(run_palmar("--json mri info nobody").exit_code, 3);
+}
+
 TEST(ProductCommand, MakesWhatItsNameSays) {
   const std::string folder = temporary_folder();
   ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 48 --length-mm 100 --out c.stl", folder)

@@ -15,12 +15,15 @@
 #include <memory>
 
 #include "palmar/core/error.h"
+#include "palmar/core/setting_names.h"
 
 namespace palmar::cli {
 namespace {
 
 std::atomic<bool> interrupted{false};
 bool progress_line_open = false;
+/// Long names of the options of the verb that runs: they outlive the parser.
+std::vector<std::string> running_options;
 
 void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
@@ -86,6 +89,28 @@ std::optional<LengthUnit> parse_unit(const std::string& text) {
   throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
 }
 
+void name_settings_by(const CLI::App& verb) {
+  running_options.clear();
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) running_options.push_back(name);
+  }
+}
+
+std::string option_named(const std::string& setting) {
+  std::string name = setting;
+  std::replace(name.begin(), name.end(), ' ', '-');
+  std::string found;  // with a unit behind it
+  int count = 0;
+  for (const std::string& option : running_options) {
+    if (option == name) return "--" + name;
+    if (!option.starts_with(name + "-")) continue;
+    found = option;
+    ++count;
+  }
+  if (count == 0) return "setting \"" + setting + "\"";  // a study's, say
+  return "--" + (count == 1 ? found : name);
+}
+
 Progress make_progress(const CommonOptions& common) {
   install_interrupt_handler();
   Progress progress;
@@ -122,7 +147,7 @@ void finish_progress() {
 void note(const CommonOptions& common, const std::string& text) {
   if (common.quiet) return;
   finish_progress();
-  std::fprintf(stderr, "palmar: %s\n", text.c_str());
+  std::fprintf(stderr, "palmar: %s\n", with_setting_names(text, option_named).c_str());
 }
 
 void print(const std::string& text) {

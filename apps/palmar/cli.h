@@ -29,8 +29,13 @@ struct CommonOptions {
 struct Context {
   CommonOptions common;
   std::string command_line;
+  char** arguments = nullptr;  ///< of main(), for a command that another program takes over
   std::function<int()> run;
 };
+
+/// Adds the commands of the program that this is linked into (palmar, palmar-capture,
+/// palmar-redesign): programs/PROGRAM.cpp.
+void add_commands(CLI::App& app, Context& context);
 
 // One function per noun adds it with its verbs.
 void add_assess_command(CLI::App& app, Context& context);
@@ -39,6 +44,8 @@ void add_doctor_command(CLI::App& app, Context& context);
 void add_effort_commands(CLI::App& app, Context& context);
 void add_grasp_commands(CLI::App& app, Context& context);
 void add_hand_commands(CLI::App& app, Context& context);
+/// Verbs of `palmar hand` that make a hand from measurements of a person.
+void add_hand_capture_commands(CLI::App& app, Context& context);
 void add_population_commands(CLI::App& app, Context& context);
 void add_product_commands(CLI::App& app, Context& context);
 void add_redesign_commands(CLI::App& app, Context& context);
@@ -55,6 +62,14 @@ Vec3 parse_vector(const std::string& option, const std::string& text);
 std::vector<double> parse_list(const std::string& option, const std::string& text);
 /// "mm", "cm", "m", "inch"; empty = not given. Throws UsageError naming --unit.
 std::optional<LengthUnit> parse_unit(const std::string& text);
+
+/// Messages of the library name settings in words; from now on they get the names of this verb's
+/// options.
+void name_settings_by(const CLI::App& verb);
+/// The option of a setting of the running verb: "accept odd slices" -> "--accept-odd-slices", "box"
+/// -> "--box-mm" (the only one that begins so). What is no option of it stays: a study's setting
+/// "default".
+std::string option_named(const std::string& setting);
 
 /// Progress for this command: a line on a terminal's stderr (none with --quiet, --json or a pipe),
 /// cancelled by the first Ctrl-C; the second ends the program at once. Commands that never ask for

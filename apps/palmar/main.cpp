@@ -8,13 +8,11 @@
 #include <string>
 
 #include "cli.h"
-#include "mri/mri_commands.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
+#include "palmar/core/setting_names.h"
 #include "palmar/core/version.h"
-#include "phantom/phantom_commands.h"
-#include "photos/photos_commands.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -22,7 +20,7 @@ namespace {
 
 int fail(const std::string& message, int code) {
   finish_progress();
-  std::fprintf(stderr, "palmar: %s\n", message.c_str());
+  std::fprintf(stderr, "palmar: %s\n", with_setting_names(message, option_named).c_str());
   return code;
 }
 
@@ -79,6 +77,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 
 int run(int argc, char** argv) {
   Context context;
+  context.arguments = argv;
   for (int i = 0; i < argc; ++i) {
     context.command_line += i == 0 ? "palmar" : " " + shell_word(argv[i]);
   }
@@ -99,20 +98,7 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 unexpected or output not writable, 2 wrong usage, 3 unreadable\n"
       "input or unit unknown, 4 numerical failure, 5 a stated check failed,\n"
       "6 an optional program is missing, 130 cancelled.");
-  add_assess_command(app, context);
-  add_hand_commands(app, context);
-  add_product_commands(app, context);
-  add_grasp_commands(app, context);
-  add_contact_commands(app, context);
-  add_effort_commands(app, context);
-  add_mri_commands(app, context);
-  add_phantom_commands(app, context);
-  add_photos_commands(app, context);
-  add_population_commands(app, context);
-  add_redesign_commands(app, context);
-  add_study_commands(app, context);
-  add_validate_command(app, context);
-  add_doctor_command(app, context);
+  add_commands(app, context);
 
   try {
     app.parse(argc, argv);
@@ -123,6 +109,7 @@ int run(int argc, char** argv) {
   }
   signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
   set_thread_count(context.common.threads);
+  name_settings_by(*deepest_parsed(&app));
   const int code = context.run();
   finish_progress();
   return code;

@@ -2,29 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "assess/balance_arguments.h"
 #include "assess/friction_arguments.h"
 #include "cli.h"
 #include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
-#include "palmar/product/check.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
-#include "palmar/records/posture/coordination_file.h"
-#include "palmar/records/product/product_file.h"
-#include "palmar/report/page/assessment_report.h"
-#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/assess.h"
 #include "product/cad_arguments.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct AssessArguments {
   std::vector<std::string> products;
@@ -37,13 +27,6 @@ struct AssessArguments {
   std::string out;
   bool no_pictures = false;
 };
-
-/// "palmar-report", or the first free "palmar-report-2", ...: nothing that stands there is touched.
-std::string default_folder() {
-  std::string folder = "palmar-report";
-  for (int i = 2; fs::exists(folder); ++i) folder = "palmar-report-" + std::to_string(i);
-  return folder;
-}
 
 std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
   std::string text =
@@ -58,111 +41,54 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
   return text;
 }
 
-/// Above this, finding crossing triangles takes more than a few tenths of a second.
-constexpr int kMostTrianglesForCrossings = 100'000;
-
-/// Adds what a check of its mesh finds to the product's notes.
-void add_findings(Product& product) {
-  const bool is_small = product.mesh.triangle_count() <= kMostTrianglesForCrossings;
-  for (const Finding& finding : check_mesh(product.mesh, is_small).findings) {
-    const bool is_known = std::any_of(
-        product.notes.begin(), product.notes.end(),
-        [&](const std::string& note) { return note.find(finding.text) != std::string::npos; });
-    if (finding.severity != Severity::kOk && !is_known) product.notes.push_back(finding.text);
-  }
+Cancelled cancelled_after(const AssessOutcome& outcome) {
+  return Cancelled(fmt::format(
+      "cancelled; {} of {} product{} assessed, {}", outcome.set.assessments.size(), outcome.asked,
+      outcome.asked == 1 ? "" : "s",
+      outcome.folder.empty() ? "printed"
+                             : "written to " + outcome.folder + " (pictures may be missing)"));
 }
 
-Cancelled cancelled_with(std::size_t done, std::size_t asked, const std::string& folder) {
-  if (done == 0) return Cancelled("cancelled before anything was finished; nothing written");
-  return Cancelled(fmt::format(
-      "cancelled; {} of {} product{} assessed, {}", done, asked, asked == 1 ? "" : "s",
-      folder.empty() ? "printed" : "written to " + folder + " (pictures may be missing)"));
+AssessRequest request_of(const AssessArguments& arguments, const Context& context) {
+  AssessRequest request;
+  request.grasp = arguments.grasp.settings();
+  request.contact = arguments.contact.options();
+  request.friction = arguments.friction.settings();
+  request.rest = arguments.balance.settings();
+  // The thesis leaves the hand as it was closed.
+  if (arguments.contact.preset == "xie2014" && !request.rest.grip_force &&
+      !request.rest.strength_share) {
+    request.rest.is_balanced = false;
+  }
+  request.model = arguments.contact.model();
+  request.hand = {
+      .name = arguments.grasp.hand, .tissue = arguments.contact.tissue, .value = nullptr};
+  const LoadProductOptions reading = arguments.cad.options(arguments.grasp.unit);
+  for (const std::string& path : arguments.products) request.products.emplace_back(path, reading);
+  request.natural_postures = arguments.natural_postures;
+  request.out = arguments.out;
+  if (request.out.empty() && !context.common.json) request.out = free_report_folder();
+  request.pictures = !arguments.no_pictures;
+  request.seed = context.common.seed;
+  request.command_line = context.command_line;
+  request.note = [&context](const std::string& text) { note(context.common, text); };
+  return request;
 }
 
 int run_assess(const AssessArguments& arguments, const Context& context) {
-  AssessOptions options;
-  options.grasp = arguments.grasp.options();
-  options.contact = arguments.contact.options();
-  options.friction = arguments.friction.options();
-  options.balance = arguments.balance.options(arguments.friction, options.grasp.grip);
-  // The thesis leaves the hand as it was closed.
-  if (arguments.contact.preset == "xie2014" && !options.balance.grip_force) {
-    options.balance.is_on = false;
-  }
-  const ContactModel model = arguments.contact.model();
-  options.seed = context.common.seed;
-  const Progress progress = make_progress(context.common);
-
-  if (!arguments.out.empty()) check_report_folder(arguments.out);
-
-  std::vector<FrictionOptions> friction;  // per product
-  // Every product is read before the first is grasped: a mistyped name costs no waiting.
-  std::vector<Product> products;
-  for (const std::string& path : arguments.products) {
-    if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
-    products.push_back(load_product(path, arguments.cad.options(arguments.grasp.unit, progress)));
-    if (progress.is_cancelled()) throw cancelled_with(0, arguments.products.size(), "");
-    add_findings(products.back());
-    friction.push_back(arguments.friction.options_for(products.back()));
-    for (const std::string& text : products.back().notes) note(context.common, path + ": " + text);
-  }
-
-  if (progress.report) progress.report(0.0, "preparing the hand");
-  const auto hand = load_hand(arguments.grasp.hand, arguments.contact.tissue);
-  if (!arguments.natural_postures.empty()) {
-    options.indices.coordination = read_coordination(arguments.natural_postures, hand->skeleton);
-  }
-  const PreparedHand prepared(hand, model);
-
-  std::vector<AssessedProduct> done;
-  int code = 0;
-  for (std::size_t i = 0; i < products.size(); ++i) {
-    const double start = 0.1 + 0.6 * static_cast<double>(i) / static_cast<double>(products.size());
-    const Progress part = part_of(
-        progress, start, start + 0.6 / static_cast<double>(products.size()), products[i].name);
-    options.grasp = arguments.grasp.options_for(products[i]);
-    options.friction = friction[i];
-    options.balance.load = options.friction.load;
-    try {
-      done.push_back({products[i], assess(prepared, products[i], options, part)});
-    } catch (const Cancelled&) {
-      break;
-    }
-    const ContactResult& contact = done.back().assessment.contact;
-    if (contact.status == ContactStatus::kNotConverged) {
-      note(context.common, products[i].name + ": " + contact.message);
-      code = 4;
-    }
-  }
-
-  bool is_cancelled = done.size() < products.size();
-  const AssessmentSet set{
-      .hand = hand, .assessments = std::move(done), .command_line = context.command_line};
-  const bool writes = !arguments.out.empty() || !context.common.json;
-  std::string folder = arguments.out;
-  if (writes && !set.assessments.empty()) {
-    if (folder.empty()) folder = default_folder();
-    // What is done is written even when the user has cancelled, but for pictures; a second Ctrl-C
-    // ends that too.
-    const Progress writing = part_of(progress, 0.7, 1.0);
-    try {
-      write_report(folder, set, {.pictures = !arguments.no_pictures}, writing);
-    } catch (const Cancelled&) {
-      is_cancelled = true;
-    }
-  }
+  const AssessOutcome outcome =
+      assess_products(request_of(arguments, context), make_progress(context.common));
   finish_progress();
-  if (is_cancelled && set.assessments.empty()) throw cancelled_with(0, products.size(), "");
   if (context.common.json) {
-    print(assessment_json(set) + "\n");
+    print(assessment_json(outcome.set) + "\n");
   } else {
-    for (const AssessedProduct& one : set.assessments) {
-      print(summary(*hand, one.product, one.assessment) + "\n");
+    for (const AssessedProduct& one : outcome.set.assessments) {
+      print(summary(*outcome.set.hand, one.product, one.assessment) + "\n");
     }
-    if (writes && !set.assessments.empty()) print("Report: " + folder + "/report.html\n");
+    if (!outcome.folder.empty()) print("Report: " + outcome.folder + "/report.html\n");
   }
-  if (is_cancelled) throw cancelled_with(set.assessments.size(), products.size(), folder);
-  return code;
+  if (outcome.is_cancelled) throw cancelled_after(outcome);
+  return outcome.has_converged ? 0 : 4;
 }
 
 }  // namespace

@@ -6,15 +6,24 @@
 
 #include <cstdlib>
 
+#include "option_names.h"
 #include "palmar/core/error.h"
-#include "palmar/grasp/joint_strength.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
 
+const OptionNames kBalanceNames = {
+    {"is_balanced is false, which", "--no-balance"},
+    {"strength_share", "--strength-share"},
+    {"strength and person", "--strength-n and --person"},
+    {"person or strength", "--person or --strength-n"},
+    {"person", "--person"},
+    {"give strength", "give --strength-n"},
+};
+
 /// "male,30" or "female,64". Throws UsageError.
-double strength_of_person(const std::string& text) {
+PersonOfAge parse_person(const std::string& text) {
   const std::size_t comma = text.find(',');
   const std::string sex = text.substr(0, comma);
   char* end = nullptr;
@@ -24,62 +33,34 @@ double strength_of_person(const std::string& text) {
   if (!is_number || (sex != "male" && sex != "female")) {
     throw UsageError("--person is \"" + text + "\"; male,AGE or female,AGE is required");
   }
-  const auto strength = grip_strength(sex == "male" ? Sex::kMale : Sex::kFemale, age);
-  if (!strength) {
-    throw UsageError(
-        fmt::format("--person: no grip strength is known for {:g} years; 17 to 90 is "
-                    "allowed, or give --strength-n",
-                    age));
-  }
-  return *strength;
+  return {sex == "male" ? Sex::kMale : Sex::kFemale, age};
 }
 
 }  // namespace
 
 void BalanceArguments::add_to(CLI::App& verb) {
-  verb.add_flag("--no-balance", no_balance,
+  verb.add_flag("--no-balance", no_balance_,
                 "Leave the hand as it was closed to the limit depths, forces out of balance "
                 "(Xie 2014)");
   CLI::Option* force =
-      verb.add_option("--grip-force-n", grip_force_n,
+      verb.add_option("--grip-force-n", settings_.grip_force,
                       "Grip with this force across the plane of largest squeeze, as a dynamometer "
                       "reads it, N; default: as firm as closing to the limit depths");
-  verb.add_option("--strength-share", strength_share,
+  verb.add_option("--strength-share", settings_.strength_share,
                   "Grip with this share (0 to 1) of the strength of --person or --strength-n")
       ->excludes(force);
   CLI::Option* strength =
-      verb.add_option("--strength-n", strength_n, "Largest grip force of the user, N");
-  verb.add_option("--person", person,
+      verb.add_option("--strength-n", settings_.strength, "Largest grip force of the user, N");
+  verb.add_option("--person", person_,
                   "male,AGE or female,AGE: mean grip strength of that group (Steiber 2016)")
       ->excludes(strength);
 }
 
-BalanceOptions BalanceArguments::options(const FrictionArguments& friction,
-                                         std::optional<Grip> grip) const {
-  BalanceOptions result;
-  const bool has_strength = strength_n || !person.empty();
-  if (has_strength != strength_share.has_value()) {
-    throw UsageError(has_strength ? "--strength-n and --person say how strong the user is; "
-                                    "--strength-share is required with them"
-                                  : "--strength-share needs --person or --strength-n");
-  }
-  if (no_balance && (grip_force_n || strength_share)) {
-    throw UsageError(
-        "--no-balance keeps the hand at its limit depths; a grip force can't be "
-        "given with it");
-  }
-  result.is_on = !no_balance;
-  result.grip_force = grip_force_n;
-  if (strength_share) {
-    if (!(*strength_share > 0.0 && *strength_share <= 1.0)) {
-      throw UsageError(fmt::format("--strength-share is {}; more than 0 and at most 1 is required",
-                                   *strength_share));
-    }
-    const double strength = strength_n ? *strength_n : strength_of_person(person);
-    result.grip_force = *strength_share * strength * (grip ? palmar::strength_share(*grip) : 1.0);
-  }
-  result.friction = friction.coefficient.value_or(kUsualFriction);
-  result.check();
+RestSettings BalanceArguments::settings() const {
+  RestSettings result = settings_;
+  result.is_balanced = !no_balance_;
+  if (!person_.empty()) result.person = parse_person(person_);
+  check_as_options([&] { result.check(); }, kBalanceNames);
   return result;
 }
 

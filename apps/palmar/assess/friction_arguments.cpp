@@ -4,77 +4,56 @@
 
 #include <fmt/format.h>
 
-#include "palmar/core/error.h"
-#include "palmar/product/mass.h"
-#include "palmar/report/page/friction_section.h"
+#include "option_names.h"
+#include "palmar/report/page/friction_words.h"
 
 namespace palmar::cli {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // m/s^2; CGPM 1901
+const OptionNames kFrictionNames = {
+    {"friction", "--friction"}, {"density", "--density-g-cm3"}, {"mass", "--mass-kg"},
+    {"weight", "--weight-n"},   {"gravity", "--gravity"},
+};
 
-double positive(const char* option, double value, const char* unit) {
-  if (value > 0.0 && value <= 1e4) return value;
-  throw UsageError(
-      fmt::format("{} is {}; more than 0 and at most 10000 {} is required", option, value, unit));
+void take(const char* option, const std::string& text, std::optional<Vec3>& value) {
+  if (!text.empty()) value = parse_vector(option, text);
 }
 
 }  // namespace
 
 void FrictionArguments::add_to(CLI::App& verb) {
-  verb.add_option("--friction", coefficient,
-                  "Coefficient of friction of skin on the product (0.3 to 1.2 is usual): tells "
-                  "whether the hand holds the load; default: 0.5 while the grasp comes to rest and "
-                  "for a given load. 0: none");
-  CLI::Option* mass = verb.add_option("--mass-kg", mass_kg, "Mass of the product, kg");
-  CLI::Option* weight =
-      verb.add_option("--weight-n", weight_n, "Weight of the product instead of its mass, N")
-          ->excludes(mass);
-  verb.add_option("--density-g-cm3", density,
+  verb.add_option(
+      "--friction", settings_.friction,
+      fmt::format("Coefficient of friction of skin on the product (0.3 to 1.2 is usual): "
+                  "tells whether the hand holds the load; default: {:g} while the grasp "
+                  "comes to rest and for a given load. 0: none",
+                  kUsualFriction));
+  CLI::Option* mass = verb.add_option("--mass-kg", settings_.mass, "Mass of the product, kg");
+  CLI::Option* weight = verb.add_option("--weight-n", settings_.weight,
+                                        "Weight of the product instead of its mass, N")
+                            ->excludes(mass);
+  verb.add_option("--density-g-cm3", settings_.density,
                   "Density of the product, solid throughout, instead of its mass, g/cm3")
       ->excludes(mass)
       ->excludes(weight);
-  verb.add_option("--gravity", gravity,
+  verb.add_option("--gravity", gravity_,
                   "Direction of gravity in the product's frame, x,y,z; default 0,0,-1");
-  verb.add_option("--mass-at", mass_at,
+  verb.add_option("--mass-at", mass_at_,
                   "Centre of mass, x,y,z in mm; default: as if the product were solid throughout");
-  verb.add_option("--load-n", load_n, "Further force on the product, x,y,z in N");
-  verb.add_option("--torque-n-mm", torque_n_mm, "Further torque on the product, x,y,z in N mm");
-  verb.add_option("--load-at", load_at,
+  verb.add_option("--load-n", load_n_, "Further force on the product, x,y,z in N");
+  verb.add_option("--torque-n-mm", torque_n_mm_, "Further torque on the product, x,y,z in N mm");
+  verb.add_option("--load-at", load_at_,
                   "Where --load-n acts, x,y,z in mm; default: at the centre of mass");
 }
 
-FrictionOptions FrictionArguments::options() const {
-  FrictionOptions result;
-  if (coefficient && !(*coefficient >= 0.0 && *coefficient <= 5.0)) {
-    throw UsageError(fmt::format("--friction is {}; 0 to 5 is required", *coefficient));
-  }
-  result.coefficient = coefficient.value_or(has_load() ? kUsualFriction : 0.0);
-  if (density) positive("--density-g-cm3", *density, "g/cm3");
-  ProductLoad& load = result.load;
-  if (mass_kg) load.weight = kStandardGravity * positive("--mass-kg", *mass_kg, "kg");
-  if (weight_n) load.weight = positive("--weight-n", *weight_n, "N");
-  if (!gravity.empty()) load.gravity = parse_vector("--gravity", gravity);
-  if (load.gravity.isZero(0.0)) throw UsageError("--gravity is 0,0,0; a direction is required");
-  if (!mass_at.empty()) load.mass_centre = parse_vector("--mass-at", mass_at);
-  if (!load_n.empty()) load.force = parse_vector("--load-n", load_n);
-  if (!torque_n_mm.empty()) load.torque = parse_vector("--torque-n-mm", torque_n_mm);
-  if (!load_at.empty()) load.force_at = parse_vector("--load-at", load_at);
-  result.check();
-  return result;
-}
-
-bool FrictionArguments::has_load() const {
-  return mass_kg || weight_n || density || !load_n.empty() || !torque_n_mm.empty();
-}
-
-FrictionOptions FrictionArguments::options_for(const Product& product) const {
-  FrictionOptions result = options();
-  const bool has_weight = mass_kg || weight_n || density;
-  if (density || (has_weight && mass_at.empty())) {
-    const MassProperties solid = mass_properties(product);
-    if (density) result.load.weight = weight_of(solid.volume, *density);
-  }
+FrictionSettings FrictionArguments::settings() const {
+  FrictionSettings result = settings_;
+  if (!gravity_.empty()) result.gravity = parse_vector("--gravity", gravity_);
+  take("--mass-at", mass_at_, result.mass_centre);
+  take("--load-n", load_n_, result.force);
+  take("--torque-n-mm", torque_n_mm_, result.torque);
+  take("--load-at", load_at_, result.force_at);
+  check_as_options([&] { result.check(); }, kFrictionNames);
   return result;
 }
 

@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "cli.h"
 #include "contact/contact_fit_command.h"
 #include "contact/press_specimen.h"
 #include "grasp/grasp_options.h"
-#include "palmar/contact/press/press.h"
+#include "option_names.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/file.h"
-#include "palmar/records/press_json.h"
-#include "palmar/records/tissue_file.h"
-#include "palmar/report/chart/press_chart.h"
+#include "palmar/workflow/press.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -111,54 +107,19 @@ std::string press_text(const std::vector<PressStep>& steps) {
   return text;
 }
 
-/// The result in the format that the file's name asks for.
-std::string press_file(const std::string& path, const PressOptions& options,
-                       const PressSetting& setting, const std::vector<PressStep>& steps) {
-  const std::string format = std::filesystem::path(path).extension().string();
-  if (format == ".csv") return format_csv(press_table(steps));
-  if (format == ".svg") {
-    const std::string hand = setting.hand.empty() ? "" : setting.hand + ":";
-    return press_chart(steps, hand + name_of(options.specimen) + " pressed by " +
-                                  name_of(options.indenter) + " (" + name_of(setting.model) + ")") +
-           "\n";
-  }
-  return press_json(options, setting, steps) + "\n";
-}
-
-void check_out(const std::string& path) {
-  const std::string format = std::filesystem::path(path).extension().string();
-  if (path.empty() || format == ".json" || format == ".csv" || format == ".svg") return;
-  throw UsageError("--out: \"" + path + "\" ends with none of .json, .csv, .svg");
-}
-
 int run_press(const PressArguments& arguments, const CommonOptions& common) {
+  PressRequest request;
   std::string hand_name;
-  PressOptions options = parse_options(arguments, hand_name);
-  const ContactModel model = parse_model(arguments, !hand_name.empty());
-  options.kernel = model.kernel;
-  if (hand_name.empty() && !arguments.tissue.empty()) {
-    options.tissue = read_tissue(arguments.tissue, default_tissue())
-                         .region[static_cast<std::size_t>(Region::kMiddleDistal)];
+  request.test = parse_options(arguments, hand_name);
+  request.model = parse_model(arguments, !hand_name.empty());
+  request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
+  request.out = arguments.out;
+  check_as_options([&] { request.check(); }, {{"out:", "--out:"}});
+  if (!hand_name.empty() && arguments.spacing) {
+    note(common, "--spacing-mm is left out: a hand has its own vertices");
   }
-  options.check();
-  check_out(arguments.out);
-
-  PressSetting setting{.hand = "", .model = model};
-  std::optional<PreparedHand> hand;
-  if (!hand_name.empty()) {
-    if (arguments.spacing) note(common, "--spacing-mm is left out: a hand has its own vertices");
-    auto loaded = load_hand(hand_name, arguments.tissue);
-    setting.hand = loaded->name;
-    if (options.tissue_level != TissueLevel::kNominal) {
-      loaded = std::make_shared<Hand>(hand_at_tissue_level(*loaded, options.tissue_level));
-    }
-    hand.emplace(loaded, model);
-  }
-  const std::vector<PressStep> steps = press(options, hand ? &*hand : nullptr);
-  if (!arguments.out.empty()) {
-    write_file(arguments.out, press_file(arguments.out, options, setting, steps));
-  }
-  print(common.json ? press_json(options, setting, steps) + "\n" : press_text(steps));
+  const auto [test, setting, steps] = run_press(request);
+  print(common.json ? press_json(test, setting, steps) + "\n" : press_text(steps));
   return 0;
 }
 

@@ -4,19 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
 #include "contact/press_specimen.h"
 #include "grasp/grasp_options.h"
-#include "palmar/contact/tissue/tissue_fit.h"
+#include "option_names.h"
 #include "palmar/core/error.h"
-#include "palmar/core/nearest_name.h"
-#include "palmar/formats/file.h"
-#include "palmar/hand/tissue.h"
-#include "palmar/records/measured_curves.h"
-#include "palmar/records/tissue_file.h"
 #include "palmar/records/tissue_fit_json.h"
+#include "palmar/workflow/fit_tissue.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -52,29 +45,6 @@ TissueFitOptions fit_options(const FitArguments& arguments) {
   }
   options.check();
   return options;
-}
-
-/// Regions that the fit is for: a group's, or one.
-std::vector<Region> regions_of(const std::string& name) {
-  std::vector<Region> regions;
-  const auto group = tissue_class_named(name);
-  if (const auto region = region_named(name)) regions.push_back(*region);
-  if (!group && !regions.empty()) return regions;
-  regions.clear();
-  std::vector<std::string> known;
-  for (int c = 0; c < kTissueClassCount; ++c) {
-    known.emplace_back(name_of(static_cast<TissueClass>(c)));
-  }
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
-    known.emplace_back(name_of(region));
-    if (group && tissue_class_of(region) == *group) regions.push_back(region);
-  }
-  if (group) return regions;
-  const std::string nearest = nearest_name(name, known);
-  throw UsageError("--group: \"" + name + "\" is not known; " +
-                   (nearest.empty() ? "finger, palm, dorsum or a region is allowed"
-                                    : "did you mean " + nearest + "?"));
 }
 
 /// Lays the test out; the layer is a known thickness, fitted, or the hand's own.
@@ -198,77 +168,24 @@ std::string fit_text(const TissueFit& fit, const std::string& test, double confi
   return text + (fit.remarks.empty() ? "" : "\n") + points_text(fit);
 }
 
-/// The default set with the fitted law in it.
-Tissue fitted_set(const FitArguments& arguments, const TestSetup& setup, const TissueFit& fit,
-                  const std::vector<Region>& regions) {
-  const std::string file = std::filesystem::path(arguments.curves).filename().string();
-  Tissue tissue = default_tissue();
-  tissue.source = "Palmar's own set with " +
-                  std::string(setup.is_layered ? "layered" : "half-space") + " tissue fitted to " +
-                  file;
-  for (const Region region : regions) {
-    RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
-    (setup.is_layered ? one.layered : one.half_space) = fit.stiffness;
-    if (const std::string fault = fault_of(one); !fault.empty()) {
-      throw NumericalError(file + ": the fit gives no tissue that skin can have: " + fault +
-                           ". Are the units of the columns right?");
-    }
-    if (setup.is_layered) one.poisson_layered = setup.press.poisson.value_or(one.poisson_layered);
-    one.source = fmt::format("{}: fitted to {} ({} readings, {} subjects; {}), R2 {:.4f}; rest: {}",
-                             setup.is_layered ? "layered" : "half-space", file, fit.points.size(),
-                             std::max<std::size_t>(1, fit.subjects.size()),
-                             describe(arguments, setup), fit.r_squared, one.source);
-  }
-  return tissue;
-}
-
 int run_fit(const FitArguments& arguments, const CommonOptions& common) {
-  const TissueFitOptions options = fit_options(arguments);
   const TestSetup setup = setup_of(arguments);
-  const bool is_hand = !setup.hand.empty();
-  const std::string group = !arguments.group.empty() ? arguments.group
-                            : is_hand
-                                ? std::string(name_of(tissue_class_of(setup.press.specimen.region)))
-                                : "finger";
-  const std::vector<Region> regions = regions_of(group);
-  const MeasuredCurves curves = read_measured_curves(arguments.curves);
-  std::vector<double> depths;
-  for (const MeasuredPoint& point : curves.points) depths.push_back(point.depth);
-  for (const std::string& column : curves.ignored) {
-    note(common, arguments.curves + ": column \"" + column + "\" is left out");
-  }
-  if (curves.zero_depths > 0) {
-    note(common,
-         fmt::format("{}: {} rows at depth 0 are left out", arguments.curves, curves.zero_depths));
-  }
-  std::optional<PreparedHand> hand;
-  if (is_hand) {
-    hand.emplace(
-        load_hand(setup.hand),
-        ContactModel{.tissue = setup.is_layered ? TissueModel::kLayered : TissueModel::kHalfSpace});
-  }
-  std::vector<double> thickness;
-  if (setup.is_layer_fitted) {
-    thickness = thicknesses_to_try(*std::max_element(depths.begin(), depths.end()));
-  }
-  PressOptions press = setup.press;
-  press.depths = depths;
-  press.check();
-  const SpecimenResponse response =
-      specimen_response(press, depths, thickness, hand ? &*hand : nullptr);
-  const TissueFit fit = fit_tissue(curves.points, response, options);
-  if (fit.status == LeastSquaresStatus::kIterationLimit ||
-      fit.status == LeastSquaresStatus::kBadStart) {
-    throw NumericalError(arguments.curves + ": the fit ended without converging (" +
-                         std::string(name_of(fit.status)) + "); nothing is written");
-  }
-  if (!arguments.out.empty()) {
-    write_tissue(arguments.out, fitted_set(arguments, setup, fit, regions));
-    note(common, "wrote " + arguments.out + " (" + group + ")");
-  }
-  const std::string test = describe(arguments, setup);
-  print(common.json ? tissue_fit_json(fit, test, options.confidence) + "\n"
-                    : fit_text(fit, test, options.confidence));
+  TissueFitRequest request;
+  request.fit = fit_options(arguments);
+  request.curves = arguments.curves;
+  request.test = setup.press;
+  request.hand.name = setup.hand;
+  request.is_layered = setup.is_layered;
+  request.is_layer_fitted = setup.is_layer_fitted;
+  request.group = arguments.group;
+  request.description = describe(arguments, setup);
+  request.out = arguments.out;
+  request.note = [&common](const std::string& text) { note(common, text); };
+  check_as_options([&] { request.check(); }, {{"group:", "--group:"}});
+  const auto [fit, group] = fit_tissue(request);
+  if (!arguments.out.empty()) note(common, "wrote " + arguments.out + " (" + group + ")");
+  print(common.json ? tissue_fit_json(fit, request.description, request.fit.confidence) + "\n"
+                    : fit_text(fit, request.description, request.fit.confidence));
   return 0;
 }
 

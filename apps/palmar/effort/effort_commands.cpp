@@ -13,11 +13,8 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/effort/effort.h"
 #include "palmar/effort/fingertip_force.h"
-#include "palmar/grasp/given_grasp.h"
 #include "palmar/records/effort_json.h"
-#include "palmar/records/posture/posture_file.h"
-#include "palmar/records/product/product_file.h"
-#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/effort.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -282,47 +279,20 @@ void add_grasp(CLI::App& effort, Context& context) {
       ->capture_default_str();
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      AssessOptions options;
-      options.grasp = o->grasp.options();
-      options.contact = o->contact.options();
-      options.contact.error_band = false;
-      options.friction = o->friction.options();
-      EffortOptions asked = o->effort;
-      asked.tendons = tendon_model(o->model.points, o->model.hood);
-      asked.check();
-      const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
-      for (const std::string& text : product.notes) note(context.common, text);
-      options.grasp = o->grasp.options_for(product);
-      options.friction = o->friction.options_for(product);
-      options.balance = o->balance.options(o->friction, options.grasp.grip);
-      options.balance.load = options.friction.load;
-      options.indices.is_on = false;
-      const auto hand = load_hand(o->grasp.hand, o->contact.tissue);
-      const PreparedHand prepared(hand, o->contact.model());
-      const Progress progress = make_progress(context.common);
-      Assessment held;
-      if (o->file.empty()) {
-        held = assess(prepared, product, options, progress);
-      } else {
-        const PostureFile file = read_postures(o->file, hand->skeleton);
-        const PostureFrame frame = frame_of(file, o->file, std::nullopt);
-        if (!frame.product_from_hand) {
-          throw UsageError(o->file + " doesn't say where the product is (product_from_hand)");
-        }
-        held = evaluate(prepared, product,
-                        given_grasp(*hand, product, frame.posture, *frame.product_from_hand),
-                        options, progress);
-      }
+      EffortRequest request;
+      request.grasp = o->grasp.settings();
+      request.contact = o->contact.options();
+      request.model = o->contact.model();
+      request.friction = o->friction.settings();
+      request.rest = o->balance.settings();
+      request.effort = o->effort;
+      request.effort.tendons = tendon_model(o->model.points, o->model.hood);
+      request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
+      request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
+      request.grasp_file = o->file;
+      request.note = [&context](const std::string& text) { note(context.common, text); };
+      const EffortResult result = effort_of_grasp(request, make_progress(context.common));
       finish_progress();
-      // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
-      if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
-        held.friction.force = held.balance.friction_force;
-      }
-      const bool has_friction =
-          !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
-      const EffortResult result =
-          assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
-                        *product.distance, asked, has_friction ? &held.friction : nullptr);
       print(context.common.json ? effort_json(result) + "\n" : effort_text(result));
       return result.status == EffortStatus::kNotConverged ? 4 : 0;
     };

@@ -6,7 +6,7 @@
 #include "grasp/grasp_reach_command.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
-#include "palmar/records/product/product_file.h"
+#include "palmar/workflow/grasp.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -32,12 +32,12 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& told) {
   verb->add_option("--out", o->out, told.out);
   verb->callback([&context, o, told] {
     context.run = [&context, o, told] {
-      o->grasp.options();  // refuses what can't be before a file is read
-      const Product product = load_product(o->product, {.unit = parse_unit(o->grasp.unit)});
-      const GraspOptions options = o->grasp.options_for(product);
-      for (const std::string& text : product.notes) note(context.common, text);
-      const auto hand = load_hand(o->grasp.hand);
-      const Grasp found = find_grasp(*hand, product, options, make_progress(context.common));
+      GraspRequest request;
+      request.grasp = o->grasp.settings();
+      request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
+      request.hand.name = o->grasp.hand;
+      request.note = [&context](const std::string& text) { note(context.common, text); };
+      const Grasp found = grasp_product(request, make_progress(context.common)).grasp;
       finish_progress();
       if (!o->out.empty()) write_file(o->out, told.json(found) + "\n");
       print(context.common.json ? told.json(found) + "\n" : told.text(found));

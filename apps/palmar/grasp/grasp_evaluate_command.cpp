@@ -5,15 +5,11 @@
 #include "assess/friction_arguments.h"
 #include "grasp/grasp_options.h"
 #include "hand/posture_notes.h"
+#include "option_names.h"
 #include "palmar/core/error.h"
-#include "palmar/grasp/given_grasp.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
-#include "palmar/records/posture/coordination_file.h"
-#include "palmar/records/posture/posture_file.h"
-#include "palmar/records/product/product_file.h"
-#include "palmar/report/page/assessment_report.h"
-#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/grasp/grasp_evaluate.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -28,78 +24,56 @@ struct EvaluateArguments {
   bool no_pictures = false;
 };
 
-PostureFrame read_given(const EvaluateArguments& arguments, const Skeleton& skeleton,
-                        const CommonOptions& common) {
-  const bool is_grasp = !arguments.grasp.empty();
-  const std::string& path = is_grasp ? arguments.grasp : arguments.posture;
-  const PostureFile file = read_postures(path, skeleton);
-  for (const std::string& text : file.notes) note(common, path + ": " + text);
-  PostureFrame frame = frame_of(file, path, arguments.frame);
-  note_frame(common, frame);
-  if (!arguments.placement.empty()) {
-    frame.product_from_hand = parse_placement("--placement", arguments.placement);
-  }
-  if (!arguments.measured_from_product.empty()) {
-    if (!arguments.placement.empty()) {
-      throw UsageError("--placement and --measured-from-product exclude each other");
-    }
-    if (!frame.measured_from_hand) {
-      throw UsageError("--measured-from-product: " + path +
-                       " doesn't say where the hand is (measured_from_hand)");
-    }
-    const Rigid3 measured_from_product =
-        parse_placement("--measured-from-product", arguments.measured_from_product);
-    frame.product_from_hand = measured_from_product.inverse() * *frame.measured_from_hand;
-  }
-  if (!frame.product_from_hand) {
-    throw UsageError(path +
-                     " doesn't say where the product is (product_from_hand); --placement "
-                     "X,Y,Z,QW,QX,QY,QZ or --measured-from-product is needed");
-  }
-  return frame;
-}
+const OptionNames kEvaluateNames = {
+    {"product_from_hand or measured_from_product is needed",
+     "--placement X,Y,Z,QW,QX,QY,QZ or --measured-from-product is needed"},
+    {"product_from_hand and measured_from_product", "--placement and --measured-from-product"},
+    {"measured_from_product", "--measured-from-product"},
+};
 
-int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
+EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& context) {
   if (arguments.posture.empty() == arguments.grasp.empty()) {
     throw UsageError("grasp evaluate: --posture FILE or --grasp FILE is needed, and not both");
   }
-  AssessOptions options;
-  options.contact = arguments.contact.options();
-  options.seed = context.common.seed;
-  const ContactModel model = arguments.contact.model();
-  const Progress progress = make_progress(context.common);
-  if (!arguments.out.empty()) check_report_folder(arguments.out);
+  EvaluateRequest request;
+  request.contact = arguments.contact.options();
+  request.model = arguments.contact.model();
+  request.friction = arguments.friction.settings();
+  request.product = {arguments.product, {.unit = parse_unit(arguments.unit)}};
+  request.hand = {.name = arguments.hand, .tissue = arguments.contact.tissue, .value = nullptr};
+  request.posture_file = arguments.grasp.empty() ? arguments.posture : arguments.grasp;
+  request.frame = arguments.frame;
+  if (!arguments.placement.empty()) {
+    request.product_from_hand = parse_placement("--placement", arguments.placement);
+  }
+  if (!arguments.measured_from_product.empty()) {
+    request.measured_from_product =
+        parse_placement("--measured-from-product", arguments.measured_from_product);
+  }
+  request.natural_postures = arguments.natural_postures;
+  request.out = arguments.out;
+  request.pictures = !arguments.no_pictures;
+  request.seed = context.common.seed;
+  request.command_line = context.command_line;
+  request.note = [&context](const std::string& text) { note(context.common, text); };
+  return request;
+}
 
-  const Product product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
-  options.friction = arguments.friction.options_for(product);
-  for (const std::string& text : product.notes) {
-    note(context.common, arguments.product + ": " + text);
-  }
-  const auto hand = load_hand(arguments.hand, arguments.contact.tissue);
-  const PostureFrame given = read_given(arguments, hand->skeleton, context.common);
-  Grasp grasp = given_grasp(*hand, product, given.posture, *given.product_from_hand);
-  if (given.grip) grasp.grip = *given.grip;
-
-  if (!arguments.natural_postures.empty()) {
-    options.indices.coordination = read_coordination(arguments.natural_postures, hand->skeleton);
-  }
-  if (progress.report) progress.report(0.0, "preparing the hand");
-  const PreparedHand prepared(hand, model);
-  AssessmentSet set{.hand = hand, .assessments = {}, .command_line = context.command_line};
-  set.assessments.push_back({product, evaluate(prepared, product, grasp, options, progress)});
-  const Assessment& assessment = set.assessments.front().assessment;
-  if (!arguments.out.empty()) {
-    write_report(arguments.out, set, {.pictures = !arguments.no_pictures}, progress);
-  }
+int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
+  const EvaluateRequest request = request_of(arguments, context);
+  EvaluateOutcome outcome;
+  check_as_options([&] { outcome = evaluate_grasp(request, make_progress(context.common)); },
+                   kEvaluateNames);
   finish_progress();
+  const Assessment& assessment = outcome.set.assessments.front().assessment;
   if (context.common.json) {
-    print(assessment_json(set) + "\n");
+    print(assessment_json(outcome.set) + "\n");
   } else {
     print(grasp_text(assessment.grasp) + contact_text(assessment.contact) +
-          friction_text(*hand, assessment) + index_text(assessment.indices));
+          friction_text(*outcome.set.hand, assessment) + index_text(assessment.indices));
     if (!arguments.out.empty()) print("Report: " + arguments.out + "/report.html\n");
   }
-  if (assessment.contact.status != ContactStatus::kNotConverged) return 0;
+  if (outcome.has_converged) return 0;
   note(context.common, assessment.contact.message);
   return 4;
 }

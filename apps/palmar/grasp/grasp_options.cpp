@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/records/product/made_product.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -65,69 +65,51 @@ Box3 parse_region(const std::string& text) {
 
 void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option("--hand", hand, "\"template\" or a .hand.glb file")->capture_default_str();
-  verb.add_option("--grip", grip,
+  verb.add_option("--grip", grip_,
                   "Kind of grip: power (what suits the shape) or a name of the GRASP taxonomy: " +
                       grip_list())
       ->capture_default_str();
   verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY): mm, cm, m, inch");
-  verb.add_option("--at", at,
+  verb.add_option("--at", at_,
                   "Point of the product that lies in mid-palm (precision grips: between the "
                   "fingertips), x,y,z in mm");
-  verb.add_option("--fingertip", fingertips,
+  verb.add_option("--fingertip", fingertips_,
                   "Point of the product for a fingertip of a precision grip, once per finger: "
                   "FINGER:X,Y,Z in mm")
       ->allow_extra_args(false);
-  verb.add_option("--fingertip-depth-mm", fingertip_depth,
+  verb.add_option("--fingertip-depth-mm", settings_.fingertip_depth,
                   "How deep a precision grip's fingertips are pressed in, mm")
       ->capture_default_str();
   verb.add_option(
-      "--axis", axis,
+      "--axis", axis_,
       "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
-  verb.add_option("--region", region,
+  verb.add_option("--region", region_,
                   "Hold it by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in "
                   "the product's frame (power grips)");
-  verb.add_option("--turn-deg", turn_deg, "Turn of the hand about the grip axis, deg");
-  verb.add_option("--palm-limit-depth-mm", palm_limit_depth, "Deepest penetration of the palm, mm")
+  verb.add_option("--turn-deg", turn_deg_, "Turn of the hand about the grip axis, deg");
+  verb.add_option("--palm-limit-depth-mm", settings_.palm_limit_depth,
+                  "Deepest penetration of the palm, mm")
       ->capture_default_str();
-  verb.add_option("--finger-limit-depth-mm", finger_limit_depth,
+  verb.add_option("--finger-limit-depth-mm", settings_.finger_limit_depth,
                   "Deepest penetration of a finger segment, mm")
       ->capture_default_str();
 }
 
-GraspOptions GraspArguments::options() const {
-  GraspOptions result;
-  result.grip = parse_grip(grip);
-  result.power.palm_limit_depth = palm_limit_depth;
-  result.power.finger_limit_depth = finger_limit_depth;
-  PlacementRequest& placement = result.power.placement;
-  if (!at.empty()) placement.at = parse_vector("--at", at);
-  if (!region.empty()) placement.region = parse_region(region);
-  if (!axis.empty()) placement.axis = parse_vector("--axis", axis);
-  if (turn_deg) placement.turn = radians(*turn_deg);
-  result.precision.placement = placement;
-  result.precision.fingertip_depth = fingertip_depth;
-  for (const std::string& text : fingertips) {
-    result.precision.targets.push_back(parse_fingertip(text));
-  }
-  if (!fingertips.empty() && (!result.grip || is_power(*result.grip))) {
-    throw UsageError("--fingertip: grip " + grip +
-                     " holds with the whole hand; a precision grip is required, as in "
-                     "--grip tripod");
-  }
-  if (!region.empty() && result.grip && !is_power(*result.grip)) {
-    throw UsageError("--region: grip " + grip +
-                     " takes fingertips to points; --at or --fingertip says where");
-  }
-  result.check();
-  return result;
-}
-
-GraspOptions GraspArguments::options_for(const Product& product) const {
-  GraspOptions result = options();
-  PlacementRequest& placement = result.power.placement;
-  if (!placement.at && !placement.axis && !placement.region && is_made(product.source)) {
-    placement.axis = thumb_side_of(made_from(product.source));
-  }
+GraspSettings GraspArguments::settings() const {
+  GraspSettings result = settings_;
+  result.grip = parse_grip(grip_);
+  PlacementRequest& placement = result.placement;
+  if (!at_.empty()) placement.at = parse_vector("--at", at_);
+  if (!region_.empty()) placement.region = parse_region(region_);
+  if (!axis_.empty()) placement.axis = parse_vector("--axis", axis_);
+  if (turn_deg_) placement.turn = radians(*turn_deg_);
+  for (const std::string& text : fingertips_) result.fingertips.push_back(parse_fingertip(text));
+  const std::string name = result.grip ? std::string(name_of(*result.grip)) : "power";
+  check_as_options([&] { result.check(); },
+                   {{"fingertips: grip " + name, "--fingertip: grip " + grip_},
+                    {"region: grip " + name, "--region: grip " + grip_},
+                    {"at or fingertips", "--at or --fingertip"},
+                    {"such as tripod", "as in --grip tripod"}});
   return result;
 }
 
@@ -135,22 +117,22 @@ void ContactArguments::add_to(CLI::App& verb) {
   verb.add_option("--preset", preset,
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
-  verb.add_option("--regions", regions,
+  verb.add_option("--regions", regions_,
                   "coupled (one problem over the whole hand) or independent (each region alone); "
                   "default: as in the preset");
-  verb.add_option("--tissue-model", tissue_model,
+  verb.add_option("--tissue-model", tissue_model_,
                   "halfspace (endless tissue) or layered (skin over bone); default: as in the "
                   "preset");
-  verb.add_option("--kernel", kernel,
+  verb.add_option("--kernel", kernel_,
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_option("--tissue", tissue,
                   "Tissue file (TOML) for the hand; what it doesn't give stays as it is");
-  verb.add_flag("--no-swelling", no_swelling, "Leave out the bulge around the contact");
-  verb.add_option("--shear-modulus-kpa", shear_modulus_kpa,
+  verb.add_flag("--no-swelling", no_swelling_, "Leave out the bulge around the contact");
+  verb.add_option("--shear-modulus-kpa", shear_modulus_kpa_,
                   "One shear modulus instead of the tissue's own G(d), kPa");
-  verb.add_flag("--error-band,!--no-error-band", error_band,
+  verb.add_flag("--error-band,!--no-error-band", error_band_,
                 "Results for soft and stiff tissue beside the nominal ones; on by default");
-  verb.add_option("--coating", coatings,
+  verb.add_option("--coating", coatings_,
                   "Soft grip sleeve on the product, may be given several times: "
                   "THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]; Poisson's ratio "
                   "0.5 if not given; the box (two corners, mm, product's frame) limits it to that "
@@ -160,14 +142,14 @@ void ContactArguments::add_to(CLI::App& verb) {
 
 ContactOptions ContactArguments::options() const {
   ContactOptions result;
-  result.swelling = !no_swelling;
-  if (shear_modulus_kpa && !(*shear_modulus_kpa > 0.0)) {
-    throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa) +
+  result.swelling = !no_swelling_;
+  if (shear_modulus_kpa_ && !(*shear_modulus_kpa_ > 0.0)) {
+    throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa_) +
                      "; more than 0 kPa is required");
   }
-  if (shear_modulus_kpa) result.shear_modulus = *shear_modulus_kpa / 1000.0;
-  result.error_band = error_band;
-  for (const std::string& text : coatings) result.coatings.push_back(parse_coating(text));
+  if (shear_modulus_kpa_) result.shear_modulus = *shear_modulus_kpa_ / 1000.0;
+  result.error_band = error_band_;
+  for (const std::string& text : coatings_) result.coatings.push_back(parse_coating(text));
   result.check();
   return result;
 }
@@ -178,9 +160,9 @@ ContactModel ContactArguments::model() const {
     throw UsageError("--preset: \"" + preset + "\" is not known; palmar or xie2014 is allowed");
   }
   ContactModel result = *named;
-  if (!kernel.empty()) result.kernel = parse_kernel(kernel);
-  if (!tissue_model.empty()) result.tissue = parse_tissue_model(tissue_model);
-  if (!regions.empty()) result.coupling = parse_regions(regions);
+  if (!kernel_.empty()) result.kernel = parse_kernel(kernel_);
+  if (!tissue_model_.empty()) result.tissue = parse_tissue_model(tissue_model_);
+  if (!regions_.empty()) result.coupling = parse_regions(regions_);
   return result;
 }
 

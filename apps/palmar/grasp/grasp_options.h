@@ -2,50 +2,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli.h"
 #include "palmar/contact/contact.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/grasp_settings.h"
 
 namespace palmar::cli {
 
-/// The options by which assess and grasp place and close the hand, as typed.
-struct GraspArguments {
-  std::string hand = "template", grip = "power", unit, at, axis, region;
-  std::optional<double> turn_deg;
-  double palm_limit_depth = PowerGraspOptions{}.palm_limit_depth;
-  double finger_limit_depth = PowerGraspOptions{}.finger_limit_depth;
-  double fingertip_depth = PrecisionGripOptions{}.fingertip_depth;
-  std::vector<std::string> fingertips;  ///< "FINGER:X,Y,Z"
+/// The options by which assess and grasp place and close the hand.
+class GraspArguments {
+ public:
+  std::string hand = "template", unit;
 
-  /// Adds --hand, --grip, --unit, --at, --axis, --turn-deg, --fingertip and the depths to a verb.
+  /// Adds --hand, --grip, --unit, --at, --axis, --region, --turn-deg, --fingertip and the depths to
+  /// a verb.
   void add_to(CLI::App& verb);
-  /// The values for the grasp module. Throws UsageError.
-  GraspOptions options() const;
-  /// The same for a product that may tell by itself which side the thumb is on.
-  GraspOptions options_for(const Product& product) const;
+  GraspSettings settings() const;  ///< throws UsageError naming the option
+
+ private:
+  GraspSettings settings_;
+  std::string grip_ = "power", at_, axis_, region_;
+  std::optional<double> turn_deg_;
+  std::vector<std::string> fingertips_;  ///< "FINGER:X,Y,Z"
 };
 
-/// The options of the contact solver, as typed.
-struct ContactArguments {
+/// The options of the contact solver.
+class ContactArguments {
+ public:
   std::string preset = "palmar";
-  std::string kernel, regions, tissue_model;  ///< empty: as in the preset
-  bool no_swelling = false;
-  std::optional<double> shear_modulus_kpa;
-  bool error_band = true;
-  std::vector<std::string> coatings;
   std::string tissue;  ///< file of the hand's tissue, or empty
 
   /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
   /// --error-band, --coating and --tissue to a verb.
   void add_to(CLI::App& verb);
-  /// Throws UsageError.
-  ContactOptions options() const;
-  /// The equations for PreparedHand. Throws UsageError.
-  ContactModel model() const;
+  ContactOptions options() const;  ///< throws UsageError naming the option
+  ContactModel model() const;      ///< the equations for PreparedHand; throws UsageError
+
+ private:
+  std::string kernel_, regions_, tissue_model_;  ///< empty: as in the preset
+  bool no_swelling_ = false;
+  bool error_band_ = true;
+  std::optional<double> shear_modulus_kpa_;
+  std::vector<std::string> coatings_;
 };
 
 /// "patch" or "point". Throws UsageError naming --kernel.

@@ -7,12 +7,8 @@
 #include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/grasp/given_grasp.h"
-#include "palmar/grasp/precision/reach.h"
-#include "palmar/records/posture/posture_file.h"
-#include "palmar/records/product/product_file.h"
 #include "palmar/records/reach_json.h"
+#include "palmar/workflow/grasp/grasp_reach.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -21,7 +17,7 @@ namespace {
 struct ReachArguments {
   std::string product, out, map, grasp_file;
   std::vector<std::string> buttons;
-  int map_points = 500;
+  int map_points = ReachRequest{}.map_points;
   GraspArguments grasp;
 };
 
@@ -61,44 +57,35 @@ std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& butto
   return text;
 }
 
-int run_reach(const ReachArguments& o, const Context& context) {
+ReachRequest request_of(const ReachArguments& o, const Context& context) {
   if (o.buttons.empty() && o.map.empty()) {
     throw UsageError("grasp reach: --button NAME:X,Y,Z or --map FILE.vtp is needed");
   }
-  std::vector<Button> buttons;
-  for (const std::string& text : o.buttons) buttons.push_back(parse_button(text));
-  o.grasp.options();  // refuses what can't be before a file is read
-  const Product product = load_product(o.product, {.unit = parse_unit(o.grasp.unit)});
-  const GraspOptions options = o.grasp.options_for(product);
-  for (const std::string& text : product.notes) note(context.common, text);
-  const auto hand = load_hand(o.grasp.hand);
-  const Progress progress = make_progress(context.common);
-  Grasp grasp;
-  if (o.grasp_file.empty()) {
-    grasp = find_grasp(*hand, product, options, progress);
-  } else {
-    const PostureFile file = read_postures(o.grasp_file, hand->skeleton);
-    const PostureFrame frame = frame_of(file, o.grasp_file, std::nullopt);
-    if (!frame.product_from_hand) {
-      throw UsageError(o.grasp_file + " doesn't say where the product is (product_from_hand)");
-    }
-    grasp = given_grasp(*hand, product, frame.posture, *frame.product_from_hand);
-    if (frame.grip) grasp.grip = *frame.grip;
-  }
-  const std::vector<ButtonReach> reach = reach_buttons(*hand, product, grasp, buttons, progress);
-  std::optional<ReachMap> map;
-  const double area = surface_area(product.mesh);
-  if (!o.map.empty()) {
-    map = map_reach(*hand, product, grasp, o.map_points, progress);
-    write_file(o.map, format_reach_map(product.mesh, *map));
-  }
+  ReachRequest request;
+  for (const std::string& text : o.buttons) request.buttons.push_back(parse_button(text));
+  request.map = o.map;
+  request.map_points = o.map_points;
+  request.grasp.grasp = o.grasp.settings();
+  request.grasp.product = {o.product, {.unit = parse_unit(o.grasp.unit)}};
+  request.grasp.hand.name = o.grasp.hand;
+  request.grasp.grasp_file = o.grasp_file;
+  request.grasp.note = [&context](const std::string& text) { note(context.common, text); };
+  return request;
+}
+
+int run_reach(const ReachArguments& o, const Context& context) {
+  const ReachOutcome outcome =
+      reach_of_grasp(request_of(o, context), make_progress(context.common));
   finish_progress();
-  const std::string json = reach_json(grasp, reach, map ? &*map : nullptr, area) + "\n";
+  const Grasp& grasp = outcome.held.grasp;
+  const std::string json = reach_json(grasp, outcome.buttons, outcome.map ? &*outcome.map : nullptr,
+                                      outcome.surface_area) +
+                           "\n";
   if (!o.out.empty()) write_file(o.out, json);
-  std::string text = reach_text(grasp, reach);
-  if (map) {
+  std::string text = reach_text(grasp, outcome.buttons);
+  if (outcome.map) {
     text += fmt::format("\nmap: {:.0f} of {:.0f} mm2 of the surface reached, written to {}\n",
-                        map->reached_area, area, o.map);
+                        outcome.map->reached_area, outcome.surface_area, o.map);
   }
   print(context.common.json ? json : text);
   return 0;

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include "cli.h"
+#include "companion.h"
 #include "contact/press_deck_command.h"
-#include "hand/hand_from_mri_command.h"
-#include "hand/hand_from_photos_command.h"
-#include "hand/hand_from_scan_command.h"
 #include "hand/hand_pose_command.h"
-#include "hand/hand_quick_command.h"
 #include "hand/hand_scale_command.h"
 #include "palmar/hand/dimensions/tape_measures.h"
 #include "palmar/hand/skeleton.h"
@@ -167,16 +164,25 @@ void add_hand_commands(CLI::App& app, Context& context) {
   hand->require_subcommand(1);
   hand->fallthrough();
   add_template(*hand, context);
-  add_from_mri(*hand, context);
-  add_from_scan(*hand, context);
-  add_from_photos(*hand, context);
+  add_elsewhere(*hand, context, kCaptureProgram, "from-mri",
+                "A person's hand from MR series of several postures");
+  add_elsewhere(*hand, context, kCaptureProgram, "from-scan",
+                "A person's hand from surface scans: of any scanning app or "
+                "photogrammetry program, with drawn creases and dots if it may be");
+  add_elsewhere(
+      *hand, context, kCaptureProgram, "from-photos",
+      "A person's hand from photographs of it on the printed board (palmar photos board), "
+      "a folder per posture");
   add_info(*hand, context);
   add_tissue(*hand, context);
   add_measure(*hand, context);
   add_mirror(*hand, context);
   add_hand_pose(*hand, context);
   add_hand_scale(*hand, context);
-  add_hand_quick(*hand, context);
+  add_elsewhere(
+      *hand, context, kCaptureProgram, "quick",
+      "A hand from a few measures, or from one photograph of it flat on a sheet of A4 or beside a "
+      "bank card, and a population; tells how well each dimension is known");
   add_export(*hand, context);
 }
 

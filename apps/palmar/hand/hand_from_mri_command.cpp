@@ -4,35 +4,47 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
-#include "assess/surface_arguments.h"
-#include "hand/hand_output.h"
-#include "hand/scan_selection.h"
-#include "mri/mri_pipeline.h"
+#include "mri/surface_arguments.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/file.h"
-#include "palmar/records/capture/bone_label_file.h"
+#include "palmar/core/nearest_name.h"
 #include "palmar/records/capture/scan_record_json.h"
-#include "palmar/records/hand/hand_file.h"
-#include "palmar/records/product/product_file.h"
-#include "palmar/report/scan/scan_report.h"
+#include "palmar/workflow/hand/hand_output.h"
+#include "palmar/workflow/hand_from_mri.h"
 
 namespace palmar::cli {
 namespace {
 
 struct FromMriArguments {
-  std::vector<std::string> paths, series, skip;
-  std::string out, work, labels, model = "template", name, product, unit;
+  HandFromMriRequest request;
+  std::vector<std::string> series, skip;
+  std::string unit;
   SurfaceArguments surfaces;
-  bool no_report = false, accepts_odd_slices = false;
+  bool no_report = false;
 };
 
-/// Folder beside the hand: "anna.hand.glb" -> "anna.mri".
-std::string work_folder(const FromMriArguments& arguments) {
-  if (!arguments.work.empty()) return arguments.work;
-  return beside_hand(arguments.out, ".mri");
+/// Throws UsageError naming the option and the nearest posture.
+ScanPosture posture_called(const std::string& name, const std::string& option) {
+  std::vector<std::string> names;
+  for (int k = 0; k < kScanPostureCount; ++k) {
+    const auto posture = static_cast<ScanPosture>(k);
+    if (name == name_of(posture)) return posture;
+    names.emplace_back(name_of(posture));
+  }
+  const std::string nearest = nearest_name(name, names);
+  throw UsageError(fmt::format("{}: \"{}\" is no posture{} Allowed are {}", option, name,
+                               nearest.empty() ? "." : "; did you mean " + nearest + "?",
+                               fmt::join(names, ", ")));
+}
+
+/// "3=thumb_flexion". Throws UsageError.
+SeriesPosture parse_series(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UsageError("--series: \"" + text +
+                     "\" is not of the form NUMBER=POSTURE or TEXT=POSTURE; 3=thumb_flexion, for "
+                     "one, is allowed");
+  }
+  return {text.substr(0, equals), posture_called(text.substr(equals + 1), "--series " + text)};
 }
 
 std::string millimetres(const std::optional<double>& value) {
@@ -76,69 +88,24 @@ std::string text_of(const ScanRecord& record) {
   return text;
 }
 
-/// Which postures there are, and which not.
-std::string text_of(const std::vector<SelectedScan>& scans) {
-  std::string seen, missing;
-  for (int k = 0; k < kScanPostureCount; ++k) {
-    const auto posture = static_cast<ScanPosture>(k);
-    const bool is_seen = std::any_of(scans.begin(), scans.end(), [&](const SelectedScan& scan) {
-      return scan.posture == posture;
-    });
-    std::string& list = is_seen ? seen : missing;
-    list += (list.empty() ? "" : ", ") + std::string(name_of(posture));
-  }
-  return "scans of " + seen + (missing.empty() ? "" : "; none of " + missing);
-}
-
-/// The work folder is written to, so no image may lie where results go.
-void require_apart(const std::string& work, const std::vector<SelectedScan>& scans) {
-  for (const SelectedScan& scan : scans) {
-    if (scan.has_surfaces) continue;
-    const auto results = std::filesystem::path(work) / name_of(scan.posture);
-    const auto images = std::filesystem::path(scan.files.front()).parent_path();
-    std::error_code ignored;
-    if (!std::filesystem::equivalent(results, images, ignored)) continue;
-    throw UsageError("--work " + work + ": " + results.string() +
-                     " holds the images themselves; name another folder");
-  }
-}
-
 int run(const FromMriArguments& arguments, const Context& context) {
-  check_hand_output(arguments.out);
-  const Progress progress = make_progress(context.common);
-  const auto model = load_hand(arguments.model);
-  MriPipelineOptions options;
-  options.surfaces = arguments.surfaces.options();
-  options.side = arguments.surfaces.chosen_side();
-  options.accepts_odd_slices = arguments.accepts_odd_slices;
-  options.work = work_folder(arguments);
-  if (!arguments.labels.empty()) options.labels = read_bone_labels(arguments.labels);
-  if (!arguments.product.empty()) {
-    options.product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
-    for (const std::string& text : options.product->notes) note(context.common, text);
+  HandFromMriRequest request = arguments.request;
+  check_hand_output(request.out);
+  request.surfaces = arguments.surfaces.options();
+  if (!request.product.empty()) request.unit = parse_unit(arguments.unit);
+  for (const std::string& text : arguments.series) request.series.push_back(parse_series(text));
+  for (const std::string& name : arguments.skip) {
+    request.skip.push_back(posture_called(name, "--skip"));
   }
-  options.tell = [&context](const std::string& text) { note(context.common, text); };
-  progress.update(0.0, "looking for series");
-  const ScanSelection selection = select_scans(arguments.paths, arguments.series, arguments.skip);
-  require_apart(options.work, selection.scans);
-  const WorkFolder folder(options.work);
-  require_writable(folder_of(arguments.out));
-  for (const std::string& text : selection.notes) note(context.common, text);
-  note(context.common, text_of(selection.scans));
-  options.write = [&](ScanRecord& record, const Progress& part) {
-    record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
-    Hand& hand = record.made.hand;
-    hand.name = arguments.name.empty() ? hand_name_of(arguments.out) : arguments.name;
-    write_hand(arguments.out, hand);
-    if (!arguments.no_report) write_scan_report(options.work, record, part);
-  };
-  const ScanRecord record = run_mri_pipeline(selection.scans, *model, options, progress);
+  request.writes_report = !arguments.no_report;
+  request.setting_names = option_named;
+  request.note = [&context](const std::string& text) { note(context.common, text); };
+  const HandFromMriOutcome made = make_hand_from_mri(request, make_progress(context.common));
   finish_progress();
-  print(context.common.json ? scan_record_json(record) + "\n" : text_of(record));
-  note(context.common, arguments.no_report
-                           ? "wrote " + arguments.out
-                           : "wrote " + arguments.out + "; report: " + options.work +
-                                 "/report.html; what each step made stays in " + options.work);
+  print(context.common.json ? scan_record_json(made.record) + "\n" : text_of(made.record));
+  note(context.common, made.report.empty() ? "wrote " + request.out
+                                           : "wrote " + request.out + "; report: " + made.report +
+                                                 "; what each step made stays in " + made.work);
   return 0;
 }
 
@@ -148,34 +115,35 @@ void add_from_mri(CLI::App& hand, Context& context) {
   const auto a = std::make_shared<FromMriArguments>();
   CLI::App* verb = add_verb(hand, "from-mri", "A person's hand from MR series of several postures",
                             "palmar hand from-mri scans/ --out anna.hand.glb");
-  verb->add_option("IMAGE", a->paths,
-                   "Folders of DICOM series, NIfTI or NRRD files, or folders that palmar mri "
+  verb->add_option("IMAGE", a->request.images,
+                   "Folders of DICOM series, NIfTI files, or folders that palmar mri "
                    "surfaces made. The description of a series "
                    "(or the name of its folder) tells the posture: reference, thumb_flexion, "
                    "thumb_extension, thumb_abduction, thumb_adduction, finger_flexion, "
                    "finger_abduction, grasp; the reference is needed")
       ->required();
-  verb->add_option("--out", a->out, "File to write, *.hand.glb")->required();
+  verb->add_option("--out", a->request.out, "File to write, *.hand.glb")->required();
   verb->add_option("--series", a->series,
                    "What a series shows: NUMBER=POSTURE, or TEXT=POSTURE for part of its "
                    "description; again for others");
   verb->add_option("--skip", a->skip, "Posture to leave out, for a spoilt series");
   verb->add_option(
-      "--work", a->work,
+      "--work", a->request.work,
       "Folder for the report and for what each step makes, which another run takes up; "
       "default: beside the hand, *.mri");
-  verb->add_option("--labels", a->labels,
+  verb->add_option("--labels", a->request.labels,
                    "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
   verb->add_option(
-      "--product", a->product,
+      "--product", a->request.product,
       "What the grasp holds, where it was in the scanner (patient frame): contact areas "
       "of scan and hand are compared");
   verb->add_option("--unit", a->unit, "Unit of the product's file: mm, cm, m or inch");
-  verb->add_option("--model", a->model, "Hand to start from: \"template\" or a .hand.glb file")
+  verb->add_option("--model", a->request.model,
+                   "Hand to start from: \"template\" or a .hand.glb file")
       ->capture_default_str();
-  verb->add_option("--name", a->name, "Name of the hand; default: that of the file");
+  verb->add_option("--name", a->request.name, "Name of the hand; default: that of the file");
   a->surfaces.add_to(*verb);
-  verb->add_flag("--accept-odd-slices", a->accepts_odd_slices,
+  verb->add_flag("--accept-odd-slices", a->request.accepts_odd_slices,
                  "Go on though a slice doesn't belong between its neighbours");
   verb->add_flag("--no-report", a->no_report, "Only the hand");
   verb->callback([&context, a] { context.run = [&context, a] { return run(*a, context); }; });

@@ -7,32 +7,17 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "text.h"
+#include "palmar/workflow/hand/posture_notes.h"
 
 namespace palmar::cli {
 
 void note_clamped(const CommonOptions& common, const std::string& place,
                   const std::vector<ClampedAngle>& clamped) {
-  for (const ClampedAngle& angle : clamped) {
-    note(common,
-         fmt::format("{}{}{}: {:.1f} deg is outside the range of motion; {:.1f} deg is used", place,
-                     place.empty() ? "" : ": ", name_of(angle.dof), degrees(angle.asked),
-                     degrees(angle.used)));
-  }
+  for (const std::string& text : clamped_notes(place, clamped)) note(common, text);
 }
 
 void note_frame(const CommonOptions& common, const PostureFrame& frame) {
-  if (!frame.missing.empty()) {
-    std::string names;
-    for (const Dof dof : frame.missing) {
-      names += (names.empty() ? "" : ", ") + std::string(name_of(dof));
-    }
-    note(common, fmt::format("{}{}{} of {} angles are not given and stay as in the reference "
-                             "posture: {}",
-                             frame.name, frame.name.empty() ? "" : ": ", frame.missing.size(),
-                             kDofCount, names));
-  }
-  note_clamped(common, frame.name, frame.clamped);
+  for (const std::string& text : frame_notes(frame)) note(common, text);
 }
 
 Rigid3 parse_placement(const std::string& option, const std::string& text) {

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "mri/mri_commands.h"
 #include "mri/mri_step_commands.h"
 #include "palmar/capture/mri/scan_posture.h"
-#include "palmar/formats/image/dicom.h"
-#include "palmar/imaging/air_threshold.h"
-#include "palmar/imaging/denoise.h"
+#include "palmar/workflow/hand/mri_steps.h"
 
 namespace palmar::cli {
 namespace {
@@ -51,22 +48,18 @@ int run_series(const std::string& folder, const Context& context) {
 }
 
 struct InfoArguments {
-  std::string image, description;
-  std::optional<int> number;
+  std::string image;
+  SeriesChoice choice;
 };
 
 int run_info(const InfoArguments& arguments, const Context& context) {
-  const ImageFile file = read_image(arguments.image, {arguments.number, arguments.description},
-                                    make_progress(context.common));
+  const MriImageInfo info =
+      describe_mri_image(arguments.image, arguments.choice, make_progress(context.common));
   finish_progress();
+  const ImageFile& file = info.file;
   for (const std::string& text : file.notes) note(context.common, text);
   for (const std::string& text : file.odd_slices) note(context.common, text);
   const VolumeGrid& grid = file.image.grid;
-  const auto [least, most] = std::minmax_element(file.image.value.begin(), file.image.value.end());
-  const double air = air_threshold(file.image);
-  const double noise = noise_deviation(file.image);
-  const Vec3 centre =
-      grid.to_patient(0.5 * Vec3(grid.size[0] - 1.0, grid.size[1] - 1.0, grid.size[2] - 1.0));
   if (context.common.json) {
     print(Json{{"image", arguments.image},
                {"description", file.description},
@@ -74,14 +67,14 @@ int run_info(const InfoArguments& arguments, const Context& context) {
                {"size", grid.size},
                {"spacing_mm", vector_json(grid.spacing)},
                {"origin_mm", vector_json(grid.origin)},
-               {"centre_mm", vector_json(centre)},
+               {"centre_mm", vector_json(info.centre)},
                {"axes",
                 {vector_json(grid.axes.col(0)), vector_json(grid.axes.col(1)),
                  vector_json(grid.axes.col(2))}},
-               {"intensity_least", *least},
-               {"intensity_most", *most},
-               {"air_threshold", air},
-               {"noise_deviation", noise},
+               {"intensity_least", info.least},
+               {"intensity_most", info.most},
+               {"air_threshold", info.air_threshold},
+               {"noise_deviation", info.noise},
                {"notes", file.notes},
                {"odd_slices", file.odd_slices}}
               .dump(2) +
@@ -104,7 +97,8 @@ int run_info(const InfoArguments& arguments, const Context& context) {
       file.description.empty() ? arguments.image : file.description,
       file.laterality.empty() ? "not said" : file.laterality, grid.size[0], grid.size[1],
       grid.size[2], grid.spacing[0], grid.spacing[1], grid.spacing[2], grid.origin.x(),
-      grid.origin.y(), grid.origin.z(), axis(0), axis(1), axis(2), *least, *most, air, noise));
+      grid.origin.y(), grid.origin.z(), axis(0), axis(1), axis(2), info.least, info.most,
+      info.air_threshold, info.noise));
   return 0;
 }
 
@@ -126,9 +120,9 @@ void add_mri_commands(CLI::App& app, Context& context) {
   const auto o = std::make_shared<InfoArguments>();
   CLI::App* info = add_verb(*mri, "info", "Size, place and intensities of one image",
                             "palmar mri info subject3/mri --series 1");
-  info->add_option("IMAGE", o->image, "Folder of DICOM files, .nii, .nii.gz or .nrrd")->required();
-  info->add_option("--series", o->number, "Number of the series, if there are several");
-  info->add_option("--description", o->description, "Or a part of its description");
+  info->add_option("IMAGE", o->image, "Folder of DICOM files, .nii or .nii.gz")->required();
+  info->add_option("--series", o->choice.number, "Number of the series, if there are several");
+  info->add_option("--description", o->choice.description, "Or a part of its description");
   info->callback([&context, o] { context.run = [&context, o] { return run_info(*o, context); }; });
   add_mri_steps(*mri, context);
   mri->footer("Example: palmar mri series subject3/mri");

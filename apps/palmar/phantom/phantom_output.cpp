@@ -11,15 +11,14 @@
 
 namespace palmar::cli {
 
-void print_made_scans(const Context& context, const std::string& subject, Side side,
-                      const nlohmann::ordered_json& scans, const std::string& text,
-                      const std::string& truth) {
-  if (!context.common.json) return print(text + fmt::format("truth: {}\n", truth));
-  const nlohmann::ordered_json json = {{"subject", subject},
+void print_made_scans(const Context& context, const PhantomPerson& person,
+                      const nlohmann::ordered_json& scans, const std::string& text) {
+  if (!context.common.json) return print(text + fmt::format("truth: {}\n", person.truth));
+  const nlohmann::ordered_json json = {{"subject", person.name},
                                        {"seed", context.common.seed},
-                                       {"side", std::string(name_of(side))},
+                                       {"side", std::string(name_of(person.side))},
                                        {"scans", scans},
-                                       {"truth", truth}};
+                                       {"truth", person.truth}};
   print(json.dump(2) + "\n");
 }
 
@@ -29,7 +28,7 @@ std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) 
     all.emplace_back(name_of(static_cast<ScanPosture>(p)));
   }
   std::vector<ScanPosture> chosen;
-  for (const std::string& name : names.empty() ? all : names) {
+  for (const std::string& name : names) {
     const auto found = std::find(all.begin(), all.end(), name);
     if (found == all.end()) {
       const std::string nearest = nearest_name(name, all);
@@ -38,12 +37,8 @@ std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) 
                                        ? fmt::format("{} are allowed", fmt::join(all, ", "))
                                        : "did you mean " + nearest + "?"));
     }
-    const auto posture = static_cast<ScanPosture>(found - all.begin());
-    if (std::find(chosen.begin(), chosen.end(), posture) == chosen.end()) {
-      chosen.push_back(posture);
-    }
+    chosen.push_back(static_cast<ScanPosture>(found - all.begin()));
   }
-  std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 

@@ -7,18 +7,17 @@
 #include <vector>
 
 #include "cli.h"
-#include "palmar/capture/mri/scan_posture.h"
+#include "palmar/workflow/phantom/phantom_postures.h"
 
 namespace palmar::cli {
 
 /// Says what `palmar phantom` made: `text`, a line per scan, and where the truth lies; or all as
-/// JSON.
-void print_made_scans(const Context& context, const std::string& subject, Side side,
-                      const nlohmann::ordered_json& scans, const std::string& text,
-                      const std::string& truth);
+/// JSON with `scans`.
+void print_made_scans(const Context& context, const PhantomPerson& person,
+                      const nlohmann::ordered_json& scans, const std::string& text);
 
-/// Postures of the given names in the order of the enumeration, each once; all without names.
-/// Throws UsageError naming --postures and the nearest name.
+/// Postures of the given names; none without names. Throws UsageError naming --postures and
+/// the nearest name.
 std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names);
 
 }  // namespace palmar::cli

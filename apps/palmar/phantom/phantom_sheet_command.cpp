@@ -4,31 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
-
 #include "hand/side_argument.h"
-#include "palmar/capture/sheet/sheet_view.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/file.h"
-#include "palmar/formats/image/exif.h"
-#include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/formats/mesh/texture_file.h"
-#include "palmar/hand/dimensions/hand_dimension.h"
-#include "palmar/hand/template_hand.h"
-#include "palmar/phantom/photo/sheet_photograph.h"
-#include "palmar/records/hand/hand_file.h"
+#include "palmar/workflow/phantom/phantom_sheet.h"
 
 namespace palmar::cli {
 namespace {
 
 struct PhantomSheetArguments {
-  std::string out, base = "template", hand, side = "right", sheet = "a4", table = "wood",
-                   skin = "light";
-  SheetPhotographOptions photograph;
-  double together = 0.0;
+  PhantomSheetRequest request;
+  std::string side = "right", table = "wood", skin = "light";
   bool no_exif = false;
 };
 
@@ -42,69 +27,24 @@ Srgb colour_named(const std::string& option, const std::string& name,
   throw UsageError(fmt::format("{} \"{}\"; {} are allowed", option, name, names));
 }
 
-struct LaidHand {
-  SpreadHand spread;
-  std::optional<Hand> hand;  ///< if it is one of Palmar's
-};
-
-LaidHand laid_hand(const PhantomSheetArguments& arguments, std::uint64_t seed) {
-  const Side side = parse_side(arguments.side);
-  const SpreadOptions options{.seed = seed, .together = arguments.together};
-  if (arguments.hand.empty()) return {spread_person(*load_hand(arguments.base), side, options), {}};
-  Hand hand = *load_hand(arguments.hand);
-  if (hand.side != side) hand = mirrored(hand);
-  return {spread_hand(hand, options), hand};
-}
-
-int run_sheet(PhantomSheetArguments arguments, const Context& context) {
-  SheetPhotographOptions& photograph = arguments.photograph;
-  photograph.seed = context.common.seed;
-  photograph.check();
-  const SheetFormat& format = sheet_format_named(arguments.sheet);
-  photograph.width = format.width;
-  photograph.height = format.height;
-  photograph.is_card = format.corner > 0.0;
-  photograph.corner = format.corner;
-  photograph.thickness = format.thickness;
-  photograph.table = colour_named("--table", arguments.table,
-                                  {{"wood", {0.62F, 0.43F, 0.28F}},
-                                   {"dark", {0.16F, 0.14F, 0.13F}},
-                                   {"grey", {0.45F, 0.45F, 0.46F}},
-                                   {"blue", {0.24F, 0.36F, 0.52F}},
-                                   {"white", {0.90F, 0.90F, 0.89F}}});
-  photograph.skin = colour_named("--skin", arguments.skin,
-                                 {{"light", {0.87F, 0.70F, 0.61F}},
-                                  {"middle", {0.70F, 0.50F, 0.38F}},
-                                  {"dark", {0.36F, 0.23F, 0.17F}}});
-  const LaidHand laid = laid_hand(arguments, context.common.seed);
-  const RgbImage image = photograph_on_sheet(laid.spread, photograph);
-  PhotoExif exif;
-  constexpr double kPixelsPerMm = 1.0 / 0.0014;
-  const double longer = std::max(image.width, image.height);
-  exif.camera = "Phantom";
-  exif.focal_mm = std::round(100.0 * photograph.focal * longer / kPixelsPerMm) / 100.0;
-  exif.focal_35mm = std::round(photograph.focal * longer * std::hypot(36.0, 24.0) /
-                               std::hypot(image.width, image.height));
-  exif.pixels_per_mm = kPixelsPerMm;
-  exif.width = image.width;
-  exif.height = image.height;
-  const std::filesystem::path out(arguments.out);
-  create_folder(out);
-  write_file(out / "photo.jpg",
-             format_jpeg(image, 92, arguments.no_exif ? std::string() : format_exif(exif)));
-  nlohmann::ordered_json truth = nlohmann::ordered_json::object();
-  for (const HandDimension dimension : all_hand_dimensions()) {
-    truth[name_of(dimension) + "_mm"] = value_of(laid.spread.dimensions, dimension);
-  }
-  write_file(out / "truth.json", truth.dump(1) + "\n");
-  const std::string shape = (out / (laid.hand ? "truth.hand.glb" : "truth.ply")).string();
-  if (laid.hand) {
-    write_hand(shape, *laid.hand);
-  } else {
-    write_mesh(shape, hand_on_sheet(laid.spread, photograph));
-  }
-  print(fmt::format("photograph: {}\ntruth: {}, {}\n", (out / "photo.jpg").string(),
-                    (out / "truth.json").string(), shape));
+int run_sheet(const PhantomSheetArguments& arguments, const Context& context) {
+  PhantomSheetRequest request = arguments.request;
+  request.photograph.seed = context.common.seed;
+  request.check();
+  request.photograph.table = colour_named("--table", arguments.table,
+                                          {{"wood", {0.62F, 0.43F, 0.28F}},
+                                           {"dark", {0.16F, 0.14F, 0.13F}},
+                                           {"grey", {0.45F, 0.45F, 0.46F}},
+                                           {"blue", {0.24F, 0.36F, 0.52F}},
+                                           {"white", {0.90F, 0.90F, 0.89F}}});
+  request.photograph.skin = colour_named("--skin", arguments.skin,
+                                         {{"light", {0.87F, 0.70F, 0.61F}},
+                                          {"middle", {0.70F, 0.50F, 0.38F}},
+                                          {"dark", {0.36F, 0.23F, 0.17F}}});
+  request.side = parse_side(arguments.side);
+  request.has_exif = !arguments.no_exif;
+  const PhantomSheetOutcome made = make_phantom_sheet(request);
+  print(fmt::format("photograph: {}\ntruth: {}, {}\n", made.photograph, made.truth, made.shape));
   return 0;
 }
 
@@ -117,17 +57,17 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
                "A photograph of a synthetic hand flat on a sheet of paper or beside a bank "
                "card, with the truth beside it; --seed chooses the person",
                "palmar phantom sheet --seed 3 --out sheet3");
-  SheetPhotographOptions& p = o->photograph;
-  verb->add_option("--out", o->out, "Folder; photo.jpg, truth.json, truth.ply go into it")
+  SheetPhotographOptions& p = o->request.photograph;
+  verb->add_option("--out", o->request.out, "Folder; photo.jpg, truth.json, truth.ply go into it")
       ->required();
-  verb->add_option("--base", o->base,
+  verb->add_option("--base", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
-  verb->add_option("--hand", o->hand,
+  verb->add_option("--hand", o->request.hand,
                    "One of Palmar's hands instead of a person of its own: \"template\" or a "
                    ".hand.glb file; truth.hand.glb is written then");
   verb->add_option("--side", o->side, "right or left")->capture_default_str();
-  verb->add_option("--sheet", o->sheet, "a4, letter or card (a bank card beside the hand)")
+  verb->add_option("--sheet", o->request.sheet, "a4, letter or card (a bank card beside the hand)")
       ->capture_default_str();
   verb->add_option("--table", o->table, "wood, dark, grey, blue or white")->capture_default_str();
   verb->add_flag("--plain", p.is_plain, "The table has no grain");
@@ -138,7 +78,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--width-px", p.pixels_wide, "Of the photograph")->capture_default_str();
   verb->add_option("--height-px", p.pixels_high, "Of the photograph")->capture_default_str();
-  verb->add_option("--together", o->together, "0: fingers spread; 1: side by side")
+  verb->add_option("--together", o->request.together, "0: fingers spread; 1: side by side")
       ->capture_default_str();
   verb->add_option("--wrist-inside-mm", p.wrist_inside,
                    "How far inside the sheet's edge the wrist crease lies")

@@ -2,48 +2,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <nlohmann/json.hpp>
 
-#include "hand/hand_output.h"
-#include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
-#include "photos/photo_lenses.h"
-#include "photos/photo_mesh.h"
+#include "palmar/geometry/degrees.h"
+#include "palmar/workflow/hand/photo_steps.h"
+#include "photos/photo_mesh_arguments.h"
 #include "photos/photos_commands.h"
 
 namespace palmar::cli {
 namespace {
 
 struct PhotosMeshArguments {
-  std::string folder, out;
+  PhotoMeshRequest request;
   PhotoMeshArguments mesh;
 };
 
-int run_mesh(PhotosMeshArguments arguments, const Context& context) {
-  if (std::filesystem::path(arguments.out).extension() != ".ply") {
-    throw UsageError(arguments.out + ": the mesh is written as .ply, with colours");
+/// Photographs, motion, surface; a line each.
+std::string photo_mesh_text(const PhotoMeshReport& report) {
+  std::string moved = "not looked for";
+  if (report.motion_is_corrected) {
+    moved =
+        fmt::format("corrected, up to {:.2f} mm and {:.2f} deg ({} points, {:.2f} -> {:.2f} px)",
+                    report.largest_shift, report.largest_turn * kDegreesPerRadian,
+                    report.motion_points, report.residual_before, report.residual_after);
+  } else if (report.motion_points > 0) {
+    moved = fmt::format("none found ({} points, {:.2f} px)", report.motion_points,
+                        report.residual_after);
   }
-  arguments.mesh.check();
-  require_writable(folder_of(arguments.out));
-  const Progress progress = make_progress(context.common);
-  std::optional<PhotoLenses> lenses;
-  if (!arguments.mesh.lenses.empty()) {
-    lenses = lenses_of(arguments.mesh.lenses, part_of(progress, 0.0, 0.05));
-  }
-  const PhotoMeshPlan plan =
-      plan_photo_mesh(arguments.folder, arguments.out, lenses, arguments.mesh);
-  note(context.common, plan.kept ? arguments.out + " is there already, made of the same photographs"
-                                 : fmt::format("{} photographs; this takes about {:.0f} s",
-                                               plan.set.photographs.size(), plan.seconds));
-  const auto report = make_photo_mesh(plan, lenses, arguments.mesh, part_of(progress, 0.05, 1.0));
+  return fmt::format(
+      "photographs  {} of {} used, board {:.2f} px\n"
+      "motion       {}\n"
+      "surface      {} points, {} triangles, {:.1f} % of the area measured\n",
+      report.used, report.photographs, report.board_residual, moved, report.points,
+      report.triangles, 100.0 * report.measured_share);
+}
+
+int run_mesh(const PhotosMeshArguments& arguments, const Context& context) {
+  PhotoMeshRequest request = arguments.request;
+  request.options = arguments.mesh.options();
+  request.note = [&context](const std::string& text) { note(context.common, text); };
+  const PhotoMeshOutcome outcome = make_mesh_from_photos(request, make_progress(context.common));
   finish_progress();
-  for (const auto& warning : report.at("warnings")) {
-    note(context.common, "warning: " + warning.get<std::string>());
+  for (const std::string& warning : outcome.report.warnings) {
+    note(context.common, "warning: " + warning);
   }
-  print(context.common.json ? report.dump(2) + "\n"
-                            : photo_mesh_text(report) +
-                                  fmt::format("mesh         {}\nreport       {}\n", arguments.out,
-                                              report_beside(arguments.out).string()));
+  print(context.common.json
+            ? nlohmann::ordered_json::parse(outcome.report.json).dump(2) + "\n"
+            : photo_mesh_text(outcome.report) + fmt::format("mesh         {}\nreport       {}\n",
+                                                            request.out, outcome.report_file));
   return 0;
 }
 
@@ -55,10 +61,10 @@ void add_photos_mesh_command(CLI::App& photos, Context& context) {
                             "A coloured mesh in millimetres from photographs of a hand that stands "
                             "on the middle of the board, taken from all round at two heights",
                             "palmar photos mesh photos/ --lenses lenses.json --out hand.ply");
-  verb->add_option("folder", o->folder,
+  verb->add_option("folder", o->request.folder,
                    "Photographs (.png, .jpg); names like p3_c2.jpg say position and camera")
       ->required();
-  verb->add_option("--out", o->out, "The mesh, .ply; a report goes beside it")->required();
+  verb->add_option("--out", o->request.out, "The mesh, .ply; a report goes beside it")->required();
   o->mesh.add_to(*verb);
   verb->callback([&context, o] { context.run = [&context, o] { return run_mesh(*o, context); }; });
 }

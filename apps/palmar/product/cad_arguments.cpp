@@ -14,13 +14,12 @@ void CadArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
-LoadProductOptions CadArguments::options(const std::string& unit, const Progress& progress) const {
+LoadProductOptions CadArguments::options(const std::string& unit) const {
   limits.check();
   LoadProductOptions options;
   options.unit = parse_unit(unit);
   options.chordal_error = chordal_error;
   options.limits = limits;
-  options.progress = progress;
   return options;
 }
 

@@ -18,7 +18,7 @@ struct CadArguments {
 
   void add_to(CLI::App& verb);
   /// Throws UsageError on a limit outside what is allowed.
-  LoadProductOptions options(const std::string& unit, const Progress& progress) const;
+  LoadProductOptions options(const std::string& unit) const;
 };
 
 }  // namespace palmar::cli

@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.h"
+#include "option_names.h"
 #include "output_guard.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/product/check.h"
 #include "palmar/product/repair.h"
-#include "palmar/records/product/cad_format.h"
-#include "palmar/records/product/product_file.h"
+#include "palmar/workflow/product_files.h"
 #include "product/cad_arguments.h"
 #include "product/product_cad_text.h"
 #include "product/product_make_command.h"
@@ -76,47 +75,28 @@ struct FileArguments {
 
 constexpr const char* kProductHelp = "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES";
 
-/// The mesh as the file has it (in mm, not yet repaired), for an honest check.
-ProductCheck check_of_mesh_file(const FileArguments& arguments, Product& product) {
-  product = load_product(arguments.product, {.unit = parse_unit(arguments.unit)});
-  MeshFile raw = read_mesh(arguments.product);
-  const double scale = millimetres_per(product.unit);
-  for (Vec3& vertex : raw.mesh.vertices) vertex *= scale;
-  // STL has no shared corners; what the product's own weld joins isn't a fault of the file.
-  return raw.format.find("STL") == std::string::npos ? check_mesh(raw.mesh)
-                                                     : check_mesh(product.mesh);
-}
-
 int inspect(const FileArguments& o, const Context& context, bool fails_on_error) {
-  const LoadProductOptions options = o.cad.options(o.unit, make_progress(context.common));
-  const bool is_cad = is_cad_file(o.product);
-  Product product;
-  ProductCheck check;
+  const auto [product, check, read, kernel] = inspect_product(
+      {.file = o.product, .reading = o.cad.options(o.unit), .asks_kernel = fails_on_error},
+      make_progress(context.common));
   Json cad;
   std::string text;
   std::string fault;  // that the CAD kernel finds
-  if (is_cad) {
-    CadProduct read = load_cad_product(o.product, options);
-    product = std::move(read.product);
-    check = check_mesh(product.mesh);
-    text = cad_text(read.cad, o.unit);
-    cad = cad_json(read.cad);
-    if (fails_on_error) {
-      const CadVerdict verdict = check_cad_file(o.product, read.cad.millimetres_per_unit,
-                                                options.limits, options.progress);
-      text += verdict_text(verdict);
-      cad["kernel"] = verdict_json(verdict);
-      if (!verdict.is_good()) {
-        fault = verdict.findings.empty() ? "no valid closed solid" : verdict.findings.front();
-      }
+  if (read) {
+    text = cad_text(*read, o.unit);
+    cad = cad_json(*read);
+  }
+  if (kernel) {
+    text += verdict_text(*kernel);
+    cad["kernel"] = verdict_json(*kernel);
+    if (!kernel->is_good()) {
+      fault = kernel->findings.empty() ? "no valid closed solid" : kernel->findings.front();
     }
-  } else {
-    check = check_of_mesh_file(o, product);
   }
   for (const std::string& line : product.notes) note(context.common, line);
   if (context.common.json) {
     Json json = check_json(product, check);
-    if (is_cad) json["cad"] = std::move(cad);
+    if (read) json["cad"] = std::move(cad);
     print(json.dump(2) + "\n");
   } else {
     print(check_text(product, check) + text);
@@ -144,21 +124,13 @@ void add_inspection(CLI::App& noun, Context& context, const std::string& name,
 int convert(const FileArguments& o, const Context& context) {
   check_shape_output(o.out, true);
   refuse_same_file(o.product, o.out);
-  const LoadProductOptions options = o.cad.options(o.unit, make_progress(context.common));
-  if (cad_format_of_name(o.out) == CadFormat::kStep) {
-    if (!is_cad_file(o.product)) {
-      throw UsageError(o.product +
-                       ": a mesh has no surfaces that STEP could hold; --out .stl, "
-                       ".obj or .ply is required");
-    }
-    const std::optional<double> unit =
-        options.unit ? std::optional(millimetres_per(*options.unit)) : std::nullopt;
-    convert_to_step(o.product, o.out, unit, options.limits, options.progress);
-  } else {
-    const Product product = load_product(o.product, options);
-    for (const std::string& text : product.notes) note(context.common, text);
-    write_mesh(o.out, product.mesh);
-  }
+  const ConvertRequest request{
+      .file = o.product,
+      .out = o.out,
+      .reading = o.cad.options(o.unit),
+      .note = [&context](const std::string& text) { note(context.common, text); }};
+  check_as_options([&] { convert_product(request, make_progress(context.common)); },
+                   {{"out with", "--out"}});
   note(context.common, "wrote " + o.out + " (unit: mm)");
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "option_names.h"
 #include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
@@ -17,13 +18,15 @@
 #include "palmar/product/primitives.h"
 #include "palmar/records/product/parameter_sweep.h"
 #include "palmar/records/study/study_file.h"
-#include "redesign/variant_files.h"
+#include "palmar/workflow/product_variants.h"
 
 namespace palmar::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+const OptionNames kMakeOptions = {{"files", "--out"}, {"formats", "--format"}};
 
 struct MakeArguments {
   std::string kind;
@@ -113,6 +116,13 @@ bool is_folder(const std::string& out) {
   return out.empty() || out.back() == '/' || fs::is_directory(out);
 }
 
+void make_variants(ProductVariantsRequest request, const Context& context) {
+  request.on_note = [&context](const std::string& text) { note(context.common, text); };
+  const ProductVariantsOutcome outcome = write_variants(request, make_progress(context.common));
+  finish_progress();
+  if (context.common.json) print(Json::parse(outcome.json).dump(2) + "\n");
+}
+
 void make_files(const MakeArguments& o, const Context& context) {
   const std::vector<MadeVariant> variants = variants_of(sweep_of(o));
   const bool in_folder = std::any_of(o.out.begin(), o.out.end(), is_folder);
@@ -125,7 +135,7 @@ void make_files(const MakeArguments& o, const Context& context) {
     throw UsageError("--out " + o.out.front() + " and --out " + o.out[1] +
                      ": a folder stands alone; --format step,stl tells which files it gets");
   }
-  VariantFiles files;
+  ProductVariantsRequest files;
   files.chordal_error = o.chordal_error;
   if (!in_folder) {
     files.products.push_back({.name = title_of(variants.front().product),
@@ -134,9 +144,9 @@ void make_files(const MakeArguments& o, const Context& context) {
                               .files = o.out});
   } else {
     files.folder = o.out.front();
-    files.command_line = context.command_line;
+    files.command = context.command_line;
     for (const MadeVariant& one : variants) {
-      VariantFiles::Entry entry;
+      ProductVariantsRequest::Entry entry;
       entry.name = o.kind + (one.suffix.empty() ? "" : " " + one.suffix);
       entry.family = one.suffix.empty() ? "" : o.kind;
       entry.product = one.product;
@@ -144,20 +154,20 @@ void make_files(const MakeArguments& o, const Context& context) {
       files.products.push_back(std::move(entry));
     }
   }
-  write_variants(files, context);
+  make_variants(std::move(files), context);
 }
 
 void make_from_list(const std::string& list, const MakeArguments& o, const Context& context) {
   if (o.out.size() != 1 || !is_folder(o.out.front())) {
     throw UsageError("--from makes several products: --out must be one folder, as products/");
   }
-  VariantFiles files;
+  ProductVariantsRequest files;
   files.chordal_error = o.chordal_error;
   files.folder = o.out.front();
-  files.command_line = context.command_line;
+  files.command = context.command_line;
   for (const ProductRequest& one : read_study_file(list).products) {
     if (!one.file.empty()) continue;  // there already
-    VariantFiles::Entry entry;
+    ProductVariantsRequest::Entry entry;
     entry.name = one.name.empty() ? title_of(one.made) : one.name;
     entry.family = one.held.family;
     entry.product = one.made;
@@ -165,7 +175,7 @@ void make_from_list(const std::string& list, const MakeArguments& o, const Conte
     files.products.push_back(std::move(entry));
   }
   if (files.products.empty()) throw InputError(list + ": no [[product]] with a kind");
-  write_variants(files, context);
+  make_variants(std::move(files), context);
 }
 
 void add_output(CLI::App& verb, const std::shared_ptr<MakeArguments>& o) {
@@ -204,8 +214,10 @@ void add_kind(CLI::App& make, Context& context, const ParametricKind& kind) {
   add_output(*verb, o);
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      make_files(*o, context);
-      return 0;
+      return naming_options(kMakeOptions, [&] {
+        make_files(*o, context);
+        return 0;
+      });
     };
   });
 }
@@ -264,7 +276,7 @@ void add_product_make_command(CLI::App& product, Context& context) {
       if (*list) {
         print(context.common.json ? list_json().dump(2) + "\n" : list_text());
       } else if (!from->empty()) {
-        make_from_list(*from, *o, context);
+        naming_options(kMakeOptions, [&] { make_from_list(*from, *o, context); });
       } else {
         std::string kinds;
         for (const std::string& name : parametric_kind_names()) kinds += name + ", ";

@@ -8,10 +8,7 @@
 
 #include "output_guard.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/product/check.h"
-#include "palmar/product/repair.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/workflow/product_files.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -57,31 +54,15 @@ std::string verdict_text(const char* when, const ProductCheck& check) {
                      check.euler_number, volume_text(check.volume));
 }
 
-TriangleMesh in_millimetres(const MeshFile& file, LengthUnit unit) {
-  TriangleMesh mesh = file.mesh;
-  const double scale = millimetres_per(unit);
-  if (scale != 1.0) {
-    for (Vec3& x : mesh.vertices) x *= scale;
-  }
-  return mesh;
-}
-
 int repair(const RepairArguments& o, const Context& context) {
   check_shape_output(o.out, false);
   refuse_same_file(o.product, o.out);
-  o.options.check();
-  const MeshFile file = read_mesh(o.product);
-  Box3 box;
-  for (const Vec3& x : file.mesh.vertices) box.extend(x);
-  const UnitDecision unit = decide_unit(box, file.unit, parse_unit(o.unit), o.product);
-  if (!unit.explanation.empty()) note(context.common, unit.explanation);
-  for (const std::string& text : file.notes) note(context.common, text);
-  const TriangleMesh mesh = in_millimetres(file, unit.unit);
-  const ProductCheck before = check_mesh(mesh);
-  const RepairResult repaired = repair_mesh(mesh, o.options);
-  write_mesh(o.out, repaired.mesh);
-  // What counts is the file: single precision may join vertices.
-  const ProductCheck after = check_mesh(read_mesh(o.out).mesh);
+  const auto [before, repaired, after] =
+      repair_product({.file = o.product,
+                      .unit = parse_unit(o.unit),
+                      .out = o.out,
+                      .options = o.options,
+                      .note = [&context](const std::string& text) { note(context.common, text); }});
   if (context.common.json) {
     const RepairLimits& limits = repaired.limits;
     print(Json{{"product", o.product},

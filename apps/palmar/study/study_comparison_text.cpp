@@ -8,7 +8,6 @@
 
 #include "palmar/core/version.h"
 #include "palmar/report/study/study_words.h"
-#include "palmar/study/statistics/study_analysis.h"
 
 namespace palmar::cli {
 namespace {
@@ -46,17 +45,15 @@ Json pair_object(const StudyPlan& plan, const ProductPair& pair) {
   return object;
 }
 
-Json product_object(const StudyResults& results, const StudyQuantity& quantity,
-                    const StudyCondition& condition, int product) {
-  const ProductStatistics statistics = product_statistics(results, {quantity}, condition, product);
+Json product_object(const StudyProduct& product, const StudyQuantity& quantity,
+                    const ProductStatistics& statistics) {
   Json outcomes = Json::object();
   for (int k = 0; k < kStudyOutcomes; ++k) {
     const int hands = statistics.outcomes.of[static_cast<std::size_t>(k)];
     if (hands > 0) outcomes[name_of(static_cast<StudyOutcome>(k))] = hands;
   }
   if (statistics.outcomes.not_run > 0) outcomes["not_run"] = statistics.outcomes.not_run;
-  Json object = {{"product", results.plan.products[static_cast<std::size_t>(product)].name},
-                 {"outcomes", outcomes}};
+  Json object = {{"product", product.name}, {"outcomes", outcomes}};
   if (const QuantitySummary* one = summary_of(statistics, quantity.key)) {
     object["n"] = one->summary.n;
     object["mean"] = one->summary.mean;
@@ -72,58 +69,53 @@ Json product_object(const StudyResults& results, const StudyQuantity& quantity,
 
 }  // namespace
 
-Json comparison_object(const StudyResults& results, const std::vector<StudyQuantity>& quantities,
-                       const ComparisonOptions& options) {
+Json comparison_object(const StudyCompareOutcome& outcome, const ComparisonOptions& options) {
+  const StudyPlan& plan = outcome.results.plan;
   Json conditions = Json::array();
-  for (const StudyCondition& condition : conditions_of(results.plan)) {
+  for (const ComparedCondition& condition : outcome.conditions) {
     Json compared = Json::array();
-    for (const StudyQuantity& quantity : quantities) {
+    for (const ComparedQuantity& one : condition.quantities) {
       Json products = Json::array();
-      for (int p = 0; p < static_cast<int>(results.plan.products.size()); ++p) {
-        products.push_back(product_object(results, quantity, condition, p));
+      for (std::size_t p = 0; p < one.products.size(); ++p) {
+        products.push_back(product_object(plan.products[p], one.quantity, one.products[p]));
       }
       Json pairs = Json::array();
-      for (const ProductPair& pair :
-           compare_products(results, condition, quantity, options).pairs) {
-        pairs.push_back(pair_object(results.plan, pair));
-        if (const auto forces = grip_forces(results, condition, pair.first, pair.second)) {
+      for (const ComparedPair& compared_pair : one.pairs) {
+        pairs.push_back(pair_object(plan, compared_pair.pair));
+        if (const auto& forces = compared_pair.forces) {
           pairs.back()["mean_grip_forces_n"] = {forces->first, forces->second};
         }
       }
-      compared.push_back({{"quantity", quantity.key},
-                          {"name", quantity.name},
-                          {"unit", quantity.unit},
+      compared.push_back({{"quantity", one.quantity.key},
+                          {"name", one.quantity.name},
+                          {"unit", one.quantity.unit},
                           {"products", products},
                           {"pairs", pairs}});
     }
     conditions.push_back(
-        {{"condition", title_of(results.plan, condition)}, {"quantities", compared}});
+        {{"condition", title_of(plan, condition.condition)}, {"quantities", compared}});
   }
-  return {{"study", results.plan.name},
+  return {{"study", plan.name},
           {"significance", options.significance},
           {"conditions", conditions},
           {"palmar", version()}};
 }
 
-std::string comparison_text(const StudyResults& results,
-                            const std::vector<StudyQuantity>& quantities,
-                            const ComparisonOptions& options) {
+std::string comparison_text(const StudyCompareOutcome& outcome) {
+  const StudyPlan& plan = outcome.results.plan;
+  std::size_t width = 7;
+  for (const StudyProduct& one : plan.products) width = std::max(width, one.name.size());
   std::string text;
-  for (const StudyCondition& condition : conditions_of(results.plan)) {
-    text += title_of(results.plan, condition) + "\n";
-    for (const StudyQuantity& quantity : quantities) {
+  for (const auto& [condition, quantities] : outcome.conditions) {
+    text += title_of(plan, condition) + "\n";
+    for (const auto& [quantity, products, pairs] : quantities) {
       text +=
           fmt::format("  {}{}\n", quantity.name, quantity.unit.empty() ? "" : ", " + quantity.unit);
-      std::size_t width = 7;
-      for (const StudyProduct& one : results.plan.products) {
-        width = std::max(width, one.name.size());
-      }
       text += fmt::format("    {:<{}}  {:>5} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "product",
                           width, "hands", "mean", "SD", "P5", "median", "P95");
-      for (int p = 0; p < static_cast<int>(results.plan.products.size()); ++p) {
-        const ProductStatistics statistics = product_statistics(results, {quantity}, condition, p);
-        const std::string& name = results.plan.products[static_cast<std::size_t>(p)].name;
-        const QuantitySummary* one = summary_of(statistics, quantity.key);
+      for (std::size_t p = 0; p < products.size(); ++p) {
+        const std::string& name = plan.products[p].name;
+        const QuantitySummary* one = summary_of(products[p], quantity.key);
         if (one == nullptr) {
           text += fmt::format("    {:<{}}  {:>5}\n", name, width, 0);
           continue;
@@ -132,12 +124,12 @@ std::string comparison_text(const StudyResults& results,
                             name, width, one->summary.n, one->summary.mean, one->summary.sd,
                             one->p5, one->summary.median, one->p95);
       }
-      for (const ProductPair& pair :
-           compare_products(results, condition, quantity, options).pairs) {
-        text += "    " + pair_words(results.plan, quantity, pair) + "\n";
-        const std::string force = grip_force_words(results, condition, pair.first, pair.second);
+      for (const auto& [pair, forces] : pairs) {
+        text += "    " + pair_words(plan, quantity, pair) + "\n";
+        const std::string force =
+            grip_force_words(outcome.results, condition, pair.first, pair.second);
         if (!force.empty()) text += "      " + force + "\n";
-        const std::string left_out = left_out_words(results.plan, pair);
+        const std::string left_out = left_out_words(plan, pair);
         if (!left_out.empty()) text += "      left out: " + left_out + "\n";
       }
     }

@@ -4,19 +4,15 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
-#include "palmar/study/statistics/study_comparison.h"
+#include "palmar/workflow/study/study_report.h"
 
 namespace palmar::cli {
 
 // Products compared over the same hands: per condition, per quantity.
 
-nlohmann::ordered_json comparison_object(const StudyResults& results,
-                                         const std::vector<StudyQuantity>& quantities,
+nlohmann::ordered_json comparison_object(const StudyCompareOutcome& outcome,
                                          const ComparisonOptions& options);
-std::string comparison_text(const StudyResults& results,
-                            const std::vector<StudyQuantity>& quantities,
-                            const ComparisonOptions& options);
+std::string comparison_text(const StudyCompareOutcome& outcome);
 
 }  // namespace palmar::cli

@@ -4,34 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/error.h"
-#include "palmar/core/version.h"
-#include "palmar/records/study/study_store.h"
-#include "palmar/report/study/study_report.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/workflow/study/study_report.h"
 #include "study/study_comparison_text.h"
 
 namespace palmar::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kDefaultQuantity = "peak_pressure_cells_mpa";
-
-StudyResults results_of(const StudyStore& store) {
-  StudyResults results{store.plan(), {}};
-  store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
-  if (results.records.empty()) {
-    throw UsageError(store.path().string() +
-                     ": no grasp was run yet; palmar study run or resume does");
-  }
-  return results;
-}
 
 void add_report(CLI::App& noun, Context& context) {
   struct Options {
@@ -68,18 +51,9 @@ void add_report(CLI::App& noun, Context& context) {
       options.pictures = !o->no_pictures;
       options.figure_files = !o->no_figures;
       options.check();
-      const StudyStore store(o->store);
-      const StudyResults results = results_of(store);
-      const StudyInputs inputs = store.inputs();
-      const StudyReportInput input{results, inputs,
-                                   [&store](const std::function<void(const StudyRecord&)>& visit) {
-                                     store.for_each(true, visit);
-                                   },
-                                   store.program(), store.digest()};
-      const Progress progress = make_progress(context.common);
-      write_study_report(o->out, input, options, progress);
+      const std::string page =
+          report_study(o->store, o->out, options, make_progress(context.common)).string();
       finish_progress();
-      const std::string page = (std::filesystem::path(o->out) / "report.html").string();
       print(context.common.json ? Json({{"report", page}}).dump() + "\n" : page + "\n");
       return 0;
     };
@@ -87,12 +61,8 @@ void add_report(CLI::App& noun, Context& context) {
 }
 
 void add_compare(CLI::App& noun, Context& context) {
-  struct Options {
-    std::string store;
-    std::vector<std::string> quantities;
-    ComparisonOptions comparison;
-  };
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<StudyCompareRequest>();
+  o->quantities.clear();
   CLI::App* verb =
       add_verb(noun, "compare", "Differences between products over the same hands",
                "palmar study compare handles.palmar --quantity peak_pressure_cells_mpa");
@@ -106,21 +76,11 @@ void add_compare(CLI::App& noun, Context& context) {
       ->capture_default_str();
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      o->comparison.check();
-      const StudyStore store(o->store);
-      const StudyResults results = results_of(store);
-      std::vector<StudyQuantity> quantities;
-      for (const std::string& key : o->quantities) {
-        if (key == "all") {
-          quantities = quantities_of(results);
-          break;
-        }
-        quantities.push_back(quantity_named(results, key));
-      }
-      if (o->quantities.empty()) quantities = {quantity_named(results, kDefaultQuantity)};
-      print(context.common.json
-                ? comparison_object(results, quantities, o->comparison).dump(2) + "\n"
-                : comparison_text(results, quantities, o->comparison));
+      StudyCompareRequest request = *o;
+      if (request.quantities.empty()) request.quantities = StudyCompareRequest{}.quantities;
+      const StudyCompareOutcome outcome = compare_study(request);
+      print(context.common.json ? comparison_object(outcome, o->comparison).dump(2) + "\n"
+                                : comparison_text(outcome));
       return 0;
     };
   });

@@ -3,158 +3,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli.h"
-#include "palmar/core/error.h"
-#include "palmar/core/parallel.h"
-#include "palmar/core/version.h"
-#include "palmar/formats/file.h"
 #include "palmar/records/study/study_plan_json.h"
-#include "palmar/records/study/study_progress.h"
-#include "palmar/records/study/study_store.h"
+#include "palmar/workflow/study.h"
 #include "study/study_arguments.h"
 
 namespace palmar::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
-constexpr double kNoteInterval = 2.0;  // s between two notes of how far a study is
-
-/// Keeps finished grasps and tells from time to time how far the study is.
-class Keeper {
- public:
-  Keeper(StudyStore& store, std::size_t rest) : store_(store) {
-    note_.shard = store.shard();
-    note_.total = static_cast<std::int64_t>(tasks_of(store.plan(), store.shard()).size());
-    note_.done = note_.done_before = note_.total - static_cast<std::int64_t>(rest);
-    write_study_progress(store.path(), note_);
-  }
-  void keep(const StudyRecord& record) {
-    store_.keep(record);
-    ++note_.done;
-    ++note_.outcomes[name_of(record.outcome)];
-    if (record.outcome == StudyOutcome::kFailed) ++note_.reasons[record.reason];
-    note_.seconds = seconds();
-    const bool is_first = note_.done == note_.done_before + 1;
-    if (!is_first && note_.seconds - last_ < kNoteInterval) return;
-    last_ = note_.seconds;
-    write_study_progress(store_.path(), note_);
-  }
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  const StudyProgressNote& note() const { return note_; }
-
- private:
-  StudyStore& store_;
-  StudyProgressNote note_;
-  Clock::time_point start_ = Clock::now();
-  double last_ = 0.0;
-};
-
-std::string summary_text(const StudyStore& store,
-                         const std::map<StudyOutcome, std::int64_t>& outcomes,
-                         const std::map<std::string, std::int64_t>& reasons) {
-  const StudyShard shard = store.shard();
-  std::string text = fmt::format("{}: {}", store.plan().name, study_size_text(store.plan()));
-  if (shard.n > 1) text += fmt::format(", shard {}", name_of(shard));
+std::string summary_text(const StudyRunOutcome& outcome) {
+  std::string text = fmt::format("{}: {}", outcome.plan.name, study_size_text(outcome.plan));
+  if (outcome.shard.n > 1) text += fmt::format(", shard {}", name_of(outcome.shard));
   std::string list;
-  for (const auto& [outcome, count] : outcomes) {
-    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name_of(outcome));
+  for (const auto& [how, count] : outcome.outcomes) {
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, name_of(how));
   }
   text += "\n" + list + "\n";
-  for (const auto& [reason, count] : reasons) {
+  for (const auto& [reason, count] : outcome.reasons) {
     text += fmt::format("  failed: {} ({})\n", reason, count);
   }
-  return text + fmt::format("results {}\n{}\n", store.digest(), store.path().string());
+  return text + fmt::format("results {}\n{}\n", outcome.digest, outcome.store.string());
 }
 
-/// Runs what is missing, finishes the store and says what came of it.
-int run_rest(StudyStore& store, const StudyInputs& inputs, const Context& context) {
-  const Progress progress = make_progress(context.common);
-  const std::vector<std::int64_t> rest = store.missing();
-  if (store.is_finished() && !rest.empty()) {
-    throw InputError(store.path().string() + ": is damaged: " + missing_text(rest) +
-                     "; delete it and run the study anew");
-  }
-  Keeper keeper(store, rest.size());
-  try {
-    run_study(
-        store.plan(), inputs, {.tasks = rest},
-        [&](const StudyRecord& record) { keeper.keep(record); }, progress);
-  } catch (const Cancelled&) {
-    remove_study_progress(store.path());
-    finish_progress();
-    throw Cancelled(
-        fmt::format("cancelled; {} of {} grasps are kept; `palmar study resume {}` "
-                    "goes on",
-                    keeper.note().done, keeper.note().total, store.path().string()));
-  } catch (...) {
-    remove_study_progress(store.path());
-    throw;
-  }
-  const double spent = keeper.seconds();
-  if (progress.report) progress.report(1.0, "closing the study");
-  store.finish();
-  remove_study_progress(store.path());
-  finish_progress();
+Json summary_object(const StudyRunOutcome& outcome) {
+  Json counts = Json::object(), failed = Json::object();
+  for (const auto& [how, count] : outcome.outcomes) counts[name_of(how)] = count;
+  for (const auto& [reason, count] : outcome.reasons) failed[reason] = count;
+  return {{"study", outcome.plan.name},      {"store", outcome.store.string()},
+          {"shard", name_of(outcome.shard)}, {"grasps", outcome.grasps},
+          {"run_now", outcome.run_now},      {"outcomes", std::move(counts)},
+          {"failed", std::move(failed)},     {"seconds", outcome.seconds},
+          {"results_sha256", outcome.digest}};
+}
 
-  std::map<StudyOutcome, std::int64_t> outcomes;
-  std::map<std::string, std::int64_t> reasons;
-  store.for_each(false, [&](const StudyRecord& record) {
-    ++outcomes[record.outcome];
-    if (record.outcome == StudyOutcome::kFailed) ++reasons[record.reason];
-  });
-  if (context.common.json) {
-    Json counts = Json::object(), failed = Json::object();
-    for (const auto& [outcome, count] : outcomes) counts[name_of(outcome)] = count;
-    for (const auto& [reason, count] : reasons) failed[reason] = count;
-    const Json json = {
-        {"study", store.plan().name},      {"store", store.path().string()},
-        {"shard", name_of(store.shard())}, {"grasps", tasks_of(store.plan(), store.shard()).size()},
-        {"run_now", rest.size()},          {"outcomes", std::move(counts)},
-        {"failed", std::move(failed)},     {"seconds", spent},
-        {"results_sha256", store.digest()}};
-    print(json.dump(2) + "\n");
-  } else {
-    print(summary_text(store, outcomes, reasons));
-    if (!rest.empty()) {
-      note(context.common, fmt::format("{} grasps in {}", rest.size(), duration_text(spent)));
-    }
+/// What came of a run, for people or programs.
+int tell(const StudyRunOutcome& outcome, const CommonOptions& common) {
+  finish_progress();
+  if (common.json) {
+    print(summary_object(outcome).dump(2) + "\n");
+    return 0;
+  }
+  print(summary_text(outcome));
+  if (outcome.run_now > 0) {
+    note(common, fmt::format("{} grasps in {}", outcome.run_now, duration_text(outcome.seconds)));
   }
   return 0;
 }
 
-std::string default_store(const StudyPlan& plan, StudyShard shard) {
-  std::string name = plan.name;
-  std::replace(name.begin(), name.end(), '/', '_');
-  if (shard.n > 1) name += fmt::format("-{}-of-{}", shard.k, shard.n);
-  return name + ".palmar";
-}
-
-/// Refuses to go on with a store that is of something else.
-void check_same(const StudyStore& store, const StudyPlan& plan, StudyShard shard) {
-  const std::string name = store.path().string();
-  if (store.shard() != shard) {
-    throw UsageError(
-        fmt::format("{}: holds shard {}, not {}", name, name_of(store.shard()), name_of(shard)));
-  }
-  const std::vector<std::string> differences = plan_differences(store.plan(), plan);
-  if (differences.empty()) return;
-  std::string text = name + ": holds another study than the one asked for:";
-  for (const std::string& one : differences) text += "\n  " + one;
-  throw UsageError(text + "\nGive another --out, or delete the file to begin anew.");
-}
-
-void check_program(const StudyStore& store) {
-  if (store.program() == version()) return;
-  throw UsageError(fmt::format("{}: was begun by Palmar {}; this is {}, whose results may differ",
-                               store.path().string(), store.program(), version()));
+NoteSink notes_of(const Context& context) {
+  return [&context](const std::string& text) { note(context.common, text); };
 }
 
 struct RunArguments {
@@ -163,43 +63,26 @@ struct RunArguments {
 };
 
 int run_run(const RunArguments& arguments, const Context& context) {
-  const StudyShard shard = parse_shard(arguments.shard);
-  const LoadedStudy study = arguments.study.load(context);
-  tasks_of(study.plan, shard);  // more shards than hands are refused before anything is written
-  const fs::path path = arguments.out.empty() ? default_store(study.plan, shard) : arguments.out;
-  if (path.has_parent_path()) create_folder(path.parent_path());
-  if (!fs::exists(path)) StudyStore::create(path, study.plan, study.inputs, shard);
-  StudyStore store(path, StudyAccess::kWrite);
-  check_same(store, study.plan, shard);
-  if (!store.is_finished()) check_program(store);
-  const std::size_t done = store.done().size();
-  if (done > 0 && !store.is_finished()) {
-    note(context.common, fmt::format("{}: goes on after {} grasps", path.string(), done));
-  }
-  return run_rest(store, study.inputs, context);
+  StudyRunRequest request;
+  request.shard = parse_shard(arguments.shard);
+  request.study = arguments.study.request(context);
+  request.out = arguments.out;
+  request.note = notes_of(context);
+  return tell(run_study(request, make_progress(context.common)), context.common);
 }
 
 int run_resume(const std::string& path, const Context& context) {
-  StudyStore store(path, StudyAccess::kWrite);
-  if (store.is_finished()) {
-    note(context.common, path + ": is finished; nothing to do");
-    return run_rest(store, {}, context);
-  }
-  check_program(store);
-  check_products(store.plan(), fs::path(path).parent_path());
-  return run_rest(store, store.inputs(), context);
+  return tell(resume_study(path, notes_of(context), make_progress(context.common)), context.common);
 }
 
 int run_plan(const StudyArguments& arguments, bool no_sample, const Context& context) {
-  const LoadedStudy study = arguments.load(context);
-  const StudyPlan& plan = study.plan;
-  std::optional<StudyEstimate> estimate;
-  const int threads = std::min<int>(thread_count(), static_cast<int>(plan.hands.size()));
-  if (!no_sample) {
-    const Progress progress = make_progress(context.common);
-    estimate = estimate_study(study, progress);
-    finish_progress();
-  }
+  const StudyPlanRequest request{
+      .study = arguments.request(context), .has_sample = !no_sample, .note = notes_of(context)};
+  const StudyPlanOutcome outcome = plan_study(request, make_progress(context.common));
+  finish_progress();
+  const StudyPlan& plan = outcome.plan;
+  const std::optional<StudyEstimate>& estimate = outcome.estimate;
+  const int threads = outcome.threads;
   const auto hands = static_cast<std::int64_t>(plan.hands.size());
   if (context.common.json) {
     Json json = Json::parse(format_plan(plan));

@@ -99,7 +99,7 @@ CharucoFinder::CharucoFinder(const BoardPattern& pattern) : impl_(new Impl) {
     const Eigen::Vector2d at(pixels[i].x - kPixels + 0.5, pixels[i].y - kPixels + 0.5);
     const auto column = static_cast<int>(std::lround(at.x() / kPixels));
     const auto row = static_cast<int>(std::lround(at.y() / kPixels));
-    world_.at(static_cast<std::size_t>(ids[i])) = pattern.corner(column, row);
+    world_.at(ids[i]) = pattern.corner(column, row);
     sum += at - Eigen::Vector2d(column, row) * kPixels;
   }
   offset_ = sum / static_cast<double>(ids.size());
@@ -133,8 +133,7 @@ std::vector<BoardCorner> CharucoFinder::find(const std::vector<std::uint8_t>& gr
           p.y < static_cast<float>(height) - kBorder)) {
       continue;
     }
-    corners.push_back(
-        {ids[i], world_.at(static_cast<std::size_t>(ids[i])), Eigen::Vector2d(p.x, p.y)});
+    corners.push_back({ids[i], world_.at(ids[i]), Eigen::Vector2d(p.x, p.y)});
   }
   std::sort(corners.begin(), corners.end(),
             [](const BoardCorner& a, const BoardCorner& b) { return a.id < b.id; });

@@ -27,11 +27,7 @@ std::vector<std::uint8_t> seen_from_above(const BoardPicture& board, double edge
         const auto i = static_cast<int>(std::floor((u / scale / edge + 0.5) * board.pixels));
         const auto j = static_cast<int>(std::floor((v / scale / edge + 0.5) * board.pixels));
         const bool is_on = i >= 0 && j >= 0 && i < board.pixels && j < board.pixels;
-        sum +=
-            is_on
-                ? board.grey[static_cast<std::size_t>(j) * static_cast<std::size_t>(board.pixels) +
-                             static_cast<std::size_t>(i)]
-                : 255.0;
+        sum += is_on ? board.grey[static_cast<std::size_t>(j) * board.pixels + i] : 255.0;
       }
       image.push_back(static_cast<std::uint8_t>(sum / (kPoints * kPoints)));
     }

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/capture/numeric_jacobian.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
@@ -67,7 +67,7 @@ std::array<Vec3, 6> moment_points(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     std::array<Vec3, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = mesh.vertices[static_cast<std::size_t>(t[k])] - origin;
+      corner[k] = mesh.vertices[t[k]] - origin;
     }
     const double part = triangle_area(corner[0], corner[1], corner[2]);
     const Vec3 sum = corner[0] + corner[1] + corner[2];
@@ -85,8 +85,8 @@ std::array<Vec3, 6> moment_points(const TriangleMesh& mesh) {
   for (int k = 0; k < 3; ++k) {
     const double reach = std::sqrt(3.0 * std::max(0.0, solver.eigenvalues()[k]));
     const Vec3 step = reach * solver.eigenvectors().col(k);
-    points[static_cast<std::size_t>(2 * k)] = origin + centre + step;
-    points[static_cast<std::size_t>(2 * k + 1)] = origin + centre - step;
+    points[2 * k] = origin + centre + step;
+    points[2 * k + 1] = origin + centre - step;
   }
   return points;
 }
@@ -121,7 +121,7 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
       Rigid3 turn = Rigid3::about_axis(frame.axis_at(x), frame.point_at(x), x[4 + k]);
       turn.translation += x[4 + count + k] * frame.axis_at(x);
       r[rows * count + k] = kSlideWeight * x[4 + count + k];
-      const Rigid3& motion = motions[static_cast<std::size_t>(k)];
+      const Rigid3& motion = motions[k];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(rows * k + 3 * static_cast<Eigen::Index>(i)) =
             turn * points[i] - motion * points[i];
@@ -130,15 +130,13 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Rigid3& motion = motions[static_cast<std::size_t>(k)];
+    const Rigid3& motion = motions[k];
     x[4 + k] = twist_about(motion.rotation, frame.axis);
     x[4 + count + k] = (motion * near - near).dot(frame.axis);
   }
   if (count > 1) {
     LeastSquaresProblem problem;
-    problem.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-      residual_and_jacobian(residual, at, r, J);
-    };
+    problem.evaluate = with_numeric_jacobian(residual);
     problem.lower = Eigen::VectorXd::Constant(n, -2.0 * std::numbers::pi);
     problem.upper = -problem.lower;
     problem.lower.segment<2>(2).setConstant(-100.0);  // mm

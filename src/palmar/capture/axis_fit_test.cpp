@@ -5,17 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "palmar/capture/two_axis_fit.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 const Vec3 kAxis = Vec3(0.8, -0.35, 0.49).normalized();
 const Vec3 kOnAxis(12.0, 40.0, -7.0);
@@ -24,7 +22,7 @@ const Vec3 kOnAxis(12.0, 40.0, -7.0);
 double off_axis(const Vec3& point) { return (point - kOnAxis).cross(kAxis).norm(); }
 
 double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDeg;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
 }
 
 /// Surface points of a bone of 40 mm that lies 20 mm beyond the joint.
@@ -38,8 +36,8 @@ std::vector<Vec3> bone_points() {
 TEST(FitAxis, FindsTheAxisOfTurnsFromATenthOfADegreeToNearlyAHalfTurn) {
   const Vec3 near(10.0, 42.0, -6.0);
   for (const double degrees : {0.1, 0.5, 5.0, 30.0, 90.0, 150.0, 179.0, 179.9, 179.999}) {
-    const AxisFit fit = fit_axis(Rigid3::about_axis(kAxis, kOnAxis, degrees * kDeg), near);
-    EXPECT_NEAR(fit.angle, degrees * kDeg, 1e-12) << degrees;
+    const AxisFit fit = fit_axis(Rigid3::about_axis(kAxis, kOnAxis, degrees * kDegree), near);
+    EXPECT_NEAR(fit.angle, degrees * kDegree, 1e-12) << degrees;
     EXPECT_LT(angle_between(fit.axis, kAxis), 1e-8) << degrees;
     EXPECT_LT(off_axis(fit.point), 1e-8) << degrees;
     EXPECT_NEAR((fit.point - near).dot(kAxis), 0.0, 1e-8) << degrees;  // nearest to there
@@ -95,7 +93,7 @@ TEST(MomentPoints, HaveTheSecondMomentsOfTheSurface) {
 
 TEST(FitHinge, SeveralTurnsAboutOneAxisGiveItExactly) {
   const std::vector<Vec3> points = bone_points();
-  const std::vector<double> angles = {70.0 * kDeg, -12.0 * kDeg, 25.0 * kDeg};
+  const std::vector<double> angles = {70.0 * kDegree, -12.0 * kDegree, 25.0 * kDegree};
   std::vector<Rigid3> motions;
   for (const double angle : angles) motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle));
   const HingeFit fit = fit_hinge(motions, points, kOnAxis);

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/joint_measures.h"
 #include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/two_axis_fit.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kLeastLimit = 2.0 * kDeg;  // a limit nearer to the reference posture isn't one
+constexpr double kLeastLimit = 2.0 * kDegree;  // a limit nearer to the reference posture isn't one
 constexpr const char* kMetacarpal = "thumb_metacarpal";
 
 /// One of the four limit postures.
@@ -165,7 +165,7 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
       measures.notes.push_back(fmt::format(
           "{}: the thumb's metacarpal stands {:.0f} degrees from the reference posture in that "
           "sense; the model's range is taken there instead.",
-          name_of(limit.posture), limit.angle / kDeg));
+          name_of(limit.posture), limit.angle / kDegree));
       limit.motion.reset();
     }
     const JointDof& dof = limit.axis == MainAxis::kFirst ? flexion : abduction;
@@ -188,7 +188,7 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
   if (has_abduction) abduction.source += "; range: scanned limits";
   measures.measured(Dof::kThumbCmcFlexion) = has_flexion;
   measures.measured(Dof::kThumbCmcAbduction) = has_abduction;
-  measures.skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)] = {
+  measures.skeleton.joints[index_of(JointId::kThumbCmc)] = {
       JointId::kThumbCmc, node, {abduction, flexion}};
   measures.fixed_cmc = {flexion.axis, flexion.centre, abduction.axis, abduction.centre};
   if (bone != hand.bones.end()) {

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "palmar/statistics/median.h"
+
 namespace palmar {
 
 std::vector<std::string> impossible_dimensions(const HandDimensions& found,
@@ -17,17 +19,14 @@ std::vector<std::string> impossible_dimensions(const HandDimensions& found,
   std::vector<Ratio> all;
   std::vector<double> ratios;
   for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions &mine = found.segment[static_cast<std::size_t>(s)],
-                            &usual = model.segment[static_cast<std::size_t>(s)];
+    const SegmentDimensions &mine = found.segment[s], &usual = model.segment[s];
     const std::string name(name_of(static_cast<Segment>(s)));
     all.push_back({name + " is {:.0f} mm long", mine.length, usual.length});
     all.push_back({name + " is {:.0f} mm wide", mine.width, usual.width});
     all.push_back({name + " is {:.0f} mm thick", mine.thickness, usual.thickness});
   }
   for (const Ratio& one : all) ratios.push_back(one.value / one.expected);
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  const double size = *middle;
+  const double size = median(std::move(ratios));
   std::vector<std::string> clauses;
   for (const Ratio& one : all) {
     const double expected = size * one.expected;

@@ -9,6 +9,7 @@
 
 #include "palmar/capture/mri/measured_joints.h"
 #include "palmar/capture/mri/reference_hand.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {
@@ -41,7 +42,7 @@ struct JointMeasures {
   FixedAxisCmc fixed_cmc;
   std::vector<std::string> notes;
 
-  bool& measured(Dof dof) { return is_measured[static_cast<std::size_t>(dof)]; }
+  bool& measured(Dof dof) { return is_measured[index_of(dof)]; }
 };
 
 /// Hinges (PIP, DIP, thumb MP, IP): the fixed axis of all limit postures (fit_hinge()). MCP: two

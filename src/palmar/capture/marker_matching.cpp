@@ -52,7 +52,7 @@ std::vector<std::optional<int>> match_markers(const std::vector<Vec3>& expected,
         if (k == i || !match[k]) continue;
         const double r = (expected[k] - expected[i]).norm() / options.neighbourhood;
         const double w = std::exp(-0.5 * r * r);
-        sum += w * (found[static_cast<std::size_t>(*match[k])] - expected[k]);
+        sum += w * (found[*match[k]] - expected[k]);
         weights += w;
       }
       constexpr double kLeastWeight = 0.05;  // nobody near: as predicted

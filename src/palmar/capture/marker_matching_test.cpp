@@ -27,7 +27,7 @@ double least_cost(const std::vector<Vec3>& expected, const std::vector<Vec3>& fo
   do {
     double cost = 0.0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const double d = (expected[i] - found[static_cast<std::size_t>(order[i])]).squaredNorm();
+      const double d = (expected[i] - found[order[i]]).squaredNorm();
       cost += std::min(d, gate * gate);
     }
     best = std::min(best, cost);
@@ -53,7 +53,7 @@ TEST(MarkerMatching, AssignsAsTryingEverythingDoes) {
         continue;
       }
       used.push_back(*match[i]);
-      cost += (expected[i] - found[static_cast<std::size_t>(*match[i])]).squaredNorm();
+      cost += (expected[i] - found[*match[i]]).squaredNorm();
     }
     std::sort(used.begin(), used.end());
     EXPECT_EQ(std::adjacent_find(used.begin(), used.end()), used.end()) << "seed " << seed;

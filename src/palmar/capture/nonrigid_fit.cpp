@@ -22,8 +22,6 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Entry = Eigen::Triplet<double>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// A pull on a point of the moving surface towards a place.
 struct Pull {
   std::array<int, 3> vertex{};
@@ -46,17 +44,17 @@ class Partners {
                           double normals_agree) const {
     const auto foot = query_.closest(point, reach);
     if (!foot) return std::nullopt;
-    const Triangle& t = mesh_.triangles[at(foot->triangle)];
+    const Triangle& t = mesh_.triangles[foot->triangle];
     Vec3 n = Vec3::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
-      if (foot->weights[c] > 0.0 && surface_.is_silent[at(t[c])]) return std::nullopt;
-      n += foot->weights[c] * normal_[at(t[c])];
+      if (foot->weights[c] > 0.0 && surface_.is_silent[t[c]]) return std::nullopt;
+      n += foot->weights[c] * normal_[t[c]];
     }
     n.stableNormalize();
     if (n.dot(normal) < normals_agree) return std::nullopt;
-    const auto main = static_cast<std::size_t>(
-        std::max_element(foot->weights.begin(), foot->weights.end()) - foot->weights.begin());
-    const int other = surface_.part[at(t[main])];
+    const auto main =
+        std::max_element(foot->weights.begin(), foot->weights.end()) - foot->weights.begin();
+    const int other = surface_.part[t[main]];
     if (part != 0 && other != 0 && part != other) return std::nullopt;
     return Found{*foot, n};
   }
@@ -91,17 +89,17 @@ class Fitter {
     const auto n = static_cast<Eigen::Index>(start_.size());
     std::vector<Entry> entries;
     for (int v = 0; v < static_cast<int>(start_.size()); ++v) {
-      if (neighbours_[at(v)].empty()) continue;
+      if (neighbours_[v].empty()) continue;
       entries.emplace_back(v, v, -1.0);
-      const double share = 1.0 / static_cast<double>(neighbours_[at(v)].size());
-      for (const int u : neighbours_[at(v)]) entries.emplace_back(v, u, share);
+      const double share = 1.0 / static_cast<double>(neighbours_[v].size());
+      for (const int u : neighbours_[v]) entries.emplace_back(v, u, share);
     }
     laplacian_.resize(n, n);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
     bending_ = laplacian_.transpose() * laplacian_;
     for (std::size_t v = 0; v < start_.size(); ++v) {
       Vec3 l = Vec3::Zero();
-      for (const int u : neighbours_[v]) l += start_[at(u)] - start_[v];
+      for (const int u : neighbours_[v]) l += start_[u] - start_[v];
       if (!neighbours_[v].empty()) l /= static_cast<double>(neighbours_[v].size());
       coordinate_.push_back(l);
     }
@@ -115,7 +113,7 @@ class Fitter {
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, 3);
     for (Eigen::Index v = 0; v < n; ++v) {
       entries.emplace_back(static_cast<int>(v), static_cast<int>(v), kHold);
-      right.row(v) = kHold * mesh_.vertices[static_cast<std::size_t>(v)].transpose();
+      right.row(v) = kHold * mesh_.vertices[v].transpose();
     }
     for (const Pull& p : pulls) {
       for (std::size_t a = 0; a < 3; ++a) {
@@ -128,7 +126,7 @@ class Fitter {
       }
     }
     Eigen::MatrixXd turned(n, 3);
-    parallel_for(static_cast<int>(n), [&](int v) { turned.row(v) = turned_coordinate(at(v)); });
+    parallel_for(static_cast<int>(n), [&](int v) { turned.row(v) = turned_coordinate(v); });
     right += stiffness * (laplacian_.transpose() * turned);
     Sparse system(n, n);
     system.setFromTriplets(entries.begin(), entries.end());
@@ -141,7 +139,7 @@ class Fitter {
     }
     const Eigen::MatrixXd x = solver_.solve(right);
     for (Eigen::Index v = 0; v < n; ++v) {
-      mesh_.vertices[static_cast<std::size_t>(v)] = x.row(v).transpose();
+      mesh_.vertices[v] = x.row(v).transpose();
     }
   }
 
@@ -154,27 +152,28 @@ class Fitter {
     const Partners on_moving(mesh_, moving_);
     std::vector<Pull> pulls(start_.size() + fixed_.mesh.vertices.size());
     parallel_for(mesh_.vertex_count(), [&](int v) {
-      if (moving_.is_silent[at(v)]) return;
-      const Vec3& x = mesh_.vertices[at(v)];
-      const auto found = on_fixed_.of(x, on_moving.normal(at(v)), moving_.part[at(v)], reach,
-                                      options_.normals_agree);
+      if (moving_.is_silent[v]) return;
+      const Vec3& x = mesh_.vertices[v];
+      const auto found =
+          on_fixed_.of(x, on_moving.normal(v), moving_.part[v], reach, options_.normals_agree);
       if (!found) return;
-      pulls[at(v)] = {{v, v, v},
-                      {1.0, 0.0, 0.0},
-                      x + found->normal.dot(found->foot.point - x) * found->normal,
-                      weight_of(found->foot.distance, scale)};
+      pulls[v] = {{v, v, v},
+                  {1.0, 0.0, 0.0},
+                  x + found->normal.dot(found->foot.point - x) * found->normal,
+                  weight_of(found->foot.distance, scale)};
     });
     parallel_for(fixed_.mesh.vertex_count(), [&](int v) {
-      if (fixed_.is_silent[at(v)]) return;
-      const Vec3& y = fixed_.mesh.vertices[at(v)];
-      const Vec3& n = on_fixed_.normal(at(v));
-      const auto found = on_moving.of(y, n, fixed_.part[at(v)], reach, options_.normals_agree);
+      if (fixed_.is_silent[v]) return;
+      const Vec3& y = fixed_.mesh.vertices[v];
+      const Vec3& n = on_fixed_.normal(v);
+      const auto found = on_moving.of(y, n, fixed_.part[v], reach, options_.normals_agree);
       if (!found) return;
-      const Triangle& t = mesh_.triangles[at(found->foot.triangle)];
+      const Triangle& t = mesh_.triangles[found->foot.triangle];
       const Vec3& x = found->foot.point;
       constexpr double kShare = 0.5;  // against a vertex of the moving surface
-      pulls[start_.size() + at(v)] = {t, found->foot.weights, x + n.dot(y - x) * n,
-                                      kShare * weight_of(found->foot.distance, scale)};
+      pulls[start_.size() + static_cast<std::size_t>(v)] = {
+          t, found->foot.weights, x + n.dot(y - x) * n,
+          kShare * weight_of(found->foot.distance, scale)};
     });
     std::erase_if(pulls, [](const Pull& p) { return p.weight == 0.0; });
     pulls.insert(pulls.end(), pins_.begin(), pins_.end());
@@ -185,8 +184,8 @@ class Fitter {
     Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
     double before = 0.0, after = 0.0;
     for (const int u : neighbours_[v]) {
-      const Vec3 p = start_[at(u)] - start_[v];
-      const Vec3 x = mesh_.vertices[at(u)] - mesh_.vertices[v];
+      const Vec3 p = start_[u] - start_[v];
+      const Vec3 x = mesh_.vertices[u] - mesh_.vertices[v];
       cross += x * p.transpose();
       before += p.squaredNorm();
       after += x.squaredNorm();

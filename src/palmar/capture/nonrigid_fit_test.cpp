@@ -100,18 +100,15 @@ TEST(NonrigidFit, PinsHoldWhereTheShapeDoesNot) {
     int best = 0;
     for (int v = 0; v < moving.mesh.vertex_count(); ++v) {
       const auto& all = moving.mesh.vertices;
-      if (direction.dot(all[static_cast<std::size_t>(v)]) >
-          direction.dot(all[static_cast<std::size_t>(best)])) {
+      if (direction.dot(all[v]) > direction.dot(all[best])) {
         best = v;
       }
     }
-    pins.push_back({{best, best, best},
-                    {1.0, 0.0, 0.0},
-                    turn * moving.mesh.vertices[static_cast<std::size_t>(best)]});
+    pins.push_back({{best, best, best}, {1.0, 0.0, 0.0}, turn * moving.mesh.vertices[best]});
   }
   const std::vector<Vec3> bent = fit_nonrigidly(moving, fixed, pins);
   for (const FitPin& pin : pins) {
-    EXPECT_LT((bent[static_cast<std::size_t>(pin.vertex[0])] - pin.place).norm(), 0.5);
+    EXPECT_LT((bent[pin.vertex[0]] - pin.place).norm(), 0.5);
   }
 }
 

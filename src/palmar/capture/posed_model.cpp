@@ -6,15 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 #include "palmar/hand/instance/segment_scaling.h"
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-std::size_t at(Segment s) { return static_cast<std::size_t>(s); }
 
 /// Joint centres from the MCP joint on (thumb: CMC, MP, IP) and the fingertip.
 struct Chain {
@@ -33,7 +32,7 @@ Chain chain_of(const Skeleton& skeleton, Finger finger) {
     chain.node.push_back(skeleton.joint(joint_of(*segment)).centre);
     chain.segment.push_back(*segment);
   }
-  chain.node.push_back(skeleton.fingertips[static_cast<std::size_t>(finger)]);
+  chain.node.push_back(skeleton.fingertips[index_of(finger)]);
   return chain;
 }
 
@@ -53,7 +52,7 @@ SegmentScales scales_to(const SegmentScaling& scaling, const Skeleton& from, con
     return (s.joint(JointId::kMiddleMcp).centre - s.joint(JointId::kWrist).centre).norm();
   };
   SegmentScales scales;
-  auto& palm = scales.segment[at(Segment::kPalm)];
+  auto& palm = scales.segment[index_of(Segment::kPalm)];
   palm.along = ratio(height(to), height(from));
   palm.across = ratio(spread(to), spread(from));
   palm.thickness = palm.across;
@@ -72,7 +71,7 @@ SegmentScales scales_to(const SegmentScaling& scaling, const Skeleton& from, con
         for (const auto& segment : parts) of_palm -= segment[0];
         of_palm = std::max(0.0, of_palm);
       }
-      auto& factors = scales.segment[at(mine.segment[k])];
+      auto& factors = scales.segment[index_of(mine.segment[k])];
       factors.along = ratio(needs - palm.along * of_palm, has - of_palm);
       factors.across = factors.thickness = palm.across;
     }
@@ -84,7 +83,7 @@ SegmentScales scales_to(const SegmentScaling& scaling, const Skeleton& from, con
 Vec3 posed_node(const PosedSkeleton& posed, const Chain& chain, Finger finger, std::size_t k) {
   if (k == 0) return chain.node[0];
   if (finger == Finger::kThumb && k == 1) return posed.thumb_metacarpal * chain.node[1];
-  return posed.segment[at(chain.segment[k - 1])] * chain.node[k];
+  return posed.segment[index_of(chain.segment[k - 1])] * chain.node[k];
 }
 
 class PostureProblem {
@@ -115,20 +114,8 @@ class PostureProblem {
     }
     problem.lower.tail<6>() << -1, -1, -1, -60, -60, -60;
     problem.upper.tail<6>() << 1, 1, 1, 60, 60, 60;
-    problem.evaluate = [&](const Eigen::VectorXd& at_x, Eigen::VectorXd& r,
-                           Eigen::MatrixXd* jacobian) {
-      r = residual(at_x);
-      if (jacobian == nullptr) return;
-      jacobian->resize(r.size(), n);
-      constexpr double kStep = 1e-5;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        Eigen::VectorXd moved = at_x;
-        moved[i] += kStep;
-        const Eigen::VectorXd ahead = residual(moved);
-        moved[i] -= 2.0 * kStep;
-        jacobian->col(i) = (ahead - residual(moved)) / (2.0 * kStep);
-      }
-    };
+    problem.evaluate = with_numeric_jacobian(
+        [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) { r = residual(at); });
     const LeastSquaresSolution found = solve_least_squares(problem, x, {.max_iterations = 100});
     model.posture = posture(found.x);
     model.scan_from_hand = place(found.x);
@@ -136,10 +123,10 @@ class PostureProblem {
     double sum = 0.0;
     int count = 0;
     for (int f = 0; f < kFingerCount; ++f) {
-      for (std::size_t k = 0; k < chain_[at(f)].node.size(); ++k) {
+      for (std::size_t k = 0; k < chain_[f].node.size(); ++k) {
         const Vec3 p =
-            model.scan_from_hand * posed_node(posed, chain_[at(f)], static_cast<Finger>(f), k);
-        sum += (p - target_[at(f)].node[k]).norm();
+            model.scan_from_hand * posed_node(posed, chain_[f], static_cast<Finger>(f), k);
+        sum += (p - target_[f].node[k]).norm();
         ++count;
       }
     }
@@ -170,13 +157,14 @@ class PostureProblem {
     const auto add = [&](const Vec3& v) { r.insert(r.end(), v.begin(), v.end()); };
     for (int f = 0; f < kFingerCount; ++f) {
       const auto finger = static_cast<Finger>(f);
-      const Chain& chain = chain_[at(f)];
+      const Chain& chain = chain_[f];
       for (std::size_t k = 0; k < chain.node.size(); ++k) {
-        add(scan_from_hand * posed_node(posed, chain, finger, k) - target_[at(f)].node[k]);
+        add(scan_from_hand * posed_node(posed, chain, finger, k) - target_[f].node[k]);
         // Flexion axes as the phalanx after the joint carries them. Those of the MCP joints stay
         // with the palm.
         if (k == 0 || k >= chain.segment.size()) continue;
-        const Quat turn = scan_from_hand.rotation * posed.segment[at(chain.segment[k])].rotation;
+        const Quat turn =
+            scan_from_hand.rotation * posed.segment[index_of(chain.segment[k])].rotation;
         add(kAxis * (turn * flexion_of(mine_, chain.segment[k]).axis -
                      flexion_of(wanted_, chain.segment[k]).axis));
       }

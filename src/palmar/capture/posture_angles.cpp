@@ -8,7 +8,9 @@
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/mri/bones/bone_chain.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
@@ -43,7 +45,7 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
   const auto m = 18 * static_cast<Eigen::Index>(bones.size());
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     std::vector<double> at = all;
-    for (Eigen::Index j = 0; j < n; ++j) at[free[static_cast<std::size_t>(j)]] = x[j];
+    for (Eigen::Index j = 0; j < n; ++j) at[free[j]] = x[j];
     const Placed placed = place(at);
     r.resize(m + n);
     Eigen::Index row = 0;
@@ -57,37 +59,23 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
     }
     // What no bone tells stays where it starts: 1e-3 mm per rad decides nothing else.
     for (Eigen::Index j = 0; j < n; ++j) {
-      r[m + j] = 1e-3 * (x[j] - angles[free[static_cast<std::size_t>(j)]].start);
+      r[m + j] = 1e-3 * (x[j] - angles[free[j]].start);
     }
   };
   LeastSquaresProblem problem;
-  problem.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    residual(at, r);
-    if (J == nullptr) return;
-    J->resize(m + n, n);
-    Eigen::VectorXd ahead, behind;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      constexpr double kStep = 1e-5;  // rad
-      Eigen::VectorXd y = at;
-      y[j] += kStep;
-      residual(y, ahead);
-      y[j] -= 2.0 * kStep;
-      residual(y, behind);
-      J->col(j) = (ahead - behind) / (2.0 * kStep);
-    }
-  };
+  problem.evaluate = with_numeric_jacobian(residual);
   problem.lower.resize(n);
   problem.upper.resize(n);
   Eigen::VectorXd x(n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const Angle& angle = angles[free[static_cast<std::size_t>(j)]];
+    const Angle& angle = angles[free[j]];
     problem.lower[j] = angle.lower;
     problem.upper[j] = angle.upper;
     x[j] = std::clamp(angle.start, angle.lower, angle.upper);
   }
   const LeastSquaresSolution found = solve_least_squares(
       problem, x, {.max_iterations = 100, .gradient_tolerance = 1e-8, .step_tolerance = 1e-9});
-  for (Eigen::Index j = 0; j < n; ++j) all[free[static_cast<std::size_t>(j)]] = found.x[j];
+  for (Eigen::Index j = 0; j < n; ++j) all[free[j]] = found.x[j];
   return all;
 }
 
@@ -119,7 +107,7 @@ Placed bones_of_finger(const PosedSkeleton& posed, Finger finger) {
   if (finger == Finger::kThumb) placed["thumb_metacarpal"] = posed.thumb_metacarpal;
   for (const auto& segment : segments_of(finger)) {
     if (segment) {
-      placed[phalanx_name(*segment)] = posed.segment[static_cast<std::size_t>(*segment)];
+      placed[phalanx_name(*segment)] = posed.segment[index_of(*segment)];
     }
   }
   return placed;

@@ -13,8 +13,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Per point: nearer to the solid than `range`, or inside.
 std::vector<char> is_touched(const std::vector<Vec3>& points, const MeshDistance& by,
                              double range) {
@@ -43,8 +41,8 @@ std::optional<double> mean_skin_error(const Hand& hand, const Posture& posture,
   const std::vector<Vec3> all_normals = vertex_normals(skin, hand.skin.triangles);
   std::vector<Vec3> point, normal;
   for (const int v : vertices) {
-    point.push_back(skin[at(v)]);
-    normal.push_back(all_normals[at(v)]);
+    point.push_back(skin[v]);
+    normal.push_back(all_normals[v]);
   }
   double sum = 0.0;
   int count = 0;

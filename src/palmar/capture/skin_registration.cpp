@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/closest_point.h"
@@ -19,22 +20,20 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Which finger a point in space belongs to (1 thumb ... 5 little), 0 for palm and webs.
 class Fingers {
  public:
   explicit Fingers(const Skeleton& skeleton) {
     for (int f = 0; f < kFingerCount; ++f) {
       const auto finger = static_cast<Finger>(f);
-      Ray& ray = ray_[at(f)];
+      Ray& ray = ray_[f];
       const auto chain = segments_of(finger);
       ray.node.push_back(finger == Finger::kThumb ? skeleton.joint(JointId::kThumbCmc).centre
                                                   : skeleton.joint(JointId::kWrist).centre);
       for (const auto& s : chain) {
         if (s) ray.node.push_back(skeleton.joint(joint_of(*s)).centre);
       }
-      ray.node.push_back(skeleton.fingertips[at(f)]);
+      ray.node.push_back(skeleton.fingertips[f]);
     }
   }
 
@@ -43,7 +42,7 @@ class Fingers {
     double best = std::numeric_limits<double>::max();
     int part = 0;
     for (int f = 0; f < kFingerCount; ++f) {
-      const Ray& ray = ray_[at(f)];
+      const Ray& ray = ray_[f];
       for (std::size_t k = 0; k + 1 < ray.node.size(); ++k) {
         const Vec3 along = ray.node[k + 1] - ray.node[k];
         const double t =
@@ -72,7 +71,7 @@ std::vector<char> cut_of(const Hand& hand) {
   for (std::size_t t = 0; t < normal.size(); ++t) {
     if (normal[t].y() > -0.8) continue;
     for (const int v : hand.skin.triangles[t]) {
-      if (hand.skin.vertices[at(v)].y() < wrist) is_cut[at(v)] = 1;
+      if (hand.skin.vertices[v].y() < wrist) is_cut[v] = 1;
     }
   }
   return is_cut;
@@ -89,15 +88,15 @@ FitSurface scanned_surface(const SkinScan& scan, const Skeleton& skeleton) {
   // A spot of radius r stands on the skin; its rim is rounded off over about as much again.
   const double bump = 1.9 * scan.marker_radius;
   parallel_for(scan.skin.vertex_count(), [&](int v) {
-    const Vec3& p = scan.skin.vertices[at(v)];
-    surface.part[at(v)] = fingers.of(p);
-    if (p.y() < wrist && normal[at(v)].y() < -0.8) surface.is_silent[at(v)] = 1;  // its own cut
+    const Vec3& p = scan.skin.vertices[v];
+    surface.part[v] = fingers.of(p);
+    if (p.y() < wrist && normal[v].y() < -0.8) surface.is_silent[v] = 1;  // its own cut
     for (const Vec3& marker : scan.markers) {
-      if ((p - marker).squaredNorm() < bump * bump) surface.is_silent[at(v)] = 1;
+      if ((p - marker).squaredNorm() < bump * bump) surface.is_silent[v] = 1;
     }
   });
   for (const auto& edge : boundary_edges(build_topology(scan.skin))) {
-    for (const int v : edge) surface.is_silent[at(v)] = 1;
+    for (const int v : edge) surface.is_silent[v] = 1;
   }
   return surface;
 }
@@ -113,17 +112,17 @@ void part_crossings(TriangleMesh& skin) {
     const std::vector<Vec3> normal = vertex_normals(skin);
     std::vector<Vec3> move(skin.vertices.size(), Vec3::Zero());
     for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
-      const auto v = at(crossing.vertex[k]);
+      const int v = crossing.vertex[k];
       move[v] = -(0.5 * crossing.depth[k] + kGap) * normal[v];
     }
     if (crossing.vertex.empty()) {  // a fold of the surface itself: smoothed away
       for (const auto& pair : crossing.pairs) {
         for (const int t : pair) {
-          for (const int v : skin.triangles[at(t)]) {
+          for (const int v : skin.triangles[t]) {
             Vec3 mean = Vec3::Zero();
-            for (const int u : neighbours[at(v)]) mean += skin.vertices[at(u)];
-            mean /= static_cast<double>(neighbours[at(v)].size());
-            move[at(v)] = 0.5 * (mean - skin.vertices[at(v)]);
+            for (const int u : neighbours[v]) mean += skin.vertices[u];
+            mean /= static_cast<double>(neighbours[v].size());
+            move[v] = 0.5 * (mean - skin.vertices[v]);
           }
         }
       }
@@ -134,7 +133,7 @@ void part_crossings(TriangleMesh& skin) {
       for (std::size_t v = 0; v < move.size(); ++v) {
         if (!move[v].isZero(0.0)) continue;
         Vec3 mean = Vec3::Zero();
-        for (const int u : neighbours[v]) mean += move[at(u)];
+        for (const int u : neighbours[v]) mean += move[u];
         spread[v] = 0.5 * mean / static_cast<double>(neighbours[v].size());
       }
       move = std::move(spread);
@@ -169,7 +168,7 @@ void measure(const FitSurface& moving, const SkinScan& scan, const Skeleton& ske
   result.mean /= static_cast<double>(partnered.size());
   const auto k = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(partnered.size() - 1));
   std::nth_element(partnered.begin(), partnered.begin() + k, partnered.end());
-  result.percentile_95 = partnered[static_cast<std::size_t>(k)];
+  result.percentile_95 = partnered[k];
 }
 
 /// Throws InputError unless half of the skin has scanned skin near.
@@ -221,11 +220,11 @@ Skeleton posed_centres(const Skeleton& skeleton, const Posture& posture) {
     Rigid3 carrier = f == 0 ? posed.thumb_metacarpal : Rigid3{};
     for (const auto& segment : segments_of(static_cast<Finger>(f))) {
       if (!segment) continue;
-      Vec3& centre = result.joints[static_cast<std::size_t>(joint_of(*segment))].centre;
+      Vec3& centre = result.joints[index_of(joint_of(*segment))].centre;
       centre = carrier * centre;
-      carrier = posed.segment[static_cast<std::size_t>(*segment)];
+      carrier = posed.segment[index_of(*segment)];
     }
-    result.fingertips[at(f)] = carrier * result.fingertips[at(f)];
+    result.fingertips[f] = carrier * result.fingertips[f];
   }
   return result;
 }
@@ -240,15 +239,15 @@ std::vector<double> distances_to_scan(const std::vector<Vec3>& point,
   const std::vector<Vec3> fixed_normal = vertex_normals(fixed.mesh);
   std::vector<double> distance(point.size(), -1.0);
   parallel_for(static_cast<int>(point.size()), [&](int i) {
-    const auto foot = query.closest(point[at(i)], reach);
+    const auto foot = query.closest(point[i], reach);
     if (!foot) return;
     Vec3 n = Vec3::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
-      const int u = fixed.mesh.triangles[at(foot->triangle)][c];
-      if (foot->weights[c] > 0.0 && fixed.is_silent[at(u)]) return;
-      n += foot->weights[c] * fixed_normal[at(u)];
+      const int u = fixed.mesh.triangles[foot->triangle][c];
+      if (foot->weights[c] > 0.0 && fixed.is_silent[u]) return;
+      n += foot->weights[c] * fixed_normal[u];
     }
-    if (n.dot(normal[at(i)]) > 0.0) distance[at(i)] = foot->distance;
+    if (n.dot(normal[i]) > 0.0) distance[i] = foot->distance;
   });
   return distance;
 }

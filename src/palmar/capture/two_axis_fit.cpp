@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "palmar/capture/axis_fit.h"
-#include "palmar/capture/numeric_jacobian.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
@@ -61,7 +61,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
       const Rigid3 turn =
           screw(first.axis_at(a), first.point_at(a), x[8 + 2 * k], x[slides + 2 * k]) *
           screw(second.axis_at(b), second.point_at(b), x[9 + 2 * k], x[slides + 1 + 2 * k]);
-      const Rigid3& motion = motions[static_cast<std::size_t>(k)];
+      const Rigid3& motion = motions[k];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(per_motion * k + 3 * static_cast<Eigen::Index>(i)) =
             (turn * points[i] - motion * points[i]) / prior.point_sd;
@@ -75,7 +75,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     r.tail(2 * count) = x.tail(2 * count) / prior.slide_sd;
     r[p + 8] = first.axis_at(a).dot(second.axis_at(b)) / prior.square_sd;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const MainAxis m = main[static_cast<std::size_t>(k)];
+      const MainAxis m = main[k];
       // Free angles are held by next to nothing, so that none is left undetermined.
       constexpr double kFree = 10.0;  // rad
       r[p + 9 + 2 * k] = x[8 + 2 * k] / (m == MainAxis::kSecond ? prior.by_second_sd : kFree);
@@ -83,9 +83,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     }
   };
   LeastSquaresProblem problem;
-  problem.evaluate = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    residual_and_jacobian(residual, at, r, J);
-  };
+  problem.evaluate = with_numeric_jacobian(residual);
   problem.lower = Eigen::VectorXd::Constant(n, -std::numbers::pi);
   problem.upper = -problem.lower;
   for (const Eigen::Index j : {2, 6}) {
@@ -96,8 +94,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   problem.upper.tail(2 * count).setConstant(50.0);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < count; ++k) {
-    x.segment<2>(8 + 2 * k) =
-        angles_near(motions[static_cast<std::size_t>(k)], first.axis, second.axis);
+    x.segment<2>(8 + 2 * k) = angles_near(motions[k], first.axis, second.axis);
   }
   x = solve_least_squares(problem, x, {.gradient_tolerance = 1e-8, .step_tolerance = 1e-10}).x;
 

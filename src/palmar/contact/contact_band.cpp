@@ -5,6 +5,7 @@
 
 #include "palmar/contact/contact_totals.h"
 #include "palmar/contact/solve/contact_solver.h"
+#include "palmar/core/enum_index.h"
 
 namespace palmar {
 namespace {
@@ -33,18 +34,17 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const Sk
   const auto y = system.solve_on(load.in_contact, std::vector<double>(load.vertex.size(), 1.0));
   if (!y) return result;
   const auto region_of = [&](std::size_t k) {
-    return static_cast<std::size_t>(
-        prepared->hand->region[static_cast<std::size_t>(load.vertex[k])]);
+    return static_cast<std::size_t>(prepared->hand->region[load.vertex[k]]);
   };
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const double d = skin.sample[static_cast<std::size_t>(load.vertex[k])].distance;
+    const double d = skin.sample[load.vertex[k]].distance;
     result[region_of(k)] -= (*y)[k] * load.shear_modulus[k] * d;
     if (!coating_.diagonal.empty()) {
       result[region_of(k)] -= (*y)[k] * coating_.diagonal[k] * load.force[k];
     }
   }
   for (const ContactSystem::Entry& entry : coating_.entries) {
-    const auto i = static_cast<std::size_t>(entry.row);
+    const int i = entry.row;
     const auto j = static_cast<std::size_t>(entry.column);
     const double both = 0.5 * entry.value * ((*y)[i] * load.force[j] + (*y)[j] * load.force[i]);
     result[region_of(i)] -= both;
@@ -62,7 +62,7 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
   }
   const std::array<double, kRegionCount> slope = force_per_modulus(skin, load);
   for (ContactBandRow& row : result.regions) {
-    row.force_per_modulus = slope[static_cast<std::size_t>(row.region)];
+    row.force_per_modulus = slope[index_of(row.region)];
     result.total.force_per_modulus += row.force_per_modulus;
   }
   for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kHigh}) {
@@ -77,7 +77,7 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
     std::vector<double> modulus(n, 0.0);
     std::vector<double> gap_at_level = gap;
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      const int v = load.vertex[k];
       at_level.force[v] = other.force[k];
       at_level.pressure[v] = other.force[k] / prepared->skin.area[v];
       modulus[v] = other.shear_modulus[k];

@@ -11,7 +11,7 @@ std::vector<Vec3> contact_normals(const ContactResult& contact, const DistanceFi
   std::vector<Vec3> points;  // of those that hardly moved
   std::vector<std::size_t> place;
   for (std::size_t k = 0; k < loaded.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded[k]);
+    const int v = loaded[k];
     const Vec3 way = contact.deformed[v] - contact.undeformed[v];
     if (way.norm() > kClear) {
       normals[k] = way.normalized();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "palmar/contact/contact_patch.h"
+#include "palmar/core/enum_index.h"
 
 namespace palmar {
 
@@ -17,7 +18,7 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   std::array<std::vector<int>, kRegionCount> loaded;
   for (std::size_t v = 0; v < n; ++v) {
     if (result.force[v] <= 0.0) continue;
-    loaded[static_cast<std::size_t>(prepared.hand->region[v])].push_back(static_cast<int>(v));
+    loaded[index_of(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }
   std::vector<double> area = contact_area(prepared.skin.position, prepared.hand->skin.triangles,
                                           result.pressure, gap, shear_modulus);

@@ -118,7 +118,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
     if (!box.contains(surface.vertices[i])) continue;
     const auto found = query.closest(surface.vertices[i], kBridge);
     if (!found) continue;
-    const Triangle& t = skin.triangles[static_cast<std::size_t>(found->triangle)];
+    const Triangle& t = skin.triangles[found->triangle];
     const Vec3 n = (skin.vertices[t[1]] - skin.vertices[t[0]])
                        .cross(skin.vertices[t[2]] - skin.vertices[t[0]])
                        .normalized();

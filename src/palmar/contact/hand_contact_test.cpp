@@ -12,6 +12,7 @@
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/prepared_hand.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/analytic_distance.h"
 
@@ -104,10 +105,8 @@ TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
     EXPECT_GT(contact.total.force, before);
     before = contact.total.force;
     EXPECT_NEAR(contact.regions[0].max_penetration, depth, 0.02);
-    const StiffeningLaw& law = prepared_ball()
-                                   .hand()
-                                   .tissue.region[static_cast<std::size_t>(Region::kMiddleDistal)]
-                                   .half_space.nominal;
+    const StiffeningLaw& law =
+        prepared_ball().hand().tissue.region[index_of(Region::kMiddleDistal)].half_space.nominal;
     EXPECT_NEAR(contact.regions[0].shear_modulus, law.g0 + (law.g_limit - law.g0) * depth / 4.0,
                 1e-3);
   }

@@ -11,6 +11,7 @@
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/tissue/stiffening.h"
+#include "palmar/core/enum_index.h"
 
 namespace palmar {
 
@@ -23,9 +24,7 @@ struct PreparedHand::Impl {
   SkinPatches blocks;  ///< of the preconditioner
   SkinStiffness stiffness;
 
-  const RegionTissue& tissue(Region r) const {
-    return hand->tissue.region[static_cast<std::size_t>(r)];
-  }
+  const RegionTissue& tissue(Region r) const { return hand->tissue.region[index_of(r)]; }
 };
 
 }  // namespace palmar

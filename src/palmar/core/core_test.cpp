@@ -16,7 +16,7 @@ namespace {
 
 TEST(ParallelFor, VisitsEveryIndexOnce) {
   std::vector<int> visits(1000, 0);
-  parallel_for(1000, [&](int i) { ++visits[static_cast<size_t>(i)]; });
+  parallel_for(1000, [&](int i) { ++visits[i]; });
   for (const int v : visits) EXPECT_EQ(v, 1);
 }
 

@@ -38,7 +38,7 @@ double cost_of(const std::vector<std::vector<double>>& cost, const std::vector<i
     if (std::count(pair.begin(), pair.end(), pair[i]) > 1) {
       return std::numeric_limits<double>::infinity();
     }
-    sum += cost[i][static_cast<std::size_t>(pair[i])];
+    sum += cost[i][pair[i]];
   }
   return sum;
 }
@@ -47,13 +47,13 @@ TEST(LeastCostPairs, NoOtherPairingIsCheaper) {
   RandomStream random(5, 0);
   for (const auto& [rows, columns] : {std::pair{4, 4}, std::pair{5, 3}, std::pair{3, 6}}) {
     for (int repeat = 0; repeat < 20; ++repeat) {
-      std::vector<std::vector<double>> cost(static_cast<std::size_t>(rows));
+      std::vector<std::vector<double>> cost(rows);
       for (auto& row : cost) {
         for (int c = 0; c < columns; ++c) row.push_back(10.0 * random.uniform());
       }
       constexpr double kAlone = 4.0;
       // All pairings: each row counts from -1 to the last column.
-      std::vector<int> pair(static_cast<std::size_t>(rows), -1);
+      std::vector<int> pair(rows, -1);
       double least = std::numeric_limits<double>::infinity();
       for (bool is_done = false; !is_done;) {
         least = std::min(least, cost_of(cost, pair, kAlone));

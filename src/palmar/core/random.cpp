@@ -35,7 +35,7 @@ std::uint64_t RandomStream::bits() {
     ++block_;
     used_ = 0;
   }
-  const auto at = static_cast<std::size_t>(used_);
+  const int at = used_;
   used_ += 2;
   return (std::uint64_t{words_[at + 1]} << 32U) | words_[at];
 }

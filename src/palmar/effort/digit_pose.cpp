@@ -47,7 +47,7 @@ PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& po
       digit.twist[k] = rate_of_cmc(skeleton, posture, dof);
       digit.moves[k++] = 1;
     }
-    digit.body[static_cast<std::size_t>(++body)] = displacement;
+    digit.body[++body] = displacement;
   }
   for (const auto& segment : segments_of(finger)) {
     if (!segment) continue;
@@ -58,7 +58,7 @@ PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& po
       digit.twist[k] = hinge(*dof, displacement);
       displacement = displacement * turned(*dof, posture);
       digit.moves[k++] = ++body;
-      digit.body[static_cast<std::size_t>(body)] = displacement;
+      digit.body[body] = displacement;
     }
   }
   return digit;

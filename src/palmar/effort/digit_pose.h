@@ -35,13 +35,10 @@ struct PosedDigit {
   std::array<Twist, kDigitDofs> twist;    ///< of everything that the angle moves
   std::array<int, kDigitDofs> moves{};    ///< bodies from this one on move with the angle
 
-  Vec3 place(int b, const Vec3& reference_point) const {
-    return body[static_cast<std::size_t>(b)] * reference_point;
-  }
+  Vec3 place(int b, const Vec3& reference_point) const { return body[b] * reference_point; }
   /// Velocity of a posed point of a body per radian of the k-th angle.
   Vec3 velocity(int k, int b, const Vec3& posed_point) const {
-    const auto i = static_cast<std::size_t>(k);
-    return b < moves[i] ? Vec3(Vec3::Zero()) : twist[i].at(posed_point);
+    return b < moves[k] ? Vec3(Vec3::Zero()) : twist[k].at(posed_point);
   }
 };
 

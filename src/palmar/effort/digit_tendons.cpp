@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/effort/thumb_tendons.h"
 
@@ -131,8 +132,8 @@ TendonSpan span_at(const JointFrames& frames, const Hold& hold, double scale, do
 double relative_width(const Hand& hand, Finger finger) {
   const auto width = [&](Finger f) {
     const auto segments = segments_of(f);
-    return hand.dimensions.segment[static_cast<std::size_t>(*segments[0])].width +
-           hand.dimensions.segment[static_cast<std::size_t>(*segments[1])].width;
+    return hand.dimensions.segment[index_of(*segments[0])].width +
+           hand.dimensions.segment[index_of(*segments[1])].width;
   };
   const double middle = width(Finger::kMiddle), own = width(finger);
   return middle > 0.0 && own > 0.0 ? own / middle : 1.0;
@@ -151,9 +152,8 @@ DigitTendons route_finger_tendons(const Hand& hand, Finger finger, const TendonM
 
   const JointFrames mcp = frames_at(hand, mcp_id, centre(pip_id), 0, kMcpOffset);
   const JointFrames pip = frames_at(hand, pip_id, centre(dip_id), mcp.distal_body, kPipOffset);
-  const JointFrames dip =
-      frames_at(hand, dip_id, hand.skeleton.fingertips[static_cast<std::size_t>(finger)],
-                pip.distal_body, kDipOffset);
+  const JointFrames dip = frames_at(hand, dip_id, hand.skeleton.fingertips[index_of(finger)],
+                                    pip.distal_body, kDipOffset);
   const auto wrapped = [&](const JointFrames& at, const Hold& hold, double share) {
     return span_at(at, hold, scale, share, Line::kWrapped);
   };

@@ -65,14 +65,13 @@ DigitEffort effort_of_digit(const Hand& hand, Finger finger, const Posture& post
                         .stop = Eigen::VectorXi(kDigitDofs),
                         .exponent = options.exponent};
   for (int k = 0; k < kDigitDofs; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    effort.joints[i].dof = digit.dof[i];
-    effort.joints[i].external = external.moment[i];
-    problem.required[k] = -external.moment[i];
-    problem.stop[k] = stop_at(hand.skeleton, digit.dof[i], posture, options);
+    effort.joints[k].dof = digit.dof[k];
+    effort.joints[k].external = external.moment[k];
+    problem.required[k] = -external.moment[k];
+    problem.stop[k] = stop_at(hand.skeleton, digit.dof[k], posture, options);
     for (std::size_t t = 0; t < own.size(); ++t) {
       problem.moment_at_strength(k, static_cast<Eigen::Index>(t)) =
-          effort.tendons[t].strength * arms[t][i];
+          effort.tendons[t].strength * arms[t][k];
     }
   }
   if (external.force <= 0.0) return effort;
@@ -83,7 +82,7 @@ DigitEffort effort_of_digit(const Hand& hand, Finger finger, const Posture& post
   effort.iterations = solution.iterations;
   const Eigen::VectorXd muscles = problem.moment_at_strength * solution.activation;
   for (int k = 0; k < kDigitDofs; ++k) {
-    JointEffort& joint = effort.joints[static_cast<std::size_t>(k)];
+    JointEffort& joint = effort.joints[k];
     joint.muscles = muscles[k];
     joint.stop = solution.stop[k];
     joint.missing = solution.missing[k];
@@ -158,7 +157,7 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture,
   options.check();
   EffortResult result;
   for (int f = 0; f < kFingerCount; ++f) {
-    DigitEffort& digit = result.digits[static_cast<std::size_t>(f)];
+    DigitEffort& digit = result.digits[f];
     digit = effort_of_digit(hand, static_cast<Finger>(f), posture, loads, options);
     result.status = std::max(result.status, digit.status);
     result.contact_force += digit.contact_force;

@@ -39,7 +39,7 @@ std::vector<SkinLoad> grip_loads(const Hand& hand, const Posture& posture, doubl
   const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
   for (int s = 1; s < kSegmentCount; ++s) {
     const auto segment = static_cast<Segment>(s);
-    const Rigid3& bone = posed.segment[static_cast<std::size_t>(s)];
+    const Rigid3& bone = posed.segment[s];
     const auto v = static_cast<std::size_t>(vertex_of(segment));
     const JointDof& flexion = hand.skeleton.joint(joint_of(segment)).dofs.back();
     const Vec3 along = hand.skin.vertices[v] - hand.skeleton.joint(joint_of(segment)).centre;
@@ -55,10 +55,9 @@ TEST(JointMoments, ForceTimesLever) {
   // flexion joint is extended by 2 N times its distance.
   const Hand hand = plain_hand();
   const Posture posture;
-  const std::vector<SkinLoad> loads = {
-      {vertex_of(Segment::kRingDistal),
-       hand.skin.vertices[static_cast<std::size_t>(vertex_of(Segment::kRingDistal))],
-       Vec3(0, 0, -2)}};
+  const std::vector<SkinLoad> loads = {{vertex_of(Segment::kRingDistal),
+                                        hand.skin.vertices[vertex_of(Segment::kRingDistal)],
+                                        Vec3(0, 0, -2)}};
   const PosedDigit digit = pose_digit(hand.skeleton, Finger::kRing, posture);
   const DigitMoments moments = digit_moments(hand, digit, loads);
   EXPECT_NEAR(moments.force, 2.0, 1e-12);
@@ -203,8 +202,7 @@ TEST(Effort, OverloadNamesJointAndMoment) {
   const Hand hand = plain_hand();
   const Posture posture = grip_posture(hand);
   const std::vector<SkinLoad> all = grip_loads(hand, posture, 300.0);
-  const std::vector<SkinLoad> tip = {
-      all[static_cast<std::size_t>(vertex_of(Segment::kIndexDistal))]};
+  const std::vector<SkinLoad> tip = {all[vertex_of(Segment::kIndexDistal)]};
   const EffortResult effort = assess_effort(hand, posture, tip);
   EXPECT_EQ(effort.status, EffortStatus::kOverloaded);
   EXPECT_THAT(effort.message, testing::MatchesRegex(".*index DIP flexion: [0-9]+ N mm missing.*"));

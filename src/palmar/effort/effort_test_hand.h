@@ -5,17 +5,17 @@
 // A hand with known measures for the tests of this module: four equal straight fingers along y, and
 // a thumb; one skin vertex in the middle of every phalanx.
 
-#include <numbers>
 #include <random>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/effort/digit_pose.h"
 #include "palmar/effort/digit_tendons.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/hand/hand.h"
 #include "palmar/hand/template_hand.h"
 
 namespace palmar::effort_test {
 
-inline constexpr double kDeg = std::numbers::pi / 180.0;
 /// Middle phalanx link of the fingers that Synek et al. 2019 tested, mm.
 inline constexpr double kLink = 23.63;
 inline constexpr double kProximal = 47.0, kMiddle = 1.22 * kLink, kDistal = 26.0;  // mm
@@ -25,8 +25,8 @@ inline JointDof hinge(Dof dof, const Vec3& axis, const Vec3& centre, double lowe
   result.dof = dof;
   result.axis = axis.normalized();
   result.centre = centre;
-  result.lower = lower * kDeg;
-  result.upper = upper * kDeg;
+  result.lower = lower * kDegree;
+  result.upper = upper * kDegree;
   return result;
 }
 
@@ -40,11 +40,9 @@ inline Hand plain_hand(double scale = 1.0) {
   hand.name = "plain";
   Skeleton& skeleton = hand.skeleton;
   for (int j = 0; j < kJointCount; ++j) {
-    skeleton.joints[static_cast<std::size_t>(j)].id = static_cast<JointId>(j);
+    skeleton.joints[j].id = static_cast<JointId>(j);
   }
-  const auto joint = [&](JointId id) -> Joint& {
-    return skeleton.joints[static_cast<std::size_t>(id)];
-  };
+  const auto joint = [&](JointId id) -> Joint& { return skeleton.joints[index_of(id)]; };
   joint(JointId::kWrist).dofs = {
       hinge(Dof::kWristFlexion, Vec3::UnitX(), Vec3::Zero(), -70, 70),
       hinge(Dof::kWristDeviation, -Vec3::UnitZ(), Vec3::Zero(), -30, 20),
@@ -59,7 +57,7 @@ inline Hand plain_hand(double scale = 1.0) {
     place(mcp, {x, y, 0.0});
     place(pip, {x, y += kProximal, 0.0});
     place(dip, {x, y += kMiddle, 0.0});
-    skeleton.fingertips[static_cast<std::size_t>(finger)] = scale * Vec3(x, y + kDistal, 0.0);
+    skeleton.fingertips[index_of(finger)] = scale * Vec3(x, y + kDistal, 0.0);
     joint(mcp).dofs = {
         hinge(dof_of(finger, "mcp_abduction"), -Vec3::UnitZ(), joint(mcp).centre, -30, 30),
         hinge(dof_of(finger, "mcp_flexion"), Vec3::UnitX(), joint(mcp).centre, -30, 90)};
@@ -77,7 +75,7 @@ inline Hand plain_hand(double scale = 1.0) {
                                     hinge(Dof::kThumbCmcFlexion, {-0.27, -0.64, 0.72},
                                           joint(JointId::kThumbCmc).centre, -25, 25)};
   const auto turned = [](const Vec3& axis, double angle) {
-    return CmcLimit{Quat(Eigen::AngleAxisd(angle * kDeg, axis.normalized())), Vec3::Zero()};
+    return CmcLimit{Quat(Eigen::AngleAxisd(angle * kDegree, axis.normalized())), Vec3::Zero()};
   };
   skeleton.thumb_cmc = {turned({-0.27, -0.64, 0.72}, 25), turned({-0.27, -0.64, 0.72}, -25),
                         turned({0.78, -0.61, -0.13}, 30), turned({0.78, -0.61, -0.13}, -30)};
@@ -91,7 +89,7 @@ inline Hand plain_hand(double scale = 1.0) {
     const auto segment = static_cast<Segment>(s);
     const Finger finger = *finger_of(segment);
     const auto segments = segments_of(finger);
-    Vec3 end = skeleton.fingertips[static_cast<std::size_t>(finger)];
+    Vec3 end = skeleton.fingertips[index_of(finger)];
     for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
       if (segments[i] == segment && segments[i + 1]) {
         end = joint(joint_of(*segments[i + 1])).centre;
@@ -100,8 +98,7 @@ inline Hand plain_hand(double scale = 1.0) {
     hand.skin.vertices.push_back(0.5 * (joint(joint_of(segment)).centre + end));
     hand.segment.push_back(segment);
     hand.region.push_back(*region_of(segment));
-    hand.dimensions.segment[static_cast<std::size_t>(s)] = {25.0 * scale, 16.0 * scale,
-                                                            14.0 * scale};
+    hand.dimensions.segment[s] = {25.0 * scale, 16.0 * scale, 14.0 * scale};
   }
   return hand;
 }
@@ -111,10 +108,10 @@ inline int vertex_of(Segment segment) { return static_cast<int>(segment) - 1; }
 
 inline Posture posture_of(Finger finger, double mcp, double pip, double dip, double abduction = 0) {
   Posture posture;
-  posture[dof_of(finger, "mcp_flexion")] = mcp * kDeg;
-  posture[dof_of(finger, "mcp_abduction")] = abduction * kDeg;
-  posture[dof_of(finger, "pip_flexion")] = pip * kDeg;
-  posture[dof_of(finger, "dip_flexion")] = dip * kDeg;
+  posture[dof_of(finger, "mcp_flexion")] = mcp * kDegree;
+  posture[dof_of(finger, "mcp_abduction")] = abduction * kDegree;
+  posture[dof_of(finger, "pip_flexion")] = pip * kDegree;
+  posture[dof_of(finger, "dip_flexion")] = dip * kDegree;
   return posture;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -39,8 +40,8 @@ FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
   }
   const PosedDigit digit = pose_digit(hand.skeleton, tendons.finger, posture);
   const int body = distal_body(tendons.finger);
-  const Rigid3& posed = digit.body[static_cast<std::size_t>(body)];
-  const Vec3 tip_at_rest = hand.skeleton.fingertips[static_cast<std::size_t>(tendons.finger)];
+  const Rigid3& posed = digit.body[body];
+  const Vec3 tip_at_rest = hand.skeleton.fingertips[index_of(tendons.finger)];
 
   FingertipForce result;
   result.finger = tendons.finger;
@@ -60,10 +61,9 @@ FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
   Eigen::Matrix4d balance;
   Eigen::Vector4d moment;
   for (int k = 0; k < kDigitDofs; ++k) {
-    const auto i = static_cast<std::size_t>(k);
     balance.row(k).head<3>() = digit.velocity(k, body, result.point);
-    balance(k, 3) = length * digit.twist[i].omega.dot(axis);
-    moment[k] = tendon_force * result.moment_arm[i];
+    balance(k, 3) = length * digit.twist[k].omega.dot(axis);
+    moment[k] = tendon_force * result.moment_arm[k];
   }
   const Eigen::JacobiSVD<Eigen::Matrix4d> svd(balance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (svd.singularValues()[3] < kLeastLever * svd.singularValues()[0]) {

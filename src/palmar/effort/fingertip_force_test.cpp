@@ -9,11 +9,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/effort/effort_test_hand.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-using effort_test::kDeg;
 using effort_test::kFingers;
 using effort_test::plain_hand;
 using effort_test::posture_of;
@@ -30,15 +30,13 @@ TEST(FingertipForce, DoesTheWorkOfTheTendon) {
     posture[bent.dof[2]] = 0.7;
     const PosedDigit digit = pose_digit(hand.skeleton, finger, posture);
     const int body = distal_body(finger);
-    const Vec3 axis = digit.body[static_cast<std::size_t>(body)].rotation *
-                      hand.skeleton.dof(digit.dof.back()).axis;
+    const Vec3 axis = digit.body[body].rotation * hand.skeleton.dof(digit.dof.back()).axis;
     for (const Tendon tendon : tendons_of(finger)) {
       const FingertipForce tip = fingertip_force(hand, tendons, posture, tendon, 2.5);
       for (int k = 0; k < kDigitDofs; ++k) {
-        const auto i = static_cast<std::size_t>(k);
         const double work = tip.force.dot(digit.velocity(k, body, tip.point)) +
-                            tip.moment * digit.twist[i].omega.dot(axis);
-        EXPECT_NEAR(work, 2.5 * tip.moment_arm[i], 1e-8);
+                            tip.moment * digit.twist[k].omega.dot(axis);
+        EXPECT_NEAR(work, 2.5 * tip.moment_arm[k], 1e-8);
       }
       EXPECT_NEAR(tip.force.norm(), tip.force_in_phalanx.norm(), 1e-9);
     }
@@ -49,7 +47,7 @@ TEST(FingertipForce, IsThatOfThePlanarFinger) {
   // By hand: with the moment about the DIP free, the difference of PIP and DIP moments is what the
   // force does across the middle phalanx, that of MCP and PIP across the proximal one.
   const Hand hand = plain_hand();
-  const double mcp = 40 * kDeg, pip = 55 * kDeg, dip = 35 * kDeg;
+  const double mcp = 40 * kDegree, pip = 55 * kDegree, dip = 35 * kDegree;
   const FingertipForce tip =
       fingertip_force(hand, route_tendons(hand, Finger::kMiddle),
                       posture_of(Finger::kMiddle, 40, 55, 35), Tendon::kFdp, 1.0);

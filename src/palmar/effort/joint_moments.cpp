@@ -13,7 +13,7 @@ std::vector<double> metacarpal_share(const Hand& hand) {
   for (const JointWeights& weights : hand.weights) {
     if (weights.joint != JointId::kThumbCmc) continue;
     for (std::size_t i = 0; i < weights.vertex.size(); ++i) {
-      share[static_cast<std::size_t>(weights.vertex[i])] = weights.w1[i] * weights.w2[i];
+      share[weights.vertex[i]] = weights.w1[i] * weights.w2[i];
     }
   }
   return share;
@@ -47,7 +47,7 @@ DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
   std::vector<double> metacarpal;
   if (digit.finger == Finger::kThumb) metacarpal = metacarpal_share(hand);
   for (const SkinLoad& load : loads) {
-    const auto v = static_cast<std::size_t>(load.vertex);
+    const int v = load.vertex;
     const Segment segment = hand.segment[v];
     const auto finger = finger_of(segment);
     int body = 0;
@@ -62,8 +62,7 @@ DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
     }
     result.force += share * load.force.norm();
     for (int k = 0; k < kDigitDofs; ++k) {
-      result.moment[static_cast<std::size_t>(k)] +=
-          share * load.force.dot(digit.velocity(k, body, load.point));
+      result.moment[k] += share * load.force.dot(digit.velocity(k, body, load.point));
     }
   }
   return result;

@@ -115,11 +115,10 @@ MuscleProblem random_problem(std::mt19937& random, int exponent, double largest)
   VectorXd activation(count);
   std::uniform_real_distribution<double> share(0.0, largest);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto t = static_cast<std::size_t>(i);
     activation[i] = share(random);
     for (Eigen::Index k = 0; k < kDigitDofs; ++k) {
-      problem.moment_at_strength(k, i) = arms[t][static_cast<std::size_t>(k)] * kSpecificTension *
-                                         cross_section_of(finger, tendons_of(finger)[t]);
+      problem.moment_at_strength(k, i) =
+          arms[i][k] * kSpecificTension * cross_section_of(finger, tendons_of(finger)[i]);
     }
   }
   problem.required = problem.moment_at_strength * activation;

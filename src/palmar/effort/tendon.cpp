@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -52,15 +53,13 @@ std::span<const Tendon> tendons_of(Finger finger) {
   return kFingerTendons;
 }
 
-std::string_view name_of(Tendon tendon) { return kNaming[static_cast<std::size_t>(tendon)].name; }
+std::string_view name_of(Tendon tendon) { return kNaming[index_of(tendon)].name; }
 
-std::string_view anatomical_name_of(Tendon tendon) {
-  return kNaming[static_cast<std::size_t>(tendon)].anatomical;
-}
+std::string_view anatomical_name_of(Tendon tendon) { return kNaming[index_of(tendon)].anatomical; }
 
 std::optional<Tendon> tendon_named(std::string_view name) {
   for (int t = 0; t < kTendonCount; ++t) {
-    if (kNaming[static_cast<std::size_t>(t)].name == name) return static_cast<Tendon>(t);
+    if (kNaming[t].name == name) return static_cast<Tendon>(t);
   }
   return std::nullopt;
 }

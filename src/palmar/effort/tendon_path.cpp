@@ -46,7 +46,7 @@ Course course_of(const TendonSpan& span, const PosedDigit& digit) {
   if (!span.cylinder) return course;
 
   const TendonCylinder& cylinder = *span.cylinder;
-  const Rigid3& posed = digit.body[static_cast<std::size_t>(cylinder.body)];
+  const Rigid3& posed = digit.body[cylinder.body];
   const Vec3 centre = posed * cylinder.centre, u = posed.rotation * cylinder.axis;
   const Vec3 e1 = u.unitOrthogonal(), e2 = u.cross(e1);
   const auto in_plane = [&](const Vec3& x) {
@@ -111,7 +111,7 @@ std::array<double, kDigitDofs> moment_arms(const TendonPath& path, const PosedDi
       const Vec3 rate_b = digit.velocity(k, span.distal.body, course.b);
       double rate = 0.0;
       if (course.held_arm) {
-        if (digit.moves[static_cast<std::size_t>(k)] == span.distal.body) rate = -*course.held_arm;
+        if (digit.moves[k] == span.distal.body) rate = -*course.held_arm;
       } else if (course.wraps) {
         const int body = span.cylinder->body;
         rate = lengthening(course.a, course.t1, rate_a, digit.velocity(k, body, course.t1)) +
@@ -119,7 +119,7 @@ std::array<double, kDigitDofs> moment_arms(const TendonPath& path, const PosedDi
       } else {
         rate = lengthening(course.a, course.b, rate_a, rate_b);
       }
-      arms[static_cast<std::size_t>(k)] -= span.share * rate;
+      arms[k] -= span.share * rate;
     }
   }
   return arms;

@@ -6,12 +6,13 @@
 
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/effort/effort_test_hand.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-using effort_test::kDeg;
 using effort_test::kFingers;
 using effort_test::plain_hand;
 
@@ -79,10 +80,10 @@ TEST(TendonPath, FlexorKeepsItsLargestArmInDeepFlexion) {
                             TendonCylinder{0, Vec3::Zero(), Vec3::UnitX(), 1.0, -1.0},
                             1.0}};
   const double length = std::sqrt(75.0);  // of the chord there
-  EXPECT_NEAR(path_length(path, hinge_digit(120.0 * kDeg)), length, 1e-9);
-  EXPECT_NEAR(moment_arms(path, hinge_digit(119.9 * kDeg))[0], 5.0, 1e-4);
-  EXPECT_NEAR(moment_arms(path, hinge_digit(150.0 * kDeg))[0], 5.0, 1e-12);
-  EXPECT_NEAR(path_length(path, hinge_digit(150.0 * kDeg)), length - 5.0 * 30.0 * kDeg, 1e-9);
+  EXPECT_NEAR(path_length(path, hinge_digit(120.0 * kDegree)), length, 1e-9);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(119.9 * kDegree))[0], 5.0, 1e-4);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(150.0 * kDegree))[0], 5.0, 1e-12);
+  EXPECT_NEAR(path_length(path, hinge_digit(150.0 * kDegree)), length - 5.0 * 30.0 * kDegree, 1e-9);
 }
 
 TEST(TendonPath, RunsAsAHelixAcrossTheCylinder) {
@@ -129,8 +130,7 @@ TEST(DigitPose, BodiesAreThoseOfTheSkeleton) {
     const Vec3 probe(10, 20, 30);
     for (const auto& segment : segments_of(finger)) {
       if (!segment) continue;
-      EXPECT_LT((digit.place(body_of(*segment), probe) -
-                 posed.segment[static_cast<std::size_t>(*segment)] * probe)
+      EXPECT_LT((digit.place(body_of(*segment), probe) - posed.segment[index_of(*segment)] * probe)
                     .norm(),
                 1e-10)
           << name_of(*segment);
@@ -152,8 +152,8 @@ TEST(DigitPose, TwistsAreTheRatesOfPoints) {
     for (int body = 0; body < body_count(finger); ++body) {
       for (int k = 0; k < kDigitDofs; ++k) {
         Posture plus = posture, minus = posture;
-        plus[digit.dof[static_cast<std::size_t>(k)]] += kStep;
-        minus[digit.dof[static_cast<std::size_t>(k)]] -= kStep;
+        plus[digit.dof[k]] += kStep;
+        minus[digit.dof[k]] -= kStep;
         const Vec3 numeric = (pose_digit(hand.skeleton, finger, plus).place(body, probe) -
                               pose_digit(hand.skeleton, finger, minus).place(body, probe)) /
                              (2.0 * kStep);

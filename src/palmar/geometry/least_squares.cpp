@@ -15,10 +15,10 @@ namespace {
 /// Variables that stand on a wall and are pushed against it by the gradient.
 std::vector<char> held_by_walls(const LeastSquaresProblem& problem, const Eigen::VectorXd& x,
                                 const Eigen::VectorXd& gradient) {
-  std::vector<char> held(static_cast<std::size_t>(x.size()), 0);
+  std::vector<char> held(x.size(), 0);
   for (Eigen::Index j = 0; j < x.size(); ++j) {
-    held[static_cast<std::size_t>(j)] = (x[j] <= problem.lower[j] && gradient[j] >= 0.0) ||
-                                        (x[j] >= problem.upper[j] && gradient[j] <= 0.0);
+    held[j] = (x[j] <= problem.lower[j] && gradient[j] >= 0.0) ||
+              (x[j] >= problem.upper[j] && gradient[j] <= 0.0);
   }
   return held;
 }
@@ -29,7 +29,7 @@ double largest_cosine(const LeastSquaresSolution& at, const Eigen::VectorXd& gra
   double largest = 0.0;
   for (Eigen::Index j = 0; j < gradient.size(); ++j) {
     const double column = at.jacobian.col(j).norm();
-    if (at.at_bound[static_cast<std::size_t>(j)] || column == 0.0 || length == 0.0) continue;
+    if (at.at_bound[j] || column == 0.0 || length == 0.0) continue;
     largest = std::max(largest, std::abs(gradient[j]) / (column * length));
   }
   return largest;
@@ -41,7 +41,7 @@ Eigen::VectorXd damped_step(const LeastSquaresProblem& problem, const LeastSquar
                             double damping) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index j = 0; j < gradient.size(); ++j) {
-    if (!at.at_bound[static_cast<std::size_t>(j)]) free.push_back(j);
+    if (!at.at_bound[j]) free.push_back(j);
   }
   const auto n = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd normal(n, n);
@@ -94,7 +94,7 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
   }
   LeastSquaresSolution at;
   at.x = start.cwiseMax(problem.lower).cwiseMin(problem.upper);
-  at.at_bound.assign(static_cast<std::size_t>(n), 0);
+  at.at_bound.assign(n, 0);
   problem.evaluate(at.x, at.residual, &at.jacobian);
   at.sum_of_squares = at.residual.squaredNorm();
   if (!std::isfinite(at.sum_of_squares) || !at.jacobian.allFinite()) return at;

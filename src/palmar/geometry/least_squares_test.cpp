@@ -28,9 +28,9 @@ LeastSquaresProblem misra() {
             r.resize(14);
             if (jacobian != nullptr) jacobian->resize(14, 2);
             for (Eigen::Index i = 0; i < 14; ++i) {
-              const double x = kMisraX[static_cast<std::size_t>(i)];
+              const double x = kMisraX[i];
               const double fading = std::exp(-b[1] * x);
-              r[i] = b[0] * (1.0 - fading) - kMisraY[static_cast<std::size_t>(i)];
+              r[i] = b[0] * (1.0 - fading) - kMisraY[i];
               if (jacobian == nullptr) continue;
               (*jacobian)(i, 0) = 1.0 - fading;
               (*jacobian)(i, 1) = b[0] * x * fading;

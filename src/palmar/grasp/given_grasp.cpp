@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/skin/skinning.h"
 
@@ -90,10 +91,10 @@ Grasp given_grasp(const Hand& hand, const Product& product, const Posture& postu
   std::vector<DistanceSample> samples(points.size());
   product.distance->sample(points, kFar, samples);
   for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[static_cast<std::size_t>(s)] = {static_cast<Segment>(s), StopReason::kGiven, -kFar};
+    grasp.stops[s] = {static_cast<Segment>(s), StopReason::kGiven, -kFar};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    SegmentStop& stop = grasp.stops[static_cast<std::size_t>(segment[i])];
+    SegmentStop& stop = grasp.stops[index_of(segment[i])];
     stop.penetration = std::max(stop.penetration, -samples[i].distance);
   }
   const Box3 box = product.distance->bounding_box();

@@ -52,8 +52,7 @@ std::string open_segments(const Grasp& grasp) {
 std::string count_words(int fingers) {
   static constexpr std::array<const char*, 6> kNumber = {"no",    "one",  "two",
                                                          "three", "four", "five"};
-  return std::string(kNumber[static_cast<std::size_t>(fingers)]) +
-         (fingers == 1 ? " finger" : " fingers");
+  return std::string(kNumber[fingers]) + (fingers == 1 ? " finger" : " fingers");
 }
 
 }  // namespace
@@ -61,9 +60,9 @@ std::string count_words(int fingers) {
 void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& grasp) {
   for (int s = 0; s < kSegmentCount; ++s) {
     const auto segment = static_cast<Segment>(s);
-    SegmentStop& stop = grasp.stops[static_cast<std::size_t>(s)];
+    SegmentStop& stop = grasp.stops[s];
     stop.segment = segment;
-    stop.penetration = measure.penetration[static_cast<std::size_t>(s)];
+    stop.penetration = measure.penetration[s];
     const double limit = segment == Segment::kPalm ? limits.palm : limits.finger;
     if (segment == Segment::kPalm) {
       stop.reason = stop.penetration > limit - kAtLimit ? StopReason::kLimitDepth

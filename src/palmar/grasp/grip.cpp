@@ -6,6 +6,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -36,7 +38,7 @@ std::string plain(std::string_view text) {
 
 }  // namespace
 
-const GripDescription& description_of(Grip grip) { return kGrips[static_cast<std::size_t>(grip)]; }
+const GripDescription& description_of(Grip grip) { return kGrips[index_of(grip)]; }
 
 std::string_view name_of(Grip grip) { return description_of(grip).name; }
 

@@ -30,9 +30,9 @@ BodyShape body_shape(const TriangleMesh& mesh) {
   shape.extent = box.diagonal();
   double volume = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])] - frame.centre;
-    const Vec3 b = mesh.vertices[static_cast<std::size_t>(t[1])] - frame.centre;
-    const Vec3 c = mesh.vertices[static_cast<std::size_t>(t[2])] - frame.centre;
+    const Vec3 a = mesh.vertices[t[0]] - frame.centre;
+    const Vec3 b = mesh.vertices[t[1]] - frame.centre;
+    const Vec3 c = mesh.vertices[t[2]] - frame.centre;
     volume += a.dot(b.cross(c)) / 6.0;
   }
   const double whole = shape.extent.prod();

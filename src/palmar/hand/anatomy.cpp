@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -47,7 +49,7 @@ std::optional<Value> value_named(const std::array<std::string_view, N>& names,
 
 template <class Value, std::size_t N>
 std::string_view name_in(const std::array<std::string_view, N>& names, Value value) {
-  return names.at(static_cast<std::size_t>(value));
+  return names.at(index_of(value));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ Vec3 vertex_normal(const Hand& hand, int vertex) {
   Vec3 normal = Vec3::Zero();
   for (const Triangle& t : hand.skin.triangles) {
     if (t[0] != vertex && t[1] != vertex && t[2] != vertex) continue;
-    const Vec3& a = hand.skin.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = hand.skin.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = hand.skin.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = hand.skin.vertices[t[0]];
+    const Vec3& b = hand.skin.vertices[t[1]];
+    const Vec3& c = hand.skin.vertices[t[2]];
     normal += (b - a).cross(c - a);
   }
   return normal.stableNormalized();
@@ -48,7 +48,7 @@ HandPoint skin_point(const Hand& hand, int vertex, double height) {
     throw UsageError("skin vertex " + std::to_string(vertex) + " is asked for; the hand has 0 to " +
                      std::to_string(hand.skin.vertex_count() - 1));
   }
-  HandPoint point{hand.skin.vertices[static_cast<std::size_t>(vertex)], vertex, {}};
+  HandPoint point{hand.skin.vertices[vertex], vertex, {}};
   if (height != 0.0) point.reference += height * vertex_normal(hand, vertex);
   return point;
 }
@@ -57,7 +57,7 @@ HandPoint skin_point_near(const Hand& hand, const Vec3& reference) {
   double nearest = std::numeric_limits<double>::infinity();
   int vertex = 0;
   for (int v = 0; v < hand.skin.vertex_count(); ++v) {
-    const double d = (hand.skin.vertices[static_cast<std::size_t>(v)] - reference).squaredNorm();
+    const double d = (hand.skin.vertices[v] - reference).squaredNorm();
     if (d < nearest) {
       nearest = d;
       vertex = v;
@@ -93,14 +93,14 @@ PosablePoints::PosablePoints(const Hand& hand, const std::vector<HandPoint>& poi
   for (std::size_t i = 0; i < points.size(); ++i) {
     few_.skin.vertices.push_back(points[i].reference);
     if (points[i].vertex) {
-      slots.at(static_cast<std::size_t>(*points[i].vertex)).push_back(static_cast<int>(i));
+      slots.at(*points[i].vertex).push_back(static_cast<int>(i));
     }
   }
   for (const JointWeights& all : hand.weights) {
     JointWeights few;
     few.joint = all.joint;
     for (std::size_t k = 0; k < all.vertex.size(); ++k) {
-      for (const int slot : slots[static_cast<std::size_t>(all.vertex[k])]) {
+      for (const int slot : slots[all.vertex[k]]) {
         few.vertex.push_back(slot);
         few.w1.push_back(all.w1[k]);
         few.w2.push_back(all.w2[k]);
@@ -120,7 +120,7 @@ PosablePoints::PosablePoints(const Hand& hand, const std::vector<HandPoint>& poi
     if (!few.vertex.empty()) few_.weights.push_back(std::move(few));
   }
   for (const int vertex : hand.thumb_ball.vertex) {
-    for (const int slot : slots[static_cast<std::size_t>(vertex)]) {
+    for (const int slot : slots[vertex]) {
       few_.thumb_ball.vertex.push_back(slot);
     }
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -93,7 +94,7 @@ PosedSkeleton pose_skeleton(const Skeleton& skeleton, const Posture& posture) {
     for (const std::optional<Segment>& segment : segments_of(finger)) {
       if (!segment) continue;
       proximal = proximal * turned(skeleton.joint(joint_of(*segment)), posture);
-      posed.segment[static_cast<std::size_t>(*segment)] = proximal;
+      posed.segment[index_of(*segment)] = proximal;
     }
   }
   return posed;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/posture/posture.h"
@@ -55,7 +56,7 @@ struct Skeleton {
   ThumbCmc thumb_cmc;
   std::array<Vec3, kFingerCount> fingertips;  ///< most distal skin point of each finger, mm
 
-  const Joint& joint(JointId id) const { return joints[static_cast<std::size_t>(id)]; }
+  const Joint& joint(JointId id) const { return joints[index_of(id)]; }
   const JointDof& dof(Dof d) const;
 };
 

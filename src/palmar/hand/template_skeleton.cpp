@@ -5,18 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/hand/hand_frame.h"
 #include "palmar/hand/posture/joint_placement.h"
 #include "palmar/hand/skin/thumb_cmc.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 struct Range {
   double lower_deg, upper_deg;
@@ -62,10 +61,10 @@ JointDof make_dof(Dof dof, const Vec3& axis, const Vec3& centre, double referenc
   result.axis = axis.normalized();
   result.centre = centre;
   result.reference = reference;
-  result.lower = std::min(range.lower_deg * kDeg, reference);
-  result.upper = std::max(range.upper_deg * kDeg, reference);
+  result.lower = std::min(range.lower_deg * kDegree, reference);
+  result.upper = std::max(range.upper_deg * kDegree, reference);
   result.source = axis_source + "; " + range.source;
-  if (result.lower < range.lower_deg * kDeg || result.upper > range.upper_deg * kDeg) {
+  if (result.lower < range.lower_deg * kDegree || result.upper > range.upper_deg * kDegree) {
     result.source += ", widened to the template's posture";
   }
   return result;
@@ -96,7 +95,7 @@ void add_finger(Skeleton& skeleton, const HandAsset& asset, Finger finger) {
   const Rigid3 mcp = frame("phalanx-proximal"), pip = frame("phalanx-intermediate"),
                dip = frame("phalanx-distal"), tip = frame("tip");
   const int f = static_cast<int>(finger);
-  const auto range_index = static_cast<std::size_t>(f - 1);
+  const auto range_index = f - 1;
   const int first_joint = static_cast<int>(JointId::kIndexMcp) + 3 * (f - 1);
   const int first_dof = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
 
@@ -108,19 +107,19 @@ void add_finger(Skeleton& skeleton, const HandAsset& asset, Finger finger) {
   const double flexion_reference = angle_about(flexion, metacarpal, phalanx);
   const double abduction_reference = angle_about(abduction, metacarpal, phalanx);
   Range abduction_range = kMcpAbduction[range_index];
-  abduction_range.lower_deg += abduction_reference / kDeg;
-  abduction_range.upper_deg += abduction_reference / kDeg;
+  abduction_range.lower_deg += abduction_reference / kDegree;
+  abduction_range.upper_deg += abduction_reference / kDegree;
 
   Joint joint{static_cast<JointId>(first_joint), mcp.translation, {}};
   joint.dofs.push_back(make_dof(static_cast<Dof>(first_dof + 1), abduction, mcp.translation,
                                 abduction_reference, abduction_range, kFrameAxis));
   joint.dofs.push_back(make_dof(static_cast<Dof>(first_dof), flexion, mcp.translation,
                                 flexion_reference, kMcpFlexion[range_index], kFrameAxis));
-  skeleton.joints[static_cast<std::size_t>(first_joint)] = joint;
-  skeleton.joints[static_cast<std::size_t>(first_joint + 1)] =
+  skeleton.joints[first_joint] = joint;
+  skeleton.joints[first_joint + 1] =
       hinge(static_cast<JointId>(first_joint + 1), static_cast<Dof>(first_dof + 2), pip,
             mcp.translation, dip.translation, kPipFlexion);
-  skeleton.joints[static_cast<std::size_t>(first_joint + 2)] =
+  skeleton.joints[first_joint + 2] =
       hinge(static_cast<JointId>(first_joint + 2), static_cast<Dof>(first_dof + 3), dip,
             pip.translation, tip.translation, kDipFlexion);
 }
@@ -134,10 +133,10 @@ void add_thumb(Skeleton& skeleton, const HandAsset& asset) {
   const Vec3 tip = frame("tip").translation;
   Joint joint = make_cmc_joint(cmc, mp.translation);
   skeleton.thumb_cmc = make_cmc_limits(joint);
-  skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)] = joint;
-  skeleton.joints[static_cast<std::size_t>(JointId::kThumbMp)] =
+  skeleton.joints[index_of(JointId::kThumbCmc)] = joint;
+  skeleton.joints[index_of(JointId::kThumbMp)] =
       hinge(JointId::kThumbMp, Dof::kThumbMpFlexion, mp, cmc, ip.translation, kThumbMpFlexion);
-  skeleton.joints[static_cast<std::size_t>(JointId::kThumbIp)] =
+  skeleton.joints[index_of(JointId::kThumbIp)] =
       hinge(JointId::kThumbIp, Dof::kThumbIpFlexion, ip, mp.translation, tip, kThumbIpFlexion);
 }
 
@@ -149,7 +148,7 @@ void add_wrist(Skeleton& skeleton) {
       make_dof(Dof::kWristDeviation, -Vec3::UnitZ(), Vec3::Zero(), 0, kWristDeviation, axis),
       make_dof(Dof::kWristFlexion, Vec3::UnitX(), Vec3::Zero(), 0, kWristFlexion, axis),
       make_dof(Dof::kWristPronation, -Vec3::UnitY(), Vec3::Zero(), 0, kWristPronation, axis)};
-  skeleton.joints[static_cast<std::size_t>(JointId::kWrist)] = wrist;
+  skeleton.joints[index_of(JointId::kWrist)] = wrist;
 }
 
 }  // namespace
@@ -163,7 +162,7 @@ Skeleton build_skeleton(const HandAsset& asset_in_hand) {
     add_finger(skeleton, asset, finger);
   }
   for (int f = 0; f < kFingerCount; ++f) {
-    skeleton.fingertips[static_cast<std::size_t>(f)] = fingertip(asset, static_cast<Finger>(f));
+    skeleton.fingertips[f] = fingertip(asset, static_cast<Finger>(f));
   }
   return skeleton;
 }

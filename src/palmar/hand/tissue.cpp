@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -73,9 +75,7 @@ TissueClass tissue_class_of(Region region) {
   }
 }
 
-std::string_view name_of(TissueClass tissue) {
-  return kClassNames[static_cast<std::size_t>(tissue)];
-}
+std::string_view name_of(TissueClass tissue) { return kClassNames[index_of(tissue)]; }
 
 std::optional<TissueClass> tissue_class_named(std::string_view name) {
   for (std::size_t c = 0; c < kClassNames.size(); ++c) {
@@ -134,7 +134,7 @@ RegionTissue tissue_of(TissueClass tissue) {
 Tissue default_tissue() {
   Tissue tissue;
   for (int r = 0; r < kRegionCount; ++r) {
-    tissue.region[static_cast<std::size_t>(r)] = tissue_of(tissue_class_of(static_cast<Region>(r)));
+    tissue.region[r] = tissue_of(tissue_class_of(static_cast<Region>(r)));
   }
   tissue.source = "Palmar's own set, from Xie 2014, chapter 3; see each region";
   return tissue;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/winding_number.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -16,7 +17,7 @@ constexpr double kSnap = 0.15;        // mm; a tenth of the finest edges in use
 constexpr double kInsideBone = 0.05;  // mm below its surface: bones are thicker
 
 Vec3 corner(const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
-  return mesh.vertices[static_cast<std::size_t>(t[k])];
+  return mesh.vertices[t[k]];
 }
 
 Vec3 normal_of(const TriangleMesh& mesh, const Triangle& t) {
@@ -56,7 +57,7 @@ Plane cut_plane(const Hand& hand, const TissueBlockOptions& options) {
   }
   const auto segments = segments_of(*finger);
   const Vec3 joint = hand.skeleton.joint(joint_of(*segment)).centre;
-  Vec3 end = hand.skeleton.fingertips[static_cast<std::size_t>(*finger)];
+  Vec3 end = hand.skeleton.fingertips[index_of(*finger)];
   Vec3 before = joint;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     if (segments[k] != segment) continue;
@@ -79,10 +80,10 @@ class BlockBuilder {
   void add(const CutMesh& part, const std::vector<bool>& use, bool is_bone, FaceOf face) {
     std::vector<int> index(part.mesh.vertices.size(), -1);
     const auto vertex = [&](int v) {
-      int& mine = index[static_cast<std::size_t>(v)];
+      int& mine = index[v];
       if (mine < 0) {
         mine = static_cast<int>(block_.vertices.size());
-        block_.vertices.push_back(part.mesh.vertices[static_cast<std::size_t>(v)]);
+        block_.vertices.push_back(part.mesh.vertices[v]);
       }
       return mine;
     };
@@ -92,12 +93,12 @@ class BlockBuilder {
       block_.facets.push_back({face(t), {{vertex(c[0]), vertex(c[1]), vertex(c[2])}}, {}});
     }
     for (const std::vector<int>& rim : part.rim) {
-      if (index[static_cast<std::size_t>(rim.front())] < 0) continue;
+      if (index[rim.front()] < 0) continue;
       std::vector<int> loop;
       Vec3 middle = Vec3::Zero();
       for (const int v : rim) {
         loop.push_back(vertex(v));
-        middle += part.mesh.vertices[static_cast<std::size_t>(v)];
+        middle += part.mesh.vertices[v];
       }
       if (is_bone) cut_face_.hole.emplace_back(middle / static_cast<double>(rim.size()));
       cut_face_.loop.push_back(std::move(loop));
@@ -139,9 +140,9 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
 
   // The part that the region lies on; the plane may cut off other fingers as well.
   const auto is_of_region = [&](std::size_t t) {
-    const Triangle& c = hand.skin.triangles[static_cast<std::size_t>(skin.triangle_of[t])];
+    const Triangle& c = hand.skin.triangles[skin.triangle_of[t]];
     int corners = 0;
-    for (const int v : c) corners += hand.region[static_cast<std::size_t>(v)] == options.region;
+    for (const int v : c) corners += hand.region[v] == options.region;
     return corners >= 2;
   };
   const std::vector<int> component = triangle_components(skin.mesh, build_topology(skin.mesh));

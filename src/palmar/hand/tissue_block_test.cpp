@@ -77,7 +77,7 @@ TEST(TissueBlock, FacesAreNamedByWhatTheyAre) {
     ++count[facet.face];
     if (facet.face == BlockFace::kRegion) {
       double height = 0.0;
-      for (const int v : facet.loop[0]) height += block.vertices[static_cast<std::size_t>(v)].z();
+      for (const int v : facet.loop[0]) height += block.vertices[v].z();
       EXPECT_GT(height, 0.0);
     }
   }

@@ -6,17 +6,19 @@
 
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
 const RegionTissue& of(const Tissue& tissue, Region region) {
-  return tissue.region[static_cast<std::size_t>(region)];
+  return tissue.region[index_of(region)];
 }
 
 TEST(DefaultTissue, StaysInsideTheRangesOfTheThesis) {
   const Tissue tissue = default_tissue();
   for (int r = 1; r < kRegionCount; ++r) {
-    const RegionTissue& t = tissue.region[static_cast<std::size_t>(r)];
+    const RegionTissue& t = tissue.region[r];
     const bool is_finger = r <= static_cast<int>(Region::kLittleDistal);
     const StiffeningLaw& law = t.half_space.nominal;
     EXPECT_DOUBLE_EQ(law.limit_depth, is_finger ? 4.0 : 7.0);  // mm

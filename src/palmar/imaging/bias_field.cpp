@@ -12,6 +12,7 @@
 #include "palmar/imaging/air_threshold.h"
 #include "palmar/imaging/histogram_sharpening.h"
 #include "palmar/imaging/smooth_field.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -62,15 +63,14 @@ Samples samples_of(const Volume& image, const std::vector<std::uint8_t>& mask, d
           }
         }
         if (2 * static_cast<int>(values.size()) < all) continue;
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        if (!(*middle > 0.0F)) continue;
+        const float middle = median(values);
+        if (!(middle > 0.0F)) continue;
         place /= static_cast<double>(values.size());
         for (int a = 0; a < 3; ++a) {
-          place[a] = share_of(place[a], grid.size[static_cast<std::size_t>(a)]);
+          place[a] = share_of(place[a], grid.size[a]);
         }
         samples.place.push_back(place);
-        samples.log_value.push_back(std::log(static_cast<double>(*middle)));
+        samples.log_value.push_back(std::log(static_cast<double>(middle)));
       }
     }
   }

@@ -29,7 +29,7 @@ struct Film {
     for (const std::int32_t n : pairs) all += n;
     double left = share * static_cast<double>(all);
     for (int b = kBins - 1; b >= 0; --b) {
-      const double here = pairs[static_cast<std::size_t>(b)];
+      const double here = pairs[b];
       if (here > 0.0 && left <= here) return b + 1.0 - left / here;
       left -= here;
     }
@@ -144,17 +144,16 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
     if (regions.region[v] >= 0) highest = std::max(highest, static_cast<double>(image.value[v]));
   }
   const double bin = std::max((highest - options.floor) / kBins, 1e-12);
-  std::vector<Basin> basins(static_cast<std::size_t>(count));
-  const std::array<std::size_t, 3> stride = {
-      1, static_cast<std::size_t>(grid.size[0]),
-      static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1])};
+  std::vector<Basin> basins(count);
+  const std::array<std::size_t, 3> stride = {1, static_cast<std::size_t>(grid.size[0]),
+                                             static_cast<std::size_t>(grid.size[0]) * grid.size[1]};
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t v = grid.at(i, j, k);
         const std::int32_t own = regions.region[v];
         if (own < 0) continue;
-        Basin& basin = basins[static_cast<std::size_t>(own)];
+        Basin& basin = basins[own];
         if (static_cast<double>(image.value[v]) >= options.core) {
           basin.sum += static_cast<double>(image.value[v]);
           basin.voxels += 1.0;
@@ -166,10 +165,9 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
           const std::int32_t other = regions.region[w];
           if (other < 0 || other == own) continue;
           const double darker = static_cast<double>(std::min(image.value[v], image.value[w]));
-          const auto b = static_cast<std::size_t>(
-              std::clamp(static_cast<int>((darker - options.floor) / bin), 0, kBins - 1));
+          const auto b = std::clamp(static_cast<int>((darker - options.floor) / bin), 0, kBins - 1);
           ++basin.film[other].pairs[b];
-          ++basins[static_cast<std::size_t>(other)].film[own].pairs[b];
+          ++basins[other].film[own].pairs[b];
         }
       }
     }
@@ -186,42 +184,39 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto offer = [&](int a, int b) {
     if (a > b) std::swap(a, b);
-    const Basin& first = basins[static_cast<std::size_t>(a)];
-    const double depth =
-        depth_between(first, basins[static_cast<std::size_t>(b)], first.film.at(b));
+    const Basin& first = basins[a];
+    const double depth = depth_between(first, basins[b], first.film.at(b));
     if (depth < options.depth) queue.emplace(depth, a, b);
   };
   for (int a = 0; a < count; ++a) {
-    for (const auto& [b, film] : basins[static_cast<std::size_t>(a)].film) {
+    for (const auto& [b, film] : basins[a].film) {
       if (a < b) offer(a, b);
     }
   }
-  std::vector<int> into(static_cast<std::size_t>(count));
+  std::vector<int> into(count);
   std::iota(into.begin(), into.end(), 0);
   while (!queue.empty()) {
     auto [depth, a, b] = queue.top();
     queue.pop();
-    if (into[static_cast<std::size_t>(a)] != a || into[static_cast<std::size_t>(b)] != b) continue;
-    const Film& between = basins[static_cast<std::size_t>(a)].film.at(b);
-    if (depth_between(basins[static_cast<std::size_t>(a)], basins[static_cast<std::size_t>(b)],
-                      between) > depth) {
+    if (into[a] != a || into[b] != b) continue;
+    const Film& between = basins[a].film.at(b);
+    if (depth_between(basins[a], basins[b], between) > depth) {
       offer(a, b);
       continue;
     }
     // The one with fewer neighbours goes into the other: cheap, and the same on every run.
-    if (basins[static_cast<std::size_t>(a)].film.size() <
-        basins[static_cast<std::size_t>(b)].film.size()) {
+    if (basins[a].film.size() < basins[b].film.size()) {
       std::swap(a, b);
     }
-    Basin& kept = basins[static_cast<std::size_t>(a)];
-    Basin& gone = basins[static_cast<std::size_t>(b)];
-    into[static_cast<std::size_t>(b)] = a;
+    Basin& kept = basins[a];
+    Basin& gone = basins[b];
+    into[b] = a;
     kept.sum += gone.sum;
     kept.voxels += gone.voxels;
     kept.film.erase(b);
     gone.film.erase(a);
     for (const auto& [c, film] : gone.film) {
-      Basin& third = basins[static_cast<std::size_t>(c)];
+      Basin& third = basins[c];
       third.film.erase(b);
       kept.film[c] += film;
       third.film[a] += film;
@@ -230,19 +225,18 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
     gone.film.clear();
   }
 
-  std::vector<std::int32_t> number(static_cast<std::size_t>(count), -1);
+  std::vector<std::int32_t> number(count, -1);
   for (std::int32_t& r : regions.region) {
     if (r < 0) continue;
     int root = r;
-    while (into[static_cast<std::size_t>(root)] != root)
-      root = into[static_cast<std::size_t>(root)];
-    std::int32_t& n = number[static_cast<std::size_t>(root)];
+    while (into[root] != root) root = into[root];
+    std::int32_t& n = number[root];
     if (n < 0) {
       n = static_cast<std::int32_t>(regions.voxels.size());
       regions.voxels.push_back(0);
     }
     r = n;
-    ++regions.voxels[static_cast<std::size_t>(n)];
+    ++regions.voxels[n];
   }
   return regions;
 }

@@ -20,7 +20,7 @@ class JoinedLabels {
   }
   std::int32_t root(std::int32_t label) {
     while (parent(label) != label) {
-      parent_[static_cast<std::size_t>(label)] = parent(parent(label));
+      parent_[label] = parent(parent(label));
       label = parent(label);
     }
     return label;
@@ -28,12 +28,12 @@ class JoinedLabels {
   void join(std::int32_t a, std::int32_t b) {
     a = root(a);
     b = root(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
   std::size_t count() const { return parent_.size(); }
 
  private:
-  std::int32_t parent(std::int32_t label) const { return parent_[static_cast<std::size_t>(label)]; }
+  std::int32_t parent(std::int32_t label) const { return parent_[label]; }
   std::vector<std::int32_t> parent_;
 };
 
@@ -89,13 +89,13 @@ ConnectedParts connected_parts(const VolumeGrid& grid, const VoxelMask& mask,
   std::vector<std::int32_t> number(labels.count(), -1);
   for (std::int32_t& label : parts.part) {
     if (label < 0) continue;
-    std::int32_t& n = number[static_cast<std::size_t>(labels.root(label))];
+    std::int32_t& n = number[labels.root(label)];
     if (n < 0) {
       n = static_cast<std::int32_t>(parts.voxels.size());
       parts.voxels.push_back(0);
     }
     label = n;
-    ++parts.voxels[static_cast<std::size_t>(n)];
+    ++parts.voxels[n];
   }
   return parts;
 }

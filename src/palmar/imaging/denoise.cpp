@@ -9,6 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/imaging/air_threshold.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -80,10 +81,8 @@ double noise_deviation(const Volume& image) {
     difference.push_back(std::abs(a - 2.0F * b + c));
   }
   if (difference.empty()) return 0.0;
-  const auto middle = difference.begin() + static_cast<std::ptrdiff_t>(difference.size() / 2);
-  std::nth_element(difference.begin(), middle, difference.end());
   // The median of |x| is 0.6745 deviations; 1 - 2 + 1 has sqrt(6) times the noise's.
-  return *middle / (0.6744897501960817 * std::sqrt(6.0));
+  return median(std::move(difference)) / (0.6744897501960817 * std::sqrt(6.0));
 }
 
 Volume denoised(const Volume& image, const DenoiseOptions& options, const Progress& progress) {
@@ -98,7 +97,7 @@ Volume denoised(const Volume& image, const DenoiseOptions& options, const Progre
   const double step = 0.9 / (2.0 * ratio.sum());
   std::array<float, 3> weight{};
   for (int a = 0; a < 3; ++a) {
-    weight[static_cast<std::size_t>(a)] = static_cast<float>(step * ratio[a]);
+    weight[a] = static_cast<float>(step * ratio[a]);
   }
   const auto scale = static_cast<float>(1.0 / (cut * cut));
   Volume to = from;

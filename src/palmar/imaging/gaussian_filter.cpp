@@ -40,8 +40,8 @@ Volume gaussian_filtered(const Volume& image, double sigma) {
         for (int q = 0; q < length; ++q) {
           float sum = 0.0F, total = 0.0F;
           for (int p = std::max(0, q - reach); p <= std::min(length - 1, q + reach); ++p) {
-            const float w = weight[static_cast<std::size_t>(std::abs(p - q))];
-            sum += w * line[static_cast<std::size_t>(p)];
+            const float w = weight[std::abs(p - q)];
+            sum += w * line[p];
             total += w;
           }
           values[static_cast<std::size_t>(q) * stride[axis]] = sum / total;

@@ -67,7 +67,7 @@ CellCase make_case(int inside) {
         if (is_in(i) || !is_in(i + 1)) continue;
         std::size_t k = i + 1;
         while (is_in(k)) ++k;
-        next[static_cast<std::size_t>(edge_between(corner[i], corner[(i + 1) % 4]))] =
+        next[edge_between(corner[i], corner[(i + 1) % 4])] =
             edge_between(corner[(k - 1) % 4], corner[k % 4]);
       }
     }
@@ -77,9 +77,8 @@ CellCase make_case(int inside) {
   for (std::size_t start = 0; start < 12; ++start) {
     if (next[start] < 0 || is_done[start]) continue;
     std::vector<int> loop;
-    for (int e = static_cast<int>(start); !is_done[static_cast<std::size_t>(e)];
-         e = next[static_cast<std::size_t>(e)]) {
-      is_done[static_cast<std::size_t>(e)] = true;
+    for (int e = static_cast<int>(start); !is_done[e]; e = next[e]) {
+      is_done[e] = true;
       loop.push_back(e);
     }
     const std::size_t n = loop.size();
@@ -109,7 +108,7 @@ CellCase make_case(int inside) {
 const std::array<CellCase, 256>& cases() {
   static const std::array<CellCase, 256> all = [] {
     std::array<CellCase, 256> made;
-    for (int i = 0; i < 256; ++i) made[static_cast<std::size_t>(i)] = make_case(i);
+    for (int i = 0; i < 256; ++i) made[i] = make_case(i);
     return made;
   }();
   return all;
@@ -159,20 +158,20 @@ TriangleMesh iso_surface(const Volume& image, double level) {
   const PaddedImage padded(image, level);
   const auto [nx, ny, nz] = padded.size;
   const auto node = [nx = nx](int i, int j) {
-    return static_cast<std::size_t>(i) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(j);
+    return static_cast<std::size_t>(i) + static_cast<std::size_t>(nx) * j;
   };
-  std::vector<Layer> layers(static_cast<std::size_t>(nz));
+  std::vector<Layer> layers(nz);
   const std::size_t nodes = node(0, ny);
   parallel_for(nz, [&, nx = nx, ny = ny](int k) {
-    Layer& layer = layers[static_cast<std::size_t>(k)];
+    Layer& layer = layers[k];
     layer.is_inside.resize(nodes);
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) layer.is_inside[node(i, j)] = padded.is_inside(i, j, k) ? 1 : 0;
     }
   });
   parallel_for(nz, [&, nx = nx, ny = ny, nz = nz](int k) {
-    Layer& layer = layers[static_cast<std::size_t>(k)];
-    const Layer* above = k + 1 < nz ? &layers[static_cast<std::size_t>(k) + 1] : nullptr;
+    Layer& layer = layers[k];
+    const Layer* above = k + 1 < nz ? &layers[k + 1] : nullptr;
     layer.vertex.assign(3 * nodes, -1);
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
@@ -199,20 +198,19 @@ TriangleMesh iso_surface(const Volume& image, double level) {
     first[k + 1] = first[k] + static_cast<int>(layers[k].places.size());
   }
   parallel_for(nz - 1, [&, nx = nx, ny = ny](int k) {
-    Layer& layer = layers[static_cast<std::size_t>(k)];
+    Layer& layer = layers[k];
     const auto place_of = [&](int i, int j, int edge) {
       const int from = edge_from(edge / 4, edge % 4);
-      const std::size_t on = static_cast<std::size_t>(k + (from >> 2));
+      const auto on = k + (from >> 2);
       return first[on] + layers[on].vertex[3 * node(i + (from & 1), j + ((from >> 1) & 1)) +
                                            static_cast<std::size_t>(edge / 4)];
     };
     const auto coordinates = [&](int vertex) {
-      const std::size_t on = vertex >= first[static_cast<std::size_t>(k) + 1]
-                                 ? static_cast<std::size_t>(k) + 1
-                                 : static_cast<std::size_t>(k);
-      return layers[on].places[static_cast<std::size_t>(vertex - first[on])];
+      const std::size_t on =
+          vertex >= first[k + 1] ? static_cast<std::size_t>(k) + 1 : static_cast<std::size_t>(k);
+      return layers[on].places[vertex - first[on]];
     };
-    const Layer& above = layers[static_cast<std::size_t>(k) + 1];
+    const Layer& above = layers[k + 1];
     for (int j = 0; j + 1 < ny; ++j) {
       for (int i = 0; i + 1 < nx; ++i) {
         unsigned inside = 0;
@@ -251,7 +249,7 @@ TriangleMesh iso_surface(const Volume& image, double level) {
     count += static_cast<int>(layers[k].centres.size());
     triangles += layers[k].triangles.size();
   }
-  mesh.vertices.reserve(static_cast<std::size_t>(count));
+  mesh.vertices.reserve(count);
   mesh.triangles.reserve(triangles);
   for (const Layer& layer : layers) {
     mesh.vertices.insert(mesh.vertices.end(), layer.places.begin(), layer.places.end());

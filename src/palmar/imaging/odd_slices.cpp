@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "palmar/core/parallel.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -44,9 +45,7 @@ std::vector<OddSlice> odd_slices(const Volume& image) {
     ratios.push_back(all.back().ratio);
   }
   if (ratios.empty()) return {};
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  const double limit = std::max(1.5, 2.0 * ratios[ratios.size() / 2]);
+  const double limit = std::max(1.5, 2.0 * median(std::move(ratios)));
   std::erase_if(all, [&](const OddSlice& one) { return one.ratio <= limit; });
   return all;
 }

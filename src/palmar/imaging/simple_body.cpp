@@ -37,7 +37,7 @@ constexpr std::array<Bits, kAround> neighbours(int most) {
   for (int a = 0; a < kAround; ++a) {
     for (int b = 0; b < kAround; ++b) {
       if (a == b || b == kMiddle) continue;
-      if (steps_between(a, b) <= most) all[static_cast<std::size_t>(a)] |= Bits{1} << b;
+      if (steps_between(a, b) <= most) all[a] |= Bits{1} << b;
     }
   }
   return all;
@@ -47,7 +47,7 @@ constexpr std::array<Bits, kAround> kByFaces = neighbours(1), kByEdges = neighbo
 Bits grown(Bits from, const std::array<Bits, kAround>& by) {
   Bits reached = from;
   for (Bits left = from; left != 0; left &= left - 1) {
-    reached |= by[static_cast<std::size_t>(std::countr_zero(left))];
+    reached |= by[std::countr_zero(left)];
   }
   return reached;
 }

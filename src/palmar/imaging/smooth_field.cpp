@@ -52,7 +52,7 @@ SmoothField::Plane SmoothField::plane(double w) const {
 }
 
 SmoothField::Line SmoothField::Plane::line(double v) const {
-  return {patches, folded(control, static_cast<std::size_t>(patches + 3), v, patches)};
+  return {patches, folded(control, patches + 3, v, patches)};
 }
 
 double SmoothField::Line::at(double u) const {

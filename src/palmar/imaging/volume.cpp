@@ -12,11 +12,11 @@ float value_at(const Volume& image, const Vec3& voxel) {
   std::array<int, 3> low{};
   std::array<double, 3> share{};
   for (int a = 0; a < 3; ++a) {
-    const double last = grid.size[static_cast<std::size_t>(a)] - 1.0;
+    const double last = grid.size[a] - 1.0;
     if (!(voxel[a] >= 0.0 && voxel[a] <= last)) return 0.0F;
     const double floor = std::min(std::floor(voxel[a]), std::max(0.0, last - 1.0));
-    low[static_cast<std::size_t>(a)] = static_cast<int>(floor);
-    share[static_cast<std::size_t>(a)] = voxel[a] - floor;
+    low[a] = static_cast<int>(floor);
+    share[a] = voxel[a] - floor;
   }
   double sum = 0.0;
   for (int corner = 0; corner < 8; ++corner) {

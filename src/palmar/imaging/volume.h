@@ -18,16 +18,12 @@ struct VolumeGrid {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: unit directions of i, j, k
   Vec3 origin = Vec3::Zero();                          ///< centre of voxel (0, 0, 0), mm
 
-  std::size_t count() const {
-    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-           static_cast<std::size_t>(size[2]);
-  }
+  std::size_t count() const { return static_cast<std::size_t>(size[0]) * size[1] * size[2]; }
   /// Index of voxel (i, j, k): i runs fastest.
   std::size_t at(int i, int j, int k) const {
     return static_cast<std::size_t>(i) +
            static_cast<std::size_t>(size[0]) *
-               (static_cast<std::size_t>(j) +
-                static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(k));
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(size[1]) * k);
   }
   /// Between voxel coordinates (0 at the centre of the first voxel) and the patient frame.
   Vec3 to_patient(const Vec3& voxel) const { return origin + axes * voxel.cwiseProduct(spacing); }

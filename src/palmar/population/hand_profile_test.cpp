@@ -22,7 +22,7 @@ Hand simple_hand() {
   Hand hand;
   int d = 0;
   for (int j = 0; j < kJointCount; ++j) {
-    Joint& joint = hand.skeleton.joints[static_cast<std::size_t>(j)];
+    Joint& joint = hand.skeleton.joints[j];
     joint.id = static_cast<JointId>(j);
     joint.centre = Vec3(0.0, 5.0 * j, 0.0);
     // Wrist 3, thumb CMC 2, the thumb's others 1, then MCP 2, PIP 1, DIP 1 of every finger.
@@ -88,8 +88,7 @@ TEST(WithRangeShare, PosesAsTheWholeHandWithinTheNarrowRange) {
       const PosedSkeleton narrow = pose_skeleton(reduced.skeleton, posture);
       EXPECT_LT(distance(whole.thumb_metacarpal, narrow.thumb_metacarpal), 1e-9);  // mm; rounding
       for (int s = 0; s < kSegmentCount; ++s) {
-        const auto at = static_cast<std::size_t>(s);
-        EXPECT_LT(distance(whole.segment[at], narrow.segment[at]), 1e-9);
+        EXPECT_LT(distance(whole.segment[s], narrow.segment[s]), 1e-9);
       }
     }
   }

@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/population/joint_moments.h"
 
 namespace palmar {
@@ -19,13 +19,6 @@ constexpr HandDimension kMiddleProximal{DimensionKind::kSegmentLength, Segment::
 constexpr HandDimension kMiddleMiddle{DimensionKind::kSegmentLength, Segment::kMiddleMiddle};
 constexpr HandDimension kMiddleDistal{DimensionKind::kSegmentLength, Segment::kMiddleDistal};
 constexpr double kRare = 3.3;  // deviations: one in a thousand
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
-}
 
 bool has(const JointMoments& m, HandDimension dimension) {
   return std::find(m.dimension.begin(), m.dimension.end(), dimension) != m.dimension.end();
@@ -80,7 +73,7 @@ Given given(const Stratum& stratum, const std::vector<KnownMeasure>& measures) {
   Eigen::MatrixXd pick = Eigen::MatrixXd::Zero(count, m.mean.size());
   Eigen::VectorXd value(count), error(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const KnownMeasure& one = measures[static_cast<std::size_t>(k)];
+    const KnownMeasure& one = measures[k];
     for (const auto& [dimension, factor] : one.terms) {
       pick(k, place_of(m, dimension, one.name)) += factor;
     }
@@ -108,10 +101,11 @@ void check(const std::vector<KnownMeasure>& measures) {
     throw UsageError("a person's hand can't be told from no measure; one is needed");
   for (const KnownMeasure& one : measures) {
     if (!(one.value >= 1.0 && one.value <= 400.0)) {
-      throw UsageError(one.name + " is " + number(one.value) + " mm; 1 to 400 mm is allowed");
+      throw UsageError(one.name + " is " + significant(one.value, 4) +
+                       " mm; 1 to 400 mm is allowed");
     }
     if (!(one.sd >= 0.0 && one.sd <= 50.0)) {
-      throw UsageError(one.name + ": deviation is " + number(one.sd) +
+      throw UsageError(one.name + ": deviation is " + significant(one.sd, 4) +
                        " mm; 0 to 50 mm is allowed");
     }
   }
@@ -167,9 +161,10 @@ PersonEstimate estimate_person(const Population& population,
       least = std::min(least, std::abs(one.score[static_cast<Eigen::Index>(k)]));
     }
     if (least > kRare) {
-      result.notes.push_back(measures[k].name + ", " + number(measures[k].value) + " mm, lies " +
-                             number(least) + " standard deviations from the mean of " +
-                             population.name + ": was it measured as the documents show?");
+      result.notes.push_back(measures[k].name + ", " + significant(measures[k].value, 4) +
+                             " mm, lies " + significant(least, 4) +
+                             " standard deviations from the mean of " + population.name +
+                             ": was it measured as the documents show?");
     }
   }
   return result;

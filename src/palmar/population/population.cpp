@@ -5,9 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/population/joint_moments.h"
 
 namespace palmar {
@@ -19,20 +19,15 @@ constexpr double kShareTolerance = 1e-6;      // as shares written with six digi
 constexpr double kSmallestEigenvalue = 1e-9;  // of a correlation matrix that counts as definite
 constexpr double kOldest = 120.0;             // years
 
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 std::string fault_of_length(const std::string& what, double mean, double sd) {
   if (!(mean >= 1.0 && mean <= kLargestLength)) {
-    return what + ": mean is " + number(mean) + " mm; 1 to " + number(kLargestLength) +
-           " mm is allowed";
+    return what + ": mean is " + significant(mean, 6) + " mm; 1 to " +
+           significant(kLargestLength, 6) + " mm is allowed";
   }
   if (!(sd >= 0.0 && sd <= kLargestSpread * mean)) {
-    return what + ": standard deviation is " + number(sd) + " mm; 0 to a fifth of the mean, " +
-           number(kLargestSpread * mean) + " mm, is allowed";
+    return what + ": standard deviation is " + significant(sd, 6) +
+           " mm; 0 to a fifth of the mean, " + significant(kLargestSpread * mean, 6) +
+           " mm, is allowed";
   }
   return "";
 }
@@ -45,21 +40,21 @@ std::string fault_of_correlation(const Stratum& stratum) {
            "; " + std::to_string(n) + " x " + std::to_string(n) +
            " is required, a row for each driving dimension";
   }
-  const auto name = [&](Eigen::Index i) {
-    return name_of(stratum.driving[static_cast<std::size_t>(i)].dimension);
-  };
+  const auto name = [&](Eigen::Index i) { return name_of(stratum.driving[i].dimension); };
   for (Eigen::Index i = 0; i < n; ++i) {
     if (r(i, i) != 1.0) {
-      return "correlation of " + name(i) + " with itself is " + number(r(i, i)) + "; 1 is required";
+      return "correlation of " + name(i) + " with itself is " + significant(r(i, i), 6) +
+             "; 1 is required";
     }
     for (Eigen::Index j = 0; j < i; ++j) {
       if (!(std::abs(r(i, j)) < 1.0)) {
-        return "correlation of " + name(j) + " and " + name(i) + " is " + number(r(i, j)) +
+        return "correlation of " + name(j) + " and " + name(i) + " is " + significant(r(i, j), 6) +
                "; between -1 and 1 is required";
       }
       if (r(i, j) != r(j, i)) {
-        return "correlation of " + name(j) + " and " + name(i) + " is " + number(r(j, i)) +
-               " one way and " + number(r(i, j)) + " the other; a symmetric matrix is required";
+        return "correlation of " + name(j) + " and " + name(i) + " is " + significant(r(j, i), 6) +
+               " one way and " + significant(r(i, j), 6) +
+               " the other; a symmetric matrix is required";
       }
     }
   }
@@ -67,7 +62,7 @@ std::string fault_of_correlation(const Stratum& stratum) {
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(r, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (!(smallest > kSmallestEigenvalue)) {
     return "correlations contradict each other: the smallest eigenvalue of their matrix is " +
-           number(smallest) + "; a positive definite matrix is required";
+           significant(smallest, 6) + "; a positive definite matrix is required";
   }
   return "";
 }
@@ -90,7 +85,7 @@ std::string fault_of_regressions(const Stratum& stratum) {
       return what + ": intercept is no finite number";
     }
     if (!(regression.residual_sd >= 0.0)) {
-      return what + ": residual deviation is " + number(regression.residual_sd) +
+      return what + ": residual deviation is " + significant(regression.residual_sd, 6) +
              " mm; 0 or more is allowed";
     }
     for (const DimensionRegression::Term& term : regression.terms) {
@@ -122,12 +117,11 @@ JointMoments joint_moments(const Stratum& stratum) {
   const auto all = drivers + static_cast<Eigen::Index>(stratum.regressions.size());
   JointMoments m{{}, Eigen::VectorXd::Zero(all), Eigen::MatrixXd::Zero(all, all)};
   for (Eigen::Index i = 0; i < drivers; ++i) {
-    const DrivingDimension& one = stratum.driving[static_cast<std::size_t>(i)];
+    const DrivingDimension& one = stratum.driving[i];
     m.dimension.push_back(one.dimension);
     m.mean[i] = one.mean;
     for (Eigen::Index j = 0; j < drivers; ++j) {
-      m.covariance(i, j) =
-          one.sd * stratum.driving[static_cast<std::size_t>(j)].sd * stratum.correlation(i, j);
+      m.covariance(i, j) = one.sd * stratum.driving[j].sd * stratum.correlation(i, j);
     }
   }
   for (const DimensionRegression& regression : stratum.regressions) {
@@ -169,10 +163,11 @@ std::optional<Evidence> evidence_named(std::string_view name) {
 std::string fault_of(const Stratum& stratum) {
   if (stratum.name.empty()) return "name is empty; a word is required";
   if (!(stratum.share > 0.0 && stratum.share <= 1.0)) {
-    return "share is " + number(stratum.share) + "; above 0 to 1 is allowed";
+    return "share is " + significant(stratum.share, 6) + "; above 0 to 1 is allowed";
   }
   if (stratum.age && !(*stratum.age >= 0.0 && *stratum.age <= kOldest)) {
-    return "age is " + number(*stratum.age) + " years; 0 to " + number(kOldest) + " is allowed";
+    return "age is " + significant(*stratum.age, 6) + " years; 0 to " + significant(kOldest, 6) +
+           " is allowed";
   }
   if (stratum.driving.empty()) return "no driving dimension; at least one is required";
   for (std::size_t i = 0; i < stratum.driving.size(); ++i) {
@@ -209,7 +204,7 @@ std::string fault_of(const Population& population) {
     sum += population.strata[i].share;
   }
   if (!(std::abs(sum - 1.0) <= kShareTolerance)) {
-    return "shares of the strata add up to " + number(sum) + "; 1 is required";
+    return "shares of the strata add up to " + significant(sum, 6) + "; 1 is required";
   }
   return "";
 }

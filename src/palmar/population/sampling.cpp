@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/core/text.h"
 #include "palmar/population/hand_sample.h"
 
 namespace palmar {
@@ -17,12 +17,6 @@ namespace {
 constexpr int kMostHands = 1000000;
 // Streams of a seed: hand k has stream k; what concerns a whole stratum lies far beyond.
 constexpr std::uint64_t kStratumStreams = std::uint64_t{1} << 62U;
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 Eigen::MatrixXd factor(const Stratum& stratum) {
   return Eigen::LLT<Eigen::MatrixXd>(stratum.correlation).matrixL();
@@ -92,7 +86,7 @@ class Drawer {
     sample.age = stratum_.age;
     sample.dimensions.reserve(stratum_.driving.size() + stratum_.regressions.size());
     for (Eigen::Index i = 0; i < drivers(); ++i) {
-      const DrivingDimension& one = stratum_.driving[static_cast<std::size_t>(i)];
+      const DrivingDimension& one = stratum_.driving[i];
       sample.dimensions.push_back({one.dimension, one.mean + one.sd * score[i]});
     }
     sample.grip_strength = grip(random);
@@ -159,7 +153,7 @@ std::vector<int> allotment(const Population& population, int hands) {
 std::vector<HandSample> random_hands(const Population& population, const SamplingOptions& options) {
   const std::vector<Drawer> drawers = drawers_of(population);
   std::vector<HandSample> hands;
-  hands.reserve(static_cast<std::size_t>(options.hands));
+  hands.reserve(options.hands);
   for (int k = 0; k < options.hands; ++k) {
     RandomStream random(options.seed, static_cast<std::uint64_t>(k));
     const Drawer& drawer = drawer_at(drawers, random.uniform());
@@ -175,7 +169,7 @@ std::vector<HandSample> random_hands(const Population& population, const Samplin
 void uncorrelate(Eigen::MatrixXd& factors) {
   const Eigen::Index n = factors.rows(), d = factors.cols();
   if (n < d + 2) return;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
+  std::vector<Eigen::Index> order(n);
   for (int round = 0; round < 3; ++round) {
     Eigen::MatrixXd centred = factors.rowwise() - factors.colwise().mean();
     centred.array().rowwise() /= centred.colwise().norm().array().eval();
@@ -188,8 +182,7 @@ void uncorrelate(Eigen::MatrixXd& factors) {
                        [&](Eigen::Index a, Eigen::Index b) { return wanted(a, i) < wanted(b, i); });
       Eigen::VectorXd sorted = factors.col(i);
       std::sort(sorted.begin(), sorted.end());
-      for (Eigen::Index k = 0; k < n; ++k)
-        factors(order[static_cast<std::size_t>(k)], i) = sorted[k];
+      for (Eigen::Index k = 0; k < n; ++k) factors(order[k], i) = sorted[k];
     }
   }
 }
@@ -200,14 +193,14 @@ void uncorrelate(Eigen::MatrixXd& factors) {
 // broad for their girth.
 std::vector<Eigen::VectorXd> layered_scores(const Drawer& drawer, int n, RandomStream& random) {
   Eigen::MatrixXd factors(n, drawer.drivers());
-  std::vector<std::size_t> layer(static_cast<std::size_t>(n));
+  std::vector<std::size_t> layer(n);
   for (Eigen::Index i = 0; i < drawer.drivers(); ++i) {
     std::iota(layer.begin(), layer.end(), std::size_t{0});
     for (std::size_t left = layer.size(); left > 1; --left) {
       std::swap(layer[left - 1], layer[random.below(left)]);
     }
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto in = static_cast<double>(layer[static_cast<std::size_t>(k)]);
+      const auto in = static_cast<double>(layer[k]);
       factors(k, i) = standard_normal_quantile((in + random.uniform()) / n);
     }
   }
@@ -262,8 +255,8 @@ std::vector<HandSample> boundary_hands(const Population& population,
       for (Eigen::Index i = 2; i < drawer.drivers(); ++i) score[i] = r.row(i).head<2>() * weight;
       HandSample sample = drawer.person(score, nullptr);
       sample.label = k == 0 ? "mean" + of
-                            : number(100.0 * options.boundary) + " % ellipse" + of + ", " +
-                                  number(angle) + " deg";
+                            : significant(100.0 * options.boundary, 6) + " % ellipse" + of + ", " +
+                                  significant(angle, 6) + " deg";
       hands.push_back(std::move(sample));
     }
   }
@@ -283,7 +276,7 @@ std::vector<HandSample> percentile_hands(const Population& population,
       const double score = standard_normal_quantile(percentile / 100.0);
       HandSample sample =
           drawer.person(Eigen::VectorXd::Constant(drawer.drivers(), score), nullptr);
-      sample.label = "P" + number(percentile) + " " + person_word(drawer.stratum());
+      sample.label = "P" + significant(percentile, 6) + " " + person_word(drawer.stratum());
       hands.push_back(std::move(sample));
     }
   }
@@ -316,7 +309,8 @@ std::optional<SamplingDesign> sampling_design_named(std::string_view name) {
 
 void SamplingOptions::check() const {
   const auto fail = [](const std::string& what, double value, const std::string& allowed) {
-    throw UsageError("sampling: " + what + " is " + number(value) + "; " + allowed + " is allowed");
+    throw UsageError("sampling: " + what + " is " + significant(value, 6) + "; " + allowed +
+                     " is allowed");
   };
   if (hands < 1 || hands > kMostHands) {
     fail("number of hands", hands, "1 to " + std::to_string(kMostHands));

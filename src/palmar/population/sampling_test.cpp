@@ -184,8 +184,8 @@ TEST(LatinHypercube, EveryFactorHasOneHandInEveryLayer) {
     first.insert(layer(a));
     second.insert(layer((b - kRho * a) / std::sqrt(1.0 - kRho * kRho)));
   }
-  EXPECT_EQ(first.size(), static_cast<std::size_t>(kHands));
-  EXPECT_EQ(second.size(), static_cast<std::size_t>(kHands));
+  EXPECT_EQ(std::ssize(first), kHands);
+  EXPECT_EQ(std::ssize(second), kHands);
 }
 
 TEST(LatinHypercube, KeepsTheCorrelation) {

@@ -27,7 +27,7 @@ const TableRegression& kept(const std::vector<TableRegression>& regressions,
                     [](const Coefficient& c) { return c.p_value < kSignificant; });
     if (all_help) return r;
   }
-  return regressions[static_cast<std::size_t>(best_predictor(regressions, name))];
+  return regressions[best_predictor(regressions, name)];
 }
 
 std::string rounded(double value, int places) {

@@ -4,11 +4,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -16,12 +16,6 @@ namespace {
 // Share of a column's variance that others leave unexplained; below it the covariance is singular
 // as far as measured sizes go.
 constexpr double kSingular = 1e-9;
-
-std::string short_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 std::vector<double> present(const TableColumn& column) {
   std::vector<double> values;
@@ -43,19 +37,13 @@ void check_varies(const DimensionTable& table, const TableColumn& column,
   }
   if (is_constant(values)) {
     table.fail(first_line(table), column,
-               "all " + std::to_string(values.size()) + " values are " + short_text(values[0]) +
+               "all " + std::to_string(values.size()) + " values are " + significant(values[0], 6) +
                    (column.unit.empty() ? "" : " " + column.unit) +
                    "; values that vary are needed");
   }
 }
 
 constexpr std::size_t kMostNamed = 8;
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 std::string headers_of(const std::vector<const TableColumn*>& columns) {
   std::string text;
@@ -77,7 +65,7 @@ std::vector<const TableColumn*> dependent_columns(const Eigen::MatrixXd& r,
   if (std::abs(eigen.eigenvalues()[0]) > kSingular) return dependent;
   const Eigen::VectorXd direction = eigen.eigenvectors().col(0).cwiseAbs();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
-    if (direction[i] > 1e-3) dependent.push_back(columns[static_cast<std::size_t>(i)]);
+    if (direction[i] > 1e-3) dependent.push_back(columns[i]);
   }
   return dependent;
 }
@@ -189,8 +177,8 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
   result.r = Eigen::MatrixXd::Identity(k, k);
   for (Eigen::Index a = 0; a < k; ++a) {
     for (Eigen::Index b = a + 1; b < k; ++b) {
-      const TableColumn& x = *columns[static_cast<std::size_t>(a)];
-      const TableColumn& y = *columns[static_cast<std::size_t>(b)];
+      const TableColumn& x = *columns[a];
+      const TableColumn& y = *columns[b];
       const auto [xs, ys] = complete_pairs(x.values, y.values);
       if (xs.size() < 3) {
         table.fail(first_line(table), y,
@@ -227,7 +215,7 @@ std::vector<TableRegression> regress(const DimensionTable& table,
   if (predictor_names.empty()) throw UsageError("regression without a predictor");
   const std::vector<const TableColumn*> predictors = chosen_columns(table, predictor_names);
   if (predictors.size() < predictor_names.size()) {
-    throw UsageError("a predictor is named twice; each of " + joined(predictor_names) +
+    throw UsageError("a predictor is named twice; each of " + joined(predictor_names, ", ") +
                      " has to be another column");
   }
   for (const TableColumn* p : predictors) check_varies(table, *p, present(*p));
@@ -254,7 +242,7 @@ std::vector<TableRegression> regress(const DimensionTable& table,
     }
     for (Eigen::Index j = 0; j < count; ++j) {
       const auto x = column_of(values, j);
-      check_varies(table, *predictors[static_cast<std::size_t>(j)], {x.begin(), x.end()});
+      check_varies(table, *predictors[j], {x.begin(), x.end()});
     }
     check_independent(table, values.leftCols(count), predictors);
     for (const auto& set : sets) {
@@ -275,7 +263,7 @@ int best_predictor(const std::vector<TableRegression>& regressions, const std::s
   for (std::size_t i = 0; i < regressions.size(); ++i) {
     const TableRegression& r = regressions[i];
     if (r.name != name || r.predictors.size() != 1) continue;
-    if (best < 0 || r.fit.r2 > regressions[static_cast<std::size_t>(best)].fit.r2) {
+    if (best < 0 || r.fit.r2 > regressions[best].fit.r2) {
       best = static_cast<int>(i);
     }
   }

@@ -4,9 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
+#include "palmar/core/text.h"
 #include "palmar/geometry/mesh/boundary_loops.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -24,16 +23,6 @@ constexpr double kShortestProduct = 20.0;  // mm
 constexpr double kTinyShare = 0.01;        // of the diagonal of the whole
 constexpr double kLowShare = 1e-6;         // of the diagonal: height of a triangle without area
 constexpr double kFlattestShare = 1e-3;    // volume / (area * size) below which nothing is enclosed
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
-
-std::string counted(int count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 /// Sides of the box along the principal directions of the surface, ascending.
 Vec3 principal_extent(const TriangleMesh& mesh) {
@@ -64,7 +53,7 @@ Vec3 principal_extent(const TriangleMesh& mesh) {
 
 int count_tiny_parts(const TriangleMesh& mesh, const std::vector<int>& component, int parts,
                      double diagonal) {
-  std::vector<Box3> boxes(static_cast<std::size_t>(parts));
+  std::vector<Box3> boxes(parts);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (component[t] < 0) continue;
     for (const int v : mesh.triangles[t]) boxes[component[t]].extend(mesh.vertices[v]);
@@ -121,21 +110,22 @@ void judge(ProductCheck& c, const OrientResult& oriented) {
   if (c.parts > 1) {
     add(Severity::kNote, std::to_string(c.parts) + " separate parts, " +
                              std::to_string(c.tiny_parts) + " of them tiny (below " +
-                             number(100.0 * kTinyShare) + " % of the size)");
+                             significant(100.0 * kTinyShare, 4) + " % of the size)");
   }
   if (c.is_closed && std::abs(c.volume) < kFlattestShare * c.area * c.extent.z()) {
-    add(Severity::kWarning, "encloses next to nothing: " + number(c.volume) + " mm^3 under " +
-                                number(c.area) + " mm^2");
+    add(Severity::kWarning, "encloses next to nothing: " + significant(c.volume, 4) +
+                                " mm^3 under " + significant(c.area, 4) + " mm^2");
   }
-  const std::string extent =
-      number(c.extent.x()) + " x " + number(c.extent.y()) + " x " + number(c.extent.z()) + " mm";
+  const std::string extent = significant(c.extent.x(), 4) + " x " + significant(c.extent.y(), 4) +
+                             " x " + significant(c.extent.z(), 4) + " mm";
   if (c.is_too_big) {
-    add(Severity::kWarning, "too big for a hand: its smallest side is " + number(c.extent.x()) +
-                                " mm; a hand reaches round " + number(kWidestGrip) + " mm");
+    add(Severity::kWarning, "too big for a hand: its smallest side is " +
+                                significant(c.extent.x(), 4) + " mm; a hand reaches round " +
+                                significant(kWidestGrip, 4) + " mm");
   } else if (c.is_too_small) {
     add(Severity::kWarning, "too small for a power grip: " + extent + "; at least " +
-                                number(kShortestProduct) + " mm long and " +
-                                number(kThinnestHandle) + " mm thick is needed");
+                                significant(kShortestProduct, 4) + " mm long and " +
+                                significant(kThinnestHandle, 4) + " mm thick is needed");
   } else {
     add(Severity::kOk, "fits a hand: " + extent);
   }

@@ -32,7 +32,7 @@ std::array<Vec3, kRays> hemisphere() {
     double inverse = 0.0, digit = 0.5;
     for (int bits = i; bits > 0; bits /= 2, digit /= 2.0) inverse += digit * (bits % 2);
     const double radius = std::sqrt((i + 0.5) / kRays), turn = 2.0 * std::numbers::pi * inverse;
-    directions[static_cast<std::size_t>(i)] =
+    directions[i] =
         Vec3(radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0 - radius * radius));
   }
   return directions;
@@ -76,8 +76,7 @@ class Surroundings {
 
  private:
   const Vec3& corner(int triangle, std::size_t k) const {
-    return mesh_
-        .vertices[static_cast<std::size_t>(mesh_.triangles[static_cast<std::size_t>(triangle)][k])];
+    return mesh_.vertices[mesh_.triangles[triangle][k]];
   }
   Vec3 middle(int triangle) const {
     return (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
@@ -103,10 +102,9 @@ std::vector<int> probes_of(const TriangleMesh& mesh) {
   std::vector<int> probes;
   double passed = 0.0, next = 0.5 * step;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Triangle& corners = mesh.triangles[static_cast<std::size_t>(t)];
-    passed += triangle_area(mesh.vertices[static_cast<std::size_t>(corners[0])],
-                            mesh.vertices[static_cast<std::size_t>(corners[1])],
-                            mesh.vertices[static_cast<std::size_t>(corners[2])]);
+    const Triangle& corners = mesh.triangles[t];
+    passed += triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                            mesh.vertices[corners[2]]);
     if (passed < next) continue;
     probes.push_back(t);
     while (next <= passed) next += step;
@@ -119,9 +117,8 @@ bool has_cavity(const Surroundings& surroundings, const TriangleMesh& mesh,
   const std::vector<int> probes = probes_of(mesh);
   std::vector<char> is_in_one(probes.size(), 0);
   parallel_for(static_cast<int>(probes.size()), [&](int i) {
-    const int t = probes[static_cast<std::size_t>(i)];
-    is_in_one[static_cast<std::size_t>(i)] =
-        surroundings.sky(t) < options.cavity_sky && surroundings.wall(t) ? 1 : 0;
+    const int t = probes[i];
+    is_in_one[i] = surroundings.sky(t) < options.cavity_sky && surroundings.wall(t) ? 1 : 0;
   });
   return std::find(is_in_one.begin(), is_in_one.end(), 1) != is_in_one.end();
 }
@@ -137,7 +134,7 @@ void spread(const MeshTopology& topology, const std::vector<char>& may_belong,
     const int t = waiting.back();
     waiting.pop_back();
     for (int k = 0; k < 3; ++k) {
-      const int twin = topology.twin[static_cast<std::size_t>(3 * t + k)];
+      const int twin = topology.twin[3 * t + k];
       if (twin < 0) continue;
       const auto other = static_cast<std::size_t>(twin / 3);
       if (is_dropped[other] != 0 || may_belong[other] == 0) continue;
@@ -158,7 +155,7 @@ void even_out(const MeshTopology& topology, std::vector<char>& is_dropped) {
         const int twin = topology.twin[3 * t + k];
         if (twin < 0) continue;
         ++neighbours;
-        dropped += before[static_cast<std::size_t>(twin / 3)];
+        dropped += before[twin / 3];
       }
       if (2 * dropped > neighbours) is_dropped[t] = 1;
       if (2 * dropped < neighbours) is_dropped[t] = 0;
@@ -181,9 +178,8 @@ void absorb_specks(const TriangleMesh& mesh, const MeshTopology& topology, char 
     for (std::size_t next = 0; next < region.size(); ++next) {
       const std::size_t t = region[next];
       const Triangle& corners = mesh.triangles[t];
-      area += triangle_area(mesh.vertices[static_cast<std::size_t>(corners[0])],
-                            mesh.vertices[static_cast<std::size_t>(corners[1])],
-                            mesh.vertices[static_cast<std::size_t>(corners[2])]);
+      area += triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                            mesh.vertices[corners[2]]);
       for (std::size_t k = 0; k < 3; ++k) {
         const int twin = topology.twin[3 * t + k];
         if (twin < 0) continue;
@@ -207,10 +203,10 @@ TriangleMesh without(const TriangleMesh& mesh, const std::vector<char>& is_dropp
     if (is_dropped[t] != 0) continue;
     Triangle corners = mesh.triangles[t];
     for (int& v : corners) {
-      int& at = place[static_cast<std::size_t>(v)];
+      int& at = place[v];
       if (at < 0) {
         at = rest.vertex_count();
-        rest.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+        rest.vertices.push_back(mesh.vertices[v]);
       }
       v = at;
     }
@@ -261,14 +257,13 @@ ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& opt
   std::vector<char> may_belong(count, 0), is_dropped(count, 0);
   std::vector<double> wall(count, std::numeric_limits<double>::infinity());
   parallel_for(static_cast<int>(count), [&](int t) {
-    const auto i = static_cast<std::size_t>(t);
     const double sky = surroundings.sky(t);
     if (sky >= options.mouth_sky) return;
     const auto thickness = surroundings.wall(t);
-    if (thickness) wall[i] = *thickness;
+    if (thickness) wall[t] = *thickness;
     const bool sees_little = sky < options.cavity_sky;
-    may_belong[i] = sees_little || thickness ? 1 : 0;
-    is_dropped[i] = sees_little && thickness ? 1 : 0;
+    may_belong[t] = sees_little || thickness ? 1 : 0;
+    is_dropped[t] = sees_little && thickness ? 1 : 0;
   });
   const MeshTopology topology = build_topology(mesh);
   spread(topology, may_belong, is_dropped);

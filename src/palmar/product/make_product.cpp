@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -19,28 +20,19 @@ namespace {
 
 constexpr double kWeldShare = 1e-6;  // of the size; single-precision files round to about 1e-7
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 std::string tenths(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f", value);
   return text.data();
 }
 
-std::string counted(int count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 void check_raw(const TriangleMesh& raw, const std::string& source) {
   for (int v = 0; v < raw.vertex_count(); ++v) {
     const Vec3& x = raw.vertices[v];
     if (x.allFinite()) continue;
-    throw InputError(source + ": vertex " + std::to_string(v) + " is (" + number(x.x()) + ", " +
-                     number(x.y()) + ", " + number(x.z()) + "); finite numbers are required");
+    throw InputError(source + ": vertex " + std::to_string(v) + " is (" + significant(x.x(), 6) +
+                     ", " + significant(x.y(), 6) + ", " + significant(x.z(), 6) +
+                     "); finite numbers are required");
   }
   for (int t = 0; t < raw.triangle_count(); ++t) {
     for (const int v : raw.triangles[t]) {
@@ -95,10 +87,10 @@ std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const W
   std::vector<int> face_of_triangle;
   face_of_triangle.reserve(welded.old_triangle_of_new.size());
   std::vector<bool> is_left(faces.face.size(), false), was_there(faces.face.size(), false);
-  for (const int face : faces.face_of_triangle) was_there[static_cast<std::size_t>(face)] = true;
+  for (const int face : faces.face_of_triangle) was_there[face] = true;
   for (const int old : welded.old_triangle_of_new) {
-    face_of_triangle.push_back(faces.face_of_triangle[static_cast<std::size_t>(old)]);
-    is_left[static_cast<std::size_t>(face_of_triangle.back())] = true;
+    face_of_triangle.push_back(faces.face_of_triangle[old]);
+    is_left[face_of_triangle.back()] = true;
   }
   for (std::size_t f = 0; f < faces.face.size(); ++f) {
     if (is_left[f] || !was_there[f]) continue;
@@ -140,8 +132,9 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   }
   const WeldResult welded = weld(in_mm, {.tolerance = kWeldShare * box.sizes().maxCoeff()});
   if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
-    throw InputError(source + ": its triangles have no area (size " + number(box.sizes().x()) +
-                     " x " + number(box.sizes().y()) + " x " + number(box.sizes().z()) + " mm)");
+    throw InputError(source + ": its triangles have no area (size " +
+                     significant(box.sizes().x(), 6) + " x " + significant(box.sizes().y(), 6) +
+                     " x " + significant(box.sizes().z(), 6) + " mm)");
   }
   OrientResult oriented = orient_outwards(welded.mesh);
 

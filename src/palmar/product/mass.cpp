@@ -18,8 +18,7 @@ MassProperties mass_properties(const Product& product) {
   const TriangleMesh& mesh = product.mesh;
   double rim = 0.0;
   for (const auto& [a, b] : boundary_edges(build_topology(mesh))) {
-    rim += (mesh.vertices[static_cast<std::size_t>(a)] - mesh.vertices[static_cast<std::size_t>(b)])
-               .norm();
+    rim += (mesh.vertices[a] - mesh.vertices[b]).norm();
   }
   const double area = surface_area(mesh);
   const double volume = std::abs(signed_volume(mesh));
@@ -39,7 +38,6 @@ MassProperties mass_properties(const Product& product) {
 }
 
 double weight_of(double volume, double density) {
-  constexpr double kStandardGravity = 9.80665;               // m/s^2
   return volume * 1e-3 * density * 1e-3 * kStandardGravity;  // mm^3 -> cm^3 -> g -> kg -> N
 }
 

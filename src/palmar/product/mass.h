@@ -17,7 +17,9 @@ struct MassProperties {
 /// rim is shorter than 5 % of the square root of the area don't count.
 MassProperties mass_properties(const Product& product);
 
-/// Weight [N] of a volume [mm^3] at a density [g/cm^3], standard gravity 9.80665 m/s^2 (CGPM 1901).
+inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2; CGPM 1901
+
+/// Weight [N] of a volume [mm^3] at a density [g/cm^3], standard gravity.
 double weight_of(double volume, double density);
 
 }  // namespace palmar

@@ -3,30 +3,23 @@
 #include "palmar/product/parametric_kinds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 /// Bounds come from sums of what people type: 0.49 * 8 is no reason to refuse 3.92.
 constexpr double kRounding = 1e-9;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 std::string with_unit(double value, const std::string& parameter) {
   const std::string unit = unit_of_parameter(parameter);
-  return number(value) + (unit.empty() ? "" : " " + unit);
+  return significant(value, 6) + (unit.empty() ? "" : " " + unit);
 }
 
 KindRelation at_most(const std::string& parameter, const std::string& words,
@@ -76,7 +69,7 @@ ParametricKind elliptic_handle() {
 }
 
 double thin_end(const KindValues& v) {
-  return v.at("diameter_mm") - 2.0 * v.at("length_mm") * std::tan(v.at("taper_deg") * kDeg);
+  return v.at("diameter_mm") - 2.0 * v.at("length_mm") * std::tan(v.at("taper_deg") * kDegree);
 }
 
 ParametricKind tapered_handle() {
@@ -88,11 +81,12 @@ ParametricKind tapered_handle() {
            {"end_fillet_mm", 4, 0, 90, "radius of the edges of both ends; 0: sharp"}},
           {at_most("taper_deg", "the taper that leaves 5 mm at the thin end",
                    [](const KindValues& v) {
-                     return std::atan(0.5 * (v.at("diameter_mm") - 5.0) / v.at("length_mm")) / kDeg;
+                     return std::atan(0.5 * (v.at("diameter_mm") - 5.0) / v.at("length_mm")) /
+                            kDegree;
                    }),
            at_most("end_fillet_mm", "what both ends and the side have room for",
                    [](const KindValues& v) {
-                     const double taper = v.at("taper_deg") * kDeg;
+                     const double taper = v.at("taper_deg") * kDegree;
                      // Lengths that a fillet of radius 1 takes of cap and side.
                      const double thick = std::tan(0.5 * (0.5 * std::numbers::pi + taper));
                      const double thin = std::tan(0.5 * (0.5 * std::numbers::pi - taper));
@@ -235,7 +229,7 @@ ParametricKind pistol_grip() {
        at_most("end_fillet_mm", "a tenth of width_mm",
                [](const KindValues& v) { return 0.1 * v.at("width_mm"); })},
       [](const KindValues& v) {
-        const double rake = v.at("rake_deg") * kDeg;
+        const double rake = v.at("rake_deg") * kDegree;
         return Vec3(0.0, -std::sin(rake), std::cos(rake));
       }};
 }
@@ -325,7 +319,7 @@ void check_range(const ParametricKind& kind, const KindParameter& parameter, dou
   if (is_inside && (!parameter.is_whole || value == std::floor(value))) return;
   throw UsageError(kind.name + ": " + parameter.name + " is " + with_unit(value, parameter.name) +
                    "; " + (parameter.is_whole ? "a whole number from " : "") +
-                   number(parameter.lowest) + " to " +
+                   significant(parameter.lowest, 6) + " to " +
                    with_unit(parameter.highest, parameter.name) + " is allowed");
 }
 

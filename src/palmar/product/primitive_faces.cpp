@@ -19,9 +19,7 @@ struct Run {
 
 std::vector<Run> runs_of(const std::vector<int>& face_of_segment) {
   const auto n = static_cast<int>(face_of_segment.size());
-  const auto face_at = [&](int i) {
-    return face_of_segment[static_cast<std::size_t>((i + n) % n)];
-  };
+  const auto face_at = [&](int i) { return face_of_segment[(i + n) % n]; };
   int first = 0;
   while (first < n && face_at(first) == face_at(first - 1)) ++first;
   if (first == n) return {{face_at(0), 0, n}};
@@ -73,9 +71,9 @@ class EdgeList {
  private:
   const Eigen::Vector2d& at(int i) const {
     const auto n = static_cast<int>(section_.points.size());
-    return section_.points[static_cast<std::size_t>((i + n) % n)];
+    return section_.points[(i + n) % n];
   }
-  double radius(int face) const { return faces_.face[static_cast<std::size_t>(face)].radius; }
+  double radius(int face) const { return faces_.face[face].radius; }
   void add(ProductEdge edge) {
     edge.number = static_cast<int>(faces_.edge.size()) + 1;
     faces_.edge.push_back(std::move(edge));
@@ -122,7 +120,7 @@ std::shared_ptr<const ProductFaces> bar_faces(const BarSection& section,
 
   std::vector<int> face_of_segment;
   for (const int side : section.side) {
-    face_of_segment.push_back(face_of_side[static_cast<std::size_t>(side)]);
+    face_of_segment.push_back(face_of_side[side]);
   }
   const std::size_t n = section.points.size();
   const auto rows = static_cast<std::size_t>(2 * rings.on_ends - 1);  // a fan has half of a row
@@ -142,7 +140,7 @@ std::shared_ptr<const ProductFaces> bar_faces(const BarSection& section,
   }
   for (const auto& [face, z] : {std::pair(bottom, -0.5), std::pair(top, 0.5)}) {
     for (const Run& run : runs) {
-      edges.add_round_end(run, face, z * rings.length, width[static_cast<std::size_t>(run.face)]);
+      edges.add_round_end(run, face, z * rings.length, width[run.face]);
     }
   }
   return std::make_shared<const ProductFaces>(std::move(faces));

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <span>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/geometry/distance/analytic_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitive_faces.h"
@@ -20,16 +20,10 @@ namespace {
 constexpr int kMaxEdges = 400;  // per side: 400 x 400 squares are 320 000 triangles
 constexpr int kMaxSubdivisions = 7;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 void check_between(const char* object, const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw UsageError(std::string(object) + ": " + name + " is " + number(value) + " mm; " +
-                   number(low) + " to " + number(high) + " mm is allowed");
+  throw UsageError(std::string(object) + ": " + name + " is " + significant(value, 6) + " mm; " +
+                   significant(low, 6) + " to " + significant(high, 6) + " mm is allowed");
 }
 
 void check_size(const char* object, const char* name, double value) {
@@ -101,7 +95,7 @@ BarSection filleted_rectangle(const PrismProductOptions& o) {
                                                   {inner.x(), -inner.y()}};
   const std::array<int, 4> flat_after = {kBack, kLeft, kFront, kRight};
   for (int c = 0; c < 4; ++c) {
-    const int flat = flat_after[static_cast<std::size_t>(c)];
+    const int flat = flat_after[c];
     for (int i = 0; i <= arc; ++i) {
       const double angle =
           0.5 * std::numbers::pi * (c + (arc > 0 ? static_cast<double>(i) / arc : 0.0));
@@ -192,10 +186,10 @@ Product make_cylinder_product(const CylinderProductOptions& options) {
                           .end_area = std::numbers::pi * radius * radius,
                           .along = divisions(options.length, options.fineness),
                           .on_ends = divisions(radius, options.fineness)};
-  Product product =
-      finish("cylinder " + number(options.diameter) + " x " + number(options.length) + " mm",
-             sweep(circle.points, options.length, rings.along, rings.on_ends),
-             make_cylinder_distance({.radius = radius, .length = options.length}));
+  Product product = finish("cylinder " + significant(options.diameter, 6) + " x " +
+                               significant(options.length, 6) + " mm",
+                           sweep(circle.points, options.length, rings.along, rings.on_ends),
+                           make_cylinder_distance({.radius = radius, .length = options.length}));
   const BarSide side = {.name = "side", .radius = radius, .width = 2.0 * std::numbers::pi * radius};
   product.faces = bar_faces(circle, {side}, rings);
   return product;
@@ -219,8 +213,9 @@ Product make_prism_product(const PrismProductOptions& options) {
       .along = divisions(options.length, options.fineness),
       .on_ends = divisions(0.5 * std::max(options.width, options.depth), options.fineness)};
   Product product =
-      finish("prism " + number(options.width) + " x " + number(options.depth) + " x " +
-                 number(options.length) + " mm, fillet " + number(options.fillet_radius) + " mm",
+      finish("prism " + significant(options.width, 6) + " x " + significant(options.depth, 6) +
+                 " x " + significant(options.length, 6) + " mm, fillet " +
+                 significant(options.fillet_radius, 6) + " mm",
              sweep(section.points, options.length, rings.along, rings.on_ends),
              make_prism_distance({.width = options.width,
                                   .depth = options.depth,
@@ -240,7 +235,7 @@ Product make_sphere_product(const SphereProductOptions& options) {
   const double radius = 0.5 * options.diameter;
   TriangleMesh mesh = fine_icosphere(Vec3::Constant(radius), options.fineness);
   for (Vec3& x : mesh.vertices) x *= radius;
-  return finish("sphere " + number(options.diameter) + " mm", std::move(mesh),
+  return finish("sphere " + significant(options.diameter, 6) + " mm", std::move(mesh),
                 make_sphere_distance(radius));
 }
 
@@ -256,8 +251,9 @@ Product make_ellipsoid_product(const EllipsoidProductOptions& options) {
   const Vec3 axes = 0.5 * options.diameters;
   TriangleMesh mesh = fine_icosphere(axes, options.fineness);
   for (Vec3& x : mesh.vertices) x = x.cwiseProduct(axes);
-  return finish("ellipsoid " + number(options.diameters.x()) + " x " +
-                    number(options.diameters.y()) + " x " + number(options.diameters.z()) + " mm",
+  return finish("ellipsoid " + significant(options.diameters.x(), 6) + " x " +
+                    significant(options.diameters.y(), 6) + " x " +
+                    significant(options.diameters.z(), 6) + " mm",
                 std::move(mesh), make_ellipsoid_distance(axes));
 }
 
@@ -274,8 +270,8 @@ Product make_plane_product(const PlaneProductOptions& options) {
   TriangleMesh mesh = make_box(
       size, std::min(100, divisions(std::max(options.width, options.depth), options.fineness)));
   for (Vec3& x : mesh.vertices) x.z() -= 0.5 * options.thickness;
-  return finish("plane " + number(options.width) + " x " + number(options.depth) + " x " +
-                    number(options.thickness) + " mm",
+  return finish("plane " + significant(options.width, 6) + " x " + significant(options.depth, 6) +
+                    " x " + significant(options.thickness, 6) + " mm",
                 std::move(mesh), make_slab_distance(size));
 }
 

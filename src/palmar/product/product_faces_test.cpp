@@ -23,7 +23,7 @@ const UnitDecision kMm{LengthUnit::kMillimetre, UnitSource::kUser, ""};
 const UnitDecision kInches{LengthUnit::kInch, UnitSource::kUser, ""};
 
 double triangle_area(const TriangleMesh& mesh, int t) {
-  const Triangle& k = mesh.triangles[static_cast<std::size_t>(t)];
+  const Triangle& k = mesh.triangles[t];
   return 0.5 * (mesh.vertices[k[1]] - mesh.vertices[k[0]])
                    .cross(mesh.vertices[k[2]] - mesh.vertices[k[0]])
                    .norm();
@@ -32,8 +32,7 @@ double triangle_area(const TriangleMesh& mesh, int t) {
 std::vector<double> meshed_areas(const Product& product) {
   std::vector<double> areas(product.faces->face.size(), 0.0);
   for (int t = 0; t < product.mesh.triangle_count(); ++t) {
-    areas[product.faces->face_of_triangle[static_cast<std::size_t>(t)]] +=
-        triangle_area(product.mesh, t);
+    areas[product.faces->face_of_triangle[t]] += triangle_area(product.mesh, t);
   }
   return areas;
 }
@@ -57,10 +56,10 @@ TriangleMesh soup_of(const Product& product, ProductFaces& faces) {
     faces.face_of_triangle.push_back(face);
   };
   for (int t = 0; t < product.mesh.triangle_count(); ++t) {
-    const Triangle& k = product.mesh.triangles[static_cast<std::size_t>(t)];
+    const Triangle& k = product.mesh.triangles[t];
     const Vec3 &a = product.mesh.vertices[k[0]], &b = product.mesh.vertices[k[1]],
                &c = product.mesh.vertices[k[2]];
-    const int face = product.faces->face_of_triangle[static_cast<std::size_t>(t)];
+    const int face = product.faces->face_of_triangle[t];
     if (t % 3 == 0) {
       add(a, c, b, face);
     } else {
@@ -95,10 +94,10 @@ TEST(PrimitiveFaces, OfThePrismAreItsSidesFilletsAndEnds) {
 TEST(PrimitiveFaces, TrianglesLieOnTheirFaces) {
   const Product prism = make_prism_product({});  // 40 x 30 x 150 mm, r 5 mm
   for (int t = 0; t < prism.mesh.triangle_count(); ++t) {
-    const int face = prism.faces->face_of_triangle[static_cast<std::size_t>(t)];
-    for (const int v : prism.mesh.triangles[static_cast<std::size_t>(t)]) {
+    const int face = prism.faces->face_of_triangle[t];
+    for (const int v : prism.mesh.triangles[t]) {
       const Vec3& x = prism.mesh.vertices[v];
-      const std::string& name = prism.faces->face[static_cast<std::size_t>(face)].name;
+      const std::string& name = prism.faces->face[face].name;
       const double off = name == "right"      ? x.x() - 20.0
                          : name == "back"     ? x.y() - 15.0
                          : name == "left"     ? x.x() + 20.0

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/fill_holes.h"
@@ -30,22 +31,12 @@ constexpr double kCrack = 100.0;  // times the weld's tolerance: narrower holes 
 constexpr int kMaxPasses = 5;
 constexpr std::size_t kMostPlaces = 20;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
-
 std::string place_text(const Vec3& x) {
   std::array<char, 96> text{};
   const auto rounded = [](double value) { return std::round(10.0 * value) / 10.0 + 0.0; };
   std::snprintf(text.data(), text.size(), "(%.1f, %.1f, %.1f) mm", rounded(x.x()), rounded(x.y()),
                 rounded(x.z()));
   return text.data();
-}
-
-std::string counted(int count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 int size_of(const std::vector<Vec3>& places) { return static_cast<int>(places.size()); }
@@ -163,7 +154,7 @@ class Repairer {
     }
     add(result_.done, "weld", welded.merged_vertices,
         "joined " + counted(welded.merged_vertices, "vertex", "vertices") + " to others within " +
-            number(limits().weld) + " mm",
+            significant(limits().weld, 4) + " mm",
         std::move(places));
     add(result_.done, "low triangles", welded.dropped_degenerate,
         "dropped " + counted(welded.dropped_degenerate, "triangle", "triangles") +
@@ -236,7 +227,7 @@ class Repairer {
       return p != largest && groups.box[p].diagonal().norm() < limits().speck;
     };
     drop_groups(groups, piece, is_speck, "specks", "speck", "specks",
-                "below " + number(limits().speck) + " mm");
+                "below " + significant(limits().speck, 4) + " mm");
   }
 
   template <typename IsGone>
@@ -300,7 +291,7 @@ class Repairer {
         const std::string name = "hole " + std::to_string(i + 1) + " of " +
                                  std::to_string(filled.holes.size()) + " (" +
                                  std::to_string(hole.loop.size()) + " edges, " +
-                                 number(hole.loop.perimeter) + " mm round) ";
+                                 significant(hole.loop.perimeter, 4) + " mm round) ";
         holes_left_.push_back({"holes", 1, name + hole.reason, {hole.loop.centre}});
         continue;
       }
@@ -312,8 +303,8 @@ class Repairer {
     const int count = filled.filled;
     add(result_.done, "holes", count,
         "filled " + counted(count, "hole", "holes") + " with " +
-            counted(triangles, "triangle", "triangles") + ", " + number(area) +
-            " mm^2; the longest rim is " + number(longest) + " mm",
+            counted(triangles, "triangle", "triangles") + ", " + significant(area, 4) +
+            " mm^2; the longest rim is " + significant(longest, 4) + " mm",
         std::move(places));
     mesh() = std::move(filled.mesh);
     return count > 0;
@@ -335,7 +326,7 @@ class Repairer {
             (parted.parted_edges.empty()
                  ? std::string()
                  : " and " + counted(size_of(parted.parted_edges), "edge", "edges")) +
-            ", by " + number(kGap * limits().weld) + " mm",
+            ", by " + significant(kGap * limits().weld, 4) + " mm",
         std::move(parted.parted));
     mesh() = std::move(parted.mesh);
   }
@@ -391,7 +382,7 @@ class Repairer {
 
 void require_length(const char* name, const std::optional<double>& value) {
   if (!value || (std::isfinite(*value) && *value >= 0.0)) return;
-  throw UsageError(std::string("repair: ") + name + " is " + number(*value) +
+  throw UsageError(std::string("repair: ") + name + " is " + significant(*value, 4) +
                    " mm; a finite length of at least 0 is required");
 }
 
@@ -410,9 +401,9 @@ RepairLimits repair_limits(const RepairOptions& options, double diagonal) {
                                options.speck.value_or(kSpeckShare * diagonal)};
   const auto require = [&](const char* name, double value, double most) {
     if (value <= most) return;
-    throw UsageError(std::string("repair: ") + name + " is " + number(value) +
-                     " mm; for a product with a diagonal of " + number(diagonal) + " mm up to " +
-                     number(most) + " mm is allowed");
+    throw UsageError(std::string("repair: ") + name + " is " + significant(value, 4) +
+                     " mm; for a product with a diagonal of " + significant(diagonal, 4) +
+                     " mm up to " + significant(most, 4) + " mm is allowed");
   };
   require("the weld's tolerance", limits.weld, kMostWeldShare * diagonal);
   require("the largest speck", limits.speck, diagonal / 2.0);
@@ -444,17 +435,18 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
                                        [&](double length) { return length <= limits.hole; }));
     const int large = static_cast<int>(check.hole_perimeters.size()) - small;
     if (small > 0) {
-      fixes.push_back("holes: `palmar product repair` fills those up to " + number(limits.hole) +
-                      " mm round (" + std::to_string(small) + ") where a patch fits");
+      fixes.push_back("holes: `palmar product repair` fills those up to " +
+                      significant(limits.hole, 4) + " mm round (" + std::to_string(small) +
+                      ") where a patch fits");
     }
     if (large > 0) {
       const double longest =
           *std::max_element(check.hole_perimeters.begin(), check.hole_perimeters.end());
       fixes.push_back("openings: " + std::to_string(large) + " of more than " +
-                      number(limits.hole) +
+                      significant(limits.hole, 4) +
                       " mm round stay; close them in the program they come "
                       "from, or all up to the longest with --hole-mm " +
-                      number(std::ceil(longest)));
+                      significant(std::ceil(longest), 4));
     }
     if (small + large == 0) {
       fixes.push_back(
@@ -477,8 +469,8 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
     fixes.push_back("orientation: `palmar product repair` turns triangles outwards");
   }
   if (check.tiny_parts > 0) {
-    fixes.push_back("specks: `palmar product repair` drops pieces below " + number(limits.speck) +
-                    " mm");
+    fixes.push_back("specks: `palmar product repair` drops pieces below " +
+                    significant(limits.speck, 4) + " mm");
   }
   if (check.undecided_patches > 0 || check.twisted_patches > 0) {
     fixes.push_back(

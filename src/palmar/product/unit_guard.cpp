@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/product/unit_guard.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -14,16 +13,10 @@ namespace {
 constexpr double kSmallestSize = 0.1;     // mm; below, nothing can be felt
 constexpr double kLargestSize = 10000.0;  // mm; above, nothing is held in a hand
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
-
 /// "120 x 45.2 x 45.2"
 std::string sides(const Vec3& size, double scale) {
-  return number(size.x() * scale) + " x " + number(size.y() * scale) + " x " +
-         number(size.z() * scale);
+  return significant(size.x() * scale, 4) + " x " + significant(size.y() * scale, 4) + " x " +
+         significant(size.z() * scale, 4);
 }
 
 void check_size(const Vec3& size, LengthUnit unit, const std::string& object) {
@@ -31,7 +24,7 @@ void check_size(const Vec3& size, LengthUnit unit, const std::string& object) {
   if (longest >= kSmallestSize && longest <= kLargestSize) return;
   throw InputError(object + ": its size is " + sides(size, millimetres_per(unit)) + " mm (" +
                    sides(size, 1.0) + " in " + name_of(unit) + "); the longest side must be " +
-                   number(kSmallestSize) + " to " + number(kLargestSize) +
+                   significant(kSmallestSize, 4) + " to " + significant(kLargestSize, 4) +
                    " mm. If the unit is wrong, give it with --unit mm, cm, m or inch");
 }
 
@@ -74,7 +67,7 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
     std::string reading;
     for (const LengthUnit unit : {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
                                   LengthUnit::kInch, LengthUnit::kMetre}) {
-      reading += (reading.empty() ? "" : ", ") + number(longest * millimetres_per(unit)) +
+      reading += (reading.empty() ? "" : ", ") + significant(longest * millimetres_per(unit), 4) +
                  " mm if " + name_of(unit);
     }
     throw InputError(object + ": the file doesn't carry its unit and its size, " +

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "palmar/core/version.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/index_json.h"
 #include "palmar/records/json_values.h"
 
@@ -35,7 +36,7 @@ Json posture_object(const Posture& angles) {
   Json posture = Json::object();
   for (int d = 0; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
-    posture[std::string(name_of(dof)) + "_deg"] = angles[dof] * kDegrees;
+    posture[std::string(name_of(dof)) + "_deg"] = angles[dof] * kDegreesPerRadian;
   }
   return posture;
 }
@@ -158,7 +159,7 @@ Json contact_object(const ContactResult& contact) {
 Json face_array(const Product& product, const std::vector<FaceContact>& contacts) {
   Json faces = Json::array();
   for (const FaceContact& contact : contacts) {
-    const ProductFace& face = product.faces->face[static_cast<std::size_t>(contact.face)];
+    const ProductFace& face = product.faces->face[contact.face];
     faces.push_back({{"face", face.number},
                      {"title", title_of(face)},
                      {"name", face.name},
@@ -182,7 +183,7 @@ Json wrench_object(const Wrench& wrench) {
 
 Json motion_object(const SmallMotion& motion) {
   return {{"translation_mm", vector3(motion.translation)},
-          {"rotation_deg", vector3(motion.rotation * kDegrees)},
+          {"rotation_deg", vector3(motion.rotation * kDegreesPerRadian)},
           {"about_mm", vector3(motion.about)}};
 }
 
@@ -235,7 +236,7 @@ Json balance_object(const Balance& balance) {
           {"friction_in_use", balance.friction_use},
           {"flexion_strength_in_use", or_null(balance.strength_use)},
           {"moved_mm", balance.moved},
-          {"turned_deg", balance.turned * kDegrees},
+          {"turned_deg", balance.turned * kDegreesPerRadian},
           {"slip_direction_in_hand", balance.slip ? vector3(*balance.slip) : Json(nullptr)},
           {"iterations", balance.iterations}};
 }
@@ -304,7 +305,7 @@ Json settings_object(const Assessment& assessment) {
           {"finger_limit_depth_mm", options.grasp.power.finger_limit_depth},
           {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
           {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
-          {"turn_deg", placed.turn ? Json(*placed.turn * kDegrees) : Json(nullptr)},
+          {"turn_deg", placed.turn ? Json(*placed.turn * kDegreesPerRadian) : Json(nullptr)},
           {"balance", options.balance.is_on},
           {"balance_friction", options.balance.friction},
           {"grip_force_asked_n", or_null(options.balance.grip_force)},

@@ -143,7 +143,7 @@ CsvTable face_table(const AssessmentSet& set) {
                   "source"};
   for (const AssessedProduct& one : set.assessments) {
     for (const FaceContact& contact : one.assessment.faces) {
-      const ProductFace& face = one.product.faces->face[static_cast<std::size_t>(contact.face)];
+      const ProductFace& face = one.product.faces->face[contact.face];
       table.rows.push_back({one.product.name, one.assessment.hand_name, std::to_string(face.number),
                             title_of(face), face.name, name_of(face.kind), shortest(face.radius),
                             shortest(face.area), shortest(contact.force), shortest(contact.area),

@@ -4,14 +4,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "palmar/geometry/types.h"
 
 namespace palmar {
-
-inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< of a radian
 
 /// [x, y, z].
 inline nlohmann::ordered_json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }

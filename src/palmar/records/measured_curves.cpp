@@ -19,20 +19,20 @@ namespace {
 
 enum class Quantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
 
-struct Column {
+struct CurveColumn {
   const char* name;
   Quantity quantity;
   double factor;  ///< to ours
 };
-constexpr std::array<Column, 9> kColumns = {{{"depth_mm", Quantity::kDepth, 1.0},
-                                             {"force_n", Quantity::kForce, 1.0},
-                                             {"force_mn", Quantity::kForce, 1e-3},
-                                             {"area_mm2", Quantity::kArea, 1.0},
-                                             {"area_cm2", Quantity::kArea, 100.0},
-                                             {"weight", Quantity::kWeight, 1.0},
-                                             {"force_sd_n", Quantity::kForceSd, 1.0},
-                                             {"force_sd_mn", Quantity::kForceSd, 1e-3},
-                                             {"subject", Quantity::kSubject, 1.0}}};
+constexpr std::array<CurveColumn, 9> kCurveColumns = {{{"depth_mm", Quantity::kDepth, 1.0},
+                                                       {"force_n", Quantity::kForce, 1.0},
+                                                       {"force_mn", Quantity::kForce, 1e-3},
+                                                       {"area_mm2", Quantity::kArea, 1.0},
+                                                       {"area_cm2", Quantity::kArea, 100.0},
+                                                       {"weight", Quantity::kWeight, 1.0},
+                                                       {"force_sd_n", Quantity::kForceSd, 1.0},
+                                                       {"force_sd_mn", Quantity::kForceSd, 1e-3},
+                                                       {"subject", Quantity::kSubject, 1.0}}};
 
 /// Beginnings of columns that need a unit behind them, the longer ones first.
 struct NeedsUnit {
@@ -70,9 +70,9 @@ class Reader {
       if (names[i].size() > 3 && names[i].substr(names[i].size() - 3) == "_MN") {
         fail("column " + in_quotes(names[i]) + ": MN could be meganewton; force_mN is millinewton");
       }
-      const auto* known = std::find_if(kColumns.begin(), kColumns.end(),
-                                       [&](const Column& c) { return name == c.name; });
-      if (known == kColumns.end()) {
+      const auto* known = std::find_if(kCurveColumns.begin(), kCurveColumns.end(),
+                                       [&](const CurveColumn& c) { return name == c.name; });
+      if (known == kCurveColumns.end()) {
         check_unit(names[i], name);
         curves_.ignored.push_back(names[i]);
         continue;
@@ -172,7 +172,7 @@ class Reader {
   }
 
   const CsvFile& file_;
-  std::vector<const Column*> column_;  ///< per cell; null: ignored
+  std::vector<const CurveColumn*> column_;  ///< per cell; null: ignored
   std::map<Quantity, std::size_t> of_quantity_;
   MeasuredCurves curves_;
 };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/formats/mesh/vtk.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/json_values.h"
 
 namespace palmar {
@@ -16,13 +17,18 @@ Json finger_object(const FingerReach& reach) {
   Json posture = Json::object();
   for (int d = 0; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
-    posture[std::string(name_of(dof)) + "_deg"] = reach.posture[dof] * kDegrees;
+    posture[std::string(name_of(dof)) + "_deg"] = reach.posture[dof] * kDegreesPerRadian;
   }
-  return {{"finger", name_of(reach.finger)},     {"reached", reach.is_reached},
-          {"blocked", reach.is_blocked},         {"miss_mm", reach.miss},
-          {"tilt_deg", reach.tilt * kDegrees},   {"margin_deg", reach.margin * kDegrees},
-          {"tightest", name_of(reach.tightest)}, {"awkward", reach.is_awkward},
-          {"grip_kept", reach.is_grip_kept},     {"posture", std::move(posture)}};
+  return {{"finger", name_of(reach.finger)},
+          {"reached", reach.is_reached},
+          {"blocked", reach.is_blocked},
+          {"miss_mm", reach.miss},
+          {"tilt_deg", reach.tilt * kDegreesPerRadian},
+          {"margin_deg", reach.margin * kDegreesPerRadian},
+          {"tightest", name_of(reach.tightest)},
+          {"awkward", reach.is_awkward},
+          {"grip_kept", reach.is_grip_kept},
+          {"posture", std::move(posture)}};
 }
 
 }  // namespace
@@ -58,7 +64,7 @@ std::string reach_json(const Grasp& grasp, const std::vector<ButtonReach>& butto
 std::string format_reach_map(const TriangleMesh& surface, const ReachMap& map) {
   PointField finger{"finger", {}, 1}, margin{"margin_deg", {}, 1}, miss{"miss_mm", map.miss, 1};
   for (const int f : map.finger) finger.value.push_back(f);
-  for (const double m : map.margin) margin.value.push_back(m * kDegrees);
+  for (const double m : map.margin) margin.value.push_back(m * kDegreesPerRadian);
   return format_vtp(surface, {finger, margin, miss},
                     {{"finger", "-1 nobody, 0 thumb, 1 index, 2 middle, 3 ring, 4 little"}});
 }

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/region_json.h"
 
-#include <numbers>
-
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Json json_of(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 

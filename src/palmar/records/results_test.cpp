@@ -23,7 +23,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 TEST(Base64, HasTheTestVectorsOfRfc4648) {
   EXPECT_EQ(base64(""), "");
@@ -112,7 +112,7 @@ AssessmentSet example() {
   grasp.product_from_hand = {Quat(Eigen::AngleAxisd(std::numbers::pi / 2.0, Vec3::UnitZ())),
                              Vec3(10, 0, 0)};
   for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[static_cast<std::size_t>(s)].segment = static_cast<Segment>(s);
+    grasp.stops[s].segment = static_cast<Segment>(s);
   }
   grasp.stops[5] = {static_cast<Segment>(5), StopReason::kLimitDepth, 4.0};
   ContactResult& contact = assessment.contact;
@@ -138,9 +138,9 @@ AssessmentSet example() {
 }
 
 TEST(AssessmentJson, HasTheShapeThatOtherProgramsRelyOn) {
-  const Json json = Json::parse(assessment_json(example()));
+  const PlainJson json = PlainJson::parse(assessment_json(example()));
   ASSERT_EQ(json.at("assessments").size(), 1u);
-  const Json& one = json["assessments"][0];
+  const PlainJson& one = json["assessments"][0];
   for (const char* key :
        {"product", "hand", "grasp", "contact", "indices", "settings", "times_s"}) {
     EXPECT_TRUE(one.contains(key)) << key;
@@ -156,9 +156,9 @@ TEST(AssessmentJson, HasTheShapeThatOtherProgramsRelyOn) {
 }
 
 TEST(AssessmentJson, NumbersReadBackExactlyInTheirUnits) {
-  const Json one = Json::parse(assessment_json(example()))["assessments"][0];
+  const PlainJson one = PlainJson::parse(assessment_json(example()))["assessments"][0];
   EXPECT_EQ(one["contact"]["force_n"].get<double>(), 0.1 + 0.2);
-  EXPECT_EQ(one["contact"]["centre_mm"], Json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(one["contact"]["centre_mm"], PlainJson({1.0, 2.0, 3.0}));
   EXPECT_DOUBLE_EQ(one["grasp"]["posture"]["index_pip_flexion_deg"].get<double>(), 45.0);
   EXPECT_EQ(one["grasp"]["posture"].size(), 23u);
   EXPECT_EQ(one["grasp"]["segments"].size(), 15u);
@@ -168,26 +168,25 @@ TEST(AssessmentJson, NumbersReadBackExactlyInTheirUnits) {
   EXPECT_DOUBLE_EQ(one["settings"]["turn_deg"].get<double>(), 180.0);
   EXPECT_TRUE(one["settings"]["axis"].is_null());
   EXPECT_EQ(one["hand"]["hand_length_mm"], 190.0);
-  EXPECT_EQ(one["product"]["size_mm"], Json({120.0, 30.0, 20.0}));
+  EXPECT_EQ(one["product"]["size_mm"], PlainJson({120.0, 30.0, 20.0}));
   EXPECT_EQ(one["product"]["unit"], "inch");
   EXPECT_EQ(one["product"]["unit_from"], "user");
   EXPECT_EQ(one["times_s"]["contact"], 0.5);
-  EXPECT_EQ(one["indices"]["fingers_in_contact"], Json({"index"}));
+  EXPECT_EQ(one["indices"]["fingers_in_contact"], PlainJson({"index"}));
 }
 
 TEST(AssessmentJson, ThePlacementMapsHandPointsToTheProduct) {
-  const Json grasp = Json::parse(grasp_json(example().assessments[0].assessment.grasp));
-  const Json& matrix = grasp["product_from_hand"]["matrix_rows_mm"];
+  const PlainJson grasp = PlainJson::parse(grasp_json(example().assessments[0].assessment.grasp));
+  const PlainJson& matrix = grasp["product_from_hand"]["matrix_rows_mm"];
   // The hand's point (1, 0, 0) stands at (10, 1, 0) in the product.
   Vec3 mapped;
   for (int r = 0; r < 3; ++r) {
-    const auto row = static_cast<std::size_t>(r);
-    mapped[r] = matrix[row][0].get<double>() + matrix[row][3].get<double>();
+    mapped[r] = matrix[r][0].get<double>() + matrix[r][3].get<double>();
   }
   EXPECT_NEAR((mapped - Vec3(10, 1, 0)).norm(), 0.0, 1e-12);
-  EXPECT_EQ(matrix[3], Json({0.0, 0.0, 0.0, 1.0}));
-  EXPECT_EQ(grasp["product_from_hand"]["translation_mm"], Json({10.0, 0.0, 0.0}));
-  const Json& q = grasp["product_from_hand"]["quaternion_wxyz"];
+  EXPECT_EQ(matrix[3], PlainJson({0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(grasp["product_from_hand"]["translation_mm"], PlainJson({10.0, 0.0, 0.0}));
+  const PlainJson& q = grasp["product_from_hand"]["quaternion_wxyz"];
   EXPECT_NEAR(q[0].get<double>(), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(q[3].get<double>(), std::sqrt(0.5), 1e-15);
 }
@@ -204,7 +203,7 @@ TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
   options.layer_thickness = 6.0;
   PressSetting setting;
   setting.model.tissue = TissueModel::kLayered;
-  const Json json = Json::parse(press_json(options, setting, {step, step}));
+  const PlainJson json = PlainJson::parse(press_json(options, setting, {step, step}));
   EXPECT_EQ(json["test"]["specimen"], "plane");
   EXPECT_EQ(json["test"]["indenter"], "punches:2,10");
   EXPECT_EQ(json["test"]["tissue_model"], "layered");
@@ -212,7 +211,7 @@ TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
   EXPECT_EQ(json["test"]["coating"]["thickness_mm"], 1.5);
   EXPECT_TRUE(json["test"]["hand"].is_null());
   ASSERT_EQ(json.at("steps").size(), 2u);
-  const Json& one = json["steps"][0];
+  const PlainJson& one = json["steps"][0];
   EXPECT_EQ(one["depth_mm"], 1.5);
   EXPECT_EQ(one["force_n"].get<double>(), 0.1 + 0.2);
   EXPECT_EQ(one["contact_area_mm2"], 20.0);
@@ -259,14 +258,14 @@ TEST(Csv, BrokenBytesAreReplacedAsInJson) {
   const std::string text = format_csv(region_table(example()));
   EXPECT_THAT(text, HasSubstr("\nhandle \xef\xbf\xbd,template,"));
   EXPECT_EQ(text.find('\xff'), text.npos);
-  const Json json = Json::parse(assessment_json(example()));
+  const PlainJson json = PlainJson::parse(assessment_json(example()));
   EXPECT_EQ(json["assessments"][0]["product"]["name"], "handle \xef\xbf\xbd");
 }
 
 TEST(HandJson, TakesNamesThatAreNoUtf8) {
   Hand hand;
   hand.name = "hand \xff";
-  EXPECT_EQ(Json::parse(hand_info_json(hand))["name"], "hand \xef\xbf\xbd");
+  EXPECT_EQ(PlainJson::parse(hand_info_json(hand))["name"], "hand \xef\xbf\xbd");
 }
 
 TEST(AssessmentJson, IsToldFromOtherJson) {

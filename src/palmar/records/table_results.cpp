@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/core/text.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/json_values.h"
 #include "palmar/statistics/paired_test.h"
@@ -111,12 +112,6 @@ bool is_best(const std::vector<TableRegression>& all, std::size_t place) {
   return best_predictor(all, all[place].name) == static_cast<int>(place);
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : "+") + name;
-  return text;
-}
-
 std::string end_of(const std::optional<Interval>& ends, bool is_low) {
   return ends ? shortest(is_low ? ends->low : ends->high) : "";
 }
@@ -142,8 +137,8 @@ std::string correlations_json(const Correlations& correlations) {
     group["pairs"] = ordered_json::array();
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
       const auto& pair = c.pairs[i];
-      group["pairs"].push_back({{"a", c.names[static_cast<std::size_t>(pair.a)]},
-                                {"b", c.names[static_cast<std::size_t>(pair.b)]},
+      group["pairs"].push_back({{"a", c.names[pair.a]},
+                                {"b", c.names[pair.b]},
                                 {"n", pair.pearson.n},
                                 {"r", pair.pearson.r},
                                 {"interval", interval(pair.pearson.interval)},
@@ -204,8 +199,7 @@ CsvTable correlations_csv(const Correlations& correlations) {
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
       const auto& pair = c.pairs[i];
       table.rows.push_back(
-          {group.name, c.names[static_cast<std::size_t>(pair.a)],
-           c.names[static_cast<std::size_t>(pair.b)], std::to_string(pair.pearson.n),
+          {group.name, c.names[pair.a], c.names[pair.b], std::to_string(pair.pearson.n),
            shortest(pair.pearson.r), end_of(pair.pearson.interval, true),
            end_of(pair.pearson.interval, false), shortest(pair.pearson.p_value),
            shortest(adjusted[i]), shortest(pair.spearman.r), shortest(pair.spearman.p_value)});
@@ -226,7 +220,7 @@ CsvTable regressions_csv(const Regressions& regressions) {
       // One row per number: the intercept, then the slopes.
       for (std::size_t k = 0; k <= r.predictors.size(); ++k) {
         const Coefficient& c = k == 0 ? r.fit.intercept : r.fit.slopes[k - 1];
-        table.rows.push_back({group.name, r.name, r.unit, joined(r.predictors),
+        table.rows.push_back({group.name, r.name, r.unit, joined(r.predictors, "+"),
                               std::to_string(r.fit.n), k == 0 ? "intercept" : r.predictors[k - 1],
                               shortest(c.estimate), shortest(c.standard_error), shortest(c.t),
                               shortest(c.p_value), shortest(r.fit.r2), shortest(r.fit.adjusted_r2),

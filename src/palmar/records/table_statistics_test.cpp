@@ -159,9 +159,7 @@ TEST(TableStatistics, RegressesTheSurveyAsPublished) {
     EXPECT_NEAR(r.fit.residual_sd, line.rmse, 0.0011);  // published over n, ours over n - 1 - k
   }
   const auto all = regress(where(*ansur2(), "sex=M"), usual_predictors(*ansur2()));
-  const auto best = [&](const char* name) {
-    return all[static_cast<std::size_t>(best_predictor(all, name))].predictors[0];
-  };
+  const auto best = [&](const char* name) { return all[best_predictor(all, name)].predictors[0]; };
   EXPECT_EQ(best("hand_width"), "hand_circumference");
   EXPECT_EQ(best("palm_length"), "hand_length");
 }

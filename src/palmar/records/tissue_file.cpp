@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/formats/file.h"
@@ -74,9 +75,9 @@ constexpr std::array<ModelKey, 2> kModelKeys = {
     {{"half_space", &RegionTissue::half_space}, {"layered", &RegionTissue::layered}}};
 
 /// Reads one file over a base set.
-class Reader {
+class TissueReader {
  public:
-  Reader(std::string path, Tissue base) : path_(std::move(path)), tissue_(std::move(base)) {}
+  TissueReader(std::string path, Tissue base) : path_(std::move(path)), tissue_(std::move(base)) {}
 
   Tissue read(const toml::table& file) {
     std::vector<std::string> known = {"version", "source", "region"};
@@ -99,7 +100,7 @@ class Reader {
     }
     for (int r = 0; r < kRegionCount; ++r) {
       const auto region = static_cast<Region>(r);
-      RegionTissue& one = tissue_.region[static_cast<std::size_t>(r)];
+      RegionTissue& one = tissue_.region[r];
       const std::string group(name_of(tissue_class_of(region)));
       if (const toml::table* values = file[group].as_table()) apply(*values, group, one);
       const std::string name(name_of(region));
@@ -246,8 +247,8 @@ std::string decimal(double value) {
 
 /// TOML's basic strings have JSON's escapes.
 std::string quoted(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  using PlainJson = nlohmann::json;
+  return PlainJson(text).dump(-1, ' ', false, PlainJson::error_handler_t::replace);
 }
 
 std::string region_toml(const std::string& section, const RegionTissue& region) {
@@ -276,7 +277,7 @@ std::string region_toml(const std::string& section, const RegionTissue& region) 
 Tissue read_tissue(const std::string& path, const Tissue& base) {
   const std::string text = read_file(path, kMaxBytes);
   try {
-    return Reader(path, base).read(toml::parse(text, path));
+    return TissueReader(path, base).read(toml::parse(text, path));
   } catch (const toml::parse_error& error) {
     throw InputError(path + ":" + std::to_string(error.source().begin.line) +
                      ": no TOML: " + std::string(error.description()));
@@ -290,18 +291,16 @@ std::string tissue_toml(const Tissue& tissue) {
   text += "source = " + quoted(tissue.source) + "\n";
   std::array<const RegionTissue*, kTissueClassCount> group{};
   for (int r = 0; r < kRegionCount; ++r) {
-    const RegionTissue*& first =
-        group[static_cast<std::size_t>(tissue_class_of(static_cast<Region>(r)))];
-    if (first == nullptr) first = &tissue.region[static_cast<std::size_t>(r)];
+    const RegionTissue*& first = group[index_of(tissue_class_of(static_cast<Region>(r)))];
+    if (first == nullptr) first = &tissue.region[r];
   }
   for (int c = 0; c < kTissueClassCount; ++c) {
-    text += region_toml(std::string(name_of(static_cast<TissueClass>(c))),
-                        *group[static_cast<std::size_t>(c)]);
+    text += region_toml(std::string(name_of(static_cast<TissueClass>(c))), *group[c]);
   }
   for (int r = 0; r < kRegionCount; ++r) {
     const auto region = static_cast<Region>(r);
-    const RegionTissue& one = tissue.region[static_cast<std::size_t>(r)];
-    if (one == *group[static_cast<std::size_t>(tissue_class_of(region))]) continue;
+    const RegionTissue& one = tissue.region[r];
+    if (one == *group[index_of(tissue_class_of(region))]) continue;
     text += region_toml("region." + std::string(name_of(region)), one);
   }
   return text;

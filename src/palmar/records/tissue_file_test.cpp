@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/hand/tissue.h"
@@ -37,7 +38,7 @@ std::string tissue_message(const std::string& toml) {
 }
 
 const RegionTissue& of(const Tissue& tissue, Region region) {
-  return tissue.region[static_cast<std::size_t>(region)];
+  return tissue.region[index_of(region)];
 }
 
 void expect_same_law(const StiffeningLaw& a, const StiffeningLaw& b) {
@@ -50,19 +51,19 @@ void expect_same_law(const StiffeningLaw& a, const StiffeningLaw& b) {
 TEST(TissueFile, ReadBackIsTheSameSet) {
   Tissue tissue = default_tissue();
   tissue.source = "somebody's \"own\" fingers\nand palms";
-  RegionTissue& thumb = tissue.region[static_cast<std::size_t>(Region::kThumbDistal)];
+  RegionTissue& thumb = tissue.region[index_of(Region::kThumbDistal)];
   thumb.layered.high = {0.0123456789, 0.1 / 3.0, 2.5};
   thumb.source = "thumb alone";
   thumb.swelling_width = 1.0 / 3.0;
-  tissue.region[static_cast<std::size_t>(Region::kHypothenar)].poisson_layered = 0.45;
+  tissue.region[index_of(Region::kHypothenar)].poisson_layered = 0.45;
   const std::string path = temporary_tissue("same.toml");
   write_tissue(path, tissue);
   const Tissue back = read_tissue(path, Tissue());  // nothing comes from the base
   EXPECT_EQ(back.source, tissue.source);
   for (int r = 0; r < kRegionCount; ++r) {
     SCOPED_TRACE(name_of(static_cast<Region>(r)));
-    const RegionTissue& a = back.region[static_cast<std::size_t>(r)];
-    const RegionTissue& b = tissue.region[static_cast<std::size_t>(r)];
+    const RegionTissue& a = back.region[r];
+    const RegionTissue& b = tissue.region[r];
     for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
       expect_same_law(law_at(a.half_space, level), law_at(b.half_space, level));
       expect_same_law(law_at(a.layered, level), law_at(b.layered, level));

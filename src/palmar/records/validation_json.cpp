@@ -24,6 +24,9 @@ Json row_object(const ValidationRow& row) {
           {"highest_met", finite_or_null(row.target.highest)},
           {"relative_difference", finite_or_null(row.difference)},
           {"verdict", name_of(row.verdict)},
+          {"chosen_on_this_case", !row.chosen_in.empty()},
+          {"chosen_in_commit", row.chosen_in.empty() ? Json() : Json(row.chosen_in)},
+          {"row_from_commit", row.added_in.empty() ? Json() : Json(row.added_in)},
           {"source", row.target.source}};
 }
 

@@ -29,7 +29,7 @@ std::vector<Profile> profiles_of(std::span<const Imprint> imprints, std::span<co
   for (const Imprint& imprint : imprints) {
     Profile f(bins, 0.0);
     for (std::size_t k = 0; k < imprint.point.size(); ++k) {
-      const auto i = static_cast<std::size_t>(imprint.point[k]);
+      const int i = imprint.point[k];
       const auto bin = static_cast<std::size_t>((axis.dot(points[i]) - low) / kBin) +
                        static_cast<std::size_t>(padding);
       f[bin] += imprint.depth[k] * areas[i];
@@ -39,7 +39,7 @@ std::vector<Profile> profiles_of(std::span<const Imprint> imprints, std::span<co
       for (int b = 0; b < static_cast<int>(bins); ++b) {
         for (int d = -4; d <= 4; ++d) {
           if (b + d < 0 || b + d >= static_cast<int>(bins)) continue;
-          smooth[static_cast<std::size_t>(b)] += f[static_cast<std::size_t>(b + d)] / 9.0;
+          smooth[b] += f[b + d] / 9.0;
         }
       }
       f = std::move(smooth);
@@ -50,7 +50,7 @@ std::vector<Profile> profiles_of(std::span<const Imprint> imprints, std::span<co
 }
 
 double value_at(const Profile& f, int bin) {
-  return bin < 0 || bin >= static_cast<int>(f.size()) ? 0.0 : f[static_cast<std::size_t>(bin)];
+  return bin < 0 || bin >= static_cast<int>(f.size()) ? 0.0 : f[bin];
 }
 
 /// Mean of the shifted profiles; sums of sorted values don't depend on the order of the hands.
@@ -62,7 +62,7 @@ Profile mean_profile(const std::vector<Profile>& profiles, const std::vector<int
       values[h] = value_at(profiles[h], b - shift[h]);
     }
     std::sort(values.begin(), values.end());
-    for (const double value : values) mean[static_cast<std::size_t>(b)] += value;
+    for (const double value : values) mean[b] += value;
   }
   return mean;
 }
@@ -75,7 +75,7 @@ int best_shift(const Profile& f, const Profile& mean, int limit) {
     const int s = k % 2 == 0 ? -(k / 2) : (k + 1) / 2;
     double sum = 0.0;
     for (int b = 0; b < static_cast<int>(mean.size()); ++b) {
-      sum += mean[static_cast<std::size_t>(b)] * value_at(f, b - s);
+      sum += mean[b] * value_at(f, b - s);
     }
     if (sum > highest * (1.0 + 1e-12)) {
       highest = sum;

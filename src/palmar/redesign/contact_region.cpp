@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/iso_lines.h"
@@ -59,7 +60,7 @@ std::vector<Vec3> spaced(const std::vector<Vec3>& points, double spacing) {
   }
   const int count = std::max(8, static_cast<int>(std::lround(way[n] / spacing)));
   std::vector<Vec3> result;
-  result.reserve(static_cast<std::size_t>(count));
+  result.reserve(count);
   std::size_t i = 0;
   for (int k = 0; k < count; ++k) {
     const double at = way[n] * k / count;
@@ -137,7 +138,7 @@ void find_field(const TriangleMesh& map, const std::vector<int>& touching, int h
       region.dropped_area += parts.area[p];
     }
     for (std::size_t v = 0; v < touching.size(); ++v) {
-      if (is_dropped[static_cast<std::size_t>(parts.of_vertex[v])] == 0) continue;
+      if (is_dropped[parts.of_vertex[v]] == 0) continue;
       const double size = std::max(1e-6, std::abs(region.field[v]));
       region.field[v] = holes ? size : -size;
     }
@@ -202,7 +203,7 @@ void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held
                      " belongs to another map of the product");
   };
   const auto nearest = [&](int vertex) -> const Pressed* {
-    const Vec3& x = map.vertices[static_cast<std::size_t>(vertex)];
+    const Vec3& x = map.vertices[vertex];
     const auto found =
         std::min_element(pressed.begin(), pressed.end(), [&x](const Pressed& a, const Pressed& b) {
           return (a.at - x).squaredNorm() < (b.at - x).squaredNorm();
@@ -211,11 +212,10 @@ void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held
   };
   std::vector<char> is_counted(count.any.size(), 0);
   const auto add = [&](int vertex, const Pressed* by) {
-    const auto v = static_cast<std::size_t>(vertex);
-    if (is_counted[v] != 0) return;
-    is_counted[v] = 1;
-    ++count.any[v];
-    if (by != nullptr) ++count.of_part[static_cast<std::size_t>(by->part)][v];
+    if (is_counted[vertex] != 0) return;
+    is_counted[vertex] = 1;
+    ++count.any[vertex];
+    if (by != nullptr) ++count.of_part[index_of(by->part)][vertex];
   };
   for (std::size_t i = 0; i < held.product_pressure.vertex.size(); ++i) {
     const int vertex = held.product_pressure.vertex[i];
@@ -224,7 +224,7 @@ void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held
   }
   for (const int vertex : reach.point) {
     check(vertex);
-    if (is_counted[static_cast<std::size_t>(vertex)] != 0) continue;
+    if (is_counted[vertex] != 0) continue;
     const Pressed* const by = nearest(vertex);
     if (by != nullptr && by->pressure > count.threshold) add(vertex, by);
   }
@@ -233,8 +233,7 @@ void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held
 ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
                              std::optional<HandPart> part, const RegionOptions& options) {
   options.check();
-  const std::vector<int>& touching =
-      part ? count.of_part[static_cast<std::size_t>(*part)] : count.any;
+  const std::vector<int>& touching = part ? count.of_part[index_of(*part)] : count.any;
   if (touching.size() != map.vertices.size() || count.hands < 1) {
     throw UsageError(
         fmt::format("contact region: {} vertices of {} hands were counted, the map has {} vertices",
@@ -255,14 +254,13 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
     region.area += parts.area[p];
   }
   for (int v = 0; v < map.vertex_count(); ++v) {
-    const int p = patch_of[static_cast<std::size_t>(parts.of_vertex[v])];
-    if (p >= 0) region.patches[static_cast<std::size_t>(p)].vertices.push_back(v);
+    const int p = patch_of[parts.of_vertex[v]];
+    if (p >= 0) region.patches[p].vertices.push_back(v);
   }
   const ClosestPointQuery surface(map);
   for (const IsoLoop& loop : iso_loops(map, region.field, 0.0)) {
-    const int p = patch_of[static_cast<std::size_t>(parts.of_vertex[loop.inside_vertex])];
-    region.patches[static_cast<std::size_t>(p)].outline.push_back(
-        smooth_outline(loop.points, surface, options));
+    const int p = patch_of[parts.of_vertex[loop.inside_vertex]];
+    region.patches[p].outline.push_back(smooth_outline(loop.points, surface, options));
   }
   const std::vector<double> areas = vertex_areas(map);
   for (RegionPatch& patch : region.patches) {
@@ -286,11 +284,11 @@ std::vector<FaceShare> face_shares(const TriangleMesh& map,
     throw UsageError("contact region: faces, region and map don't belong together");
   }
   const std::vector<int>& touching =
-      region.part ? count.of_part[static_cast<std::size_t>(*region.part)] : count.any;
-  std::vector<FaceShare> all(static_cast<std::size_t>(faces));
+      region.part ? count.of_part[index_of(*region.part)] : count.any;
+  std::vector<FaceShare> all(faces);
   std::vector<double> whole(all.size(), 0.0);
   for (std::size_t t = 0; t < map.triangles.size(); ++t) {
-    const auto face = static_cast<std::size_t>(face_of_triangle[t]);
+    const int face = face_of_triangle[t];
     const auto& [a, b, c] = map.triangles[t];
     all[face].area += region.area_of[t];
     whole[face] += triangle_area(map.vertices[a], map.vertices[b], map.vertices[c]);

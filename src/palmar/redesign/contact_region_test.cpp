@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitives.h"
@@ -29,7 +30,7 @@ Touched touched(const Product& product, int hands, const Where& is_touched) {
   for (std::size_t v = 0; v < result.map.vertices.size(); ++v) {
     if (!is_touched(result.map.vertices[v])) continue;
     result.count.any[v] = hands;
-    result.count.of_part[static_cast<std::size_t>(HandPart::kPalm)][v] = hands;
+    result.count.of_part[index_of(HandPart::kPalm)][v] = hands;
   }
   return result;
 }
@@ -124,7 +125,7 @@ TEST(ContactRegion, CountsWhoTouchesWithWhichPart) {
   held.pressure = {0.1, 0.02, 0.5, 0.0};
   Imprint reach;
   for (int v = 0; v < map.vertex_count(); ++v) {
-    const Vec3& x = map.vertices[static_cast<std::size_t>(v)];
+    const Vec3& x = map.vertices[v];
     if (!is_on_top(x)) continue;
     if ((x - Vec3(-30, 0, 0)).norm() < 6.0) {
       held.product_pressure.vertex.push_back(v);
@@ -136,7 +137,7 @@ TEST(ContactRegion, CountsWhoTouchesWithWhichPart) {
   }
   const auto total = [&](const ContactCount& count, HandPart part) {
     int sum = 0;
-    for (const int n : count.of_part[static_cast<std::size_t>(part)]) sum += n;
+    for (const int n : count.of_part[index_of(part)]) sum += n;
     return sum;
   };
   ContactCount count = start_count(map);

@@ -11,7 +11,7 @@ namespace palmar {
 ContactStudy study_contact(const StudyPlan& plan, const StudyInputs& inputs,
                            const RecordSource& records, const StudyCondition& condition,
                            int product, double threshold, const Progress& progress) {
-  const Product& held_product = inputs.products[static_cast<std::size_t>(product)];
+  const Product& held_product = inputs.products[product];
   ContactStudy study;
   study.map = product_map(held_product);
   const TriangleMesh& map = study.map.mesh;

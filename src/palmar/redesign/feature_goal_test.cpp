@@ -24,7 +24,7 @@ StudyResults results_of(const std::vector<std::pair<double, double>>& peaks) {
       testing::study_of(static_cast<int>(peaks.size()), {"original", "candidate"});
   for (std::int64_t number = 0; number < task_count(results.plan); ++number) {
     const StudyTask task = task_at(results.plan, number);
-    const auto& [first, second] = peaks[static_cast<size_t>(task.hand)];
+    const auto& [first, second] = peaks[task.hand];
     const double peak = task.product == 0 ? first : second;
     results.records.push_back(peak > 0.0 ? held(number, peak)
                                          : not_held(number, StudyOutcome::kSlipsOut));

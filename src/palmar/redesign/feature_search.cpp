@@ -125,7 +125,7 @@ class Candidates {
     std::optional<int> best;
     for (size_t i = 0; i < history_.size(); ++i) {
       if (!history_[i].is_feasible) continue;
-      if (!best || signed_goal(history_[i]) < signed_goal(history_[static_cast<size_t>(*best)])) {
+      if (!best || signed_goal(history_[i]) < signed_goal(history_[*best])) {
         best = static_cast<int>(i);
       }
     }
@@ -369,7 +369,7 @@ SearchResult search_features(const SearchProblem& problem, const SearchOptions& 
       candidates.limit(options.evaluations);
     }
     if (const auto best = candidates.best()) {
-      x = candidates.place(candidates.history()[static_cast<size_t>(*best)]);
+      x = candidates.place(candidates.history()[*best]);
       for (double& one : x) one = std::clamp(one, low, high);
     }
     has_ended = run(uses_quadratic ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, problem, options,

@@ -23,7 +23,7 @@ SearchVariable variable(const std::string& name, double lowest, double highest, 
 }
 
 const SearchTrial& best_of(const SearchResult& result) {
-  return result.history.at(static_cast<size_t>(result.best.value()));
+  return result.history.at(result.best.value());
 }
 
 TEST(SearchFeatures, FindsTheLowestPointOfAParabolaInsideItsBounds) {

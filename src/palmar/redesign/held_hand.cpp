@@ -42,8 +42,8 @@ void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
   const auto flush = [&] {
     std::vector<HeldHand> made(waiting.size());
     parallel_for(static_cast<int>(waiting.size()), [&](int i) {
-      const StudyRecord& record = waiting[static_cast<std::size_t>(i)];
-      made[static_cast<std::size_t>(i)] = make_held(record, task_at(plan, record.number), hand_of);
+      const StudyRecord& record = waiting[i];
+      made[i] = make_held(record, task_at(plan, record.number), hand_of);
     });
     for (const HeldHand& one : made) {
       progress.update(static_cast<double>(++held_hands) / static_cast<double>(plan.hands.size()),
@@ -54,7 +54,7 @@ void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
   };
   records([&](const StudyRecord& record) {
     const StudyTask task = task_at(plan, record.number);
-    const StudyHand& hand = plan.hands[static_cast<std::size_t>(task.hand)];
+    const StudyHand& hand = plan.hands[task.hand];
     if (task.product != product || task.profile != condition.profile ||
         task.setting != condition.setting || task.grip != condition.grip || !is_in_hand(record) ||
         (condition.population && hand.population != *condition.population)) {
@@ -65,8 +65,7 @@ void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
   });
   flush();
   if (held_hands == 0) {
-    throw UsageError("redesign: no hand holds \"" +
-                     plan.products[static_cast<std::size_t>(product)].name +
+    throw UsageError("redesign: no hand holds \"" + plan.products[product].name +
                      "\"; a redesign starts from at least one that does");
   }
 }

@@ -32,7 +32,7 @@ class SidedRays {
   explicit SidedRays(const TriangleMesh& mesh) : rays_(mesh), normal_(triangle_normals(mesh)) {}
 
   bool is_exit(const RayHit& hit, const Vec3& direction) const {
-    return normal_[static_cast<std::size_t>(hit.triangle)].dot(direction) > 0.0;
+    return normal_[hit.triangle].dot(direction) > 0.0;
   }
   std::optional<RayHit> first(const Vec3& origin, const Vec3& direction) const {
     return rays_.first_hit(origin, direction);
@@ -116,9 +116,8 @@ ImprintGauge::ImprintGauge(const TriangleMesh& product, std::vector<Vec3> points
   impl->most.resize(impl->points.size());
   const SidedRays rays(product);
   parallel_for(static_cast<int>(impl->points.size()), [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    impl->wall[i] = rays.way_out(impl->points[i], -impl->outward[i], 1, kOwnSurface);
-    impl->most[i] = std::min(options.largest, options.wall_share * impl->wall[i]);
+    impl->wall[k] = rays.way_out(impl->points[k], -impl->outward[k], 1, kOwnSurface);
+    impl->most[k] = std::min(options.largest, options.wall_share * impl->wall[k]);
   });
   impl_ = std::move(impl);
 }
@@ -149,14 +148,14 @@ Imprint ImprintGauge::measure(const TriangleMesh& skin) const {
 std::vector<double> combine_imprints(std::span<const Imprint> imprints, int points,
                                      const CombineOptions& options) {
   options.check();
-  std::vector<std::vector<double>> depths(static_cast<std::size_t>(std::max(0, points)));
+  std::vector<std::vector<double>> depths(std::max(0, points));
   for (const Imprint& imprint : imprints) {
     for (std::size_t k = 0; k < imprint.point.size(); ++k) {
       const int i = imprint.point[k];
       if (i < 0 || i >= points) {
         throw UsageError(fmt::format("imprint: point {} of {}", i, points));
       }
-      depths[static_cast<std::size_t>(i)].push_back(imprint.depth[k]);
+      depths[i].push_back(imprint.depth[k]);
     }
   }
   std::vector<double> result(depths.size(), 0.0);

@@ -117,12 +117,12 @@ TEST(AlignImprints, BringsShiftedHandsOntoEachOther) {
   std::vector<Imprint> hands(2);
   for (int i = 0; i <= 200; ++i) {
     for (int hand = 0; hand < 2; ++hand) {
-      const double x = points[static_cast<std::size_t>(i)].x() - 15.0 - 6.0 * hand;
+      const double x = points[i].x() - 15.0 - 6.0 * hand;
       if (x < -5.0 || x > 65.0) continue;
       const double depth = 1.0 + std::cos(2.0 * 3.141592653589793 * x / 20.0);
       if (depth <= 0.0) continue;
-      hands[static_cast<std::size_t>(hand)].point.push_back(i);
-      hands[static_cast<std::size_t>(hand)].depth.push_back(depth);
+      hands[hand].point.push_back(i);
+      hands[hand].depth.push_back(depth);
     }
   }
   const std::vector<double> shift = align_imprints(hands, points, areas, Vec3::UnitX(), 10.0);

@@ -15,6 +15,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/geometry/smooth_step.h"
 #include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {
@@ -38,11 +39,6 @@ std::vector<std::array<int, 2>> new_crossings(const TriangleMesh& before, const 
 
 }  // namespace
 
-double smooth_step(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 double held_below(double depth, double limit) {
   constexpr double kStraight = 0.75;
   if (!(limit > 0.0)) return 0.0;
@@ -57,8 +53,7 @@ std::vector<double> distance_to(const TriangleMesh& mesh, const std::vector<Vec3
   if (mesh.triangles.empty()) return distance;
   const ClosestPointQuery query(mesh);
   parallel_for(static_cast<int>(points.size()), [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (const auto found = query.closest(points[i], range)) distance[i] = found->distance;
+    if (const auto found = query.closest(points[k], range)) distance[k] = found->distance;
   });
   return distance;
 }
@@ -92,7 +87,7 @@ std::vector<unsigned char> kept_face_triangles(const Product& product, const Kee
   std::vector<unsigned char> result(product.mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < result.size(); ++t) {
     const int face = faces.face_of_triangle[t];
-    if (face >= 0) result[t] = kept[static_cast<std::size_t>(face)];
+    if (face >= 0) result[t] = kept[face];
   }
   return result;
 }
@@ -101,12 +96,10 @@ TriangleMesh kept_part(const PressRegion& region, const std::vector<unsigned cha
                        const KeepOut& keep_out) {
   TriangleMesh kept{region.mesh.vertices, {}};
   for (int t = 0; t < region.mesh.triangle_count(); ++t) {
-    const Triangle& corner = region.mesh.triangles[static_cast<std::size_t>(t)];
-    bool is_kept =
-        !kept_faces.empty() &&
-        kept_faces[static_cast<std::size_t>(region.triangle_of[static_cast<std::size_t>(t)])] != 0;
+    const Triangle& corner = region.mesh.triangles[t];
+    bool is_kept = !kept_faces.empty() && kept_faces[region.triangle_of[t]] != 0;
     Box3 box;
-    for (const int v : corner) box.extend(region.mesh.vertices[static_cast<std::size_t>(v)]);
+    for (const int v : corner) box.extend(region.mesh.vertices[v]);
     for (const Box3& other : keep_out.boxes) is_kept = is_kept || box.intersects(other);
     if (is_kept) kept.triangles.push_back(corner);
   }
@@ -138,16 +131,16 @@ std::vector<unsigned char> PressedSurface::folded(const std::vector<Vec3>& moved
   std::vector<unsigned char> result(moved.size(), 0);
   for (const Triangle& t : region_.part.triangles) {
     const auto cross = [&](const std::vector<Vec3>& at) -> Vec3 {
-      const Vec3& a = at[static_cast<std::size_t>(t[0])];
-      return (at[static_cast<std::size_t>(t[1])] - a).cross(at[static_cast<std::size_t>(t[2])] - a);
+      const Vec3& a = at[t[0]];
+      return (at[t[1]] - a).cross(at[t[2]] - a);
     };
     const Vec3 before = cross(region_.part.vertices);
     const Vec3 after = cross(moved);
     if (before == after || !(before.norm() > 1e-9)) continue;
     Vec3 facing = Vec3::Zero();
-    for (const int v : t) facing += outward_[static_cast<std::size_t>(v)];
+    for (const int v : t) facing += outward_[v];
     if (facing.isZero() || after.dot(facing.normalized()) >= kLeastFacing * after.norm()) continue;
-    for (const int v : t) result[static_cast<std::size_t>(v)] = 1;
+    for (const int v : t) result[v] = 1;
   }
   return result;
 }
@@ -159,7 +152,7 @@ std::vector<double> PressedSurface::walls(const std::vector<double>& depth, doub
   std::vector<Vec3> points, directions;
   std::vector<std::size_t> of;
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    mesh.vertices[static_cast<std::size_t>(region_.part_vertex[i])] = place[i];
+    mesh.vertices[region_.part_vertex[i]] = place[i];
     if (!(depth[i] > pressed)) continue;
     points.push_back(place[i]);
     directions.push_back(outward_[i]);
@@ -177,7 +170,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
   std::vector<double> tried = depth;
   std::vector<int> part_of(region_.mesh.vertices.size(), -1);
   for (std::size_t i = 0; i < region_.part_vertex.size(); ++i) {
-    part_of[static_cast<std::size_t>(region_.part_vertex[i])] = static_cast<int>(i);
+    part_of[region_.part_vertex[i]] = static_cast<int>(i);
   }
   std::optional<std::vector<std::array<int, 2>>> old_crossings;
   for (int round = 0; round <= kMaxHalvings; ++round) {
@@ -186,13 +179,13 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
     std::vector<unsigned char> wrong = folded(place);
     TriangleMesh mesh = region_.mesh;
     for (std::size_t i = 0; i < place.size(); ++i) {
-      mesh.vertices[static_cast<std::size_t>(region_.part_vertex[i])] = place[i];
+      mesh.vertices[region_.part_vertex[i]] = place[i];
     }
     for (const auto& pair : new_crossings(region_.mesh, mesh, old_crossings)) {
       for (const int t : pair) {
-        for (const int v : mesh.triangles[static_cast<std::size_t>(t)]) {
-          const int i = part_of[static_cast<std::size_t>(v)];
-          if (i >= 0) wrong[static_cast<std::size_t>(i)] = 1;
+        for (const int v : mesh.triangles[t]) {
+          const int i = part_of[v];
+          if (i >= 0) wrong[i] = 1;
         }
       }
     }

@@ -12,9 +12,6 @@ namespace palmar {
 
 // What holds a pressed shape within its limits; parts of press_shape().
 
-/// 0 at x <= 0, 1 at x >= 1, level at both: 3 x^2 - 2 x^3.
-double smooth_step(double x);
-
 /// `depth` below 0.75 limit; beyond that a curve without a kink that comes near `limit` [mm] and
 /// never reaches it.
 double held_below(double depth, double limit);

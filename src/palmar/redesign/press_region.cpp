@@ -51,10 +51,8 @@ std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) 
 /// Centres of the cells under any skin, as a mesh of triangles without extent.
 TriangleMesh marks_under(const Product& product, std::span<const TriangleMesh> skins) {
   std::vector<std::vector<Cell>> cells(skins.size());
-  parallel_for(static_cast<int>(skins.size()), [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    cells[i] = cells_under(product, skins[i]);
-  });
+  parallel_for(static_cast<int>(skins.size()),
+               [&](int k) { cells[k] = cells_under(product, skins[k]); });
   std::vector<Cell> all;
   for (const auto& some : cells) all.insert(all.end(), some.begin(), some.end());
   std::sort(all.begin(), all.end());
@@ -118,12 +116,10 @@ std::vector<int> triangles_below(const TriangleMesh& original, const TriangleMes
   std::vector<int> below(fine.triangles.size());
   const ClosestPointQuery query(original);
   parallel_for(fine.triangle_count(), [&](int t) {
-    const Triangle& corner = fine.triangles[static_cast<std::size_t>(t)];
-    const Vec3 centre = (fine.vertices[static_cast<std::size_t>(corner[0])] +
-                         fine.vertices[static_cast<std::size_t>(corner[1])] +
-                         fine.vertices[static_cast<std::size_t>(corner[2])]) /
-                        3.0;
-    below[static_cast<std::size_t>(t)] = query.closest(centre)->triangle;
+    const Triangle& corner = fine.triangles[t];
+    const Vec3 centre =
+        (fine.vertices[corner[0]] + fine.vertices[corner[1]] + fine.vertices[corner[2]]) / 3.0;
+    below[t] = query.closest(centre)->triangle;
   });
   return below;
 }
@@ -155,26 +151,22 @@ PressRegion refine_under(const Product& product, std::span<const TriangleMesh> s
 
   std::vector<int> part_of(region.mesh.vertices.size(), -1);
   for (int t = 0; t < region.mesh.triangle_count(); ++t) {
-    const Triangle& corner = region.mesh.triangles[static_cast<std::size_t>(t)];
-    const auto at = [&](int k) {
-      return region.mesh.vertices[static_cast<std::size_t>(corner[static_cast<std::size_t>(k)])];
-    };
+    const Triangle& corner = region.mesh.triangles[t];
+    const auto at = [&](int k) { return region.mesh.vertices[corner[k]]; };
     if (!is_near(at(0), at(1), at(2))) continue;
     region.part_triangle.push_back(t);
-    for (const int v : corner) part_of[static_cast<std::size_t>(v)] = 0;
+    for (const int v : corner) part_of[v] = 0;
   }
   for (int v = 0; v < region.mesh.vertex_count(); ++v) {
-    int& place = part_of[static_cast<std::size_t>(v)];
+    int& place = part_of[v];
     if (place < 0) continue;
     place = static_cast<int>(region.part_vertex.size());
     region.part_vertex.push_back(v);
-    region.part.vertices.push_back(region.mesh.vertices[static_cast<std::size_t>(v)]);
+    region.part.vertices.push_back(region.mesh.vertices[v]);
   }
   for (const int t : region.part_triangle) {
-    const Triangle& corner = region.mesh.triangles[static_cast<std::size_t>(t)];
-    region.part.triangles.push_back({part_of[static_cast<std::size_t>(corner[0])],
-                                     part_of[static_cast<std::size_t>(corner[1])],
-                                     part_of[static_cast<std::size_t>(corner[2])]});
+    const Triangle& corner = region.mesh.triangles[t];
+    region.part.triangles.push_back({part_of[corner[0]], part_of[corner[1]], part_of[corner[2]]});
   }
   return region;
 }

@@ -14,6 +14,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/smooth_step.h"
 #include "palmar/redesign/align_imprints.h"
 #include "palmar/redesign/press_limits.h"
 #include "palmar/redesign/press_region.h"
@@ -46,13 +47,12 @@ std::vector<Vec3> press_directions(const TriangleMesh& part) {
   for (Vec3& m : smooth) m = m.norm() > 1e-6 ? m.normalized() : Vec3::Zero();
   std::vector<double> least(part.vertices.size(), 1.0), least_plain(part.vertices.size(), 1.0);
   for (const Triangle& t : part.triangles) {
-    const auto at = [&](int v) { return part.vertices[static_cast<std::size_t>(v)]; };
+    const auto at = [&](int v) { return part.vertices[v]; };
     const Vec3 cross = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
     if (!(cross.norm() > 1e-9)) continue;
     for (const int corner : t) {
-      const auto v = static_cast<std::size_t>(corner);
-      least[v] = std::min(least[v], smooth[v].dot(cross.normalized()));
-      least_plain[v] = std::min(least_plain[v], plain[v].dot(cross.normalized()));
+      least[corner] = std::min(least[corner], smooth[corner].dot(cross.normalized()));
+      least_plain[corner] = std::min(least_plain[corner], plain[corner].dot(cross.normalized()));
     }
   }
   for (std::size_t v = 0; v < smooth.size(); ++v) {
@@ -86,8 +86,7 @@ std::vector<Imprint> measure_all(const ImprintGauge& gauge, std::span<const Tria
 TriangleMesh triangles_where(const TriangleMesh& mesh, const std::vector<unsigned char>& chosen) {
   TriangleMesh result{mesh.vertices, {}};
   for (const Triangle& t : mesh.triangles) {
-    if (chosen[static_cast<std::size_t>(t[0])] || chosen[static_cast<std::size_t>(t[1])] ||
-        chosen[static_cast<std::size_t>(t[2])]) {
+    if (chosen[t[0]] || chosen[t[1]] || chosen[t[2]]) {
       result.triangles.push_back(t);
     }
   }
@@ -124,9 +123,9 @@ double volume_between(const TriangleMesh& part, const std::vector<Vec3>& moved) 
   double volume = 0.0;
   for (const Triangle& t : part.triangles) {
     const auto cone = [&](const std::vector<Vec3>& at) {
-      const Vec3 a = at[static_cast<std::size_t>(t[0])] - origin;
-      const Vec3 b = at[static_cast<std::size_t>(t[1])] - origin;
-      const Vec3 c = at[static_cast<std::size_t>(t[2])] - origin;
+      const Vec3 a = at[t[0]] - origin;
+      const Vec3 b = at[t[1]] - origin;
+      const Vec3 c = at[t[2]] - origin;
       return a.dot(b.cross(c)) / 6.0;
     };
     volume += cone(part.vertices) - cone(moved);
@@ -235,7 +234,7 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
 
   const std::vector<Vec3> moved = surface.moved(depth.value());
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const auto v = static_cast<std::size_t>(region.part_vertex[i]);
+    const int v = region.part_vertex[i];
     shape.mesh.vertices[v] = moved[i];
     shape.overlap[v] = overlap[i];
     shape.depth[v] = depth.value()[i];
@@ -258,15 +257,13 @@ Product pressed_product(const Product& original, const PressedShape& shape,
     faces->face_of_triangle.clear();
     for (ProductFace& face : faces->face) face.area = 0.0;
     for (int t = 0; t < shape.mesh.triangle_count(); ++t) {
-      const Triangle& c = shape.mesh.triangles[static_cast<std::size_t>(t)];
-      const int below = shape.triangle_of[static_cast<std::size_t>(t)];
-      const int face = original.faces->face_of_triangle[static_cast<std::size_t>(below)];
+      const Triangle& c = shape.mesh.triangles[t];
+      const int below = shape.triangle_of[t];
+      const int face = original.faces->face_of_triangle[below];
       faces->face_of_triangle.push_back(face);
       if (face < 0) continue;
-      faces->face[static_cast<std::size_t>(face)].area +=
-          triangle_area(shape.mesh.vertices[static_cast<std::size_t>(c[0])],
-                        shape.mesh.vertices[static_cast<std::size_t>(c[1])],
-                        shape.mesh.vertices[static_cast<std::size_t>(c[2])]);
+      faces->face[face].area += triangle_area(shape.mesh.vertices[c[0]], shape.mesh.vertices[c[1]],
+                                              shape.mesh.vertices[c[2]]);
     }
     product.faces = std::move(faces);
   }

@@ -123,7 +123,7 @@ TEST(PressShape, SmoothingRoundsTheRimAndKeepsAboutTheVolume) {
   for (std::size_t h = 0; h < topology.twin.size(); ++h) {
     if (topology.twin[h] < 0) continue;
     const auto t = h / 3;
-    const auto u = static_cast<std::size_t>(topology.twin[h] / 3);
+    const auto u = topology.twin[h] / 3;
     if (normals[t].z() < 0.5 || normals[u].z() < 0.5) continue;
     steepest = std::max(steepest, std::acos(std::clamp(normals[t].dot(normals[u]), -1.0, 1.0)));
   }
@@ -202,10 +202,10 @@ TEST(PressShape, KeptFaceStaysAsItIsAndFacesFollowTheTriangles) {
   for (std::size_t t = 0; t < pressed.mesh.triangles.size(); ++t) {
     const int face = pressed.faces->face_of_triangle[t];
     ASSERT_GE(face, 0);
-    if (pressed.faces->face[static_cast<std::size_t>(face)].name != "right") continue;
+    if (pressed.faces->face[face].name != "right") continue;
     for (const int v : pressed.mesh.triangles[t]) {
-      EXPECT_EQ(shape.depth[static_cast<std::size_t>(v)], 0.0);
-      EXPECT_NEAR(shape.mesh.vertices[static_cast<std::size_t>(v)].x(), 17.5, 1e-9);
+      EXPECT_EQ(shape.depth[v], 0.0);
+      EXPECT_NEAR(shape.mesh.vertices[v].x(), 17.5, 1e-9);
     }
   }
 }
@@ -273,10 +273,9 @@ TEST(PressShape, ElsewhereVerticesAndTrianglesStay) {
   const Product product = plate();
   const PressedShape shape = press(product, {ball_on_top(20, 20)}, {});
   for (int v = 0; v < product.mesh.vertex_count(); ++v) {
-    const auto i = static_cast<std::size_t>(v);
-    const Vec3& x = product.mesh.vertices[i];
+    const Vec3& x = product.mesh.vertices[v];
     if (std::hypot(x.x() - 20, x.y() - 20) > 20.0 || x.z() < -15.0) {
-      EXPECT_EQ(shape.mesh.vertices[i], x);
+      EXPECT_EQ(shape.mesh.vertices[v], x);
     }
   }
 }

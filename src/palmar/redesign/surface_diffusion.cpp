@@ -59,7 +59,7 @@ SurfaceDiffusion::SurfaceDiffusion(const TriangleMesh& mesh, double length) {
     // A vertex without area holds its value; the size of its mass doesn't matter then.
     impl->mass.resize(n);
     for (int v = 0; v < n; ++v) {
-      impl->mass[v] = std::max(areas[static_cast<std::size_t>(v)], 1e-9);
+      impl->mass[v] = std::max(areas[v], 1e-9);
     }
     std::map<std::pair<int, int>, double> weight;
     for (const Triangle& t : mesh.triangles) {
@@ -68,7 +68,7 @@ SurfaceDiffusion::SurfaceDiffusion(const TriangleMesh& mesh, double length) {
         const int b = t[(k + 1) % 3];
         const int c = t[(k + 2) % 3];
         if (a == b || b == c || c == a) continue;
-        const auto at = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
+        const auto at = [&](int v) { return mesh.vertices[v]; };
         weight[{std::min(a, b), std::max(a, b)}] += 0.5 * cotangent(at(c), at(a), at(b));
       }
     }

@@ -9,10 +9,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
@@ -77,27 +78,16 @@ Eigen::VectorXd parameters(const SimpleSurface& start) {
 SurfaceFit refine(const SimpleSurface& start, std::span<const Vec3> points, double largest_radius,
                   int iterations) {
   const auto n = static_cast<Eigen::Index>(points.size());
-  const auto residuals = [&](const Eigen::VectorXd& x) {
+  const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     const SimpleSurface surface = moved(start, x);
-    Eigen::VectorXd r(n);
+    r.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      r[i] = distance_to(surface, points[static_cast<std::size_t>(i)]);
+      r[i] = distance_to(surface, points[i]);
     }
-    return r;
   };
   LeastSquaresProblem problem;
-  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    r = residuals(x);
-    if (jacobian == nullptr) return;
-    jacobian->resize(n, x.size());
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const double step = 1e-6 * std::max(1.0, std::abs(x[k]));
-      Eigen::VectorXd up = x, down = x;
-      up[k] += step;
-      down[k] -= step;
-      jacobian->col(k) = (residuals(up) - residuals(down)) / (2.0 * step);
-    }
-  };
+  problem.evaluate = with_numeric_jacobian(
+      residual, [](Eigen::Index, double x) { return 1e-6 * std::max(1.0, std::abs(x)); });
   const Eigen::VectorXd x = parameters(start);
   problem.lower = Eigen::VectorXd::Constant(x.size(), -10.0 * largest_radius);
   problem.upper = -problem.lower;
@@ -177,7 +167,7 @@ std::optional<Paraboloid> paraboloid_through(std::span<const Vec3> points, const
   Eigen::MatrixXd a(static_cast<Eigen::Index>(points.size()), 6);
   Eigen::VectorXd b(a.rows());
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    const Vec3& x = points[static_cast<std::size_t>(i)];
+    const Vec3& x = points[i];
     const double u = x.dot(e1), v = x.dot(e2);
     a.row(i) << 1.0, u, v, 0.5 * u * u, u * v, 0.5 * v * v;
     b[i] = x.dot(normal);
@@ -354,7 +344,7 @@ std::string title_of(const SimpleSurface& s) {
       return fmt::format("{} r {:.4g} mm", name_of(s.kind), s.radius);
     case FaceKind::kCone:
       return fmt::format("cone r {:.4g} mm, half angle {:.3g} deg", s.radius,
-                         s.half_angle * 180.0 / std::numbers::pi);
+                         s.half_angle * kDegreesPerRadian);
     case FaceKind::kTorus:
       return fmt::format("torus r {:.4g} mm, tube {:.4g} mm", s.radius, s.tube_radius);
   }
@@ -460,8 +450,8 @@ std::vector<std::vector<int>> split_patch(std::span<const Vec3> points,
   const auto visit = [&](const auto& self, const std::vector<int>& piece, int depth) -> void {
     std::vector<Vec3> at, out;
     for (const int i : piece) {
-      at.push_back(points[static_cast<std::size_t>(i)]);
-      out.push_back(normals[static_cast<std::size_t>(i)]);
+      at.push_back(points[i]);
+      out.push_back(normals[i]);
     }
     const bool may_split =
         depth < split.largest_depth && static_cast<int>(piece.size()) >= 2 * split.least_points;

@@ -65,7 +65,7 @@ SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<co
 struct SurfaceChoice {
   std::vector<SurfaceFit> fits;
   int chosen = 0;  ///< index into fits
-  const SurfaceFit& best() const { return fits[static_cast<std::size_t>(chosen)]; }
+  const SurfaceFit& best() const { return fits[chosen]; }
 };
 SurfaceChoice choose_surface(std::span<const Vec3> points, std::span<const Vec3> normals,
                              const SurfaceFitOptions& options = {});

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -107,7 +108,7 @@ TEST(FitSurface, FindsASphereFromASmallCap) {
 
 TEST(FitSurface, FindsAConesRadiusAndAngle) {
   // Radius 12 mm at the origin, half angle 5 degrees, a half of it.
-  const double slope = 5.0 * std::numbers::pi / 180.0;
+  const double slope = 5.0 * kDegree;
   const Patch patch = sampled([&](double u, double v) {
     const double t = std::numbers::pi * (u - 0.5), z = 60.0 * (v - 0.5);
     const Vec3 out(std::cos(t), std::sin(t), 0.0);

@@ -66,7 +66,7 @@ Correlation tested(std::span<const double> x, std::span<const double> y) {
 
 /// P of a sum of squared rank differences at least as far out, both sides, over all n! orders.
 double exact_spearman(double squares, int n) {
-  std::vector<int> order(static_cast<std::size_t>(n));
+  std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   const double middle = (std::pow(n, 3) - n) / 6.0;
   const bool is_upper = squares > middle;
@@ -75,7 +75,7 @@ double exact_spearman(double squares, int n) {
   do {
     int sum = 0;
     for (int i = 0; i < n; ++i) {
-      const int d = i - order[static_cast<std::size_t>(i)];
+      const int d = i - order[i];
       sum += d * d;
     }
     if (is_upper ? sum >= squares : sum <= squares) ++count;

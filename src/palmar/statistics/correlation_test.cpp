@@ -70,9 +70,8 @@ TEST(Correlation, EqualsRWithTies) {
 TEST(Correlation, IsTheSameInOtherUnitsAndTurnsWithTheSign) {
   const auto x = series(30, [](double i) { return 180 + 9 * std::sin(i); });
   const auto y = series(30, [](double i) { return 190 + 7 * std::sin(i + 0.8); });
-  const auto inches =
-      series(30, [&](double i) { return x[static_cast<std::size_t>(i - 1)] / 25.4; });
-  const auto turned = series(30, [&](double i) { return -y[static_cast<std::size_t>(i - 1)]; });
+  const auto inches = series(30, [&](double i) { return x[i - 1] / 25.4; });
+  const auto turned = series(30, [&](double i) { return -y[i - 1]; });
   EXPECT_NEAR(pearson(inches, y).r, pearson(x, y).r, 1e-14);
   EXPECT_NEAR(pearson(x, turned).r, -pearson(x, y).r, 1e-14);
   EXPECT_EQ(pearson(x, y).r, pearson(y, x).r);

@@ -17,7 +17,7 @@ constexpr double kRankTolerance = 1e-7;
 constexpr double kExactTolerance = 1e-13;
 
 std::string predictor_name(const std::vector<std::string>& names, Eigen::Index k) {
-  if (k < static_cast<Eigen::Index>(names.size())) return names[static_cast<std::size_t>(k)];
+  if (k < static_cast<Eigen::Index>(names.size())) return names[k];
   return "predictor " + std::to_string(k + 1);
 }
 
@@ -67,7 +67,7 @@ Band band(const LinearFit& fit, const Eigen::VectorXd& x, double level, double o
   Band result;
   result.value = fit.intercept.estimate;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
-    result.value += fit.slopes[static_cast<std::size_t>(k)].estimate * x[k];
+    result.value += fit.slopes[k].estimate * x[k];
   }
   const double variance = own + 1.0 / fit.n + d.dot(fit.slope_covariance * d);
   const double half =
@@ -122,7 +122,7 @@ LinearFit fit_linear(const Eigen::MatrixXd& predictors, std::span<const double> 
   if (is_constant(y)) {
     fit.status = FitStatus::kConstantY;
     fit.intercept = coefficient(y_mean, 0.0, fit);
-    fit.slopes.assign(static_cast<std::size_t>(k), Coefficient{});
+    fit.slopes.assign(k, Coefficient{});
     return fit;
   }
   const double magnitude = y_values.cwiseAbs().maxCoeff() * std::sqrt(static_cast<double>(n));

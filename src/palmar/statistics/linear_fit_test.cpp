@@ -68,7 +68,7 @@ TEST(LinearFit, EqualsRWithTwoPredictors) {
                                150, 245, 175, 66,  91,  113, 264, 175, 335, 109};
   Eigen::MatrixXd x(32, 2);
   for (int i = 0; i < 32; ++i) {
-    x.row(i) << wt[static_cast<std::size_t>(i)], hp[static_cast<std::size_t>(i)];
+    x.row(i) << wt[i], hp[i];
   }
   const LinearFit fit = fit_linear(x, mpg);
   expect_coefficient(fit.intercept, 37.227270116447201, 1.5987875379993941, 23.284688697930861,

@@ -57,7 +57,7 @@ double walsh_median(std::span<const double> sorted) {
 }
 
 std::vector<double> signed_rank_counts(int m) {
-  const auto last = static_cast<std::size_t>(m) * static_cast<std::size_t>(m + 1) / 2;
+  const auto last = static_cast<std::size_t>(m) * (m + 1) / 2;
   std::vector<double> count(last + 1, 0.0);
   count[0] = 1.0;
   for (std::size_t rank = 1; rank <= static_cast<std::size_t>(m); ++rank) {

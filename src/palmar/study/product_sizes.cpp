@@ -26,8 +26,7 @@ Family family_of(const StudyResults& results, const StudyCondition& condition,
   Family family;
   family.products = std::move(products);
   std::stable_sort(family.products.begin(), family.products.end(), [&](int a, int b) {
-    return results.plan.products[static_cast<std::size_t>(a)].size <
-           results.plan.products[static_cast<std::size_t>(b)].size;
+    return results.plan.products[a].size < results.plan.products[b].size;
   });
   struct Row {
     std::optional<double> length;
@@ -61,8 +60,8 @@ Family family_of(const StudyResults& results, const StudyCondition& condition,
 int served_by(const Family& family, const std::vector<int>& sizes) {
   int served = 0;
   for (std::size_t h = 0; h < static_cast<std::size_t>(family.hands); ++h) {
-    served += std::any_of(sizes.begin(), sizes.end(),
-                          [&](int s) { return family.is_inside[static_cast<std::size_t>(s)][h]; });
+    served +=
+        std::any_of(sizes.begin(), sizes.end(), [&](int s) { return family.is_inside[s][h]; });
   }
   return served;
 }
@@ -83,7 +82,7 @@ SizeTable best_table(const Family& family, const std::vector<int>& sizes) {
   std::vector<std::vector<int>> best(sizes.size(), std::vector<int>(n + 1, 0));
   std::vector<std::vector<int>> from(sizes.size(), std::vector<int>(n + 1, 0));
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const std::vector<bool>& inside = family.is_inside[static_cast<std::size_t>(sizes[k])];
+    const std::vector<bool>& inside = family.is_inside[sizes[k]];
     std::vector<int> before(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i) before[i + 1] = before[i] + (inside[i] ? 1 : 0);
     int gain = k == 0 ? 0 : best[k - 1][0];
@@ -101,7 +100,7 @@ SizeTable best_table(const Family& family, const std::vector<int>& sizes) {
   int end = static_cast<int>(n);
   for (std::size_t k = sizes.size(); k-- > 0;) {
     table.end[k] = end;
-    end = from[k][static_cast<std::size_t>(end)];
+    end = from[k][end];
   }
   return table;
 }
@@ -113,18 +112,17 @@ SizeChoice choice_of(const Family& family, const std::vector<int>& sizes) {
   choice.served_by_length = wilson_proportion(table.served, static_cast<int>(family.length.size()));
   const auto bound = [&](int i) -> std::optional<double> {
     if (i <= 0 || i >= static_cast<int>(family.length.size())) return std::nullopt;
-    const auto at = static_cast<std::size_t>(i);
-    return 0.5 * (family.length[at - 1] + family.length[at]);
+    return 0.5 * (family.length[i - 1] + family.length[i]);
   };
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const auto s = static_cast<std::size_t>(sizes[k]);
+    const int s = sizes[k];
     ServedBySize one;
     one.product = family.products[s];
     for (std::size_t h = 0; h < static_cast<std::size_t>(family.hands); ++h) {
       if (!family.is_inside[s][h]) continue;
       ++one.inside;
       one.alone += std::none_of(sizes.begin(), sizes.end(), [&](int other) {
-        return other != sizes[k] && family.is_inside[static_cast<std::size_t>(other)][h];
+        return other != sizes[k] && family.is_inside[other][h];
       });
     }
     const int begin = k == 0 ? 0 : table.end[k - 1];
@@ -150,7 +148,7 @@ bool advance(std::vector<int>& sizes, int count) {
 }
 
 SizeChoice best_choice(const Family& family, int how_many) {
-  std::vector<int> sizes(static_cast<std::size_t>(how_many));
+  std::vector<int> sizes(how_many);
   std::iota(sizes.begin(), sizes.end(), 0);
   std::vector<int> best;
   int best_served = -1, best_by_length = -1;

@@ -9,8 +9,8 @@ namespace palmar {
 StudyHandMaker study_hand_maker(const StudyPlan& plan, std::shared_ptr<const Hand> base) {
   const auto maker = std::make_shared<const HandInstanceMaker>(*base);
   return [&plan, base, maker](const StudyTask& task) {
-    const HandSample sample = with_profile(plan.hands[static_cast<std::size_t>(task.hand)].sample,
-                                           plan.profiles[static_cast<std::size_t>(task.profile)]);
+    const HandSample sample =
+        with_profile(plan.hands[task.hand].sample, plan.profiles[task.profile]);
     return maker->make(sample.dimensions).hand;
   };
 }

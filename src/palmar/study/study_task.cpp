@@ -150,19 +150,19 @@ struct StudyBench::Impl {
   }
   /// The product for the skin: inside a glove it is thicker.
   const Product& product_for(int profile, int product) const {
-    const auto& in_glove = gloved_products[static_cast<std::size_t>(profile)];
-    return (in_glove.empty() ? inputs.products : in_glove)[static_cast<std::size_t>(product)];
+    const auto& in_glove = gloved_products[profile];
+    return (in_glove.empty() ? inputs.products : in_glove)[product];
   }
   const TriangleMesh& map_for(int profile, int product) const {
-    const auto& in_glove = gloved_maps[static_cast<std::size_t>(profile)];
-    return (in_glove.empty() ? maps : in_glove)[static_cast<std::size_t>(product)];
+    const auto& in_glove = gloved_maps[profile];
+    return (in_glove.empty() ? maps : in_glove)[product];
   }
 
   GraspOptions grasp_options(const StudyTask& task) const {
-    const StudyProduct& product = plan.products[static_cast<std::size_t>(task.product)];
-    const StudySetting& setting = plan.settings[static_cast<std::size_t>(task.setting)];
+    const StudyProduct& product = plan.products[task.product];
+    const StudySetting& setting = plan.settings[task.setting];
     GraspOptions options;
-    options.grip = plan.grips[static_cast<std::size_t>(task.grip)];
+    options.grip = plan.grips[task.grip];
     options.power.palm_limit_depth = setting.palm_limit_depth;
     options.power.finger_limit_depth = setting.finger_limit_depth;
     if (product.at) options.power.placement.at = product.size * *product.at;
@@ -201,7 +201,7 @@ struct StudyBench::Impl {
   /// The task that stands for all hands.
   StudyTask place_key(StudyTask task) const {
     task.hand = 0;
-    if (const auto source = posture_source[static_cast<std::size_t>(task.product)]) {
+    if (const auto source = posture_source[task.product]) {
       task.product = static_cast<int>(*source);
     }
     return task;
@@ -215,8 +215,8 @@ class StudySubject {
  public:
   StudySubject(const StudyBench::Impl& bench, int hand, int profile)
       : bench_(bench),
-        sample_(bench.plan.hands[static_cast<std::size_t>(hand)].sample),
-        profile_(bench.plan.profiles[static_cast<std::size_t>(profile)]) {
+        sample_(bench.plan.hands[hand].sample),
+        profile_(bench.plan.profiles[profile]) {
     try {
       whole_range_ = bench.make_hand(sample_, profile_);
       hand_ = with_range_of(whole_range_, profile_);
@@ -228,8 +228,8 @@ class StudySubject {
 
   StudyRecord run(const StudyTask& task, const Progress& progress) {
     if (!failure_.empty()) throw Failure{failure_};
-    const StudySetting& setting = bench_.plan.settings[static_cast<std::size_t>(task.setting)];
-    const auto product_index = static_cast<std::size_t>(task.product);
+    const StudySetting& setting = bench_.plan.settings[task.setting];
+    const int product_index = task.product;
     const Product& product = bench_.product_for(task.profile, task.product);
     const PreparedHand& prepared = prepared_for(setting.model);
 
@@ -299,7 +299,7 @@ class StudySubject {
   }
 
   AssessOptions options_of(const StudyTask& task, const StudySetting& setting) const {
-    const StudyProduct& product = bench_.plan.products[static_cast<std::size_t>(task.product)];
+    const StudyProduct& product = bench_.plan.products[task.product];
     AssessOptions options;
     options.grasp = bench_.grasp_options(task);
     options.seed = bench_.plan.seed;
@@ -338,7 +338,7 @@ class StudySubject {
     const auto index = static_cast<std::size_t>(task.product);
     const Product& product = bench_.product_for(task.profile, task.product);
     HeldGrasp held;
-    if (bench_.plan.settings[static_cast<std::size_t>(task.setting)].is_place_per_hand) {
+    if (bench_.plan.settings[task.setting].is_place_per_hand) {
       held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
     } else {
       const StudyBench::Impl::Place& place = bench_.places.at(bench_.place_key(task));
@@ -386,22 +386,21 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
   std::vector<bool> is_needed(profiles, false);
   for (const std::int64_t number : tasks) {
     const StudyTask task = task_at(bench.plan, number);
-    if (bench.plan.settings[static_cast<std::size_t>(task.setting)].is_place_per_hand) continue;
+    if (bench.plan.settings[task.setting].is_place_per_hand) continue;
     bench.places[bench.place_key(task)];
-    is_needed[static_cast<std::size_t>(task.profile)] = true;
+    is_needed[task.profile] = true;
   }
   bench.mean_hands.resize(profiles);
   bench.mean_failures.resize(profiles);
   HandSample mean;
   mean.dimensions = mean_dimensions(bench.plan);
   parallel_for(static_cast<int>(profiles), [&](int p) {
-    const auto profile = static_cast<std::size_t>(p);
-    if (!is_needed[profile] || bench.mean_hands[profile] != nullptr) return;
+    if (!is_needed[p] || bench.mean_hands[p] != nullptr) return;
     try {
-      const HandProfile& asked = bench.plan.profiles[profile];
-      bench.mean_hands[profile] = with_range_of(bench.make_hand(mean, asked), asked);
+      const HandProfile& asked = bench.plan.profiles[p];
+      bench.mean_hands[p] = with_range_of(bench.make_hand(mean, asked), asked);
     } catch (const Error& error) {
-      bench.mean_failures[profile] = std::string("the mean hand can't be made: ") + error.what();
+      bench.mean_failures[p] = std::string("the mean hand can't be made: ") + error.what();
     }
   });
   std::vector<std::pair<const StudyTask, Impl::Place>*> open;
@@ -409,8 +408,8 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
     if (entry.second.place == nullptr && entry.second.failure.empty()) open.push_back(&entry);
   }
   parallel_for(static_cast<int>(open.size()), [&](int i) {
-    auto& [task, place] = *open[static_cast<std::size_t>(i)];
-    const auto profile = static_cast<std::size_t>(task.profile);
+    auto& [task, place] = *open[i];
+    const int profile = task.profile;
     if (bench.mean_hands[profile] == nullptr) {
       place.failure = bench.mean_failures[profile];
       return;

@@ -86,7 +86,11 @@ ValidationTarget information(std::optional<double> value, std::string source) {
 }
 
 ValidationRow judge(std::string quantity, std::string unit, double ours, ValidationTarget target) {
-  ValidationRow row{std::move(quantity), std::move(unit), ours, std::move(target), {}, {}};
+  ValidationRow row;
+  row.quantity = std::move(quantity);
+  row.unit = std::move(unit);
+  row.ours = ours;
+  row.target = std::move(target);
   const ValidationTarget& t = row.target;
   const auto relative = [&](double reference) {
     if (reference != 0.0 && std::isfinite(ours))
@@ -149,6 +153,14 @@ std::vector<ValidationCaseName> validation_cases() {
   std::vector<ValidationCaseName> names;
   for (const CaseEntry& entry : kCases) names.push_back({entry.id, entry.title, entry.is_slow});
   return names;
+}
+
+void set_history(ValidationRows& rows, const std::string& added_in, const std::string& chosen_in) {
+  for (ValidationRow& row : rows) {
+    if (!row.added_in.empty()) continue;
+    row.added_in = added_in;
+    row.chosen_in = chosen_in;
+  }
 }
 
 ContactModel independent_model() {

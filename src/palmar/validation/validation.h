@@ -15,7 +15,7 @@ namespace palmar {
 enum class Verdict {
   kMet,
   kMissed,
-  kInformation,  ///< told beside what others found, not judged
+  kInformation,  ///< shown beside what others found, not judged
   kNotBuilt      ///< waits for a part of the program that is not there yet
 };
 std::string name_of(Verdict verdict);  ///< "met", "missed", "information", "not built yet"
@@ -34,7 +34,7 @@ ValidationTarget near_value(double value, double share, std::string source);
 ValidationTarget between(double lowest, double highest, std::string source);
 ValidationTarget at_least(double lowest, std::string source);
 ValidationTarget at_most(double highest, std::string source);
-/// Told, not judged.
+/// Shown, not judged. Not for a figure that was measured on people: a miss of one counts as missed.
 ValidationTarget information(std::optional<double> value, std::string source);
 
 /// One line of the table.
@@ -47,6 +47,11 @@ struct ValidationRow {
   /// Ours over the target's value less 1; without a value the way to the nearer edge as a share of
   /// that edge, 0 inside. None where there is nothing to compare.
   std::optional<double> difference;
+  /// Commit that added the row with its target.
+  std::string added_in;
+  /// Commit that chose a setting of the program with this row in view; empty: nothing was chosen on
+  /// it. A row that a setting was chosen on is no independent check of that setting.
+  std::string chosen_in;
 };
 
 /// Judges a value; one that is not a number is missed.

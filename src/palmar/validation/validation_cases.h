@@ -50,6 +50,10 @@ class ValidationBench {
 
 using ValidationRows = std::vector<ValidationRow>;
 
+/// Enters the history of all rows that have none yet; see ValidationRow.
+void set_history(ValidationRows& rows, const std::string& added_in,
+                 const std::string& chosen_in = "");
+
 /// `palmar` with one region at a time.
 ContactModel independent_model();
 /// `palmar` with bone under the skin.

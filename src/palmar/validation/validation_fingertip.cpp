@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palmar/contact/press/press.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/validation/validation_cases.h"
 
@@ -30,15 +31,20 @@ constexpr std::array<double, 8> kDepth = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0
 constexpr std::array<double, 8> kLow = {0.065, 0.3, 0.761, 1.497, 2.545, 3.941, 5.717, 7.902};
 constexpr std::array<double, 8> kHigh = {0.097, 0.476, 1.248, 2.494, 4.288, 6.691, 9.759, 13.546};
 
+constexpr const char* kBand = "Xie 2014, four men, sphere of half the tip's width; 25 % outside";
+
 std::string text(double depth) { return std::to_string(depth).substr(0, 3) + " mm"; }
+
+// Pawluk and Howe 1999 measured a paraboloid (2.0) from 0 to 2 N; the pressure's tolerance is ours.
+constexpr double kPeakTolerance = 0.10;
+constexpr double kMeasuredDepth = 2.0;  // mm, at which about 2 N are reached
 
 double peak_over_mean(const PressStep& step) { return step.peak_pressure / step.mean_pressure; }
 
 void add_force(ValidationRows& rows, const std::vector<PressStep>& steps, double scale) {
-  const std::string band = "Xie 2014, four men, sphere of half the tip's width; 25 % outside";
   for (std::size_t i = 0; i < kDepth.size(); ++i) {
     rows.push_back(judge("half-space, force at " + text(kDepth[i]), "N", steps[i].force,
-                         between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], band)));
+                         between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], kBand)));
   }
   // Over doublings of the depth: over shorter steps the facets of the skin show.
   const auto exponent = [&](std::size_t i, std::size_t j) {
@@ -62,7 +68,7 @@ void add_force(ValidationRows& rows, const std::vector<PressStep>& steps, double
 ValidationRows validate_fingertip(ValidationBench& bench) {
   ValidationRows rows;
   const HandDimensions size = measure_hand(bench.hand());
-  const double radius = 0.5 * size.segment[static_cast<std::size_t>(Segment::kMiddleDistal)].width;
+  const double radius = 0.5 * size.segment[index_of(Segment::kMiddleDistal)].width;
   const double scale = std::sqrt(radius / 7.0);
   const PreparedHand& half_space = bench.prepared({});
   const auto steps = press(plate({kDepth.begin(), kDepth.end()}), &half_space);
@@ -84,24 +90,31 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   bench.update(0.5, "case G2, layered");
   const PreparedHand& layer = bench.prepared(layered_model());
   const auto layered = press(plate({kDepth.begin(), kDepth.end()}), &layer);
-  const std::string shape = "Pawluk and Howe 1999: paraboloid, 0 to 2 N";
+  const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
+  const auto near_paraboloid = [&](double depth) {
+    return depth <= kMeasuredDepth ? near_value(2.0, kPeakTolerance, shape)
+                                   : information(2.0, shape + "; this is beyond 2 N");
+  };
   for (const std::size_t i : {1U, 3U, 5U, 7U}) {
     const std::string at = text(kDepth[i]);
     rows.push_back(judge("half-space, peak / mean at " + at, "", peak_over_mean(steps[i]),
-                         information(2.0, shape)));
+                         near_paraboloid(kDepth[i])));
     rows.push_back(judge("layered, peak / mean at " + at, "", peak_over_mean(layered[i]),
-                         information(2.0, shape)));
-    rows.push_back(
-        judge("layered, force at " + at, "N", layered[i].force,
-              information(scale * 0.5 * (kLow[i] + kHigh[i]), "middle of the thesis' band")));
+                         near_paraboloid(kDepth[i])));
+    set_history(rows, "dc20bd8");
+    rows.push_back(judge("layered, force at " + at, "N", layered[i].force,
+                         between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], kBand)));
+    // The modulus of layered skin is fitted to this band.
+    set_history(rows, "dc20bd8", "a26ebfc");
   }
   for (const auto& [model, name] : {std::pair{&half_space, "half-space"}, {&layer, "layered"}}) {
     PressOptions force = plate({});
     force.forces = {2.0};
     const PressStep step = press(force, model).front();
     rows.push_back(judge(std::string(name) + ", peak / mean at 2 N", "", peak_over_mean(step),
-                         information(2.0, shape)));
+                         near_value(2.0, kPeakTolerance, shape)));
   }
+  set_history(rows, "dc20bd8");
   return rows;
 }
 

@@ -51,15 +51,23 @@ std::string with_unit(const ValidationRow& row) {
   return row.unit.empty() ? row.quantity : row.quantity + ", " + row.unit;
 }
 
+/// "no", or "yes" with the commit that chose.
+std::string chosen(const ValidationRow& row) {
+  if (row.chosen_in.empty()) return "no";
+  return "yes, in " + row.chosen_in;
+}
+
 std::vector<std::string> cells(const ValidationRow& row) {
   return {with_unit(row),      row.ours ? number(*row.ours) : "-",
           theirs(row.target),  difference(row),
           allowed(row.target), name_of(row.verdict),
+          chosen(row),         row.added_in.empty() ? "-" : row.added_in,
           row.target.source};
 }
 
-const std::vector<std::string> kHead = {"what",    "ours",    "theirs", "difference",
-                                        "allowed", "verdict", "source"};
+const std::vector<std::string> kHead = {
+    "what",     "ours",  "theirs", "difference", "allowed", "verdict", "chosen on this case?",
+    "row from", "source"};
 
 std::string summary(const ValidationReport& report) {
   return fmt::format("{} met, {} missed, {} for information, {} not built yet",
@@ -78,12 +86,18 @@ std::string markdown_line(const std::vector<std::string>& fields) {
 std::string validation_markdown(const ValidationReport& report) {
   std::string text = fmt::format(
       "# Checked against closed forms and measurements\n\n"
-      "Written by `palmar validate --markdown > docs/method/validation.md` with the hand \"{}\"; "
-      "don't edit.\n"
-      "\"Allowed\" is the difference from a figure that counts as met; where \"theirs\" is a range "
-      "or a limit, it\n"
-      "is that. `palmar validate` ends with exit code 5 if a row is missed. What the misses mean: "
-      "[limits](limits.md).\n\n"
+      "`palmar validate --markdown > docs/method/validation.md` writes this page, with the hand "
+      "\"{}\". Don't edit it.\n\n"
+      "- **allowed**: the difference from a figure that counts as met. Where \"theirs\" is a range "
+      "or a limit, that decides.\n"
+      "- **verdict**: a figure that was measured on people is always judged. \"Information\" is "
+      "for "
+      "figures that somebody\n  computed, or that have no published counterpart. `palmar validate` "
+      "ends with exit code 5 if a row is missed;\n  [limits](limits.md) says what the misses "
+      "mean.\n"
+      "- **chosen on this case?**: \"yes\" if a setting of the program was chosen with this row in "
+      "view, with the commit that\n  chose it. Such a row is no independent check.\n"
+      "- **row from**: the commit that added the row and its target.\n\n"
       "{}.\n",
       report.hand_name, summary(report));
   for (const ValidationCase& one : report.cases) {

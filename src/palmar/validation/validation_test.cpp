@@ -86,7 +86,7 @@ TEST(ValidationReport, CountsVerdictsOfAllCases) {
 TEST(ValidationMarkdown, RowTellsOursTheirsDifferenceAndVerdict) {
   const std::string text =
       validation_markdown(report_of(judge("force", "N", 2.03, near_value(2.0, 0.02, "a law"))));
-  EXPECT_THAT(text, HasSubstr("| force, N | 2.03 | 2 | +1.5 % | 2 % | met | a law |"));
+  EXPECT_THAT(text, HasSubstr("| force, N | 2.03 | 2 | +1.5 % | 2 % | met | no | - | a law |"));
   EXPECT_THAT(text, AllOf(HasSubstr("## T1: a case"), HasSubstr("1 met, 0 missed"),
                           HasSubstr("palmar validate --markdown > docs/method/validation.md")));
   EXPECT_THAT(text, Not(HasSubstr("12.5"))) << "times change from run to run";
@@ -94,13 +94,21 @@ TEST(ValidationMarkdown, RowTellsOursTheirsDifferenceAndVerdict) {
 
 TEST(ValidationMarkdown, RangesLimitsAndMisses) {
   EXPECT_THAT(validation_markdown(report_of(judge("x", "", 4.0, between(1.0, 2.0, "s")))),
-              HasSubstr("| x | 4 | 1 to 2 | +100.0 % | - | **missed** | s |"));
+              HasSubstr("| x | 4 | 1 to 2 | +100.0 % | - | **missed** | no | - | s |"));
   EXPECT_THAT(validation_markdown(report_of(judge("x", "", 1.5, at_least(1.0, "s")))),
-              HasSubstr("| x | 1.5 | at least 1 | inside | - | met | s |"));
+              HasSubstr("| x | 1.5 | at least 1 | inside | - | met | no | - | s |"));
   EXPECT_THAT(validation_markdown(report_of(judge("x", "", kNan, at_most(1.0, "s")))),
               HasSubstr("| x | no number | at most 1 |"));
   EXPECT_THAT(validation_markdown(report_of(not_built("redesigns", "issue 6"))),
-              HasSubstr("| redesigns | - | - | - | - | not built yet | issue 6 |"));
+              HasSubstr("| redesigns | - | - | - | - | not built yet | no | - | issue 6 |"));
+}
+
+TEST(ValidationMarkdown, RowSaysWhatWasChosenOnItAndWhereItComesFrom) {
+  ValidationRow row = judge("x", "", 1.5, at_least(1.0, "s"));
+  row.added_in = "abc1234";
+  row.chosen_in = "def5678";
+  EXPECT_THAT(validation_markdown(report_of(row)),
+              HasSubstr("| met | yes, in def5678 | abc1234 | s |"));
 }
 
 TEST(ValidationText, TellsTheTimeOfACase) {
@@ -139,6 +147,9 @@ TEST(Validate, RunsOnlyWhatIsAskedAndNothingSlowWhenQuick) {
   EXPECT_EQ(report.cases[0].id, "G1");
   EXPECT_EQ(report.count(Verdict::kMissed), 0);
   EXPECT_GT(report.count(Verdict::kMet), 10);
+  for (const ValidationRow& row : report.cases[0].rows) {
+    EXPECT_FALSE(row.added_in.empty()) << row.quantity;
+  }
 }
 
 TEST(Validate, CancelEndsIt) {

@@ -151,7 +151,7 @@ void choose_face(const Features& features, int face, EdgeChoice& choice) {
 }
 
 void choose_edge(const Features& features, int number, EdgeChoice& choice) {
-  const EdgeRelation& edge = features.edges[static_cast<size_t>(number) - 1];
+  const EdgeRelation& edge = features.edges[number - 1];
   if (is_sharp(edge)) {
     choice.sharp.push_back(number);
     return;

@@ -155,7 +155,7 @@ std::vector<RoundedEdge> edges_to_round(const Resolved& wanted,
   };
   std::vector<RoundedEdge> edges;
   for (const auto& [number, radius] : wanted.sharp) {
-    const EdgeRelation& edge = relations[static_cast<size_t>(number) - 1];
+    const EdgeRelation& edge = relations[number - 1];
     if (own.count(edge.face[0]) == 0 || is_removed(edge.face[0]) || is_removed(edge.face[1])) {
       continue;  // the end of a fillet that is rolled anew: a corner comes out there
     }

@@ -53,7 +53,7 @@ Handle(Geom_BSplineCurve) curve_through(const std::vector<Vec3>& points, std::si
   const Handle(TColgp_HArray1OfPnt) array =
       new TColgp_HArray1OfPnt(1, static_cast<int>(some.size()));
   for (int i = 1; i <= array->Length(); ++i) {
-    array->SetValue(i, point(some[static_cast<std::size_t>(i - 1)]));
+    array->SetValue(i, point(some[i - 1]));
   }
   GeomAPI_Interpolate interpolate(array, Standard_True, 1e-6);
   interpolate.Perform();
@@ -166,7 +166,7 @@ TopoDS_Face inside_of(const Handle(Geom_Surface) & surface, const std::vector<gp
   const Handle(TColgp_HArray1OfPnt2d) array =
       new TColgp_HArray1OfPnt2d(1, static_cast<int>(some.size()));
   for (int i = 1; i <= array->Length(); ++i) {
-    array->SetValue(i, some[static_cast<std::size_t>(i - 1)]);
+    array->SetValue(i, some[i - 1]);
   }
   Geom2dAPI_Interpolate interpolate(array, Standard_True, 1e-9);
   interpolate.Perform();

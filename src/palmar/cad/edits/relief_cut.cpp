@@ -281,7 +281,7 @@ RelievedModel cut_reliefs(const CadModel& model, const std::vector<RidgeRelief>&
       const int now = impl->faces.FindIndex(face);
       if (now == 0) continue;
       if (number < 0) {
-        impl->face_name[now] = reliefs[static_cast<std::size_t>(-number - 1)].name;
+        impl->face_name[now] = reliefs[-number - 1].name;
         continue;
       }
       if (const auto name = before.face_name.find(number); name != before.face_name.end()) {

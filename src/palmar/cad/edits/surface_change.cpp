@@ -48,7 +48,7 @@ SurfaceChange surface_change(const CadModel& before, const CadModel& after,
     TriangleMesh part;
     part.vertices = old.mesh.vertices;
     for (size_t i = 0; i < old.mesh.triangles.size(); ++i) {
-      const int number = old.faces.face[static_cast<size_t>(old.faces.face_of_triangle[i])].number;
+      const int number = old.faces.face[old.faces.face_of_triangle[i]].number;
       if (std::find(faces.begin(), faces.end(), number) != faces.end()) {
         part.triangles.push_back(old.mesh.triangles[i]);
       }
@@ -57,7 +57,7 @@ SurfaceChange surface_change(const CadModel& before, const CadModel& after,
     // Only points of these triangles count; the others are left over from the whole mesh.
     std::vector<bool> is_used(dense.vertices.size(), false);
     for (const auto& triangle : dense.triangles) {
-      for (const int corner : triangle) is_used[static_cast<size_t>(corner)] = true;
+      for (const int corner : triangle) is_used[corner] = true;
     }
     TriangleMesh points;
     for (size_t i = 0; i < dense.vertices.size(); ++i) {

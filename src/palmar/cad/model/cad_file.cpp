@@ -28,6 +28,7 @@
 #include "palmar/cad/model/step_instances.h"
 #include "palmar/cad/model/xcaf_bodies.h"
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/records/product/cad_format.h"
 
 namespace palmar {
@@ -41,12 +42,6 @@ struct FileUnit {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
@@ -71,7 +66,7 @@ std::optional<FileUnit> unit_of(const Handle(StepRepr_GlobalUnitAssignedContext)
       for (const auto& [mm, name] : names) {
         if (std::abs(result.millimetres / mm - 1.0) < 1e-9) result.name = name;
       }
-      if (result.name.empty()) result.name = number(result.millimetres) + " mm";
+      if (result.name.empty()) result.name = significant(result.millimetres, 6) + " mm";
     }
     return result;
   }
@@ -172,7 +167,7 @@ std::string schema_of(const std::string& head) {
 
 void ReadCadOptions::check() const {
   if (millimetres_per_unit && !(*millimetres_per_unit > 0.0 && *millimetres_per_unit <= 1e6)) {
-    throw UsageError("millimetres per unit " + number(*millimetres_per_unit) +
+    throw UsageError("millimetres per unit " + significant(*millimetres_per_unit, 6) +
                      "; more than 0 and up to 1e6 is allowed");
   }
   if (max_bodies < 1) throw UsageError("max_bodies " + std::to_string(max_bodies) + "; 1 or more");
@@ -217,7 +212,7 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
     throw InputError(object + ": " +
                      (std::isinf(instances)
                           ? "an assembly of it contains itself"
-                          : "its assemblies repeat parts to " + number(instances) +
+                          : "its assemblies repeat parts to " + significant(instances, 6) +
                                 " bodies; up to " + std::to_string(options.max_bodies) +
                                 " are read") +
                      ". Export the part that is held, not the whole assembly");

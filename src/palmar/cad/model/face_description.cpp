@@ -16,16 +16,16 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <cmath>
-#include <numbers>
 
 #include "palmar/cad/model/face_relations.h"
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/cad/model/tessellation.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kSmooth = std::numbers::pi / 180.0;  // rad; a kink below 1 degree can't be felt
+constexpr double kSmooth = kDegree;  // rad; a kink below 1 degree can't be felt
 
 FaceKind kind_of(const BRepAdaptor_Surface& surface) {
   switch (surface.GetType()) {

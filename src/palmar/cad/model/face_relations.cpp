@@ -134,8 +134,8 @@ struct Side {
 bool lies_between_backs(const std::vector<Side>& sides,
                         const std::vector<EdgeRelation>& relations) {
   if (sides.size() != 2) return false;
-  const gp_Dir& one = relations[static_cast<size_t>(sides[0].edge) - 1].normal;
-  const gp_Dir& other = relations[static_cast<size_t>(sides[1].edge) - 1].normal;
+  const gp_Dir& one = relations[sides[0].edge - 1].normal;
+  const gp_Dir& other = relations[sides[1].edge - 1].normal;
   return one.Angle(other) > kBackToBack;
 }
 
@@ -155,19 +155,19 @@ std::vector<EdgeRelation> edge_relations(const CadModel::Impl& model) {
 
 std::vector<Blend> blends_of(const CadModel::Impl& model,
                              const std::vector<EdgeRelation>& relations) {
-  std::vector<std::vector<Side>> sides(static_cast<size_t>(model.faces.Extent()) + 1);
+  std::vector<std::vector<Side>> sides(static_cast<std::size_t>(model.faces.Extent()) + 1);
   for (const EdgeRelation& edge : relations) {
     if (!edge.is_smooth || edge.face[0] == 0 || edge.face[1] == 0) continue;
     for (size_t i = 0; i < 2; ++i) {
       const double own = edge.curvature[i], beyond = edge.curvature[1 - i];
       if (std::abs(own) > kFlat && std::abs(own) > kSharper * std::abs(beyond)) {
-        sides[static_cast<size_t>(edge.face[i])].push_back({edge.edge, edge.face[1 - i], own});
+        sides[edge.face[i]].push_back({edge.edge, edge.face[1 - i], own});
       }
     }
   }
   std::vector<Blend> result;
   for (int face = 1; face <= model.faces.Extent(); ++face) {
-    std::vector<Side>& own = sides[static_cast<size_t>(face)];
+    std::vector<Side>& own = sides[face];
     if (own.size() < 2) continue;
     const double sharpest =
         std::max_element(own.begin(), own.end(), [](const Side& a, const Side& b) {
@@ -183,7 +183,7 @@ std::vector<Blend> blends_of(const CadModel::Impl& model,
     for (const Side& side : own) {
       blend.sides.push_back(side.edge);
       blend.support.push_back(side.neighbour);
-      const EdgeRelation& edge = relations[static_cast<size_t>(side.edge) - 1];
+      const EdgeRelation& edge = relations[side.edge - 1];
       if (edge.length > blend.length) {
         blend.length = edge.length;
         blend.along = edge.along;

@@ -16,15 +16,14 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "palmar/cad/model/cad_check.h"
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/cad/model/occt_progress.h"
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -34,12 +33,6 @@ constexpr double kRoundShare = 20.0;   // a 20th of the smallest rounding
 constexpr double kFinest = 0.01;       // mm; a tenth of a skin ridge's height
 constexpr double kCoarsest = 0.2;      // mm
 constexpr double kSmallestAllowed = 1e-4, kLargestAllowed = 10.0;  // mm, told by the user
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 double size_of(const CadModel& model) {
   const Box3 box = box_of(model);
@@ -151,11 +144,11 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
   for (const ProductFace& face : faces.face) {
     if (face.radius > 0.0 && (smallest == 0.0 || face.radius < smallest)) smallest = face.radius;
   }
-  Choice choice{size / kSizeShare, "a 2000th of its size of " + number(size) + " mm",
+  Choice choice{size / kSizeShare, "a 2000th of its size of " + significant(size, 3) + " mm",
                 options.angle};
   if (smallest > 0.0 && smallest / kRoundShare < choice.chordal_error) {
     choice.chordal_error = smallest / kRoundShare;
-    choice.reason = "a 20th of its smallest radius of " + number(smallest) + " mm";
+    choice.reason = "a 20th of its smallest radius of " + significant(smallest, 3) + " mm";
   }
   if (choice.chordal_error < kFinest) {
     choice.chordal_error = kFinest;
@@ -175,8 +168,8 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
 
 [[noreturn]] void fail_too_many(double count, const Choice& choice,
                                 const TessellationOptions& options, bool is_guess) {
-  throw InputError(std::string("a chordal error of ") + number(choice.chordal_error) +
-                   " mm needs " + (is_guess ? "about " : "") + number(count) +
+  throw InputError(std::string("a chordal error of ") + significant(choice.chordal_error, 3) +
+                   " mm needs " + (is_guess ? "about " : "") + significant(count, 3) +
                    " triangles; up to " + std::to_string(options.max_triangles) +
                    " are made. Give a larger --chordal-error-mm");
 }
@@ -384,12 +377,13 @@ long long triangles_of(const CadModel& model) {
 
 void TessellationOptions::check() const {
   if (chordal_error && !(*chordal_error >= kSmallestAllowed && *chordal_error <= kLargestAllowed)) {
-    throw UsageError("chordal error " + number(*chordal_error) + " mm; " +
-                     number(kSmallestAllowed) + " to " + number(kLargestAllowed) +
+    throw UsageError("chordal error " + significant(*chordal_error, 3) + " mm; " +
+                     significant(kSmallestAllowed, 3) + " to " + significant(kLargestAllowed, 3) +
                      " mm is allowed");
   }
   if (!(angle >= 0.01 && angle <= 1.0)) {
-    throw UsageError("angle between chords " + number(angle) + " rad; 0.01 to 1 rad is allowed");
+    throw UsageError("angle between chords " + significant(angle, 3) +
+                     " rad; 0.01 to 1 rad is allowed");
   }
   if (max_triangles < 100 || max_triangles > 50'000'000) {
     throw UsageError("at most " + std::to_string(max_triangles) +

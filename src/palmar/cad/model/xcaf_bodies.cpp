@@ -39,7 +39,7 @@ std::string name_of(const TDF_Label& label) {
   Handle(TDataStd_Name) attribute;
   if (!label.FindAttribute(TDataStd_Name::GetID(), attribute)) return {};
   const TCollection_ExtendedString& text = attribute->Get();
-  std::string name(static_cast<std::size_t>(text.LengthOfCString()), '\0');
+  std::string name(text.LengthOfCString(), '\0');
   Standard_PCharacter place = name.data();
   text.ToUTF8CString(place);
   for (char& c : name) {

@@ -81,10 +81,10 @@ Handle(Geom_BSplineCurve) interpolate(const std::vector<gp_Pnt>& points,
                                       const std::vector<double>& parameters, bool is_periodic) {
   const auto n = static_cast<int>(points.size());
   const Handle(TColgp_HArray1OfPnt) p = new TColgp_HArray1OfPnt(1, n);
-  for (int i = 0; i < n; ++i) p->SetValue(i + 1, points[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < n; ++i) p->SetValue(i + 1, points[i]);
   const auto m = static_cast<int>(parameters.size());
   const Handle(TColStd_HArray1OfReal) u = new TColStd_HArray1OfReal(1, m);
-  for (int i = 0; i < m; ++i) u->SetValue(i + 1, parameters[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < m; ++i) u->SetValue(i + 1, parameters[i]);
   GeomAPI_Interpolate spline(p, u, is_periodic, 1e-9);
   spline.Perform();
   if (!spline.IsDone()) throw NumericalError("no spline goes through the sections");
@@ -112,7 +112,7 @@ Handle(Geom_BSplineSurface)
   TColgp_Array2OfPnt poles(1, poles_u, 1, poles_v);
   for (int i = 1; i <= poles_u; ++i) {
     for (int j = 1; j <= poles_v; ++j) {
-      poles(i, j) = lines[static_cast<std::size_t>(i - 1)]->Pole(j);
+      poles(i, j) = lines[i - 1]->Pole(j);
     }
   }
   return new Geom_BSplineSurface(poles, rows.front()->Knots(), lines.front()->Knots(),

@@ -135,7 +135,7 @@ TEST(KindSolids, EveryFaceHasAName) {
     const CadModel model = make(kind.name);
     std::set<std::string> names;
     for (const auto& [number, name] : model.impl().face_name) names.insert(name);
-    EXPECT_EQ(names.size(), static_cast<std::size_t>(model.face_count())) << kind.name;
+    EXPECT_EQ(std::ssize(names), model.face_count()) << kind.name;
   }
 }
 

@@ -3,19 +3,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/joint_measures.h"
 #include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/two_axis_fit.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 // A flexion axis more than this off the model's is a mistake of the registration, not anatomy.
-constexpr double kLargestTilt = 50.0 * kDeg;
+constexpr double kLargestTilt = 50.0 * kDegree;
 
 std::string in_words(std::string_view name) {
   std::string words(name);
@@ -70,7 +70,7 @@ Eigen::Matrix3d frame_of(const Vec3& along, const Vec3& other) {
 /// The model's abduction axis with the proximal phalanx and its flexion axis as they were found.
 Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, Dof flexion,
                   const Vec3& flexion_axis, Dof abduction) {
-  const Vec3 drawn = hand.model_ray[static_cast<std::size_t>(finger)].direction(1);
+  const Vec3 drawn = hand.model_ray[index_of(finger)].direction(1);
   const Eigen::Matrix3d from = frame_of(drawn, model.skeleton.dof(flexion).axis);
   const Eigen::Matrix3d to = frame_of(hand.nodes(finger).direction(1), flexion_axis);
   return to * from.transpose() * model.skeleton.dof(abduction).axis;
@@ -79,7 +79,7 @@ Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, D
 void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::size_t link,
                    JointId id, Dof dof, const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
-  Vec3& node = hand.ray[static_cast<std::size_t>(finger)].node[link];
+  Vec3& node = hand.ray[index_of(finger)].node[link];
   JointDof result = moved_dof(hand, model, finger, link, dof);
   const auto bone = hand.bones.find(ray[link]);
   const Turns turns = turns_of(motions, ray[link - 1], ray[link]);
@@ -97,16 +97,16 @@ void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::s
       measures.notes.push_back(
           fmt::format("The motion of the {} turns about an axis {:.0f} degrees off the one that a "
                       "{} can have; it isn't used.",
-                      in_words(ray[link]), tilt / kDeg, in_words(name_of(id))));
+                      in_words(ray[link]), tilt / kDegree, in_words(name_of(id))));
     }
   }
-  measures.skeleton.joints[static_cast<std::size_t>(id)] = {id, result.centre, {result}};
+  measures.skeleton.joints[index_of(id)] = {id, result.centre, {result}};
 }
 
 void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId id, Dof flexion,
                  Dof abduction, const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
-  Vec3& node = hand.ray[static_cast<std::size_t>(finger)].node[1];
+  Vec3& node = hand.ray[index_of(finger)].node[1];
   JointDof bends = moved_dof(hand, model, finger, 1, flexion);
   JointDof spreads = moved_dof(hand, model, finger, 1, abduction);
   const auto bone = hand.bones.find(ray[1]);
@@ -143,7 +143,7 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
       spreads.centre = node;
     }
   }
-  measures.skeleton.joints[static_cast<std::size_t>(id)] = {id, node, {spreads, bends}};
+  measures.skeleton.joints[index_of(id)] = {id, node, {spreads, bends}};
 }
 
 /// Angles of the reference posture, from the directions of the bones. The model's own angle tells
@@ -151,8 +151,8 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
 void set_reference_angles(const ReferenceHand& hand, const Hand& model, Finger finger, JointId id,
                           std::size_t link, JointMeasures& measures) {
   const RayNodes& ray = hand.nodes(finger);
-  const RayNodes& drawn = hand.model_ray[static_cast<std::size_t>(finger)];
-  for (JointDof& dof : measures.skeleton.joints[static_cast<std::size_t>(id)].dofs) {
+  const RayNodes& drawn = hand.model_ray[index_of(finger)];
+  for (JointDof& dof : measures.skeleton.joints[index_of(id)].dofs) {
     const JointDof& of_model = model.skeleton.dof(dof.dof);
     const double zero = of_model.reference - angle_about(of_model.axis, drawn.direction(link - 1),
                                                          drawn.direction(link));
@@ -200,13 +200,11 @@ void measure_finger_joints(ReferenceHand& hand, const Hand& model, const Motions
     measure_mcp(hand, model, finger, static_cast<JointId>(joint), static_cast<Dof>(dof),
                 static_cast<Dof>(dof + 1), motions, measures);
     for (int k = 1; k < 3; ++k) {
-      measure_hinge(hand, model, finger, static_cast<std::size_t>(k + 1),
-                    static_cast<JointId>(joint + k), static_cast<Dof>(dof + 1 + k), motions,
-                    measures);
+      measure_hinge(hand, model, finger, k + 1, static_cast<JointId>(joint + k),
+                    static_cast<Dof>(dof + 1 + k), motions, measures);
     }
     for (int k = 0; k < 3; ++k) {
-      set_reference_angles(hand, model, finger, static_cast<JointId>(joint + k),
-                           static_cast<std::size_t>(k + 1), measures);
+      set_reference_angles(hand, model, finger, static_cast<JointId>(joint + k), k + 1, measures);
     }
   }
 }

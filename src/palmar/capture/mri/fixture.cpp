@@ -32,7 +32,7 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   // Single bright voxels are noise; the fat of a slender finger is a film of one or two.
   const ConnectedParts fat_parts = connected_parts(grid, fat, Neighbourhood::kCorners);
   for (std::size_t v = 0; v < count; ++v) {
-    if (fat[v] != 0 && fat_parts.voxels[static_cast<std::size_t>(fat_parts.part[v])] < kLeastFat) {
+    if (fat[v] != 0 && fat_parts.voxels[fat_parts.part[v]] < kLeastFat) {
       fat[v] = 0;
     }
   }
@@ -53,7 +53,7 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   const double shallow = std::max(1.5, 0.5 + grid.spacing.maxCoeff());
   for (std::size_t v = 0; v < count; ++v) {
     if (parts.part[v] < 0) continue;
-    Part& part = measures[static_cast<std::size_t>(parts.part[v])];
+    Part& part = measures[parts.part[v]];
     const auto depth = static_cast<double>(to_air[v]), value = static_cast<double>(smooth.value[v]);
     part.farthest = std::max(part.farthest, static_cast<double>(to_fat[v]));
     if (depth <= step) part.open += 1.0;
@@ -84,15 +84,14 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
         std::sqrt(std::max(0.0, part.squares / part.deep_voxels - inside * inside));
     if (spread > kEvenness * inside) continue;
     is_fixture[p] = 1;
-    if (largest < 0 ||
-        size > static_cast<double>(parts.voxels[static_cast<std::size_t>(largest)])) {
+    if (largest < 0 || size > static_cast<double>(parts.voxels[largest])) {
       largest = static_cast<int>(p);
     }
   }
   // One material: a piece of another signal is none of it.
   for (std::size_t p = 0; p < measures.size(); ++p) {
     if (is_fixture[p] == 0) continue;
-    const Part &part = measures[p], &main = measures[static_cast<std::size_t>(largest)];
+    const Part &part = measures[p], &main = measures[largest];
     const double here = part.deep / part.deep_voxels, there = main.deep / main.deep_voxels;
     if (std::abs(here - there) > kLikeness * there) {
       is_fixture[p] = 0;
@@ -104,7 +103,7 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   if (voxels == 0.0) return fixture;
   for (std::size_t v = 0; v < count; ++v) {
     const std::int32_t p = parts.part[v];
-    seed[v] = p >= 0 && is_fixture[static_cast<std::size_t>(p)] != 0 ? 1 : 0;
+    seed[v] = p >= 0 && is_fixture[p] != 0 ? 1 : 0;
   }
   fixture.signal = total / voxels;
   const bool is_distinct = skin - fixture.signal > std::max(2.0 * noise, 0.1 * bright);
@@ -119,13 +118,13 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   std::vector<char> is_seeded(thick.voxels.size(), 0);
   for (std::size_t v = 0; v < count; ++v) {
     if (seed[v] != 0 && thick.part[v] >= 0) {
-      is_seeded[static_cast<std::size_t>(thick.part[v])] = 1;
+      is_seeded[thick.part[v]] = 1;
     }
   }
   VoxelMask mask(count);
   for (std::size_t v = 0; v < count; ++v) {
     const std::int32_t p = thick.part[v];
-    mask[v] = p >= 0 && is_seeded[static_cast<std::size_t>(p)] != 0 ? 1 : 0;
+    mask[v] = p >= 0 && is_seeded[p] != 0 ? 1 : 0;
   }
   const std::vector<float> to_mask = distance_transform(grid, mask);
   for (std::size_t v = 0; v < count; ++v) {

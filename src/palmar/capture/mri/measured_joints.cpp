@@ -11,7 +11,10 @@
 #include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/mri/bones/bone_errors.h"
 #include "palmar/capture/posture_angles.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/hand/template_hand.h"
 
 namespace palmar {
@@ -19,12 +22,6 @@ namespace {
 
 constexpr std::array<Finger, 4> kFourFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                                 Finger::kLittle};
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 JointDof& dof_of(Skeleton& skeleton, Dof d) {
   for (Joint& joint : skeleton.joints) {
@@ -44,17 +41,16 @@ void add_wrist(const Hand& model, double scale, Skeleton& skeleton) {
   const Vec3 origin = wrist.centre;
   wrist.centre = Vec3::Zero();
   for (JointDof& dof : wrist.dofs) dof.centre = scale * (dof.centre - origin);
-  skeleton.joints[static_cast<std::size_t>(JointId::kWrist)] = std::move(wrist);
+  skeleton.joints[index_of(JointId::kWrist)] = std::move(wrist);
 }
 
 /// The most distal skin of each finger; without skin 3.8 mm of soft tissue beyond the last
 /// bone, 5.7 mm at the thumb (Buryanov & Kotiuk 2010, Table I).
 void add_fingertips(const ReferenceHand& hand, bool has_skin, Skeleton& skeleton) {
   for (int f = 0; f < kFingerCount; ++f) {
-    const RayNodes& ray = hand.ray[static_cast<std::size_t>(f)];
+    const RayNodes& ray = hand.ray[f];
     const double tissue = has_skin && ray.is_seen.back() ? 0.0 : f == 0 ? 5.7 : 3.8;
-    skeleton.fingertips[static_cast<std::size_t>(f)] =
-        ray.node.back() + tissue * ray.direction(ray.node.size() - 2);
+    skeleton.fingertips[f] = ray.node.back() + tissue * ray.direction(ray.node.size() - 2);
   }
 }
 
@@ -145,7 +141,7 @@ void note_missing_postures(const MotionsByPosture& motions, std::vector<std::str
         "No limit posture of the thumb was scanned: the thumb's joints turn about the model's "
         "axes, within the model's range.");
   } else if (!limits.empty()) {
-    notes.push_back("Not scanned: " + listed(limits) +
+    notes.push_back("Not scanned: " + joined(limits, ", ") +
                     ". There the thumb's CMC joint turns about the axis of the limits that were, "
                     "as far as the model's does.");
   }
@@ -180,7 +176,7 @@ void note_bones(const ReferenceHand& hand,
     }
   }
   if (!missing.empty()) {
-    notes.push_back("The reference scan doesn't show: " + listed(missing) +
+    notes.push_back("The reference scan doesn't show: " + joined(missing, ", ") +
                     ". Their joints are the model's, set on by its proportions.");
   }
   for (const auto& [posture, motions] : tracked) {
@@ -208,19 +204,19 @@ void note_bones(const ReferenceHand& hand,
       notes.push_back(
           fmt::format("{}: without a surface of its own, found by the image alone: {}. Tables of "
                       "errors leave it out.",
-                      name_of(posture), listed(by_image)));
+                      name_of(posture), joined(by_image, ", ")));
     }
     if (!by_surface.empty()) {
       notes.push_back(
           fmt::format("{}: doesn't look in the image as in the reference, laid on its surface "
                       "instead, which is less accurate: {}.",
-                      name_of(posture), listed(by_surface)));
+                      name_of(posture), joined(by_surface, ", ")));
     }
     if (!lost.empty()) {
       notes.push_back(
           fmt::format("{}: not found again: {}. The posture tells nothing of their "
                       "joints.",
-                      name_of(posture), listed(lost)));
+                      name_of(posture), joined(lost, ", ")));
     }
   }
 }
@@ -237,7 +233,7 @@ void note_metacarpals(const MotionsByPosture& motions, std::vector<std::string>&
       notes.push_back(
           fmt::format("{}: the {} turns by {:.0f} degrees against the palm, which the "
                       "joints don't have; the MCP joint takes it over.",
-                      name_of(posture), name, turn * 180.0 / std::numbers::pi));
+                      name_of(posture), name, turn * kDegreesPerRadian));
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/mri/bones/bone_chain.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
@@ -17,8 +18,6 @@
 
 namespace palmar {
 namespace {
-
-std::size_t at(Finger f) { return static_cast<std::size_t>(f); }
 
 constexpr std::array<Finger, kFingerCount> kFingers = {
     Finger::kThumb, Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle};
@@ -123,7 +122,7 @@ std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger fi
   }
   for (const auto& segment : chain)
     nodes.push_back(model.skeleton.joint(joint_of(*segment)).centre);
-  const Vec3& skin_tip = model.skeleton.fingertips[at(finger)];
+  const Vec3& skin_tip = model.skeleton.fingertips[index_of(finger)];
   nodes.push_back(skin_tip);
   if (has_skin) return nodes;
   if (const TriangleMesh* last = find(meshes, ray_of(finger).back())) {
@@ -143,8 +142,8 @@ Similarity similarity_of(const std::vector<Vec3>& from, const std::vector<Vec3>&
   const auto n = static_cast<Eigen::Index>(from.size());
   Eigen::Matrix3Xd a(3, n), b(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    a.col(i) = from[static_cast<std::size_t>(i)];
-    b.col(i) = to[static_cast<std::size_t>(i)];
+    a.col(i) = from[i];
+    b.col(i) = to[i];
   }
   const Eigen::Matrix4d m = Eigen::umeyama(a, b, true);
   Similarity result;
@@ -267,7 +266,7 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
   Eigen::MatrixXd A(n, 4);
   Eigen::VectorXd b(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Vec3& v = near[static_cast<std::size_t>(i)];
+    const Vec3& v = near[i];
     A.row(i) << 2.0 * v.transpose(), 1.0;
     b[i] = v.squaredNorm();
   }
@@ -281,8 +280,8 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
 }
 
 Vec3 ReferenceHand::from_model(Finger finger, std::size_t link, const Vec3& direction) const {
-  const Quat turn =
-      shortest_rotation(model_ray[at(finger)].direction(link), ray[at(finger)].direction(link));
+  const Quat turn = shortest_rotation(model_ray[index_of(finger)].direction(link),
+                                      ray[index_of(finger)].direction(link));
   return turn * direction;
 }
 
@@ -293,9 +292,10 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
   hand.scale = patient_from_model.scale;
 
   std::array<std::vector<std::optional<Vec3>>, kFingerCount> seen;
-  for (const Finger finger : kFingers) seen[at(finger)] = seen_nodes(scan, reference.skin, finger);
+  for (const Finger finger : kFingers)
+    seen[index_of(finger)] = seen_nodes(scan, reference.skin, finger);
   const auto mcp = [&](Finger finger) -> Vec3 {
-    const std::optional<Vec3>& node = seen[at(finger)][1];
+    const std::optional<Vec3>& node = seen[index_of(finger)][1];
     return node ? *node
                 : patient_from_model *
                       model.skeleton.joint(joint_of(*segments_of(finger)[0])).centre;
@@ -322,13 +322,13 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
   Similarity hand_from_model = patient_from_model;
   hand_from_model.motion = hand_from_patient * patient_from_model.motion;
   for (const Finger finger : kFingers) {
-    for (std::optional<Vec3>& node : seen[at(finger)]) {
+    for (std::optional<Vec3>& node : seen[index_of(finger)]) {
       if (node) node = hand_from_patient * *node;
     }
     const std::vector<Vec3> nodes =
         model_nodes(model, drawn, finger, !reference.skin.vertices.empty());
-    hand.model_ray[at(finger)] = {nodes, std::vector<bool>(nodes.size(), true)};
-    hand.ray[at(finger)] = completed(seen[at(finger)], nodes, hand_from_model);
+    hand.model_ray[index_of(finger)] = {nodes, std::vector<bool>(nodes.size(), true)};
+    hand.ray[index_of(finger)] = completed(seen[index_of(finger)], nodes, hand_from_model);
   }
   return hand;
 }

@@ -9,6 +9,7 @@
 
 #include "palmar/capture/mri/measured_joints.h"
 #include "palmar/capture/mri/scan_surfaces.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
 
@@ -39,7 +40,7 @@ struct ReferenceHand {
   std::array<RayNodes, kFingerCount> model_ray;  ///< of the model in its reference posture
   double scale = 1.0;                            ///< size over the model's, by the palm
 
-  const RayNodes& nodes(Finger f) const { return ray[static_cast<std::size_t>(f)]; }
+  const RayNodes& nodes(Finger f) const { return ray[index_of(f)]; }
   /// A direction that moves with the model's link k of a finger, as it lies in the scan: turned by
   /// the least turn that lays the model's link on the scan's.
   Vec3 from_model(Finger finger, std::size_t link, const Vec3& direction) const;

@@ -12,8 +12,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Axis of a phalanx, from its joint to the next one or the tip.
 struct Axis {
   Segment segment{};
@@ -28,7 +26,7 @@ std::vector<Axis> axes_of(const Skeleton& skeleton) {
       const bool is_last = k + 1 == chain.size() || !chain[k + 1];
       axes.push_back(
           {*chain[k], skeleton.joint(joint_of(*chain[k])).centre,
-           is_last ? skeleton.fingertips[at(f)] : skeleton.joint(joint_of(*chain[k + 1])).centre});
+           is_last ? skeleton.fingertips[f] : skeleton.joint(joint_of(*chain[k + 1])).centre});
     }
   }
   return axes;
@@ -60,7 +58,7 @@ std::optional<RingBand> ring_of(const std::vector<Vec3>& points, const std::vect
     const Vec3 r = p - middle;
     if ((r - along.dot(r) * along).norm() > kFarthest) return {};
     const double turn = std::atan2(b.dot(r), a.dot(r)) / (2.0 * std::numbers::pi) + 0.5;
-    is_covered[at(std::min(kBins - 1, static_cast<int>(turn * kBins)))] = true;
+    is_covered[std::min(kBins - 1, static_cast<int>(turn * kBins))] = true;
     places.push_back(along.dot(r));
   }
   if (std::count(is_covered.begin(), is_covered.end(), true) < kBins * 5 / 6) return {};
@@ -80,7 +78,7 @@ std::vector<RingBand> find_rings(const TriangleMesh& scan, const SkinMarks& mark
   std::vector<RingBand> rings;
   for (const std::vector<int>& patch : marks.other_colour) {
     std::vector<Vec3> points;
-    for (const int v : patch) points.push_back(hand_from_scan * scan.vertices[at(v)]);
+    for (const int v : patch) points.push_back(hand_from_scan * scan.vertices[v]);
     auto ring = ring_of(points, axes);
     if (!ring || ring->width < kNarrowest || ring->width > kWidest) continue;
     ring->vertex = patch;
@@ -94,20 +92,20 @@ TriangleMesh without_rings(const TriangleMesh& scan, const std::vector<RingBand>
   std::vector<char> is_ring(scan.vertices.size(), 0);
   for (const RingBand& ring : rings) {
     Eigen::AlignedBox3d box;
-    for (const int v : ring.vertex) box.extend(scan.vertices[at(v)]);
+    for (const int v : ring.vertex) box.extend(scan.vertices[v]);
     box.extend(Vec3(box.max() + Vec3::Constant(margin)));
     box.extend(Vec3(box.min() - Vec3::Constant(margin)));
     for (std::size_t v = 0; v < is_ring.size(); ++v) {
       const Vec3& p = scan.vertices[v];
       if (is_ring[v] || !box.contains(p)) continue;
       is_ring[v] = std::any_of(ring.vertex.begin(), ring.vertex.end(), [&](int r) {
-        return (scan.vertices[at(r)] - p).squaredNorm() <= margin * margin;
+        return (scan.vertices[r] - p).squaredNorm() <= margin * margin;
       });
     }
   }
   TriangleMesh rest{scan.vertices, {}};
   for (const Triangle& t : scan.triangles) {
-    if (!is_ring[at(t[0])] && !is_ring[at(t[1])] && !is_ring[at(t[2])]) rest.triangles.push_back(t);
+    if (!is_ring[t[0]] && !is_ring[t[1]] && !is_ring[t[2]]) rest.triangles.push_back(t);
   }
   return rest;
 }

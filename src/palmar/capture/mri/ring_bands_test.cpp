@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -35,9 +37,7 @@ Skeleton skeleton() {
   Skeleton result;
   for (Joint& joint : result.joints) joint.centre = Vec3(200.0, 0.0, 0.0);
   for (Vec3& tip : result.fingertips) tip = Vec3(200.0, 20.0, 0.0);
-  const auto put = [&](JointId id, const Vec3& at) {
-    result.joints[static_cast<std::size_t>(id)].centre = at;
-  };
+  const auto put = [&](JointId id, const Vec3& at) { result.joints[index_of(id)].centre = at; };
   put(JointId::kRingMcp, Vec3::Zero());
   put(JointId::kRingPip, Vec3(0.0, 30.0, 0.0));
   put(JointId::kRingDip, Vec3(0.0, 50.0, 0.0));
@@ -68,7 +68,7 @@ TEST(RingBands, ARingGoesRoundAFinger) {
   const TriangleMesh rest = without_rings(scan, rings, 1.2);
   for (const Triangle& t : rest.triangles) {
     for (const int v : t) {
-      const double y = (anywhere.inverse() * scan.vertices[static_cast<std::size_t>(v)]).y();
+      const double y = (anywhere.inverse() * scan.vertices[v]).y();
       EXPECT_TRUE(y < 9.0 || y > 15.0) << y;
     }
   }

@@ -17,6 +17,7 @@
 #include "palmar/imaging/denoise.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/imaging/noise_floor.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -25,16 +26,6 @@ constexpr double kMargin = 8.0;          // mm of air kept round the hand
 constexpr double kLeastVolume = 60.0e3;  // mm^3: a child's hand has 100 cm^3
 constexpr double kSmoothing = 0.45;      // mm
 constexpr double kRoughly = 0.8;         // mm
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-template <typename Values>
-double median(Values values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
 
 /// Air round the tissue: what reaches the outside through openings wider than 3 mm, and 4 mm into
 /// narrower ones. Dark tissue (tendons, cortical bone) that comes close to the skin is none.
@@ -88,7 +79,7 @@ VoxelBox box_of(const VolumeGrid& grid, const VoxelMask& mask, double margin) {
 template <typename T>
 std::vector<T> cut_out(const VolumeGrid& grid, const std::vector<T>& values, const VoxelBox& box) {
   std::vector<T> part;
-  part.reserve(at(box.size[0]) * at(box.size[1]) * at(box.size[2]));
+  part.reserve(static_cast<std::size_t>(box.size[0]) * box.size[1] * box.size[2]);
   for (int k = 0; k < box.size[2]; ++k) {
     for (int j = 0; j < box.size[1]; ++j) {
       const auto from =
@@ -118,8 +109,8 @@ std::array<double, 2> three_classes(const std::vector<float>& values) {
   std::array<double, kBins + 1> count{}, sum{};
   for (const float v : values) {
     const int bin = std::min(kBins - 1, static_cast<int>((v - from) / width * kBins));
-    count[at(bin) + 1] += 1.0;
-    sum[at(bin) + 1] += static_cast<double>(v);
+    count[bin + 1] += 1.0;
+    sum[bin + 1] += static_cast<double>(v);
   }
   for (std::size_t b = 1; b <= kBins; ++b) {
     count[b] += count[b - 1];
@@ -186,17 +177,17 @@ std::vector<int> hands_among(const ConnectedParts& parts, const Volume& rough, d
   std::vector<double> share(parts.voxels.size(), 0.0);
   for (std::size_t v = 0; v < rough.value.size(); ++v) {
     if (parts.part[v] >= 0 && static_cast<double>(rough.value[v]) > std::max(bright, threshold)) {
-      share[at(parts.part[v])] += 1.0 / static_cast<double>(parts.voxels[at(parts.part[v])]);
+      share[parts.part[v]] += 1.0 / static_cast<double>(parts.voxels[parts.part[v]]);
     }
   }
   std::vector<int> hands;
   for (int p = 0; p < parts.count(); ++p) {
-    if (static_cast<double>(parts.voxels[at(p)]) * voxel > kLeastVolume && share[at(p)] > 0.08) {
+    if (static_cast<double>(parts.voxels[p]) * voxel > kLeastVolume && share[p] > 0.08) {
       hands.push_back(p);
     }
   }
   std::sort(hands.begin(), hands.end(),
-            [&](int a, int b) { return parts.voxels[at(a)] > parts.voxels[at(b)]; });
+            [&](int a, int b) { return parts.voxels[a] > parts.voxels[b]; });
   return hands;
 }
 
@@ -209,7 +200,7 @@ Vec3 middle_of(const VolumeGrid& grid, const ConnectedParts& parts, int part) {
       }
     }
   }
-  return grid.to_patient(sum / static_cast<double>(parts.voxels[at(part)]));
+  return grid.to_patient(sum / static_cast<double>(parts.voxels[part]));
 }
 
 /// The piece of tissue that is the hand. Throws InputError for none and for two.
@@ -221,7 +212,7 @@ VoxelMask the_hand(const Volume& rough, double threshold, const std::string& nam
   const ConnectedParts parts = connected_parts(rough.grid, tissue);
   const std::vector<int> hands = hands_among(parts, rough, threshold);
   const double voxel = rough.grid.spacing.prod() / 1e3;
-  const auto volume = [&](int part) { return static_cast<double>(parts.voxels[at(part)]) * voxel; };
+  const auto volume = [&](int part) { return static_cast<double>(parts.voxels[part]) * voxel; };
   if (hands.empty()) {
     const int largest = parts.largest();
     throw InputError(fmt::format(

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <string>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr std::array<std::string_view, kScanPostureCount> kNames = {
 
 }  // namespace
 
-std::string_view name_of(ScanPosture posture) { return kNames[static_cast<std::size_t>(posture)]; }
+std::string_view name_of(ScanPosture posture) { return kNames[index_of(posture)]; }
 
 std::optional<ScanPosture> scan_posture_in(std::string_view description) {
   std::string plain;
@@ -25,7 +27,7 @@ std::optional<ScanPosture> scan_posture_in(std::string_view description) {
   }
   std::optional<ScanPosture> found;
   for (int k = 0; k < kScanPostureCount; ++k) {
-    if (plain.find(kNames[static_cast<std::size_t>(k)]) == std::string::npos) continue;
+    if (plain.find(kNames[k]) == std::string::npos) continue;
     if (found) return std::nullopt;  // names two
     found = static_cast<ScanPosture>(k);
   }

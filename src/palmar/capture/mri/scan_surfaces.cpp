@@ -31,8 +31,6 @@ constexpr double kErrorPerVoxel = 0.27;
 constexpr double kErrorPerNoise = 3.0;  // per share of the contrast
 constexpr double kDoubtful = 0.4;       // mm: from there on names may be wrong as well
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
                           std::vector<std::string>& notes) {
   Volume field = gaussian_filtered(scan.image, 0.4);
@@ -121,25 +119,25 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
 
   progress.update(0.75, "bones");
   // Voxels of a bone's own region and of other bones' end and limit its profiles.
-  std::vector<std::int32_t> bone_of(at(regions.count), -1);
+  std::vector<std::int32_t> bone_of(regions.count, -1);
   for (std::size_t b = 0; b < names.bones.size(); ++b) {
     for (const std::int32_t r : names.bones[b].regions) {
-      bone_of[at(r)] = static_cast<std::int32_t>(b);
+      bone_of[r] = static_cast<std::int32_t>(b);
     }
   }
   std::vector<std::int32_t> bone(regions.region.size());
   for (std::size_t v = 0; v < bone.size(); ++v) {
-    bone[v] = regions.region[v] < 0 ? -1 : bone_of[at(regions.region[v])];
+    bone[v] = regions.region[v] < 0 ? -1 : bone_of[regions.region[v]];
     if (scan.depth[v] < 0.7F) bone[v] = -2;
   }
   const ShellImage shell{scan.image, bone, scan.levels.dark, scan.levels.bright, scan.levels.noise};
   surfaces.bones.resize(names.bones.size());
   parallel_for(static_cast<int>(names.bones.size()), [&](int b) {
     if (progress.is_cancelled()) return;
-    ScannedBone& found = surfaces.bones[at(b)];
-    found.name = names.name[at(b)];
-    found.is_cut = names.bones[at(b)].is_cut;
-    TriangleMesh mesh = marrow_surface(scan, names.bones[at(b)], options.edge_length);
+    ScannedBone& found = surfaces.bones[b];
+    found.name = names.name[b];
+    found.is_cut = names.bones[b].is_cut;
+    TriangleMesh mesh = marrow_surface(scan, names.bones[b], options.edge_length);
     for (int round = 0; round < 2; ++round) {
       mesh = fit_shell(mesh, b, shell).mesh;
       mesh = smooth_tangentially(smooth_taubin(mesh, {.rounds = 4}), {.rounds = 4});

@@ -11,8 +11,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// Visits the voxels within `reach` [mm] of a point: index and position in the patient frame.
@@ -87,13 +85,13 @@ SurfaceMarkers find_surface_markers(const Volume& image, const VoxelMask& tissue
     double sum = 0.0, squares = 0.0, brightest = 0.0;
     Vec3 first = Vec3::Zero();
   };
-  std::vector<Moments> moments(at(parts.count()));
+  std::vector<Moments> moments(parts.count());
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t v = grid.at(i, j, k);
         if (parts.part[v] < 0) continue;
-        Moments& m = moments[at(parts.part[v])];
+        Moments& m = moments[parts.part[v]];
         const Vec3 place = grid.to_patient(Vec3(i, j, k));
         const auto value = static_cast<double>(image.value[v]);
         m.sum += value;
@@ -105,7 +103,7 @@ SurfaceMarkers find_surface_markers(const Volume& image, const VoxelMask& tissue
   }
   const double ball = 4.0 / 3.0 * std::acos(-1.0) * radius * radius * radius;
   for (int p = 0; p < parts.count(); ++p) {
-    const Moments& m = moments[at(p)];
+    const Moments& m = moments[p];
     if (m.brightest < least) continue;
     const double volume = m.sum / m.brightest * grid.spacing.prod();
     const Vec3 middle = m.first / m.sum;

@@ -20,8 +20,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// A point of the skin in the reference posture.
 struct SkinPoint {
   Triangle vertex{};
@@ -32,7 +30,7 @@ struct SkinPoint {
 
 Vec3 point_on(const SkinPoint& point, const std::vector<Vec3>& skin) {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t c = 0; c < 3; ++c) sum += point.share[c] * skin[at(point.vertex[c])];
+  for (std::size_t c = 0; c < 3; ++c) sum += point.share[c] * skin[point.vertex[c]];
   return sum;
 }
 
@@ -57,7 +55,7 @@ std::vector<int> spread_points(const std::vector<Vec3>& skin, const std::vector<
   std::vector<double> free(vertices.size(), std::numeric_limits<double>::max());
   const auto shade = [&](const Vec3& p) {
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-      free[k] = std::min(free[k], (skin[at(vertices[k])] - p).norm());
+      free[k] = std::min(free[k], (skin[vertices[k]] - p).norm());
     }
   };
   for (const Vec3& p : taken) shade(p);
@@ -65,8 +63,8 @@ std::vector<int> spread_points(const std::vector<Vec3>& skin, const std::vector<
   while (!vertices.empty()) {
     const auto next = std::max_element(free.begin(), free.end());
     if (*next < spacing) break;
-    chosen.push_back(vertices[static_cast<std::size_t>(next - free.begin())]);
-    shade(skin[at(chosen.back())]);
+    chosen.push_back(vertices[next - free.begin()]);
+    shade(skin[chosen.back()]);
   }
   return chosen;
 }
@@ -93,8 +91,8 @@ std::vector<int> thumb_ball_skin(const Hand& hand) {
   for (std::size_t k = 0; k < cmc->vertex.size(); ++k) {
     if (cmc->w1[k] * cmc->w2[k] < kMoved) continue;
     const int v = cmc->vertex[k];
-    const Segment segment = hand.segment[at(v)];
-    const bool is_near = (hand.skin.vertices[at(v)] - mp).norm() < 2.0 * kBeyond;
+    const Segment segment = hand.segment[v];
+    const bool is_near = (hand.skin.vertices[v] - mp).norm() < 2.0 * kBeyond;
     if (segment == Segment::kPalm || (segment == Segment::kThumbProximal && is_near)) {
       result.push_back(v);
     }
@@ -114,8 +112,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
   std::vector<HandPoint> glued;
   for (const Vec3& marker : markers) {
     const ClosestPoint foot = *query.closest(marker);
-    marked.push_back(
-        {hand.skin.triangles[at(foot.triangle)], foot.weights, foot.point, foot.distance});
+    marked.push_back({hand.skin.triangles[foot.triangle], foot.weights, foot.point, foot.distance});
     glued.push_back(skin_point_near(hand, marker));
   }
 
@@ -134,7 +131,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
         match_markers(PosablePoints(bare, glued).pose(limits[l]->posture), scan.markers);
     for (std::size_t i = 0; i < match.size(); ++i) {
       if (!match[i]) continue;
-      const Vec3& centre = scan.markers[at(*match[i])];
+      const Vec3& centre = scan.markers[*match[i]];
       const auto up = normal_round(scan, normal, centre);
       if (!up) continue;
       seen[l][i] = centre - marked[i].height * *up;
@@ -188,10 +185,9 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
       spread_points(hand.skin.vertices, thumb_ball_skin(hand), known.reference, options.spacing);
   fit.skin_points = static_cast<int>(more.size());
   for (const int v : more) {
-    known.reference.push_back(hand.skin.vertices[at(v)]);
+    known.reference.push_back(hand.skin.vertices[v]);
     for (std::size_t l = 0; l < 4; ++l) {
-      known.missing[l].push_back(limits[l] ? Vec3(bent[l][at(v)] - posed[l][at(v)])
-                                           : Vec3(Vec3::Zero()));
+      known.missing[l].push_back(limits[l] ? Vec3(bent[l][v] - posed[l][v]) : Vec3(Vec3::Zero()));
     }
   }
   // phi = 1/2 at the points' spacing.

@@ -89,7 +89,7 @@ struct Scene {
     const PhotoCamera at = camera();
     const Vec3 eye = at.centre();
     RgbImage image{width, height, {}};
-    image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    image.rgb.resize(3 * static_cast<std::size_t>(width) * height);
     parallel_for(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         std::array<double, 3> sum{};

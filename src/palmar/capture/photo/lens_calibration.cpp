@@ -89,7 +89,7 @@ class Adjustment {
     if (by_pose != nullptr) by_pose->resize(2 * n, 6);
     const Rigid3& pose = poses[v];
     for (long i = 0; i < n; ++i) {
-      const BoardCorner& corner = corners[v][static_cast<std::size_t>(i)];
+      const BoardCorner& corner = corners[v][i];
       const Vec3 turned = pose.rotation * corner.world;
       const Vec3 p = turned + pose.translation;
       const Vec2 d = p.head<2>() / p.z();

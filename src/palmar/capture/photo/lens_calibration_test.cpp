@@ -6,15 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 PhotoLens true_lens() {
   return {.width = 1080,

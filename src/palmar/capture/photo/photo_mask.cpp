@@ -113,8 +113,7 @@ void fill_holes(const VolumeGrid& grid, VoxelMask& mask, double most) {
   for (std::size_t p = 0; p < mask.size(); ++p) outside[p] = mask[p] == 0 ? 1 : 0;
   const ConnectedParts parts = connected_parts(grid, outside);
   for (std::size_t p = 0; p < mask.size(); ++p) {
-    if (parts.part[p] >= 0 &&
-        static_cast<double>(parts.voxels[static_cast<std::size_t>(parts.part[p])]) <= most) {
+    if (parts.part[p] >= 0 && static_cast<double>(parts.voxels[parts.part[p]]) <= most) {
       mask[p] = 1;
     }
   }
@@ -125,9 +124,9 @@ void drop_specks(const VolumeGrid& grid, VoxelMask& mask) {
   constexpr std::size_t kShare = 100;  // of the largest part
   const ConnectedParts parts = connected_parts(grid, mask);
   if (parts.count() == 0) return;
-  const std::size_t least = parts.voxels[static_cast<std::size_t>(parts.largest())] / kShare;
+  const std::size_t least = parts.voxels[parts.largest()] / kShare;
   for (std::size_t p = 0; p < mask.size(); ++p) {
-    if (parts.part[p] >= 0 && parts.voxels[static_cast<std::size_t>(parts.part[p])] < least) {
+    if (parts.part[p] >= 0 && parts.voxels[parts.part[p]] < least) {
       mask[p] = 0;
     }
   }

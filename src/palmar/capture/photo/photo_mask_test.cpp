@@ -54,9 +54,7 @@ TEST(PhotoMask, TellsABackgroundFromAFullBox) {
 
 TEST(PhotoMask, IsTheHandAndAMillimetreMore) {
   const PhotoMask mask = mask_hand(view_of(kCloth), box_of(100.0), 0.0);
-  const auto inside = [&](int x, int y) {
-    return mask.inside[static_cast<std::size_t>(y * kSide + x)];
-  };
+  const auto inside = [&](int x, int y) { return mask.inside[y * kSide + x]; };
   EXPECT_EQ(inside(150, 150), 1);
   EXPECT_EQ(inside(121, 150), 1);
   EXPECT_EQ(inside(115, 150), 0);

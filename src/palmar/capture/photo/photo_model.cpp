@@ -19,6 +19,7 @@
 #include "palmar/geometry/repair/weld.h"
 #include "palmar/imaging/distance_transform.h"
 #include "palmar/imaging/iso_surface.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -32,9 +33,7 @@ int largest(const TriangleMesh& mesh, const std::vector<int>& part) {
     const auto p = static_cast<std::size_t>(std::max(0, part[t]));
     if (p >= area.size()) area.resize(p + 1, 0.0);
     const auto& [a, b, c] = mesh.triangles[t];
-    area[p] += triangle_area(mesh.vertices[static_cast<std::size_t>(a)],
-                             mesh.vertices[static_cast<std::size_t>(b)],
-                             mesh.vertices[static_cast<std::size_t>(c)]);
+    area[p] += triangle_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
   return static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
 }
@@ -54,9 +53,7 @@ TriangleMesh largest_part(const TriangleMesh& mesh) {
 /// surfaces of its own where it isn't told from the hand.
 void keep_measured(PhotoModel& model) {
   TriangleMesh& mesh = model.skin.mesh;
-  const auto is_measured = [&model](int v) {
-    return model.measured[static_cast<std::size_t>(v)] != 0;
-  };
+  const auto is_measured = [&model](int v) { return model.measured[v] != 0; };
   std::erase_if(mesh.triangles,
                 [&](const Triangle& t) { return !std::all_of(t.begin(), t.end(), is_measured); });
   const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
@@ -66,7 +63,7 @@ void keep_measured(PhotoModel& model) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (part[t] != best) continue;
     kept.push_back(mesh.triangles[t]);
-    for (const int v : kept.back()) renumbered[static_cast<std::size_t>(v)] = 0;
+    for (const int v : kept.back()) renumbered[v] = 0;
   }
   std::size_t used = 0;
   for (std::size_t v = 0; v < renumbered.size(); ++v) {
@@ -82,7 +79,7 @@ void keep_measured(PhotoModel& model) {
   model.views.resize(used);
   model.measured.resize(used);
   for (Triangle& t : kept) {
-    for (int& v : t) v = renumbered[static_cast<std::size_t>(v)];
+    for (int& v : t) v = renumbered[v];
   }
   mesh.triangles = std::move(kept);
 }
@@ -121,12 +118,11 @@ std::vector<PhotoOutline> outlines_of(const std::vector<PhotoView>& views,
   constexpr double kMixed = 0.5;  // mm
   std::vector<PhotoOutline> outlines(views.size());
   parallel_for(static_cast<int>(views.size()), [&](int i) {
-    const auto v = static_cast<std::size_t>(i);
     VolumeGrid grid;
-    grid.size = {views[v].width(), views[v].height(), 1};
-    outlines[v] = {views[v].camera,
-                   eroded(grid, masks[v].inside, (options.grow + kMixed) / masks[v].pixel_size),
-                   masks[v].paper};
+    grid.size = {views[i].width(), views[i].height(), 1};
+    outlines[i] = {views[i].camera,
+                   eroded(grid, masks[i].inside, (options.grow + kMixed) / masks[i].pixel_size),
+                   masks[i].paper};
   });
   return outlines;
 }
@@ -140,12 +136,6 @@ double glare_share(const PhotoView& view, const PhotoOutline& outline) {
     bright += outline.inside[p] != 0 && view.grey[p] > kWhite ? 1.0 : 0.0;
   }
   return inside > 0.0 ? bright / inside : 0.0;
-}
-
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What a user should know of the light.
@@ -215,7 +205,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   // A narrow box may be full of hand before a plain backdrop, which shows beside it.
   constexpr double kTellsLittle = 0.5, kLittleAround = 0.15;
-  model.has_background = middle_of(shares) > kTellsLittle && middle_of(around) > kLittleAround;
+  model.has_background = median(shares) > kTellsLittle && median(around) > kLittleAround;
   double begin = 0.12;  // of the fine stereo
   if (model.has_background) {
     begin = 0.4;
@@ -235,7 +225,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
       (filled.max().head<2>().array() > options.box.max().head<2>().array() - edge).any()) {
     model.warnings.push_back(
         "something reaches the border of the space that is searched, which cuts it off there; a "
-        "larger one may be needed (--box-mm), or a plain backdrop");
+        "larger one may be needed (setting \"box\"), or a plain backdrop");
   }
   const PatchMatchOptions& stereo = options.stereo;
   const Vec3 centre = bounding_box(hull.surface).center();
@@ -271,7 +261,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   model.points = fused.points.size();
   std::vector<double> glare;
   for (const PhotoUse& use : model.photographs) glare.push_back(use.glare_share);
-  const double usual_glare = middle_of(glare);
+  const double usual_glare = median(glare);
   constexpr double kMuchGlare = 0.003;
   if (usual_glare > kMuchGlare) {
     model.warnings.push_back(fmt::format(
@@ -311,11 +301,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   for (std::size_t i = 0; i < density.size(); ++i) {
     density[i] = value_at(field.density, field.density.grid.to_voxel(mesh.vertices[i]));
   }
-  std::vector<float> sorted = density;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2),
-                   sorted.end());
   constexpr float kSparsely = 0.1F;  // of the usual density
-  const float least = kSparsely * sorted[sorted.size() / 2];
+  const float least = kSparsely * median(density);
   const std::vector<double> areas = vertex_areas(mesh);
   double area = 0.0, measured = 0.0;
   for (std::size_t i = 0; i < density.size(); ++i) {

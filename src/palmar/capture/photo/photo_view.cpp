@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 
@@ -50,8 +51,7 @@ PhotoView make_view(const Photograph& photograph, int reduction) {
              .centre_y = (lens.centre_y - shift) / by};
   view.colour.width = reduced.width;
   view.colour.height = reduced.height;
-  const std::size_t count =
-      static_cast<std::size_t>(reduced.width) * static_cast<std::size_t>(reduced.height);
+  const std::size_t count = static_cast<std::size_t>(reduced.width) * reduced.height;
   view.colour.rgb.resize(3 * count);
   view.grey.resize(count);
   const float share = 1.0F / static_cast<float>(reduction * reduction);
@@ -84,9 +84,8 @@ int reduction_for(const std::vector<Photograph>& photographs, const Vec3& point,
                     photograph.camera.lens.focal_x);
   }
   if (sizes.empty()) return 1;
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<long>(sizes.size() / 2), sizes.end());
   constexpr double kMost = 16.0;
-  return static_cast<int>(std::clamp(std::round(wanted / sizes[sizes.size() / 2]), 1.0, kMost));
+  return static_cast<int>(std::clamp(std::round(wanted / median(std::move(sizes))), 1.0, kMost));
 }
 
 }  // namespace palmar

@@ -12,8 +12,7 @@ namespace palmar {
 
 /// Where a pixel's three bytes begin.
 inline std::size_t pixel_offset(const RgbImage& image, int x, int y) {
-  return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-              static_cast<std::size_t>(x));
+  return 3 * (static_cast<std::size_t>(y) * image.width + x);
 }
 
 /// Colour between pixels, bilinear, 0 to 255; beyond the border that of the border.
@@ -36,10 +35,7 @@ struct PhotoView {
   std::vector<float> grey;  ///< mean of the three channels, 0 to 255, per pixel
   int width() const { return colour.width; }
   int height() const { return colour.height; }
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(colour.width) +
-           static_cast<std::size_t>(x);
-  }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * colour.width + x; }
 };
 
 /// Every pixel of the view is the mean of reduction x reduction samples of the photograph. Throws

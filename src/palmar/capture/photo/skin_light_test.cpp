@@ -29,7 +29,7 @@ Spots spots_of(const Eigen::Vector3f& skin, double noise,
       Eigen::Vector3f light = static_cast<float>(shade * own(s, p)) * skin;
       light.array() += static_cast<float>(shade * mirrored(s, p)) * skin.sum() / 3.0F;
       for (int k = 0; k < 3; ++k) light[k] *= static_cast<float>(1.0 + noise * random.normal());
-      spots[static_cast<std::size_t>(s)].push_back({static_cast<std::size_t>(p), light});
+      spots[s].push_back({static_cast<std::size_t>(p), light});
     }
   }
   return spots;

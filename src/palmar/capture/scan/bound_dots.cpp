@@ -33,7 +33,7 @@ std::vector<BoundDot> bind_dots(const Hand& hand, const SkinMarks& marks,
     BoundDot bound;
     bound.point = hand_from_scan * dot.point;
     bound.on_hand = skin_point_near(hand, bound.point);
-    const Segment on_skin = hand.segment[static_cast<std::size_t>(*bound.on_hand.vertex)];
+    const Segment on_skin = hand.segment[*bound.on_hand.vertex];
     bound.segment = dot.segment ? *dot.segment : drawn_segment(hand.skeleton, bound.point, on_skin);
     bound.slides = on_skin == Segment::kPalm && bound.segment != Segment::kPalm;
     dots.push_back(std::move(bound));

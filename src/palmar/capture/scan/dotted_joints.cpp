@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/capture/numeric_jacobian.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 
@@ -42,9 +42,7 @@ DotHinge fit_dot_hinge(std::span<const Vec3> before, std::span<const Vec3> after
   problem.upper.head<2>().setConstant(1.0);
   problem.lower[4] = -std::numbers::pi;
   problem.upper[4] = std::numbers::pi;
-  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    residual_and_jacobian(residual, x, r, jacobian);
-  };
+  problem.evaluate = with_numeric_jacobian(residual);
   Eigen::VectorXd start = Eigen::VectorXd::Zero(5);
   start[4] = prior.turn;
   const LeastSquaresSolution found = solve_least_squares(problem, start, {.max_iterations = 60});

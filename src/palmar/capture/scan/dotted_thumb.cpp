@@ -9,14 +9,16 @@
 
 #include "palmar/capture/axis_fit.h"
 #include "palmar/capture/joint_measures.h"
-#include "palmar/capture/numeric_jacobian.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDotSd = 1.0, kBaseSd = 1.5;               // mm
-constexpr double kTurnSd = 8.0 * std::numbers::pi / 180.0;  // rad
+constexpr double kDotSd = 1.0, kBaseSd = 1.5;  // mm
+constexpr double kTurnSd = 8.0 * kDegree;      // rad
 
 Rigid3 hinge(const JointDof& dof, double angle) {
   return Rigid3::about_axis(dof.axis, dof.centre, angle - dof.reference);
@@ -65,9 +67,9 @@ void measure_limits(const Hand& hand, const std::map<ScanPosture, ThumbReading>&
   for (const JointDof& dof : cmc.dofs) {
     const double change = dof.reference - joints.skeleton.dof(dof.dof).reference;
     for (auto& [name, posture] : joints.postures) posture[dof.dof] += change;
-    joints.is_measured[static_cast<std::size_t>(dof.dof)] = measures.measured(dof.dof);
+    joints.is_measured[index_of(dof.dof)] = measures.measured(dof.dof);
   }
-  joints.skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)] = cmc;
+  joints.skeleton.joints[index_of(JointId::kThumbCmc)] = cmc;
   joints.skeleton.thumb_cmc = measures.skeleton.thumb_cmc;
   joints.notes.insert(joints.notes.end(), measures.notes.begin(), measures.notes.end());
 }
@@ -88,9 +90,7 @@ void carry_metacarpal(const Skeleton& skeleton, const std::array<Vec3, 6>& point
   LeastSquaresProblem problem;
   problem.lower = Eigen::VectorXd::Constant(2, -std::numbers::pi / 2.0);
   problem.upper = Eigen::VectorXd::Constant(2, std::numbers::pi / 2.0);
-  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    residual_and_jacobian(residual, x, r, jacobian);
-  };
+  problem.evaluate = with_numeric_jacobian(residual);
   const Eigen::VectorXd start{{posture[Dof::kThumbCmcFlexion], posture[Dof::kThumbCmcAbduction]}};
   const LeastSquaresSolution found = solve_least_squares(problem, start, {.max_iterations = 40});
   posture[Dof::kThumbCmcFlexion] = found.x[0];
@@ -137,9 +137,7 @@ ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const P
   problem.upper = Eigen::VectorXd::Constant(8, 1.5);
   problem.lower.head<3>().setConstant(-10.0);
   problem.upper.head<3>().setConstant(10.0);
-  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
-    residual_and_jacobian(residual, x, r, jacobian);
-  };
+  problem.evaluate = with_numeric_jacobian(residual);
   const LeastSquaresSolution found =
       solve_least_squares(problem, Eigen::VectorXd::Zero(8), {.max_iterations = 60});
   ThumbReading result = reading(found.x);

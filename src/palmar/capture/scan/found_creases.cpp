@@ -15,8 +15,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr double kBaseReach = 10.0, kWristReach = 18.0, kAside = 28.0;  // mm
 constexpr double kBare = 3.5;                                           // mm between two lines
 constexpr double kLeastBreadth = 5.0;                                   // mm; a third of a finger's
@@ -162,7 +160,7 @@ std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
       const Ink ink{hand_from_scan * piece.point[k], piece.weight[k]};
       const Owner owner = owner_of(ink.point, creases);
       std::vector<Ink>& where = owner.is_wrist ? wrist.ink
-                                : owner.finger ? of_finger[at(static_cast<int>(*owner.finger))]
+                                : owner.finger ? of_finger[static_cast<int>(*owner.finger)]
                                                : stray.ink;
       where.push_back(ink);
     }
@@ -173,7 +171,7 @@ std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
     lines.push_back(std::move(wrist));
   }
   for (int f = 0; f < kFingerCount; ++f) {
-    for (Line& line : lines_along(std::move(of_finger[at(f)]), static_cast<Finger>(f), creases)) {
+    for (Line& line : lines_along(std::move(of_finger[f]), static_cast<Finger>(f), creases)) {
       lines.push_back(std::move(line));
     }
   }

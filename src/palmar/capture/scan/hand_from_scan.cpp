@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "palmar/capture/hand_plausibility.h"
@@ -18,8 +17,10 @@
 #include "palmar/capture/scan/dotted_joints.h"
 #include "palmar/capture/scan/dotted_thumb.h"
 #include "palmar/capture/scan/missing_marks.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/cluster_vertices.h"
 #include "palmar/hand/dimensions/dimensions.h"
@@ -29,8 +30,6 @@
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double kLookUpEdge = 1.2;  // mm; of the mesh that is fitted to
 
@@ -138,7 +137,7 @@ class DotReader {
       const auto pairs = match_markers(a, b, options);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
         if (!pairs[k]) continue;
-        const std::size_t seen = of_seen[at(*pairs[k])];
+        const std::size_t seen = of_seen[*pairs[k]];
         found[of_expected[k]] = scan.marks.dots[seen].point;
         taken[seen] = dots_[of_expected[k]].segment;
       }
@@ -172,7 +171,7 @@ class DotReader {
   /// Motion of the part behind a joint against the part before it.
   Rigid3 read_joint(Segment segment, const Rigid3& before,
                     const std::vector<std::optional<Vec3>>& found) {
-    Joint& joint = joints_.skeleton.joints[static_cast<std::size_t>(joint_of(segment))];
+    Joint& joint = joints_.skeleton.joints[index_of(joint_of(segment))];
     const Joint& of_skin = hand_.skeleton.joint(joint_of(segment));
     const JointDof& bends = of_skin.dofs.back();
     Rigid3 spread;
@@ -211,8 +210,8 @@ class DotReader {
     report.dots = static_cast<int>(x.size());
     result_.joints.push_back(report);
     // A turn of 20 degrees or more tells an axis; the largest one tells most.
-    constexpr double kTells = 20.0 * std::numbers::pi / 180.0;
-    double& most = told_by_[static_cast<std::size_t>(joint.id)];
+    constexpr double kTells = 20.0 * kDegree;
+    double& most = told_by_[index_of(joint.id)];
     if (std::abs(hinge.turn) > std::max(kTells, most)) {
       most = std::abs(hinge.turn);
       JointDof& dof = joint.dofs.back();
@@ -220,7 +219,7 @@ class DotReader {
       dof.centre = hinge.point;
       dof.source = "this person's scans";
       joint.centre = hinge.point;
-      joints_.is_measured[static_cast<std::size_t>(dof.dof)] = true;
+      joints_.is_measured[index_of(dof.dof)] = true;
     }
     return Rigid3::about_axis(hinge.axis, hinge.point, hinge.turn) * spread;
   }
@@ -363,8 +362,8 @@ HandFromScan make_hand_from_scans(const Hand& model,
   take_thumb_readings(by_skin, result.thumb, joints);
   result.postures = joints.postures;
   result.notes.insert(result.notes.end(), joints.notes.begin(), joints.notes.end());
-  const bool has_cmc = joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcFlexion)] ||
-                       joints.is_measured[static_cast<std::size_t>(Dof::kThumbCmcAbduction)];
+  const bool has_cmc = joints.is_measured[index_of(Dof::kThumbCmcFlexion)] ||
+                       joints.is_measured[index_of(Dof::kThumbCmcAbduction)];
   take_ranges(result.postures, has_cmc, joints.skeleton);
   joints.patient_from_hand_in = result.scan_from_hand;
   if (done == 0) {
@@ -413,10 +412,10 @@ PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture) {
       if (!segment) continue;
       const JointDof& bends = skeleton.joint(joint_of(*segment)).dofs.back();
       placed.joint[*segment] = {before.rotation * bends.axis, before * bends.centre};
-      before = scan_from_hand * posed.segment[static_cast<std::size_t>(*segment)];
+      before = scan_from_hand * posed.segment[index_of(*segment)];
       last = *segment;
     }
-    placed.fingertip[last] = before * skeleton.fingertips[static_cast<std::size_t>(f)];
+    placed.fingertip[last] = before * skeleton.fingertips[f];
   }
   return placed;
 }

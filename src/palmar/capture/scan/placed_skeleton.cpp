@@ -11,6 +11,7 @@
 
 #include "palmar/capture/posed_model.h"
 #include "palmar/capture/skin_registration.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
@@ -22,8 +23,6 @@
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Hand uniformly_sized(const Hand& model, double factor) {
   SegmentScales scales;
@@ -110,7 +109,7 @@ void carry_joints(const Hand& model, const RegisteredSkin& registered, Skeleton&
     }
   }
   for (int f = 0; f < kFingerCount; ++f) {
-    skeleton.fingertips[at(f)] =
+    skeleton.fingertips[f] =
         fingertip_of(registered.skin, model.segment, skeleton, static_cast<Finger>(f));
   }
 }
@@ -156,10 +155,10 @@ void take_better_lengths(Hand& base, const TriangleMesh& mesh, MeshFit& fit,
     std::vector<SizedDimension> lengths;
     for (int s = 1; s < kSegmentCount; ++s) {
       lengths.push_back({{DimensionKind::kSegmentLength, static_cast<Segment>(s)},
-                         kLonger[at(k)] * base.dimensions.segment[at(s)].length});
+                         kLonger[k] * base.dimensions.segment[s].length});
     }
-    hand[at(k)] = make_hand_instance(base, lengths).hand;
-    tried[at(k)] = fit_posture_to_mesh(hand[at(k)], mesh, {.fits_scale = true});
+    hand[k] = make_hand_instance(base, lengths).hand;
+    tried[k] = fit_posture_to_mesh(hand[k], mesh, {.fits_scale = true});
   });
   progress.throw_if_cancelled();
   const Hand* best = nullptr;
@@ -212,7 +211,7 @@ void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases) {
   Skeleton& skeleton = laid.skeleton;
   const auto wrist = creases.shift.find(Segment::kPalm);
   if (wrist != creases.shift.end()) {
-    Joint& joint = skeleton.joints[static_cast<std::size_t>(JointId::kWrist)];
+    Joint& joint = skeleton.joints[index_of(JointId::kWrist)];
     const Vec3 by = wrist->second * Vec3::UnitY();
     joint.centre += by;
     for (JointDof& dof : joint.dofs) dof.centre += by;
@@ -223,7 +222,7 @@ void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases) {
       if (!chain[k]) continue;
       const auto shift = creases.shift.find(*chain[k]);
       if (shift == creases.shift.end()) continue;
-      Joint& joint = skeleton.joints[static_cast<std::size_t>(joint_of(*chain[k]))];
+      Joint& joint = skeleton.joints[index_of(joint_of(*chain[k]))];
       const Vec3 by = kShare * shift->second * creases.plane.at(*chain[k]).normal;
       joint.centre += by;
       for (JointDof& dof : joint.dofs) dof.centre += by;

@@ -17,6 +17,7 @@
 #include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/core/text.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/skin/joint_weights.h"
 #include "palmar/hand/skin/regions.h"
@@ -36,12 +37,6 @@ SkinScan skin_scan(const ScanSurfaces& scan, const Rigid3& hand_from_patient) {
   result.skin = moved(scan.skin, hand_from_patient);
   for (const Vec3& marker : scan.markers) result.markers.push_back(hand_from_patient * marker);
   return result;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 /// The scan's bones by the model's names and ways of moving; the model's where the scan has none.
@@ -64,8 +59,8 @@ std::vector<Bone> bones_of(const ScanSurfaces& scan, const Rigid3& hand_from_pat
   if (missing.size() == bones.size()) {
     notes.emplace_back("The scan shows no bones: all are the model's, moved along.");
   } else if (!missing.empty()) {
-    notes.push_back(
-        "Bones that the scan doesn't show are the model's, moved along: " + listed(missing) + ".");
+    notes.push_back("Bones that the scan doesn't show are the model's, moved along: " +
+                    joined(missing, ", ") + ".");
   }
   return bones;
 }
@@ -176,7 +171,7 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   hand.skeleton = joints.skeleton;
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
-    hand.skeleton.fingertips[static_cast<std::size_t>(f)] =
+    hand.skeleton.fingertips[f] =
         fingertip_of(registered.skin, base.segment, hand.skeleton, finger);
   }
   SkinPartition partition =
@@ -186,7 +181,7 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   hand.region = std::move(partition.region);
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
-    hand.skeleton.fingertips[static_cast<std::size_t>(f)] =
+    hand.skeleton.fingertips[f] =
         fingertip_of(hand.skin.vertices, hand.segment, hand.skeleton, finger);
   }
   hand.weights = make_joint_weights(hand.skin, hand.skeleton);

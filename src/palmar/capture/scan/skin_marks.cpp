@@ -13,13 +13,12 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double linear(float coded) {
   const double c = coded;
@@ -31,13 +30,6 @@ Vec2 chromaticity(const Srgb& colour) {
   constexpr double kBlack = 0.01;
   const double r = linear(colour[0]), g = linear(colour[1]), b = linear(colour[2]);
   return Vec2(r + kBlack / 3.0, g + kBlack / 3.0) / (r + g + b + kBlack);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double turn_between(const Vec2& a, const Vec2& b) {
@@ -93,9 +85,9 @@ std::vector<std::vector<int>> patches(const std::vector<std::vector<int>>& neigh
     std::vector<int> patch{static_cast<int>(v)};
     is_seen[v] = 1;
     for (std::size_t k = 0; k < patch.size(); ++k) {
-      for (const int n : neighbours[at(patch[k])]) {
-        if (!is_in[at(n)] || is_seen[at(n)]) continue;
-        is_seen[at(n)] = 1;
+      for (const int n : neighbours[patch[k]]) {
+        if (!is_in[n] || is_seen[n]) continue;
+        is_seen[n] = 1;
         patch.push_back(n);
       }
     }
@@ -111,10 +103,10 @@ double rim_unseen(const std::vector<int>& patch, const std::vector<char>& is_in,
   if (is_guess.empty()) return 0.0;
   int rim = 0, unseen = 0;
   for (const int v : patch) {
-    for (const int n : neighbours[at(v)]) {
-      if (is_in[at(n)]) continue;
+    for (const int n : neighbours[v]) {
+      if (is_in[n]) continue;
       ++rim;
-      if (is_guess[at(n)]) ++unseen;
+      if (is_guess[n]) ++unseen;
     }
   }
   return rim == 0 ? 0.0 : static_cast<double>(unseen) / rim;
@@ -170,7 +162,7 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
     for (std::size_t k = 0; k < 3; ++k) channel[k].push_back(mesh.colour[v][static_cast<int>(k)]);
   }
   if (seen.empty()) throw InputError(name + ": no part of it was seen by any photograph");
-  for (int k = 0; k < 3; ++k) marks.skin[k] = static_cast<float>(median(channel[at(k)]));
+  for (int k = 0; k < 3; ++k) marks.skin[k] = static_cast<float>(median(channel[k]));
   Skin skin;
   for (int k = 0; k < 2; ++k) {
     std::vector<double> part;
@@ -210,10 +202,10 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       Vec3 sum = Vec3::Zero();
       double weights = 0.0;
       for (const int v : patch) {
-        const double w = area[at(v)] * share[ink][at(v)];
-        blot.point.push_back(mesh.mesh.vertices[at(v)]);
+        const double w = area[v] * share[ink][v];
+        blot.point.push_back(mesh.mesh.vertices[v]);
         blot.weight.push_back(w);
-        blot.area += area[at(v)];
+        blot.area += area[v];
         sum += w * blot.point.back();
         weights += w;
       }
@@ -250,7 +242,7 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
   }
   for (std::vector<int>& patch : patches(neighbours, is_other)) {
     double size = 0.0;
-    for (const int v : patch) size += area[at(v)];
+    for (const int v : patch) size += area[v];
     if (size >= kLeastPatch) marks.other_colour.push_back(std::move(patch));
   }
   return marks;

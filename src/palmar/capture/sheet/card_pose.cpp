@@ -10,6 +10,9 @@
 
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/capture/sheet/sheet_view.h"
+#include "palmar/geometry/degrees.h"
+#include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
 namespace {
@@ -17,8 +20,8 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kEdgeDeviation = 0.3;                              // pixels, of an edge's ends
-constexpr double kTiltDeviation = 12.0 * std::numbers::pi / 180.0;  // rad, of how people hold it
+constexpr double kEdgeDeviation = 0.3;             // pixels, of an edge's ends
+constexpr double kTiltDeviation = 12.0 * kDegree;  // rad, of how people hold it
 constexpr int kResiduals = 10;
 
 Rigid3 moved(const Rigid3& pose, const Vec6& step) {
@@ -64,41 +67,30 @@ Residuals residuals(const CardPose& pose, const Rigid3& at, const std::array<Vec
   return r;
 }
 
-/// Gauss-Newton from a pose; covariance at its end.
+/// The pose of least misfit near a first one, with its covariance. Returns the sum of squares.
 double refine(CardPose& pose, const std::array<Vec2, 4>& corner,
               const std::array<FittedLine, 4>& edge) {
-  Eigen::Matrix<double, kResiduals, 6> jacobian;
-  const auto derive = [&](const Rigid3& at) {
-    for (int k = 0; k < 6; ++k) {
-      const double step = k < 3 ? 1e-6 : 1e-3;
-      Vec6 by = Vec6::Zero();
-      by[k] = step;
-      jacobian.col(k) = (residuals(pose, moved(at, by), corner, edge) -
-                         residuals(pose, moved(at, -by), corner, edge)) /
-                        (2.0 * step);
-    }
+  const auto about = [&](const Rigid3& at) {
+    return with_numeric_jacobian(
+        [&pose, &corner, &edge, at](const Eigen::VectorXd& step, Eigen::VectorXd& r) {
+          r = residuals(pose, moved(at, step), corner, edge);
+        },
+        [](Eigen::Index j, double) { return j < 3 ? 1e-6 : 1e-3; });
   };
-  double sum = residuals(pose, pose.camera_from_table, corner, edge).squaredNorm();
-  for (int round = 0; round < 30; ++round) {
-    derive(pose.camera_from_table);
-    const Residuals r = residuals(pose, pose.camera_from_table, corner, edge);
-    const Vec6 whole = jacobian.colPivHouseholderQr().solve(-r);
-    bool is_better = false;
-    for (double share = 1.0; share > 1e-3 && !is_better; share *= 0.5) {
-      const Rigid3 next = moved(pose.camera_from_table, share * whole);
-      const double there = residuals(pose, next, corner, edge).squaredNorm();
-      if (!(there < sum)) continue;
-      is_better = true;
-      pose.camera_from_table = next;
-      sum = there;
-    }
-    if (!is_better || whole.tail<3>().norm() < 1e-7) break;
-  }
-  derive(pose.camera_from_table);
-  const Residuals r = residuals(pose, pose.camera_from_table, corner, edge);
+  LeastSquaresProblem problem;
+  problem.evaluate = about(pose.camera_from_table);
+  problem.upper = Eigen::VectorXd{{3.0, 3.0, 3.0, 1e4, 1e4, 1e4}};  // rad, mm
+  problem.lower = -problem.upper;
+  const LeastSquaresSolution found = solve_least_squares(
+      problem, Eigen::VectorXd::Zero(6), {.max_iterations = 100, .step_tolerance = 1e-9});
+  pose.camera_from_table = moved(pose.camera_from_table, found.x);
+  // Steps from the pose found: those of its covariance.
+  Eigen::VectorXd r;
+  Eigen::MatrixXd jacobian;
+  about(pose.camera_from_table)(Eigen::VectorXd::Zero(6), r, &jacobian);
   pose.misfit = kEdgeDeviation * std::sqrt(r.head<8>().squaredNorm() / 8.0);
   pose.covariance = (jacobian.transpose() * jacobian).inverse();
-  return sum;
+  return found.sum_of_squares;
 }
 
 /// A pose from the corners' homography; `sign` mirrors how it leans.

@@ -15,6 +15,7 @@
 #include "palmar/capture/sheet/sheet_grid.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/imaging/connected_parts.h"
 
 namespace palmar {
@@ -29,7 +30,6 @@ constexpr double kLeastHandPart = 0.02;  // likewise
 constexpr float kOtherColour = 0.15F;    // share by which a channel differs from grey
 constexpr float kBrighter = 1.45F, kDarker = 0.2F;  // over the table's light; shadows: 0.3 to 0.8
 constexpr double kCardEdge = 0.6;                   // of an edge that must be seen
-constexpr double kCardDegree = std::numbers::pi / 180.0;
 constexpr const char* kCardAdvice =
     "lay the hand on a plain table that isn't of the colour of skin, and the card beside it, not "
     "under it, all of it in the picture, in another colour than the table";
@@ -86,9 +86,8 @@ struct Part {
 /// doesn't, along its longest axis to the end that fills its convex hull best (fingers have gaps
 /// between them).
 Vec2 towards_forearm(const Part& hand, const OffTable& off) {
-  const auto most = static_cast<std::size_t>(
-      std::max_element(hand.border_pixels.begin(), hand.border_pixels.end()) -
-      hand.border_pixels.begin());
+  const auto most = std::max_element(hand.border_pixels.begin(), hand.border_pixels.end()) -
+                    hand.border_pixels.begin();
   if (hand.border_pixels[most] > 0) {
     return hand.on_border[most] / hand.border_pixels[most] - hand.middle;
   }
@@ -115,13 +114,13 @@ Vec2 towards_forearm(const Part& hand, const OffTable& off) {
 
 std::vector<Part> parts_of(const OffTable& off) {
   const int width = off.grid.size[0], height = off.grid.size[1];
-  std::vector<Part> parts(static_cast<std::size_t>(off.parts.count()));
+  std::vector<Part> parts(off.parts.count());
   const double least = kLeastCard * static_cast<double>(off.grid.count());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int number = off.parts.part[off.grid.at(x, y, 0)];
       if (number < 0) continue;
-      Part& part = parts[static_cast<std::size_t>(number)];
+      Part& part = parts[number];
       part.number = number;
       part.area += 1.0;
       part.middle += Vec2(x, y);
@@ -281,11 +280,11 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   const double quarter = 0.5 * std::numbers::pi;
   const int turns = static_cast<int>(std::lround((angle + quarter) / quarter));
   const double askew = angle + quarter - turns * quarter;
-  if (std::abs(askew) > 30.0 * kCardDegree) {
+  if (std::abs(askew) > 30.0 * kDegree) {
     fail_card(name, fmt::format("the card lies askew to the forearm, by {:.0f} degrees; lay one of "
                                 "its edges level with the crease of the wrist, square to the "
                                 "forearm, within 30 degrees",
-                                std::abs(askew) / kCardDegree));
+                                std::abs(askew) / kDegree));
   }
   const CardPose turned = pose.turned(turns);
   view.format = card_format();
@@ -297,7 +296,7 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   view.eye = turned.eye();
   // Of the way it looks: the card lies to one side.
   const Vec3 normal = turned.camera_from_table.rotation * Vec3::UnitZ();
-  view.tilt = std::acos(std::clamp(-normal.z(), -1.0, 1.0)) / kCardDegree;
+  view.tilt = std::acos(std::clamp(-normal.z(), -1.0, 1.0)) / kDegree;
   if (!(view.eye.z() > 0.0) || view.tilt > options.most_tilt) {
     fail_card(name, fmt::format("the photograph is taken {:.0f} degrees off the table's normal; up "
                                 "to {:.0f} is allowed: hold the camera above the hand",

@@ -10,6 +10,7 @@
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/capture/sheet/skin_mask.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -90,7 +91,7 @@ TEST(CardView, FindsTheCameraAndTheWristsLine) {
     EXPECT_NEAR(view.format.height, turn == 90.0 ? 85.60 : 53.98, 1e-9);
     EXPECT_NEAR(view.eye.z(), scene.camera().centre().z(), 5.0);
     const auto in_card = [&](const Vec2& p) {
-      const double by = turn == 4.0 ? -4.0 * std::numbers::pi / 180.0 : 0.0;
+      const double by = turn == 4.0 ? -4.0 * kDegree : 0.0;
       return Vec2(Eigen::Rotation2Dd(by) * (p - *scene.card));
     };
     for (const Vec2& p : {Vec2(0.0, -140.0), Vec2(-30.0, 20.0), Vec2(60.0, -20.0)}) {

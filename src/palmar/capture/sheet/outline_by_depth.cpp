@@ -13,6 +13,7 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/distance_transform.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Vec3> largest_group(const std::vector<SurfacePoint>& points) {
   grid.spacing = Vec3::Constant(kCell);
   grid.origin = box.min();
   for (int a = 0; a < 3; ++a) {
-    grid.size[static_cast<std::size_t>(a)] = static_cast<int>(box.sizes()[a] / kCell) + 2;
+    grid.size[a] = static_cast<int>(box.sizes()[a] / kCell) + 2;
   }
   std::vector<int> count(grid.count(), 0);
   for (const SurfacePoint& p : points) {
@@ -40,10 +41,8 @@ std::vector<Vec3> largest_group(const std::vector<SurfacePoint>& points) {
   for (const int n : count) {
     if (n > 0) filled.push_back(n);
   }
-  std::nth_element(filled.begin(), filled.begin() + static_cast<long>(filled.size() / 2),
-                   filled.end());
   // Skin comes once per photograph that sees it; what agrees by chance is thin.
-  const int least = std::max(2, filled[filled.size() / 2] / 4);
+  const int least = std::max(2, median(std::move(filled)) / 4);
   VoxelMask mask(grid.count(), 0);
   for (std::size_t c = 0; c < mask.size(); ++c) mask[c] = count[c] >= least ? 1 : 0;
   const ConnectedParts parts = connected_parts(grid, dilated(grid, mask, kCell));
@@ -91,12 +90,11 @@ bool narrow_to_points(const std::vector<SurfacePoint>& points, const std::vector
   constexpr std::size_t kFewCells = 600;  // of 9 mm^2 each: a child's hand has 1500
   if (group.size() < kFewCells) return false;
   parallel_for(static_cast<int>(views.size()), [&](int i) {
-    const auto v = static_cast<std::size_t>(i);
     VolumeGrid grid;
-    grid.size = {views[v].width(), views[v].height(), 1};
+    grid.size = {views[i].width(), views[i].height(), 1};
     const VoxelMask near =
-        closed(grid, discs(group, views[v], radius), radius / masks[v].pixel_size);
-    for (std::size_t p = 0; p < near.size(); ++p) masks[v].inside[p] &= near[p];
+        closed(grid, discs(group, views[i], radius), radius / masks[i].pixel_size);
+    for (std::size_t p = 0; p < near.size(); ++p) masks[i].inside[p] &= near[p];
   });
   return true;
 }

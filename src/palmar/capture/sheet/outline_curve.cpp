@@ -34,10 +34,10 @@ std::vector<Vec2> smoothed(const std::vector<Vec2>& curve, double sigma, double 
     double whole = 0.0;
     for (int j = -reach; j <= reach; ++j) {
       const double w = std::exp(-0.5 * std::pow(j * step / sigma, 2));
-      sum += w * curve[static_cast<std::size_t>(std::clamp(i + j, 0, n - 1))];
+      sum += w * curve[std::clamp(i + j, 0, n - 1)];
       whole += w;
     }
-    result[static_cast<std::size_t>(i)] = sum / whole;
+    result[i] = sum / whole;
   }
   return result;
 }
@@ -64,8 +64,8 @@ std::vector<Vec2> outline_of(const SheetGrid& grid, const VoxelMask& mask) {
   const int x0 = x, y0 = y;
   do {
     corners.push_back(grid.sheet(x - 0.5, y - 0.5));
-    x += kStep[static_cast<std::size_t>(direction)][0];
-    y += kStep[static_cast<std::size_t>(direction)][1];
+    x += kStep[direction][0];
+    y += kStep[direction][1];
     // Cells before the corner, to the left and to the right of the way.
     const auto cell = [&](bool left) {
       switch (direction) {

@@ -8,6 +8,7 @@
 
 #include "palmar/capture/photo/surface/silhouette.h"
 #include "palmar/capture/sheet/line_fit.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/dimensions/hand_sections.h"
 #include "palmar/hand/posture/named_postures.h"
@@ -76,7 +77,7 @@ HandDimensions straight_dimensions(const Hand& hand) {
 }
 
 OutlineProportions outline_proportions(const HandDimensions& d) {
-  const auto of = [&](Segment s) -> const auto& { return d.segment[static_cast<std::size_t>(s)]; };
+  const auto of = [&](Segment s) -> const auto& { return d.segment[index_of(s)]; };
   OutlineProportions p;
   for (std::size_t f = 0; f < 5; ++f) {
     double whole = 0.0;
@@ -101,8 +102,7 @@ LaidModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
   model.place = like.wrist;
   const Vec3 wrist = HandCreases(hand.skin, hand.skeleton).wrist().point;
   const Vec3 way =
-      down(hand.skeleton.fingertips[static_cast<std::size_t>(Finger::kMiddle)], palm_up) -
-      down(wrist, palm_up);
+      down(hand.skeleton.fingertips[index_of(Finger::kMiddle)], palm_up) - down(wrist, palm_up);
   model.turn = angle_between(way.head<2>(), like.finger[2].tip - like.wrist);
   return model;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template_hand.h"
@@ -33,7 +34,7 @@ OutlineErrors seen_aslant(const OutlineErrors& errors, double tilt) {
 double true_length(const HandDimensions& d, std::size_t finger) {
   double sum = 0.0;
   for (const auto& segment : segments_of(static_cast<Finger>(finger))) {
-    if (segment) sum += d.segment[static_cast<std::size_t>(*segment)].length;
+    if (segment) sum += d.segment[index_of(*segment)].length;
   }
   return sum;
 }
@@ -53,8 +54,7 @@ HandOutline corrected(const HandOutline& seen, const HandOutline& model,
     const auto chain = segments_of(static_cast<Finger>(f));
     for (std::size_t k = 0; k < 3; ++k) {
       if (!chain[k]) continue;
-      correct(finger.width[k], model.finger[f].width[k],
-              truth.segment[static_cast<std::size_t>(*chain[k])].width);
+      correct(finger.width[k], model.finger[f].width[k], truth.segment[index_of(*chain[k])].width);
     }
   }
   return result;

@@ -28,8 +28,7 @@ Eigen::Matrix3d from_unit_square(const std::array<Vec2, 4>& q) {
 
 RgbImage reduced_picture(const RgbImage& image, int by) {
   RgbImage small{image.width / by, image.height / by, {}};
-  small.rgb.resize(3 * static_cast<std::size_t>(small.width) *
-                   static_cast<std::size_t>(small.height));
+  small.rgb.resize(3 * static_cast<std::size_t>(small.width) * small.height);
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       std::array<int, 3> sum{};
@@ -93,7 +92,7 @@ std::vector<Vec2> edge_points(const std::function<double(const Vec2&)>& brightne
   const Vec2 inwards(-along.y(), along.x());  // corners go round clockwise in the picture
   std::vector<Vec2> points;
   const int steps = static_cast<int>(std::ceil(2.0 * search.reach)) + 1;
-  std::vector<double> value(static_cast<std::size_t>(steps));
+  std::vector<double> value(steps);
   for (int k = 0; k < kEdgePlaces; ++k) {
     const Vec2 middle =
         from + (search.from_corner + (1.0 - 2.0 * search.from_corner) * (k + 0.5) / kEdgePlaces) *
@@ -102,26 +101,23 @@ std::vector<Vec2> edge_points(const std::function<double(const Vec2&)>& brightne
       const Vec2 at = middle + (i - 0.5 * (steps - 1)) * inwards;
       double sum = 0.0;
       for (const double aside : {-1.0, 0.0, 1.0}) sum += brightness(at + aside * along);
-      value[static_cast<std::size_t>(i)] = sum / 3.0;
+      value[i] = sum / 3.0;
     }
     // The steepest rise over a few pixels; dark before, bright behind.
     constexpr int kBaseline = 4;
     int best = -1;
     double rise = search.rise;
     for (int i = kBaseline; i + kBaseline < steps; ++i) {
-      const double r = value[static_cast<std::size_t>(i + kBaseline)] -
-                       value[static_cast<std::size_t>(i - kBaseline)];
+      const double r = value[i + kBaseline] - value[i - kBaseline];
       if (r > rise) {
         rise = r;
         best = i;
       }
     }
     if (best < 0) continue;
-    const double half = 0.5 * (value[static_cast<std::size_t>(best + kBaseline)] +
-                               value[static_cast<std::size_t>(best - kBaseline)]);
+    const double half = 0.5 * (value[best + kBaseline] + value[best - kBaseline]);
     for (int i = best - kBaseline; i < best + kBaseline; ++i) {
-      const double a = value[static_cast<std::size_t>(i)],
-                   b = value[static_cast<std::size_t>(i + 1)];
+      const double a = value[i], b = value[i + 1];
       if (a <= half && b > half) {
         points.push_back(middle + (i + (half - a) / (b - a) - 0.5 * (steps - 1)) * inwards);
         break;

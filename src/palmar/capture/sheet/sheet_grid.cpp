@@ -57,7 +57,7 @@ float quantile(std::vector<float> values, double share) {
   if (values.empty()) return 1.0F;
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
+  return values[place];
 }
 
 }  // namespace

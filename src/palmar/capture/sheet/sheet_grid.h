@@ -18,13 +18,8 @@ struct SheetGrid {
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  ///< centre of the first cell
   double border = 0.0;  ///< how far outside of its edges those lie under which the wrist is, mm
 
-  std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  }
-  std::size_t count() const {
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+  std::size_t count() const { return static_cast<std::size_t>(width) * height; }
   Eigen::Vector2d sheet(double x, double y) const { return corner + cell * Eigen::Vector2d(x, -y); }
   Eigen::Vector2d place(const Eigen::Vector2d& p) const {
     return {(p.x() - corner.x()) / cell, (corner.y() - p.y()) / cell};

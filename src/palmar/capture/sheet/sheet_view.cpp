@@ -7,14 +7,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "palmar/capture/photo/photo_view.h"
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/otsu.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -25,7 +26,6 @@ constexpr int kSmallSide = 700;       // pixels: of the picture in which the she
 constexpr double kLeastShare = 0.06;  // of the picture that the sheet fills
 constexpr double kUsualFocal = 0.74;  // of the longer side: 26 mm on film, as most telephones have
 constexpr double kLeastEdge = 0.3;    // of an edge that must be seen
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kSheetAdvice =
     "lay the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
 
@@ -41,7 +41,7 @@ VoxelMask paper_of(const RgbImage& image) {
   double above = 0.0;
   int bright = 255;
   while (bright > 0 && above < 0.05 * static_cast<double>(count)) {
-    above += heap[static_cast<std::size_t>(bright--)];
+    above += heap[bright--];
   }
   std::array<std::vector<std::uint8_t>, 3> channel;
   for (std::size_t p = 0; p < count; ++p) {
@@ -50,9 +50,7 @@ VoxelMask paper_of(const RgbImage& image) {
   }
   std::array<double, 3> paper{};
   for (std::size_t c = 0; c < 3; ++c) {
-    auto middle = channel[c].begin() + static_cast<std::ptrdiff_t>(channel[c].size() / 2);
-    std::nth_element(channel[c].begin(), middle, channel[c].end());
-    paper[c] = std::max(1.0, static_cast<double>(*middle));
+    paper[c] = std::max(1.0, static_cast<double>(median(std::move(channel[c]))));
   }
   // Grey by that: parted from the table by brightness.
   std::vector<double> share(count, 0.0);
@@ -166,7 +164,7 @@ PaperRim rim_of(const VolumeGrid& grid, const ConnectedParts& parts,
   const int width = grid.size[0], height = grid.size[1];
   const auto is_in = [&](int x, int y) {
     const int part = parts.part[grid.at(x, y, 0)];
-    return part >= 0 && is_sheet[static_cast<std::size_t>(part)] != 0;
+    return part >= 0 && is_sheet[part] != 0;
   };
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -257,13 +255,14 @@ SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by
   if (best.misfit > 0.06) {
     fail(name,
          fmt::format("the white sheet is no {}: its sides are in another proportion, by {:.0f} "
-                     "%; name it with --sheet, and don't crop the photograph",
+                     "%; name it with setting \"sheet\", and don't crop the photograph",
                      options.format ? options.format->name : "A4 or letter", 100.0 * best.misfit));
   }
   for (const Fit& other : fits) {
     if (other.format.name != best.format.name && other.misfit < 1.8 * best.misfit + 0.008) {
-      fail(name, fmt::format("{} and {} fit the sheet as well; say which it is with --sheet",
-                             best.format.name, other.format.name));
+      fail(name,
+           fmt::format("{} and {} fit the sheet as well; say which it is with setting \"sheet\"",
+                       best.format.name, other.format.name));
     }
   }
   view.format = best.format;
@@ -350,12 +349,12 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
       {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
   const ConnectedParts parts = connected_parts(grid, paper_of(small));
   const int sheet = parts.largest();
-  if (sheet < 0 || static_cast<double>(parts.voxels[static_cast<std::size_t>(sheet)]) <
-                       kLeastShare * static_cast<double>(grid.count())) {
+  if (sheet < 0 ||
+      static_cast<double>(parts.voxels[sheet]) < kLeastShare * static_cast<double>(grid.count())) {
     fail(name, fmt::format("no white sheet is found; {}", kSheetAdvice));
   }
   std::vector<char> is_sheet(parts.voxels.size(), 0);
-  is_sheet[static_cast<std::size_t>(sheet)] = 1;
+  is_sheet[sheet] = 1;
   try {
     return sheet_of(image, rim_of(grid, parts, is_sheet), small.width, by, name, options);
   } catch (const InputError&) {
@@ -363,9 +362,8 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
     constexpr double kPiece = 0.015;  // of the largest part
     bool is_parted = false;
     for (std::size_t p = 0; p < is_sheet.size(); ++p) {
-      if (is_sheet[p] != 0 ||
-          static_cast<double>(parts.voxels[p]) <
-              kPiece * static_cast<double>(parts.voxels[static_cast<std::size_t>(sheet)])) {
+      if (is_sheet[p] != 0 || static_cast<double>(parts.voxels[p]) <
+                                  kPiece * static_cast<double>(parts.voxels[sheet])) {
         continue;
       }
       is_sheet[p] = 1;

@@ -10,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/otsu.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -74,9 +75,7 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
   Vec3f skin = Vec3f::Zero();
   for (std::size_t c = 0; c < 3; ++c) {
     if (channel[c].empty()) break;
-    const auto middle = channel[c].begin() + static_cast<std::ptrdiff_t>(channel[c].size() / 2);
-    std::nth_element(channel[c].begin(), middle, channel[c].end());
-    skin[static_cast<int>(c)] = *middle;
+    skin[static_cast<int>(c)] = median(channel[c]);
   }
   paper = papers > 0.0 ? paper / papers : 0.0;
   const double area = static_cast<double>(channel[0].size()) * grid.cell * grid.cell;
@@ -117,21 +116,20 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
   VoxelMask outside(mask.size());
   for (std::size_t p = 0; p < mask.size(); ++p) outside[p] = mask[p] == 0 ? 1 : 0;
   const ConnectedParts holes = connected_parts(volume, outside);
-  std::vector<char> is_open(static_cast<std::size_t>(holes.count()), 0);
+  std::vector<char> is_open(holes.count(), 0);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
       if (x > 0 && y > 0 && x + 1 < grid.width && y + 1 < grid.height) continue;
       const int hole = holes.part[grid.at(x, y)];
-      if (hole >= 0) is_open[static_cast<std::size_t>(hole)] = 1;
+      if (hole >= 0) is_open[hole] = 1;
     }
   }
   // A gap between fingers that touch at their tips is no hole of the skin: up to 1 cm2 (nails,
   // rings, blemishes) is.
   for (std::size_t p = 0; p < mask.size(); ++p) {
     const int hole = holes.part[p];
-    if (hole < 0 || is_open[static_cast<std::size_t>(hole)] != 0) continue;
-    const double hole_area =
-        static_cast<double>(holes.voxels[static_cast<std::size_t>(hole)]) * grid.cell * grid.cell;
+    if (hole < 0 || is_open[hole] != 0) continue;
+    const double hole_area = static_cast<double>(holes.voxels[hole]) * grid.cell * grid.cell;
     if (hole_area > 100.0) {
       fail_skin(name,
                 fmt::format("the hand's outline encloses {:.1f} cm2 of {}: fingers touch; spread "

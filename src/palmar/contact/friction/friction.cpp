@@ -10,6 +10,7 @@
 #include "palmar/contact/contact_normals.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/response/skin_geometry.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/rotation.h"
 
@@ -36,7 +37,7 @@ Quat turn_of_skin(const SkinGeometry& skin, const std::vector<Vec3>& posed, int 
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const int w : skin.neighbours(v)) {
     const Vec3 rest = skin.position[w] - skin.position[v];
-    const Vec3 now = posed[static_cast<std::size_t>(w)] - posed[static_cast<std::size_t>(v)];
+    const Vec3 now = posed[w] - posed[v];
     sum += now * rest.transpose();
   }
   const Quat posed_from_rest(fit_rotation(sum));
@@ -56,22 +57,21 @@ std::vector<RubbingPatch> rubbing_patches(const PreparedHand::Impl& prepared,
                                           const std::vector<int>& loaded, double coefficient) {
   std::array<double, kRegionCount> modulus{};
   for (const RegionContact& region : contact.regions) {
-    modulus[static_cast<std::size_t>(region.region)] = region.shear_modulus;
+    modulus[index_of(region.region)] = region.shear_modulus;
   }
   const std::vector<Vec3> normals = contact_normals(contact, product, loaded);
   std::vector<RubbingPatch> patches;
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const int v = loaded[k];
-    const auto i = static_cast<std::size_t>(v);
     patches.push_back(
-        {.position = contact.deformed[i],
+        {.position = contact.deformed[v],
          .normal = normals[k],
-         .limit = coefficient * contact.force[i],
+         .limit = coefficient * contact.force[v],
          .radius = prepared.skin.radius[v],
-         .shear_modulus = modulus[static_cast<std::size_t>(prepared.hand->region[i])],
+         .shear_modulus = modulus[index_of(prepared.hand->region[v])],
          .rest = prepared.skin.position[v],
          .contact_from_rest = turn_of_skin(prepared.skin, contact.undeformed, v, normals[k]),
-         .body = body_of(prepared.hand->segment[i])});
+         .body = body_of(prepared.hand->segment[v])});
   }
   return patches;
 }
@@ -87,8 +87,8 @@ void add_regions(const PreparedHand::Impl& prepared, const std::vector<int>& loa
   std::array<RegionFriction, kRegionCount> part{};
   std::array<double, kRegionCount> used{}, area{}, slipping{};
   for (std::size_t k = 0; k < loaded.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded[k]);
-    const auto r = static_cast<std::size_t>(prepared.hand->region[v]);
+    const int v = loaded[k];
+    const std::size_t r = index_of(prepared.hand->region[v]);
     part[r].limit += patches[k].limit;
     part[r].force += result.force[v];
     used[r] += result.force[v].norm();
@@ -242,7 +242,7 @@ FrictionResult solve_friction(const PreparedHand& hand, const ContactResult& con
     result.balance_error = answer.balance_error;
   }
   for (std::size_t k = 0; k < loaded.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded[k]);
+    const int v = loaded[k];
     result.force[v] = force[k];
     result.mobilised[v] = std::min(1.0, force[k].norm() / patches[k].limit);
   }

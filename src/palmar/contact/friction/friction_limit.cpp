@@ -154,7 +154,7 @@ FrictionBalance friction_balance(const std::vector<RubbingPatch>& patches, const
   MatrixXd all(2 * m, 6);
   Matrix6 felt = Matrix6::Zero();
   for (Index i = 0; i < m; ++i) {
-    const RubbingPatch& patch = patches[static_cast<std::size_t>(i)];
+    const RubbingPatch& patch = patches[i];
     const Eigen::Matrix<double, 3, 2> base = tangent_base(patch.normal);
     balance.tangent.push_back(base);
     Eigen::Matrix<double, 3, 6> velocity;
@@ -233,8 +233,7 @@ HoldingLimit holding_limit(const std::vector<RubbingPatch>& patches, const Wrenc
   limit.upper_factor = upper / balance.load_size;
   limit.has_converged = limit.upper_factor - limit.factor <= 1e-5 * limit.upper_factor;
   for (int i = 0; i < m; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    limit.force[k] = patches[k].limit * (balance.tangent[k] * barrier.y.segment<2>(2 * Index{i}));
+    limit.force[i] = patches[i].limit * (balance.tangent[i] * barrier.y.segment<2>(2 * Index{i}));
   }
   limit.slip = fastest_by_one(balance.motion(balance.base_of_motions * best_motion, 1.0), patches);
   return limit;

@@ -43,16 +43,16 @@ void fill_energy(const std::vector<RubbingPatch>& patches, const FrictionBalance
   const auto n = static_cast<Index>(body.patch.size());
   std::vector<Eigen::Matrix<double, 3, 2>> base;  // at rest, with limit and modulus
   for (const int i : body.patch) {
-    const RubbingPatch& patch = patches[static_cast<std::size_t>(i)];
-    base.emplace_back(patch.limit / std::sqrt(patch.shear_modulus) *
-                      (patch.contact_from_rest.conjugate().toRotationMatrix() *
-                       balance.tangent[static_cast<std::size_t>(i)]));
+    const RubbingPatch& patch = patches[i];
+    base.emplace_back(
+        patch.limit / std::sqrt(patch.shear_modulus) *
+        (patch.contact_from_rest.conjugate().toRotationMatrix() * balance.tangent[i]));
   }
   body.energy.resize(2 * n, 2 * n);
   for (Index j = 0; j < n; ++j) {
-    const RubbingPatch& pj = patches[static_cast<std::size_t>(body.patch[j])];
+    const RubbingPatch& pj = patches[body.patch[j]];
     for (Index i = j; i < n; ++i) {
-      const RubbingPatch& pi = patches[static_cast<std::size_t>(body.patch[i])];
+      const RubbingPatch& pi = patches[body.patch[i]];
       const Eigen::Matrix2d block = base[i].transpose() *
                                     tangential_response(pi.rest - pj.rest, pi.radius, pj.radius) *
                                     base[j];
@@ -66,7 +66,7 @@ void fill_energy(const std::vector<RubbingPatch>& patches, const FrictionBalance
 VectorXd apply_energy(const std::vector<Body>& bodies, const VectorXd& y) {
   VectorXd result(y.size());
   parallel_for(static_cast<int>(bodies.size()), [&](int b) {
-    const Body& body = bodies[static_cast<std::size_t>(b)];
+    const Body& body = bodies[b];
     const auto n = static_cast<Index>(body.patch.size());
     VectorXd own(2 * n);
     for (Index k = 0; k < n; ++k) own.segment<2>(2 * k) = y.segment<2>(2 * Index{body.patch[k]});
@@ -135,12 +135,12 @@ double InteriorPoint::residual(const State& s, double centre) const {
 /// Solves (Q + barrier) [a, B] = [rhs, jacobian] body by body into Body::solution.
 bool InteriorPoint::factorise(const VectorXd& rhs) {
   parallel_for(static_cast<int>(bodies_.size()), [&](int b) {
-    Body& body = bodies_[static_cast<std::size_t>(b)];
+    Body& body = bodies_[b];
     const auto n = static_cast<Index>(body.patch.size());
     body.factor = body.energy;
     body.solution.resize(2 * n, 1 + balance_.jacobian.cols());
     for (Index k = 0; k < n; ++k) {
-      const Index i = body.patch[static_cast<std::size_t>(k)];
+      const Index i = body.patch[k];
       const Vector2d y = state_.y.segment<2>(2 * i);
       const double multiplier = state_.multiplier[i];
       body.factor.block<2, 2>(2 * k, 2 * k) += multiplier * Eigen::Matrix2d::Identity() +
@@ -226,7 +226,7 @@ StickSlip solve_stick_slip(const std::vector<RubbingPatch>& patches, const Wrenc
   const FrictionBalance balance = friction_balance(patches, load);
   std::vector<Body> bodies = bodies_of(patches);
   parallel_for(static_cast<int>(bodies.size()),
-               [&](int b) { fill_energy(patches, balance, bodies[static_cast<std::size_t>(b)]); });
+               [&](int b) { fill_energy(patches, balance, bodies[b]); });
   double unit_energy = 0.0;  // N mm
   for (const Body& body : bodies) unit_energy += body.energy.trace();
   unit_energy /= static_cast<double>(patches.size());
@@ -235,9 +235,8 @@ StickSlip solve_stick_slip(const std::vector<RubbingPatch>& patches, const Wrenc
   const auto m = static_cast<Index>(patches.size());
   State start{VectorXd(2 * m), VectorXd(m), VectorXd::Zero(balance.load.size()), VectorXd()};
   for (Index i = 0; i < m; ++i) {
-    const auto p = static_cast<std::size_t>(i);
     start.y.segment<2>(2 * i) =
-        balance.tangent[p].transpose() * limit.force[p] / (limit.factor * patches[p].limit);
+        balance.tangent[i].transpose() * limit.force[i] / (limit.factor * patches[i].limit);
   }
   start.energy_y = apply_energy(bodies, start.y);
   const double per_patch = start.y.dot(start.energy_y) / static_cast<double>(m);
@@ -256,10 +255,9 @@ StickSlip solve_stick_slip(const std::vector<RubbingPatch>& patches, const Wrenc
   const State& s = method.state();
   const VectorXd misfit = method.elastic_misfit(s);
   for (Index i = 0; i < m; ++i) {
-    const auto p = static_cast<std::size_t>(i);
-    result.force[p] = patches[p].limit * (balance.tangent[p] * s.y.segment<2>(2 * i));
-    const double length = unit_energy / patches[p].limit;  // mm per unit of displacement
-    result.slip[p] = length * s.multiplier[i] * s.y.segment<2>(2 * i).norm();
+    result.force[i] = patches[i].limit * (balance.tangent[i] * s.y.segment<2>(2 * i));
+    const double length = unit_energy / patches[i].limit;  // mm per unit of displacement
+    result.slip[i] = length * s.multiplier[i] * s.y.segment<2>(2 * i).norm();
     result.elastic_error = std::max(result.elastic_error, length * misfit.segment<2>(2 * i).norm());
   }
   result.motion =

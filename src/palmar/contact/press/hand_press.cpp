@@ -9,6 +9,7 @@
 #include "palmar/contact/hand_contact.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/press/half_space_press.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -117,8 +118,8 @@ Vec3 distal_direction(const Hand& hand, Region region) {
   const auto segment = segment_of(region);
   const auto finger = segment ? finger_of(*segment) : std::nullopt;
   if (!finger) return Vec3::UnitY();
-  const Vec3 along = hand.skeleton.fingertips[static_cast<std::size_t>(*finger)] -
-                     hand.skeleton.joint(joint_of(*segment)).centre;
+  const Vec3 along =
+      hand.skeleton.fingertips[index_of(*finger)] - hand.skeleton.joint(joint_of(*segment)).centre;
   return along.norm() > 1e-6 ? Vec3(along.normalized()) : Vec3(Vec3::UnitY());
 }
 

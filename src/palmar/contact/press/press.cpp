@@ -12,6 +12,7 @@
 
 #include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
@@ -172,7 +173,7 @@ void PressOptions::check() const {
   }
   require(is_between(spacing, 0.05, 10.0), "press: spacing", spacing, "mm", "0.05 to 10 mm");
   require(is_between(std::abs(tilt), 0.0, std::numbers::pi / 3), "press: tilt",
-          tilt * 180.0 / std::numbers::pi, "deg", "-60 to 60 deg");
+          tilt * kDegreesPerRadian, "deg", "-60 to 60 deg");
   require(is_between(cell_area, 1e-3, 1000.0), "press: cell area", cell_area, "mm^2",
           "0.001 to 1000 mm^2");
   if (shear_modulus) {

@@ -10,6 +10,7 @@
 
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -90,7 +91,7 @@ TEST(Press, TiltedPunchTouchesWithItsEdgeFirst) {
   // Once all of it touches, the force is that of its centre's depth: 8 G a (depth - a tan(tilt)).
   PressOptions options = sphere_on_plane(5.0, 1.0);
   options.indenter.kind = PressIndenter::Kind::kPunch;
-  options.tilt = 2.0 * std::numbers::pi / 180.0;
+  options.tilt = 2.0 * kDegree;
   options.depths = {0.05, 1.0};
   const std::vector<PressStep> steps = press(options);
   EXPECT_LT(steps[0].area, 10.0);  // a sliver

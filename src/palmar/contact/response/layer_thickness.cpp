@@ -48,20 +48,20 @@ std::vector<double> effective_layer_thickness(const Hand& hand, const SkinGeomet
   const RayQuery query(bones);
   const std::vector<Vec3> directions = cosine_weighted_directions();
   parallel_for(static_cast<int>(n), [&](int vertex) {
-    const auto v = static_cast<std::size_t>(vertex);
     Eigen::Matrix3d axes;
-    axes.col(2) = -skin.normal[v];
+    axes.col(2) = -skin.normal[vertex];
     axes.col(0) = axes.col(2).unitOrthogonal();
     axes.col(1) = axes.col(2).cross(axes.col(0));
     double sum = 0.0;
     for (const Vec3& direction : directions) {
-      const auto hit = query.first_hit(skin.position[v], axes * direction, kStart, kFarthestBone);
+      const auto hit =
+          query.first_hit(skin.position[vertex], axes * direction, kStart, kFarthestBone);
       if (!hit) continue;
       const double depth = std::max(hit->distance * direction.z(), kLeastLayerThickness);
       sum += 1.0 / (depth * depth);
     }
     if (sum > 0.0) {
-      thickness[v] =
+      thickness[vertex] =
           std::clamp(1.0 / std::sqrt(sum / kDirections), kLeastLayerThickness, kMostLayerThickness);
     }
   });

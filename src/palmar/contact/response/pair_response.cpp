@@ -6,6 +6,7 @@
 
 #include "palmar/contact/response/response.h"
 #include "palmar/contact/response/skin_response.h"
+#include "palmar/core/enum_index.h"
 
 namespace palmar {
 namespace {
@@ -23,25 +24,22 @@ PairResponse::PairResponse(const Hand& hand, const SkinGeometry& skin, const Con
     : skin_(&skin), model_(model), thickness_(&thickness) {
   if (model.tissue != TissueModel::kLayered) return;
   for (const Region region : hand.region) {
-    kernel_.push_back(
-        &layer_kernel(hand.tissue.region[static_cast<std::size_t>(region)].poisson_layered));
+    kernel_.push_back(&layer_kernel(hand.tissue.region[index_of(region)].poisson_layered));
   }
 }
 
 float PairResponse::operator()(int i, int j, double r) const {
-  const auto v = static_cast<std::size_t>(i);
-  const auto w = static_cast<std::size_t>(j);
-  const double a_i = skin_->radius[v];
-  const double a_j = skin_->radius[w];
+  const double a_i = skin_->radius[i];
+  const double a_j = skin_->radius[j];
   const double weight = model_.coupling == RegionCoupling::kCoupled ? fade(r) : 1.0;
   if (model_.tissue != TissueModel::kLayered) {
     return static_cast<float>(weight * boussinesq_response(model_.kernel, r, a_i, a_j));
   }
-  const double h = 0.5 * ((*thickness_)[v] + (*thickness_)[w]);
+  const double h = 0.5 * ((*thickness_)[i] + (*thickness_)[j]);
   return static_cast<float>(
       0.25 * weight *
-      (layered_response(*kernel_[v], r, a_i, h) + layered_response(*kernel_[v], r, a_j, h) +
-       layered_response(*kernel_[w], r, a_i, h) + layered_response(*kernel_[w], r, a_j, h)));
+      (layered_response(*kernel_[i], r, a_i, h) + layered_response(*kernel_[i], r, a_j, h) +
+       layered_response(*kernel_[j], r, a_i, h) + layered_response(*kernel_[j], r, a_j, h)));
 }
 
 }  // namespace palmar

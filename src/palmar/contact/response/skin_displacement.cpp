@@ -6,15 +6,11 @@
 #include <array>
 
 #include "palmar/contact/response/response.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/smooth_step.h"
 
 namespace palmar {
 namespace {
-
-/// 0 up to t = 0, 1 from t = 1 on, smooth in between.
-double smooth_step(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 /// gaussian_response() by table: an exponential per pair of vertices would cost more than the
 /// solution. Linear between samples 1/128 c apart: error below 1e-5 of the maximum.
@@ -23,7 +19,7 @@ class GaussianTable {
   GaussianTable(double b, double c)
       : b_(static_cast<float>(b)), per_mm_(kPerWidth / static_cast<float>(c)) {
     for (int i = 0; i <= kSize; ++i) {
-      value_[static_cast<std::size_t>(i)] =
+      value_[i] =
           static_cast<float>(gaussian_response(static_cast<double>(i) / kPerWidth, 0.0, 1.0));
     }
   }
@@ -71,7 +67,7 @@ class FarLoad {
     for (std::size_t c = 0; c < share_.size(); ++c) {
       if (force_[c] == 0.0) continue;
       for (std::size_t e = far.begin[c]; e < far.begin[c + 1]; ++e) {
-        const auto i = static_cast<std::size_t>(far.vertex[e]);
+        const int i = far.vertex[e];
         elastic[i] += share_[c] * static_cast<double>(far.response[e]);
         if (!swelling) continue;
         bulge[i] += force_[c] * (1.0 - response_->near_share(far.distance[e])) *
@@ -79,7 +75,7 @@ class FarLoad {
       }
     }
     for (const GrownVertex& g : around) {
-      const auto v = static_cast<std::size_t>(g.vertex);
+      const int v = g.vertex;
       field[v].elastic += response_->from_clusters(v, elastic);
       field[v].bulge += response_->from_clusters(v, bulge);
     }
@@ -98,13 +94,12 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
   const SkinResponse& response = prepared.response;
   FarLoad far(response);
   for (const int k : part.row) {
-    const auto row = static_cast<std::size_t>(k);
-    const auto j = static_cast<std::size_t>(load.vertex[row]);
-    const double p = load.force[row];
-    const double share = p / load.shear_modulus[row];
+    const int j = load.vertex[k];
+    const double p = load.force[k];
+    const double share = p / load.shear_modulus[k];
     const bool is_split = response.has_far();
     for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
-      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      const int i = response.vertex[e];
       if (!is_around[i]) continue;
       const float r = response.distance[e];
       const double bulge = swelling ? p * static_cast<double>(gaussian.at(r)) : 0.0;
@@ -117,13 +112,13 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
   if (!swelling) return;
   double highest = 0.0;
   for (const GrownVertex& g : around) {
-    double& bulge = field[static_cast<std::size_t>(g.vertex)].bulge;
+    double& bulge = field[g.vertex].bulge;
     bulge *= smooth_step(g.distance / (0.5 * tissue.swelling_radius));
     highest = std::max(highest, bulge);
   }
   if (!(highest > 0.0)) return;
   const double scale = swelling_height_at(tissue, part.force) / highest;
-  for (const GrownVertex& g : around) field[static_cast<std::size_t>(g.vertex)].bulge *= scale;
+  for (const GrownVertex& g : around) field[g.vertex].bulge *= scale;
 }
 
 /// Xie 2014, eq. 3-9 to 3-11 with 3-6 and 3-7 as printed.
@@ -133,16 +128,15 @@ void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   const RegionTissue& tissue = prepared.tissue(part.region);
   const SkinResponse& response = prepared.response;
   for (const int k : part.row) {
-    const auto row = static_cast<std::size_t>(k);
-    const auto j = static_cast<std::size_t>(load.vertex[row]);
-    const double G = load.shear_modulus[row];
+    const int j = load.vertex[k];
+    const double G = load.shear_modulus[k];
     const double a = tissue.swelling_height * prepared.stiffness.law[1][j].g0 / G;
     for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
-      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      const int i = response.vertex[e];
       if (!is_around[i] || prepared.hand->region[i] != part.region) continue;
-      field[i].elastic += load.force[row] / G * static_cast<double>(response.response[e]);
+      field[i].elastic += load.force[k] / G * static_cast<double>(response.response[e]);
       if (!swelling || skin.sample[i].distance < 0.0) continue;
-      field[i].bulge += load.force[row] * a *
+      field[i].bulge += load.force[k] * a *
                         gaussian_response(static_cast<double>(response.distance[e]),
                                           tissue.swelling_radius, tissue.swelling_width);
     }
@@ -154,30 +148,30 @@ void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
 std::vector<LoadedPart> loaded_parts(const PreparedHand::Impl& prepared, const SkinLoad& load) {
   std::array<std::vector<int>, kRegionCount> rows;
   std::vector<int> dorsal;
-  std::vector<int> row_of(static_cast<std::size_t>(prepared.skin.vertex_count()), -1);
+  std::vector<int> row_of(prepared.skin.vertex_count(), -1);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     if (!(load.force[k] > 0.0)) continue;
     const int v = load.vertex[k];
-    const Region region = prepared.hand->region[static_cast<std::size_t>(v)];
+    const Region region = prepared.hand->region[v];
     if (region == Region::kDorsum) {
       dorsal.push_back(v);
-      row_of[static_cast<std::size_t>(v)] = static_cast<int>(k);
+      row_of[v] = static_cast<int>(k);
     } else {
-      rows[static_cast<std::size_t>(region)].push_back(static_cast<int>(k));
+      rows[index_of(region)].push_back(static_cast<int>(k));
     }
   }
   std::vector<LoadedPart> parts;
   for (const std::vector<int>& patch : connected_parts(prepared.skin, dorsal)) {
     LoadedPart& part = parts.emplace_back();
     part.region = Region::kDorsum;
-    for (const int v : patch) part.row.push_back(row_of[static_cast<std::size_t>(v)]);
+    for (const int v : patch) part.row.push_back(row_of[v]);
   }
   for (int r = 0; r < kRegionCount; ++r) {
-    if (rows[static_cast<std::size_t>(r)].empty()) continue;
-    parts.push_back({static_cast<Region>(r), std::move(rows[static_cast<std::size_t>(r)]), 0.0});
+    if (rows[r].empty()) continue;
+    parts.push_back({static_cast<Region>(r), std::move(rows[r]), 0.0});
   }
   for (LoadedPart& part : parts) {
-    for (const int k : part.row) part.force += load.force[static_cast<std::size_t>(k)];
+    for (const int k : part.row) part.force += load.force[k];
   }
   return parts;
 }
@@ -196,11 +190,11 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
   std::vector<int> loaded;
   for (const LoadedPart& part : parts) {
     loaded.clear();
-    for (const int k : part.row) loaded.push_back(load.vertex[static_cast<std::size_t>(k)]);
+    for (const int k : part.row) loaded.push_back(load.vertex[k]);
     const double reach = prepared.tissue(part.region).neighbourhood;
     const std::vector<GrownVertex> around = grow(prepared.skin, loaded, reach);
     for (const GrownVertex& g : around) {
-      is_around[static_cast<std::size_t>(g.vertex)] = 1;
+      is_around[g.vertex] = 1;
     }
     if (is_printed) {
       add_printed(prepared, skin, load, part, is_around, swelling, field);
@@ -208,7 +202,7 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
       add_held(prepared, load, part, around, is_around, swelling, field);
     }
     for (const GrownVertex& g : around) {
-      const auto v = static_cast<std::size_t>(g.vertex);
+      const int v = g.vertex;
       const double fade = is_printed ? 1.0 : smooth_step(3.0 * (1.0 - g.distance / reach));
       const double weight = fade / (g.distance * g.distance + 1.0);
       weight_sum[v] += weight;
@@ -231,7 +225,7 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
   }
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     // What the solution found is exact.
-    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    const int v = load.vertex[k];
     const double d = skin.sample[v].distance;
     if (load.force[k] > 0.0) {
       u.elastic[v] = -d;

@@ -80,9 +80,8 @@ void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
   for (std::size_t v = 0; v < all.size(); ++v) {
     all[v] = static_cast<int>(v);
     for (int k = result.ring_begin[v]; k < result.ring_begin[v + 1]; ++k) {
-      const auto e = static_cast<std::size_t>(k);
-      const auto w = static_cast<std::size_t>(result.ring[e]);
-      result.edge_length[e] = (skin.vertices[v] - skin.vertices[w]).norm();
+      const int w = result.ring[k];
+      result.edge_length[k] = (skin.vertices[v] - skin.vertices[w]).norm();
     }
   }
   result.cells = sensor_cells(result, all, kUsualCellArea);

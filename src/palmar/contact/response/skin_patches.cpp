@@ -7,15 +7,15 @@ namespace palmar {
 SkinPatches skin_patches(const SkinGeometry& skin, int size) {
   SkinPatches result;
   const int n = skin.vertex_count();
-  result.patch.assign(static_cast<std::size_t>(n), -1);
+  result.patch.assign(n, -1);
   std::vector<int> front;
   for (int seed = 0; seed < n; ++seed) {
-    if (result.patch[static_cast<std::size_t>(seed)] >= 0) continue;
+    if (result.patch[seed] >= 0) continue;
     front.assign(1, seed);
-    result.patch[static_cast<std::size_t>(seed)] = result.count;
+    result.patch[seed] = result.count;
     for (std::size_t k = 0; k < front.size() && static_cast<int>(front.size()) < size; ++k) {
       for (const int w : skin.neighbours(front[k])) {
-        int& patch = result.patch[static_cast<std::size_t>(w)];
+        int& patch = result.patch[w];
         if (patch >= 0 || static_cast<int>(front.size()) >= size) continue;
         patch = result.count;
         front.push_back(w);
@@ -27,10 +27,10 @@ SkinPatches skin_patches(const SkinGeometry& skin, int size) {
 }
 
 std::vector<Vec3> patch_centres(const SkinGeometry& skin, const SkinPatches& patches) {
-  std::vector<Vec3> centre(static_cast<std::size_t>(patches.count), Vec3::Zero());
+  std::vector<Vec3> centre(patches.count, Vec3::Zero());
   std::vector<double> members(centre.size(), 0.0);
   for (std::size_t v = 0; v < patches.patch.size(); ++v) {
-    const auto s = static_cast<std::size_t>(patches.patch[v]);
+    const int s = patches.patch[v];
     centre[s] += skin.position[v];
     members[s] += 1.0;
   }

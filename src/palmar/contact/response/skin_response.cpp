@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "palmar/contact/response/pair_response.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/geodesic/geodesic.h"
 #include "palmar/geometry/geodesic/isomap.h"
@@ -28,20 +29,18 @@ struct Pair {
 using Columns = std::vector<std::vector<Pair>>;
 
 Columns columns_of(const GeodesicTable& table, const std::vector<int>& vertices, int count) {
-  Columns columns(static_cast<std::size_t>(count));
+  Columns columns(count);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    std::vector<Pair>& column = columns[static_cast<std::size_t>(vertices[i])];
+    std::vector<Pair>& column = columns[vertices[i]];
     for (int k = table.begin[i]; k < table.begin[i + 1]; ++k) {
-      column.push_back(
-          {vertices[static_cast<std::size_t>(table.place[static_cast<std::size_t>(k)])],
-           static_cast<float>(table.distance[static_cast<std::size_t>(k)])});
+      column.push_back({vertices[table.place[k]], static_cast<float>(table.distance[k])});
     }
   }
   return columns;
 }
 
 Columns all_within(const GeodesicSolver& solver, double reach) {
-  std::vector<int> vertices(static_cast<std::size_t>(solver.vertex_count()));
+  std::vector<int> vertices(solver.vertex_count());
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = static_cast<int>(v);
   return columns_of(geodesic_table(solver, vertices, reach), vertices, solver.vertex_count());
 }
@@ -50,7 +49,7 @@ Columns all_within(const GeodesicSolver& solver, double reach) {
 void add_flat_pairs(const Hand& hand, const std::vector<int>& own, Columns& columns) {
   const FlatPatch flat = flatten_by_isomap(edge_path_distances(hand.skin, own));
   for (std::size_t j = 0; j < own.size(); ++j) {
-    std::vector<Pair>& column = columns[static_cast<std::size_t>(own[j])];
+    std::vector<Pair>& column = columns[own[j]];
     for (std::size_t i = 0; i < own.size(); ++i) {
       const double distance = (flat.position.row(static_cast<Eigen::Index>(i)) -
                                flat.position.row(static_cast<Eigen::Index>(j)))
@@ -70,21 +69,20 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance k
   }
   Columns columns = all_within(solver, margin * widest);
   for (int j = 0; j < count; ++j) {
-    const auto region = static_cast<std::size_t>(hand.region[static_cast<std::size_t>(j)]);
-    const auto reach = static_cast<float>(margin * hand.tissue.region[region].neighbourhood);
-    std::erase_if(columns[static_cast<std::size_t>(j)], [&](const Pair& pair) {
-      return static_cast<std::size_t>(hand.region[static_cast<std::size_t>(pair.vertex)]) ==
-                 region ||
-             pair.distance > reach;
+    const Region region = hand.region[j];
+    const auto reach =
+        static_cast<float>(margin * hand.tissue.region[index_of(region)].neighbourhood);
+    std::erase_if(columns[j], [&](const Pair& pair) {
+      return hand.region[pair.vertex] == region || pair.distance > reach;
     });
   }
   for (int r = 0; r < kRegionCount; ++r) {
     std::vector<int> own;
-    std::vector<unsigned char> allowed(static_cast<std::size_t>(count), 0);
+    std::vector<unsigned char> allowed(count, 0);
     for (int v = 0; v < count; ++v) {
-      if (static_cast<int>(hand.region[static_cast<std::size_t>(v)]) != r) continue;
+      if (static_cast<int>(hand.region[v]) != r) continue;
       own.push_back(v);
-      allowed[static_cast<std::size_t>(v)] = 1;
+      allowed[v] = 1;
     }
     if (own.empty()) continue;
     const bool is_dorsum = static_cast<Region>(r) == Region::kDorsum;
@@ -95,13 +93,13 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance k
           geodesic_table(solver, own, is_dorsum ? margin * kResponseReach : kFarthestPair, allowed);
       const Columns inside = columns_of(table, own, count);
       for (const int v : own) {
-        const std::vector<Pair>& more = inside[static_cast<std::size_t>(v)];
-        std::vector<Pair>& column = columns[static_cast<std::size_t>(v)];
+        const std::vector<Pair>& more = inside[v];
+        std::vector<Pair>& column = columns[v];
         column.insert(column.end(), more.begin(), more.end());
       }
     }
     for (const int v : own) {
-      std::vector<Pair>& column = columns[static_cast<std::size_t>(v)];
+      std::vector<Pair>& column = columns[v];
       std::sort(column.begin(), column.end(),
                 [](const Pair& a, const Pair& b) { return a.vertex < b.vertex; });
     }
@@ -132,8 +130,8 @@ ResponseColumns filled(const Columns& columns, const PairResponse& response,
   const int count = static_cast<int>(columns.size());
   parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
     for (int j = block * kBlock; j < std::min(count, (block + 1) * kBlock); ++j) {
-      std::size_t k = result.begin[static_cast<std::size_t>(j)];
-      for (const Pair& pair : columns[static_cast<std::size_t>(j)]) {
+      std::size_t k = result.begin[j];
+      for (const Pair& pair : columns[j]) {
         result.vertex[k] = pair.vertex;
         result.distance[k] = pair.distance;
         result.response[k] = response(vertex_of(pair.vertex), vertex_of(j), pair.distance);
@@ -150,7 +148,7 @@ std::vector<int> middles(const SkinGeometry& skin, const SkinPatches& clusters) 
   std::vector<int> middle(centre.size(), -1);
   std::vector<double> best(centre.size(), std::numeric_limits<double>::infinity());
   for (std::size_t v = 0; v < clusters.patch.size(); ++v) {
-    const auto c = static_cast<std::size_t>(clusters.patch[v]);
+    const int c = clusters.patch[v];
     const double d = (skin.position[v] - centre[c]).squaredNorm();
     if (d >= best[c]) continue;
     best[c] = d;
@@ -169,9 +167,9 @@ void set_support(const SkinGeometry& skin, const SkinPatches& clusters,
     const std::size_t first = result.support.size();
     double sum = 0.0;
     for (int k = table.begin[own]; k < table.begin[own + 1]; ++k) {
-      const auto c = static_cast<std::size_t>(table.place[static_cast<std::size_t>(k)]);
-      if (table.distance[static_cast<std::size_t>(k)] > 2.0 * kSupport) continue;
-      const Vec3& at = skin.position[static_cast<std::size_t>(middle[c])];
+      const auto c = static_cast<std::size_t>(table.place[k]);
+      if (table.distance[k] > 2.0 * kSupport) continue;
+      const Vec3& at = skin.position[middle[c]];
       const double t = (skin.position[v] - at).squaredNorm() / (kSupport * kSupport);
       if (t >= 1.0) continue;
       result.support.push_back(static_cast<int>(c));
@@ -199,20 +197,18 @@ void subtract_far(SkinResponse& result) {
   parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
     std::vector<double> moved(result.cluster_count(), 0.0);
     for (int v = block * kBlock; v < std::min(count, (block + 1) * kBlock); ++v) {
-      const auto j = static_cast<std::size_t>(v);
       const auto for_reached = [&](const auto& visit) {
-        for (std::size_t s = result.support_begin[j]; s < result.support_begin[j + 1]; ++s) {
-          const auto c = static_cast<std::size_t>(result.support[s]);
+        for (std::size_t s = result.support_begin[v]; s < result.support_begin[v + 1]; ++s) {
+          const int c = result.support[s];
           for (std::size_t e = result.far.begin[c]; e < result.far.begin[c + 1]; ++e) {
-            visit(static_cast<std::size_t>(result.far.vertex[e]),
-                  static_cast<double>(result.support_weight[s]) *
-                      static_cast<double>(result.far.response[e]));
+            visit(result.far.vertex[e], static_cast<double>(result.support_weight[s]) *
+                                            static_cast<double>(result.far.response[e]));
           }
         }
       };
       for_reached([&](std::size_t c, double u) { moved[c] += u; });
-      for (std::size_t k = result.begin[j]; k < result.begin[j + 1]; ++k) {
-        const auto i = static_cast<std::size_t>(result.vertex[k]);
+      for (std::size_t k = result.begin[v]; k < result.begin[v + 1]; ++k) {
+        const int i = result.vertex[k];
         result.response[k] = static_cast<float>(static_cast<double>(result.response[k]) -
                                                 result.from_clusters(i, moved));
       }
@@ -230,28 +226,28 @@ SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
   const GeodesicTable table = geodesic_table(solver, middle, kResponseReach);
   std::vector<std::vector<int>> members(middle.size());
   for (int v = 0; v < count; ++v) {
-    members[static_cast<std::size_t>(clusters.patch[static_cast<std::size_t>(v)])].push_back(v);
+    members[clusters.patch[v]].push_back(v);
   }
-  Columns near(static_cast<std::size_t>(count));
+  Columns near(count);
   Columns far(middle.size());
   for (std::size_t c = 0; c < middle.size(); ++c) {
     for (int k = table.begin[c]; k < table.begin[c + 1]; ++k) {
-      const auto other = static_cast<std::size_t>(table.place[static_cast<std::size_t>(k)]);
-      const double between = table.distance[static_cast<std::size_t>(k)];
+      const auto other = static_cast<std::size_t>(table.place[k]);
+      const double between = table.distance[k];
       if (between > kAllNear)
         far[c].push_back({static_cast<int>(other), static_cast<float>(between)});
       if (between > kAllFar + kClusterWidth) continue;
       for (const int j : members[c]) {
         for (const int i : members[other]) {
-          const Vec3& x = skin.position[static_cast<std::size_t>(i)];
-          if ((x - skin.position[static_cast<std::size_t>(j)]).squaredNorm() >= kAllFar * kAllFar) {
+          const Vec3& x = skin.position[i];
+          if ((x - skin.position[j]).squaredNorm() >= kAllFar * kAllFar) {
             continue;
           }
           // So near, the formula is as good as a path; the smaller number first, so that both
           // directions round alike.
           const double r = i == j ? 0.0 : arc_distance(skin, std::min(i, j), std::max(i, j));
           if (r >= kAllFar) continue;
-          near[static_cast<std::size_t>(j)].push_back({i, static_cast<float>(r)});
+          near[j].push_back({i, static_cast<float>(r)});
         }
       }
     }
@@ -262,7 +258,7 @@ SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
   }
   SkinResponse result;
   static_cast<ResponseColumns&>(result) = filled(near, response, [](int v) { return v; });
-  result.far = filled(far, response, [&](int c) { return middle[static_cast<std::size_t>(c)]; });
+  result.far = filled(far, response, [&](int c) { return middle[c]; });
   for (std::size_t k = 0; k < result.far.response.size(); ++k) {
     result.far.response[k] *= static_cast<float>(1.0 - share_near(result.far.distance[k]));
   }
@@ -302,8 +298,8 @@ SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactMo
   pairs.vertex.resize(pairs.begin.back());
   pairs.detour.resize(pairs.begin.back());
   parallel_for(static_cast<int>(columns.size()), [&](int j) {
-    std::size_t k = pairs.begin[static_cast<std::size_t>(j)];
-    for (const Pair& pair : columns[static_cast<std::size_t>(j)]) {
+    std::size_t k = pairs.begin[j];
+    for (const Pair& pair : columns[j]) {
       const double arc = arc_distance(skin, pair.vertex, j);
       pairs.vertex[k] = pair.vertex;
       pairs.detour[k] = arc > 0.0 ? static_cast<float>(pair.distance / arc) : 1.0F;
@@ -320,13 +316,13 @@ Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<i
   const auto m = static_cast<Eigen::Index>(vertices.size());
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(m, m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    const auto v = static_cast<std::size_t>(vertices[static_cast<std::size_t>(j)]);
+    const int v = vertices[j];
     Eigen::Index i = 0;
     for (std::size_t k = response.begin[v]; k < response.begin[v + 1]; ++k) {
-      while (i < m && vertices[static_cast<std::size_t>(i)] < response.vertex[k]) ++i;
+      while (i < m && vertices[i] < response.vertex[k]) ++i;
       if (i == m) break;
-      if (vertices[static_cast<std::size_t>(i)] != response.vertex[k]) continue;
-      if (across || region[static_cast<std::size_t>(response.vertex[k])] == region[v]) {
+      if (vertices[i] != response.vertex[k]) continue;
+      if (across || region[response.vertex[k]] == region[v]) {
         R(i, j) = response.response[k];
       }
     }

@@ -52,15 +52,14 @@ struct SkinResponse : ResponseColumns {
   /// Spreads a value at a vertex over the clusters.
   void to_clusters(std::size_t v, double value, std::vector<double>& cluster) const {
     for (std::size_t k = support_begin[v]; k < support_begin[v + 1]; ++k) {
-      cluster[static_cast<std::size_t>(support[k])] +=
-          value * static_cast<double>(support_weight[k]);
+      cluster[support[k]] += value * static_cast<double>(support_weight[k]);
     }
   }
   /// A field of the clusters at a vertex.
   double from_clusters(std::size_t v, const std::vector<double>& cluster) const {
     double sum = 0.0;
     for (std::size_t k = support_begin[v]; k < support_begin[v + 1]; ++k) {
-      sum += static_cast<double>(support_weight[k]) * cluster[static_cast<std::size_t>(support[k])];
+      sum += static_cast<double>(support_weight[k]) * cluster[support[k]];
     }
     return sum;
   }

@@ -48,8 +48,8 @@ void SpecimenResponse::check() const {
     for (Eigen::Index j = 0; j < columns; ++j) {
       if (force(i, j) > 0.0 && std::isfinite(force(i, j)) && area(i, j) >= 0.0) continue;
       std::ostringstream message;
-      message << "response of a specimen: at a depth of " << depth[static_cast<std::size_t>(i)]
-              << " mm the force is " << force(i, j)
+      message << "response of a specimen: at a depth of " << depth[i] << " mm the force is "
+              << force(i, j)
               << " N per MPa; more than 0 is required (is the depth above the mesh's resolution?)";
       throw UsageError(message.str());
     }
@@ -77,9 +77,9 @@ SpecimenResponse specimen_response(const PressOptions& test, const std::vector<d
     const Eigen::Index j = k % columns;
     PressOptions one = test;
     one.forces.clear();
-    one.depths = {response.depth[static_cast<std::size_t>(i)]};
+    one.depths = {response.depth[i]};
     one.shear_modulus = 1.0;  // MPa
-    if (!thickness.empty()) one.layer_thickness = thickness[static_cast<std::size_t>(j)];
+    if (!thickness.empty()) one.layer_thickness = thickness[j];
     const PressStep step = press(one, hand).front();
     response.force(i, j) = step.force;
     response.area(i, j) = step.area;

@@ -8,6 +8,7 @@
 #include "palmar/contact/response/pair_response.h"
 #include "palmar/contact/response/response.h"
 #include "palmar/contact/response/skin_response.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 
 namespace palmar {
@@ -157,11 +158,11 @@ class Reach {
   Reach(const Hand& hand, const ContactModel& model) : hand_(&hand), model_(model) {}
   float operator()(int i, int j) const {
     if (model_.coupling == RegionCoupling::kCoupled) return static_cast<float>(kResponseReach);
-    const Region own = hand_->region[static_cast<std::size_t>(j)];
-    if (hand_->region[static_cast<std::size_t>(i)] == own) {
+    const Region own = hand_->region[j];
+    if (hand_->region[i] == own) {
       return own == Region::kDorsum ? static_cast<float>(kResponseReach) : 1e6F;
     }
-    return static_cast<float>(hand_->tissue.region[static_cast<std::size_t>(own)].neighbourhood);
+    return static_cast<float>(hand_->tissue.region[index_of(own)].neighbourhood);
   }
 
  private:
@@ -189,12 +190,11 @@ SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
     std::vector<std::int32_t> vertex;
     std::vector<float> r;
     for (int j = block * kBlock; j < std::min(count, (block + 1) * kBlock); ++j) {
-      const auto column = static_cast<std::size_t>(j);
-      const std::size_t first = pairs.begin[column];
-      const std::size_t number = pairs.begin[column + 1] - first;
+      const std::size_t first = pairs.begin[j];
+      const std::size_t number = pairs.begin[j + 1] - first;
       vertex.resize(number);
       r.resize(number);
-      find_distances(lines, column, pairs.vertex.data() + first, pairs.detour.data() + first,
+      find_distances(lines, j, pairs.vertex.data() + first, pairs.detour.data() + first,
                      static_cast<int>(number), r.data());
       std::size_t kept = 0;
       constexpr auto kReach = static_cast<float>(kResponseReach);
@@ -204,7 +204,7 @@ SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
         r[kept] = r[k];
         kept += r[k] <= (is_coupled ? kReach : reach(vertex[kept], j)) ? 1 : 0;
       }
-      visit(column, vertex.data(), r.data(), kept);
+      visit(j, vertex.data(), r.data(), kept);
     }
   };
   SkinResponse result;

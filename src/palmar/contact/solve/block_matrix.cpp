@@ -98,7 +98,7 @@ void BlockMatrix::begin(const std::vector<int>& block_sizes) {
   padded_ = 0;
   for (const int n : sizes_) {
     start_.push_back(padded_);
-    padded_ += padded(static_cast<std::size_t>(n));
+    padded_ += padded(n);
   }
   block_.clear();
   place_.assign(sizes_.size() * sizes_.size(), kNone);
@@ -119,7 +119,7 @@ void BlockMatrix::make_room() {
   for (Block& block : block_) {
     block.value = size;
     block.stride = stride(block.row);
-    size += block.stride * static_cast<std::size_t>(sizes_[static_cast<std::size_t>(block.column)]);
+    size += block.stride * static_cast<std::size_t>(sizes_[block.column]);
   }
   value_.resize(size);
 }
@@ -134,15 +134,15 @@ void BlockMatrix::take_part(const BlockMatrix& whole, const std::vector<std::vec
   }
   begin(sizes);
   for (const Block& block : whole.block_) {
-    const int row = number[static_cast<std::size_t>(block.row)];
-    const int column = number[static_cast<std::size_t>(block.column)];
+    const int row = number[block.row];
+    const int column = number[block.column];
     if (row >= 0 && column >= 0) add_block(row, column);
   }
   make_room();
   std::size_t next = 0;  // blocks come in the same order
   for (const Block& from : whole.block_) {
-    const std::vector<int>& rows = kept[static_cast<std::size_t>(from.row)];
-    const std::vector<int>& columns = kept[static_cast<std::size_t>(from.column)];
+    const std::vector<int>& rows = kept[from.row];
+    const std::vector<int>& columns = kept[from.column];
     if (rows.empty() || columns.empty()) continue;
     const Block& to = block_[next++];
     float* target = value_.data() + to.value;
@@ -156,16 +156,14 @@ void BlockMatrix::take_part(const BlockMatrix& whole, const std::vector<std::vec
   }
 }
 
-std::size_t BlockMatrix::stride(int row_block) const {
-  return padded(static_cast<std::size_t>(sizes_[static_cast<std::size_t>(row_block)]));
-}
+std::size_t BlockMatrix::stride(int row_block) const { return padded(sizes_[row_block]); }
 
 bool BlockMatrix::factor() {
   factor_start_.clear();
   std::size_t size = 0;
   for (const int n : sizes_) {
     factor_start_.push_back(size);
-    size += static_cast<std::size_t>(n) * padded(static_cast<std::size_t>(n));
+    size += static_cast<std::size_t>(n) * padded(n);
   }
   lower_.assign(size, 0.0F);
   upper_.assign(size, 0.0F);
@@ -201,10 +199,8 @@ void BlockMatrix::multiply(const std::vector<float>& x, std::vector<float>& y) c
   y.assign(padded_, 0.0F);
   const auto add_product = has_avx2() ? add_product_avx2 : add_product_any;
   for (const Block& block : block_) {
-    add_product(value_.data() + block.value, block.stride,
-                static_cast<std::size_t>(sizes_[static_cast<std::size_t>(block.column)]),
-                x.data() + start_[static_cast<std::size_t>(block.column)],
-                y.data() + start_[static_cast<std::size_t>(block.row)]);
+    add_product(value_.data() + block.value, block.stride, sizes_[block.column],
+                x.data() + start_[block.column], y.data() + start_[block.row]);
   }
 }
 

@@ -40,9 +40,7 @@ class BlockMatrix {
 
   std::size_t padded_size() const { return padded_; }
   /// Where row i of a block stands in a vector.
-  std::size_t row(int block, int i) const {
-    return start_[static_cast<std::size_t>(block)] + static_cast<std::size_t>(i);
-  }
+  std::size_t row(int block, int i) const { return start_[block] + static_cast<std::size_t>(i); }
 
   /// x with |A x - b| <= tolerance |b|, from x = 0; `iterations` is added to. False if A turns out
   /// not to be positive definite, or after 500 iterations.
@@ -60,8 +58,7 @@ class BlockMatrix {
   };
   void make_room();
   std::size_t pair(int row_block, int column_block) const {
-    return static_cast<std::size_t>(row_block) * sizes_.size() +
-           static_cast<std::size_t>(column_block);
+    return static_cast<std::size_t>(row_block) * sizes_.size() + column_block;
   }
   void multiply(const std::vector<float>& x, std::vector<float>& y) const;
   void precondition(const std::vector<float>& r, std::vector<float>& z);

@@ -11,6 +11,7 @@
 #include "palmar/contact/response/deformed_skin.h"
 #include "palmar/contact/response/layered_response.h"
 #include "palmar/contact/response/response.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -43,32 +44,31 @@ void ContactSolver::Impl::set_depth(const SkinOnProduct& skin, SkinLoad& load) c
   std::array<double, kRegionCount> d_max{};
   std::vector<int> dorsal;
   for (const int v : skin.collision) {
-    const Region region = prepared->hand->region[static_cast<std::size_t>(v)];
-    double& d = d_max[static_cast<std::size_t>(region)];
-    d = std::max(d, -skin.sample[static_cast<std::size_t>(v)].distance);
+    const Region region = prepared->hand->region[v];
+    double& d = d_max[index_of(region)];
+    d = std::max(d, -skin.sample[v].distance);
     if (region == Region::kDorsum) dorsal.push_back(v);
   }
   std::vector<double> by_vertex(skin.sample.size(), 0.0);
   for (const std::vector<int>& patch : connected_parts(prepared->skin, dorsal)) {
     double d = 0.0;
-    for (const int v : patch) d = std::max(d, -skin.sample[static_cast<std::size_t>(v)].distance);
-    for (const int v : patch) by_vertex[static_cast<std::size_t>(v)] = d;
+    for (const int v : patch) d = std::max(d, -skin.sample[v].distance);
+    for (const int v : patch) by_vertex[v] = d;
   }
   load.depth.clear();
   for (const int v : load.vertex) {
-    const Region region = prepared->hand->region[static_cast<std::size_t>(v)];
-    load.depth.push_back(region == Region::kDorsum ? by_vertex[static_cast<std::size_t>(v)]
-                                                   : d_max[static_cast<std::size_t>(region)]);
+    const Region region = prepared->hand->region[v];
+    load.depth.push_back(region == Region::kDorsum ? by_vertex[v] : d_max[index_of(region)]);
   }
 }
 
 std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLevel level) const {
   std::vector<double> result;
   result.reserve(load.vertex.size());
-  const std::vector<StiffeningLaw>& law = prepared->stiffness.law[static_cast<std::size_t>(level)];
+  const std::vector<StiffeningLaw>& law = prepared->stiffness.law[index_of(level)];
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    result.push_back(options.shear_modulus.value_or(
-        shear_modulus_at(law[static_cast<std::size_t>(load.vertex[k])], load.depth[k])));
+    result.push_back(
+        options.shear_modulus.value_or(shear_modulus_at(law[load.vertex[k]], load.depth[k])));
   }
   return result;
 }
@@ -85,13 +85,13 @@ double ContactSolver::Impl::coating_displacement(const SkinOnProduct& skin, cons
                                                  std::size_t v) const {
   const int own = coating_at(skin.sample[v].closest);
   if (own < 0) return 0.0;
-  const Coating& coating = options.coatings[static_cast<std::size_t>(own)];
+  const Coating& coating = options.coatings[own];
   const LayerKernel& kernel = layer_kernel(coating.poisson);
   const double reach = kCoatingReach * coating.thickness;
   double sum = 0.0;
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     if (!(load.force[k] > 0.0)) continue;
-    const auto w = static_cast<std::size_t>(load.vertex[k]);
+    const int w = load.vertex[k];
     const double r2 = (skin.sample[v].closest - skin.sample[w].closest).squaredNorm();
     if (r2 >= reach * reach || coating_at(skin.sample[w].closest) != own) continue;
     sum += load.force[k] *
@@ -108,13 +108,13 @@ void ContactSolver::Impl::set_coating(const SkinOnProduct& skin, const SkinLoad&
   coating_.diagonal.assign(m, 0.0);
   std::vector<int> coat(m, -1);
   for (std::size_t k = 0; k < m; ++k) {
-    coat[k] = coating_at(skin.sample[static_cast<std::size_t>(load.vertex[k])].closest);
+    coat[k] = coating_at(skin.sample[load.vertex[k]].closest);
   }
   for (std::size_t i = 0; i < m; ++i) {
     if (coat[i] < 0) continue;
-    const Coating& coating = options.coatings[static_cast<std::size_t>(coat[i])];
+    const Coating& coating = options.coatings[coat[i]];
     const LayerKernel& kernel = layer_kernel(coating.poisson);
-    const auto v = static_cast<std::size_t>(load.vertex[i]);
+    const int v = load.vertex[i];
     const auto compliance = [&](double r, double a) {
       return layered_response(kernel, r, a, coating.thickness) / coating.shear_modulus;
     };
@@ -122,7 +122,7 @@ void ContactSolver::Impl::set_coating(const SkinOnProduct& skin, const SkinLoad&
     const double reach = kCoatingReach * coating.thickness;
     for (std::size_t j = 0; j < i; ++j) {
       if (coat[j] != coat[i]) continue;
-      const auto w = static_cast<std::size_t>(load.vertex[j]);
+      const int w = load.vertex[j];
       const double r2 = (skin.sample[v].closest - skin.sample[w].closest).squaredNorm();
       if (r2 >= reach * reach) continue;
       const double r = std::sqrt(r2);
@@ -146,7 +146,7 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
   assemble(skin, load);
   std::vector<double> b(load.vertex.size());
   for (std::size_t k = 0; k < b.size(); ++k) {
-    b[k] = load.shear_modulus[k] * skin.sample[static_cast<std::size_t>(load.vertex[k])].distance;
+    b[k] = load.shear_modulus[k] * skin.sample[load.vertex[k]].distance;
   }
   const ContactSystem::Outcome outcome = system.solve(b, load.in_contact, load.force, load.gap);
   result.iterations += outcome.pivots;
@@ -173,7 +173,7 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
     std::vector<std::size_t> rows;
     SkinLoad part;
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      const int v = load.vertex[k];
       if (static_cast<int>(prepared->hand->region[v]) != r) continue;
       rows.push_back(k);
       part.vertex.push_back(load.vertex[k]);
@@ -203,9 +203,9 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
   const bool is_coupled = prepared->model.coupling == RegionCoupling::kCoupled;
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     if (!(load.force[k] > 0.0)) continue;
-    const auto j = static_cast<std::size_t>(load.vertex[k]);
+    const int j = load.vertex[k];
     for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
-      const auto i = static_cast<std::size_t>(response.vertex[e]);
+      const int i = response.vertex[e];
       if (is_coupled || prepared->hand->region[i] == prepared->hand->region[j]) {
         sum[i] += load.force[k] * static_cast<double>(response.response[e]);
       }
@@ -215,25 +215,23 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
     std::vector<double> total(response.cluster_count(), 0.0);
     std::vector<double> moved(total.size(), 0.0);
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      response.to_clusters(static_cast<std::size_t>(load.vertex[k]), load.force[k], total);
+      response.to_clusters(load.vertex[k], load.force[k], total);
     }
     for (std::size_t c = 0; c < total.size(); ++c) {
       if (total[c] == 0.0) continue;
       for (std::size_t e = response.far.begin[c]; e < response.far.begin[c + 1]; ++e) {
-        moved[static_cast<std::size_t>(response.far.vertex[e])] +=
-            total[c] * static_cast<double>(response.far.response[e]);
+        moved[response.far.vertex[e]] += total[c] * static_cast<double>(response.far.response[e]);
       }
     }
     for (std::size_t i = 0; i < n; ++i) sum[i] += response.from_clusters(i, moved);
   }
   SkinLoad near;
   std::vector<char> is_known(n, 0);
-  for (const int v : load.vertex) is_known[static_cast<std::size_t>(v)] = 1;
+  for (const int v : load.vertex) is_known[v] = 1;
   for (const int v : skin.near) {
-    const auto i = static_cast<std::size_t>(v);
-    const double d = skin.sample[i].distance;
-    const bool may_bulge = sum[i] < 0.0 || !options.coatings.empty();
-    if (!is_known[i] && may_bulge && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
+    const double d = skin.sample[v].distance;
+    const bool may_bulge = sum[v] < 0.0 || !options.coatings.empty();
+    if (!is_known[v] && may_bulge && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
   }
   set_depth(skin, near);
   const std::vector<double> modulus = moduli(near, TissueLevel::kNominal);
@@ -263,7 +261,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     load.in_contact.clear();
     load.force.clear();
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      const int v = load.vertex[k];
       // Under a smooth product the contact ends where the penetration is half the deepest (Hertz:
       // at r^2 = R depth).
       const bool is_new = was_in_contact.empty() && round == 0;
@@ -288,11 +286,11 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     }
     was_force.resize(skin.sample.size(), 0.0);
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(load.vertex[k]);
+      const int v = load.vertex[k];
       start[v] = load.in_contact[k];
       was_force[v] = load.force[k];
     }
-    for (const int v : more) start[static_cast<std::size_t>(v)] = 1;
+    for (const int v : more) start[v] = 1;
     load.vertex.insert(load.vertex.end(), more.begin(), more.end());
     std::sort(load.vertex.begin(), load.vertex.end());
   }
@@ -308,8 +306,8 @@ DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
                            const std::vector<Region>& region) {
   DeepestOfRegion deepest;
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const auto v = static_cast<std::size_t>(load.vertex[k]);
-    const auto r = static_cast<std::size_t>(region[v]);
+    const int v = load.vertex[k];
+    const std::size_t r = index_of(region[v]);
     if (-skin.sample[v].distance < deepest.depth[r]) continue;
     deepest.depth[r] = -skin.sample[v].distance;
     deepest.shear_modulus[r] = load.shear_modulus[k];
@@ -355,7 +353,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   was_in_contact.assign(n, 0);
   was_force = result.force;
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const auto v = static_cast<std::size_t>(load.vertex[k]);
+    const int v = load.vertex[k];
     result.force[v] = load.force[k];
     result.pressure[v] = load.force[k] / prepared->skin.area[v];
     was_in_contact[v] = load.in_contact[k];
@@ -375,7 +373,7 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
   for (std::size_t v = 0; v < result.force.size(); ++v) {
     if (!(result.force[v] > 0.0)) continue;
     result.deformed[v] = skin_.sample[v].closest;
-    force[static_cast<std::size_t>(prepared->hand->region[v])] += result.force[v];
+    force[index_of(prepared->hand->region[v])] += result.force[v];
   }
   for (std::size_t r = 0; r < force.size(); ++r) {
     result.total.max_penetration = std::max(result.total.max_penetration, deepest.depth[r]);
@@ -398,7 +396,7 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   const std::size_t n = posed_skin.size();
   std::vector<double> modulus(n, 0.0);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    modulus[static_cast<std::size_t>(load.vertex[k])] = load.shear_modulus[k];
+    modulus[load.vertex[k]] = load.shear_modulus[k];
   }
   const std::vector<LoadedPart> parts = loaded_parts(*prepared, load);
   SkinDisplacement u = skin_displacement(*prepared, skin, load, parts, options.swelling);

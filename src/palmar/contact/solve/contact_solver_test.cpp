@@ -12,6 +12,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/prepared_hand.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
@@ -73,7 +74,7 @@ TEST(CoupledRegions, EachRowHasItsOwnModulus) {
   // One region four times as stiff: it carries more, the soft one less than before, as the stiff
   // one lifts it.
   auto hand = split_ball();
-  auto& stiff = hand->tissue.region[static_cast<std::size_t>(Region::kMiddleMiddle)].half_space;
+  auto& stiff = hand->tissue.region[index_of(Region::kMiddleMiddle)].half_space;
   stiff.nominal = {0.02, 0.38, 4.0};
   const ContactResult even = on_plane(PreparedHand(split_ball()), 2.0);
   const ContactResult uneven = on_plane(PreparedHand(hand), 2.0);
@@ -104,7 +105,7 @@ TEST(ContactBand, SensitivityIsTheSlopeOfTheForce) {
   const ContactResult before = on_plane(PreparedHand(split_ball()), 2.0, options);
   auto hand = split_ball();
   constexpr double kStep = 1e-4;
-  auto& tissue = hand->tissue.region[static_cast<std::size_t>(Region::kMiddleMiddle)].half_space;
+  auto& tissue = hand->tissue.region[index_of(Region::kMiddleMiddle)].half_space;
   tissue.nominal.g0 *= 1.0 + kStep;
   tissue.nominal.g_limit *= 1.0 + kStep;
   const double slope = (on_plane(PreparedHand(hand), 2.0).total.force - before.total.force) / kStep;

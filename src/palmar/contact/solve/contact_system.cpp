@@ -43,16 +43,15 @@ double row_times(const int* column, const float* value, std::size_t count, const
 
 void ContactSystem::assemble(const SkinResponse& response, const std::vector<int>& vertices,
                              const std::vector<Region>* region) {
-  for (const int v : vertex_) local_[static_cast<std::size_t>(v)] = -1;
+  for (const int v : vertex_) local_[v] = -1;
   local_.resize(response.begin.size() - 1, -1);
   vertex_ = vertices;
   for (std::size_t i = 0; i < vertex_.size(); ++i) {
-    local_[static_cast<std::size_t>(vertex_[i])] = static_cast<int>(i);
+    local_[vertex_[i]] = static_cast<int>(i);
   }
   std::size_t most = 0;
   for (const int v : vertex_) {
-    const auto j = static_cast<std::size_t>(v);
-    most += response.begin[j + 1] - response.begin[j];
+    most += response.begin[v + 1] - response.begin[v];
   }
   all_rows_.resize(vertex_.size());
   std::iota(all_rows_.begin(), all_rows_.end(), 0);
@@ -61,16 +60,14 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
   value_.resize(most);
   std::size_t count = 0;
   for (const int v : vertex_) {
-    const auto j = static_cast<std::size_t>(v);
-    const std::size_t end = response.begin[j + 1];
-    for (std::size_t k = response.begin[j]; k < end; ++k) {
+    const std::size_t end = response.begin[v + 1];
+    for (std::size_t k = response.begin[v]; k < end; ++k) {
       // Written in any case, kept only if the vertex takes part: no branch.
       const int w = response.vertex[k];
-      const int row = local_[static_cast<std::size_t>(w)];
+      const int row = local_[w];
       column_[count] = row;
       value_[count] = response.response[k];
-      const bool is_kept =
-          row >= 0 && (region == nullptr || (*region)[static_cast<std::size_t>(w)] == (*region)[j]);
+      const bool is_kept = row >= 0 && (region == nullptr || (*region)[w] == (*region)[v]);
       count += is_kept ? 1 : 0;
     }
     begin_.push_back(count);
@@ -90,8 +87,7 @@ void ContactSystem::assemble_far(const SkinResponse& response) {
   support_.clear();
   support_weight_.clear();
   for (const int v : vertex_) {
-    const auto i = static_cast<std::size_t>(v);
-    for (std::size_t k = response.support_begin[i]; k < response.support_begin[i + 1]; ++k) {
+    for (std::size_t k = response.support_begin[v]; k < response.support_begin[v + 1]; ++k) {
       const auto c = static_cast<std::size_t>(response.support[k]);
       if (local_cluster_[c] < 0) {
         local_cluster_[c] = static_cast<int>(cluster.size());
@@ -107,7 +103,7 @@ void ContactSystem::assemble_far(const SkinResponse& response) {
   far_value_.clear();
   for (const std::size_t c : cluster) {
     for (std::size_t k = response.far.begin[c]; k < response.far.begin[c + 1]; ++k) {
-      const int local = local_cluster_[static_cast<std::size_t>(response.far.vertex[k])];
+      const int local = local_cluster_[response.far.vertex[k]];
       if (local < 0) continue;
       far_column_.push_back(local);
       far_value_.push_back(response.far.response[k]);
@@ -126,10 +122,8 @@ void ContactSystem::add_far(const std::vector<int>& rows, const Force& force,
   for (const int row : rows) {
     const double p = force(row);
     if (p == 0.0) continue;
-    const auto i = static_cast<std::size_t>(row);
-    for (std::size_t k = support_begin_[i]; k < support_begin_[i + 1]; ++k) {
-      cluster_force_[static_cast<std::size_t>(support_[k])] +=
-          p * static_cast<double>(support_weight_[k]);
+    for (std::size_t k = support_begin_[row]; k < support_begin_[row + 1]; ++k) {
+      cluster_force_[support_[k]] += p * static_cast<double>(support_weight_[k]);
     }
   }
   for (std::size_t c = 0; c < clusters; ++c) {
@@ -138,10 +132,9 @@ void ContactSystem::add_far(const std::vector<int>& rows, const Force& force,
                   far_begin_[c + 1] - far_begin_[c], cluster_force_.data());
   }
   for (const int row : rows) {
-    const auto i = static_cast<std::size_t>(row);
-    add(row,
-        row_times(support_.data() + support_begin_[i], support_weight_.data() + support_begin_[i],
-                  support_begin_[i + 1] - support_begin_[i], cluster_moved_.data()));
+    add(row, row_times(support_.data() + support_begin_[row],
+                       support_weight_.data() + support_begin_[row],
+                       support_begin_[row + 1] - support_begin_[row], cluster_moved_.data()));
   }
 }
 
@@ -155,8 +148,8 @@ void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<E
     rows[i].emplace_back(static_cast<int>(i), diagonal[i]);
   }
   for (const Entry& entry : entries) {
-    rows[static_cast<std::size_t>(entry.row)].emplace_back(entry.column, entry.value);
-    rows[static_cast<std::size_t>(entry.column)].emplace_back(entry.row, entry.value);
+    rows[entry.row].emplace_back(entry.column, entry.value);
+    rows[entry.column].emplace_back(entry.row, entry.value);
   }
   has_blocks_ = false;
   column_.clear();
@@ -180,9 +173,7 @@ void ContactSystem::add(const std::vector<double>& diagonal, const std::vector<E
 void ContactSystem::make_blocks() {
   const auto m = static_cast<std::size_t>(size());
   by_patch_ = all_rows_;
-  const auto patch_of = [&](int row) {
-    return patches_->patch[static_cast<std::size_t>(vertex_[static_cast<std::size_t>(row)])];
-  };
+  const auto patch_of = [&](int row) { return patches_->patch[vertex_[row]]; };
   std::stable_sort(by_patch_.begin(), by_patch_.end(),
                    [&](int a, int b) { return patch_of(a) < patch_of(b); });
   std::vector<Place> place(m);
@@ -193,42 +184,38 @@ void ContactSystem::make_blocks() {
       sizes.push_back(0);
       first_.push_back(k);
     }
-    place[static_cast<std::size_t>(by_patch_[k])] = {static_cast<int>(sizes.size()) - 1,
-                                                     sizes.back()++};
+    place[by_patch_[k]] = {static_cast<int>(sizes.size()) - 1, sizes.back()++};
   }
   first_.push_back(m);
   all_.begin(sizes);
   const int blocks = static_cast<int>(sizes.size());
   const auto for_entries = [&](int block, const auto& visit) {
-    const std::size_t first = first_[static_cast<std::size_t>(block)];
-    for (std::size_t s = first; s < first_[static_cast<std::size_t>(block) + 1]; ++s) {
-      const auto i = static_cast<std::size_t>(by_patch_[s]);
+    const std::size_t first = first_[block];
+    for (std::size_t s = first; s < first_[block + 1]; ++s) {
+      const int i = by_patch_[s];
       for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-        visit(s - first, place[static_cast<std::size_t>(column_[k])], k);
+        visit(s - first, place[column_[k]], k);
       }
     }
   };
   std::vector<char> is_met(sizes.size());
   for (int block = 0; block < blocks; ++block) {
     is_met.assign(sizes.size(), 0);
-    for_entries(block, [&](std::size_t, const Place& column, std::size_t) {
-      is_met[static_cast<std::size_t>(column.block)] = 1;
-    });
+    for_entries(block,
+                [&](std::size_t, const Place& column, std::size_t) { is_met[column.block] = 1; });
     for (int other = 0; other < blocks; ++other) {
-      if (is_met[static_cast<std::size_t>(other)]) all_.add_block(block, other);
+      if (is_met[other]) all_.add_block(block, other);
     }
   }
   all_.allocate();
   std::vector<float*> values(sizes.size(), nullptr);
   for (int block = 0; block < blocks; ++block) {
     for (int other = 0; other < blocks; ++other) {
-      values[static_cast<std::size_t>(other)] =
-          all_.has_block(block, other) ? all_.values(block, other) : nullptr;
+      values[other] = all_.has_block(block, other) ? all_.values(block, other) : nullptr;
     }
     const std::size_t stride = all_.stride(block);
     for_entries(block, [&](std::size_t i, const Place& column, std::size_t k) {
-      values[static_cast<std::size_t>(column.block)]
-            [static_cast<std::size_t>(column.inside) * stride + i] = value_[k];
+      values[column.block][static_cast<std::size_t>(column.inside) * stride + i] = value_[k];
     });
   }
 }
@@ -245,8 +232,8 @@ bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
     kept_[b].clear();
     for (std::size_t s = first_[b]; s < first_[b + 1]; ++s) {
       const int row = by_patch_[s];
-      if (!in_contact[static_cast<std::size_t>(row)]) continue;
-      place_[static_cast<std::size_t>(row)] = {block, static_cast<int>(kept_[b].size())};
+      if (!in_contact[row]) continue;
+      place_[row] = {block, static_cast<int>(kept_[b].size())};
       kept_[b].push_back(static_cast<int>(s - first_[b]));
       set_.push_back(row);
     }
@@ -260,16 +247,16 @@ bool ContactSystem::correct(double tolerance, const std::vector<double>& residua
                             std::vector<double>& x, int& iterations) {
   double scale = 0.0;
   for (const int i : set_) {
-    scale = std::max(scale, std::abs(residual[static_cast<std::size_t>(i)]));
+    scale = std::max(scale, std::abs(residual[i]));
   }
   if (scale == 0.0) return true;
   right_.assign(matrix_.padded_size(), 0.0F);
   const auto at = [&](int i) {
-    const Place& place = place_[static_cast<std::size_t>(i)];
+    const Place& place = place_[i];
     return matrix_.row(place.block, place.inside);
   };
   for (const int i : set_) {
-    right_[at(i)] = static_cast<float>(-residual[static_cast<std::size_t>(i)] / scale);
+    right_[at(i)] = static_cast<float>(-residual[i] / scale);
   }
   BlockMatrix::AddProduct far;
   if (has_far_) {
@@ -281,7 +268,7 @@ bool ContactSystem::correct(double tolerance, const std::vector<double>& residua
   }
   if (!matrix_.solve(right_, tolerance, step_, iterations, far)) return false;
   for (const int i : set_) {
-    x[static_cast<std::size_t>(i)] += scale * static_cast<double>(step_[at(i)]);
+    x[i] += scale * static_cast<double>(step_[at(i)]);
   }
   return true;
 }
@@ -295,8 +282,7 @@ void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<doubl
   }
   if (!has_far_) return;
   add_far(
-      all_rows_, [&](int row) { return p[static_cast<std::size_t>(row)]; },
-      [&](int row, double moved) { s[static_cast<std::size_t>(row)] += moved; });
+      all_rows_, [&](int row) { return p[row]; }, [&](int row, double moved) { s[row] += moved; });
 }
 
 void ContactSystem::measure(const std::vector<double>& b, const std::vector<double>& force,
@@ -323,8 +309,7 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
   problem.response = Eigen::MatrixXd::Zero(m, m);
   problem.distance = Eigen::Map<const Eigen::VectorXd>(b.data(), m);
   for (int i = 0; i < m; ++i) {
-    for (std::size_t k = begin_[static_cast<std::size_t>(i)];
-         k < begin_[static_cast<std::size_t>(i) + 1]; ++k) {
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       problem.response(column_[k], i) = value_[k];
     }
   }
@@ -333,8 +318,8 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
   outcome.pivots += solution.pivots;
   if (solution.status != LcpStatus::kSolved) return false;
   for (int i = 0; i < m; ++i) {
-    force[static_cast<std::size_t>(i)] = solution.force[i];
-    in_contact[static_cast<std::size_t>(i)] = solution.force[i] > 0.0;
+    force[i] = solution.force[i];
+    in_contact[i] = solution.force[i] > 0.0;
   }
   measure(b, force, gap, outcome);
   return true;
@@ -357,7 +342,7 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
   };
   const auto error_on_set = [&] {
     double most = 0.0;
-    for (const int i : set_) most = std::max(most, std::abs(gap[static_cast<std::size_t>(i)]));
+    for (const int i : set_) most = std::max(most, std::abs(gap[i]));
     return most;
   };
   bool is_regular = true;
@@ -403,7 +388,7 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
       infeasible = {infeasible.back()};
     }
     for (const int i : infeasible) {
-      in_contact[static_cast<std::size_t>(i)] = !in_contact[static_cast<std::size_t>(i)];
+      in_contact[i] = !in_contact[i];
     }
   }
   force.assign(m, 0.0);
@@ -423,8 +408,8 @@ std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<cha
     multiply_all(x, residual);
     double error = 0.0;
     for (const int i : set_) {
-      double& r = residual[static_cast<std::size_t>(i)];
-      r -= right[static_cast<std::size_t>(i)];
+      double& r = residual[i];
+      r -= right[i];
       error = std::max(error, std::abs(r));
     }
     if (error <= kLast * scale) break;

@@ -25,21 +25,18 @@ struct Square {
     const int n = skin.vertex_count();
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
-        const double r = (skin.position[static_cast<std::size_t>(i)] -
-                          skin.position[static_cast<std::size_t>(j)])
-                             .norm();
+        const double r = (skin.position[i] - skin.position[j]).norm();
         if (r > 12.0) continue;
         // Cubically faded: the matrix stays positive definite.
         const double fade = 1.0 - std::pow(r / 12.0, 3);
         response.vertex.push_back(i);
         response.distance.push_back(static_cast<float>(r));
         response.response.push_back(static_cast<float>(
-            fade * boussinesq_response(Kernel::kPatch, r, skin.radius[static_cast<std::size_t>(i)],
-                                       skin.radius[static_cast<std::size_t>(j)])));
+            fade * boussinesq_response(Kernel::kPatch, r, skin.radius[i], skin.radius[j])));
       }
       response.begin.push_back(response.vertex.size());
     }
-    all.resize(static_cast<std::size_t>(n));
+    all.resize(n);
     std::iota(all.begin(), all.end(), 0);
   }
 
@@ -68,17 +65,17 @@ const Square& square() {
 
 TEST(SkinPatches, CoverEveryVertexWithConnectedParts) {
   const SkinPatches& patches = square().patches;
-  std::vector<int> members(static_cast<std::size_t>(patches.count), 0);
+  std::vector<int> members(patches.count, 0);
   for (const int p : patches.patch) {
     ASSERT_GE(p, 0);
     ASSERT_LT(p, patches.count);
-    ++members[static_cast<std::size_t>(p)];
+    ++members[p];
   }
   for (int p = 0; p < patches.count; ++p) {
-    EXPECT_LE(members[static_cast<std::size_t>(p)], 24);
+    EXPECT_LE(members[p], 24);
     std::vector<int> own;
     for (const int v : square().all) {
-      if (patches.patch[static_cast<std::size_t>(v)] == p) own.push_back(v);
+      if (patches.patch[v] == p) own.push_back(v);
     }
     EXPECT_EQ(connected_parts(square().skin, own).size(), 1U);
   }

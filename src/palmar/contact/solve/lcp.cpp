@@ -145,11 +145,11 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
 
   // Under a smooth product the contact ends where the penetration is half the deepest (Hertz: at
   // r^2 = R depth); to start there instead of with all penetrating vertices halves the first block.
-  std::vector<char> in_contact(static_cast<std::size_t>(m));
+  std::vector<char> in_contact(m);
   const double start = m > 0 ? 0.5 * std::min(0.0, problem.distance.minCoeff()) : 0.0;
   for (Eigen::Index i = 0; i < m; ++i) in_contact[i] = problem.distance[i] < start;
   // The deepest first: what is exchanged stands near the end, so that most of the factor stays.
-  std::vector<int> by_depth(static_cast<std::size_t>(m));
+  std::vector<int> by_depth(m);
   std::iota(by_depth.begin(), by_depth.end(), 0);
   const auto outside = std::stable_partition(by_depth.begin(), by_depth.end(),
                                              [&](int i) { return problem.distance[i] < 0.0; });

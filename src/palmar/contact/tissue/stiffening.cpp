@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -19,7 +21,7 @@ Laws laws_of(const RegionTissue& tissue, TissueModel model) {
       model == TissueModel::kLayered ? tissue.layered : tissue.half_space;
   Laws laws;
   for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
-    laws[static_cast<std::size_t>(level)] = law_at(stiffness, level);
+    laws[index_of(level)] = law_at(stiffness, level);
   }
   return laws;
 }
@@ -29,12 +31,11 @@ Laws blended(const Hand& hand, const SkinGeometry& skin, const SkinResponse& res
              const std::array<Laws, kRegionCount>& by_region, int vertex) {
   std::array<double, kRegionCount> weight{};  // of each region's law
   double weights = 0.0;
-  const auto j = static_cast<std::size_t>(vertex);
-  for (std::size_t k = response.begin[j]; k < response.begin[j + 1]; ++k) {
+  for (std::size_t k = response.begin[vertex]; k < response.begin[vertex + 1]; ++k) {
     if (response.distance[k] >= kBlendWidth) continue;
-    const auto i = static_cast<std::size_t>(response.vertex[k]);
+    const int i = response.vertex[k];
     const double w = skin.area[i] * (1.0 - static_cast<double>(response.distance[k] / kBlendWidth));
-    weight[static_cast<std::size_t>(hand.region[i])] += w;
+    weight[index_of(hand.region[i])] += w;
     weights += w;
   }
   Laws result{};
@@ -70,7 +71,7 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
   for (std::size_t v = 0; v < count; ++v) {
     const Laws laws = model.coupling == RegionCoupling::kCoupled
                           ? blended(hand, skin, response, by_region, static_cast<int>(v))
-                          : by_region[static_cast<std::size_t>(hand.region[v])];
+                          : by_region[index_of(hand.region[v])];
     for (std::size_t level = 0; level < laws.size(); ++level) result.law[level][v] = laws[level];
   }
   result.finger.assign(count, -1);
@@ -82,13 +83,13 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
   result.spot_centre = centres(skin, result.spots);
   result.spot_finger.assign(result.spot_centre.size(), -1);
   for (std::size_t v = count; v-- > 0;) {
-    result.spot_finger[static_cast<std::size_t>(result.spots.patch[v])] = result.finger[v];
+    result.spot_finger[result.spots.patch[v]] = result.finger[v];
   }
   result.blocks = blocks;
   result.block_centre = centres(skin, blocks);
   result.block_radius.assign(result.block_centre.size(), 0.0F);
   for (std::size_t v = 0; v < count; ++v) {
-    const auto b = static_cast<std::size_t>(blocks.patch[v]);
+    const int b = blocks.patch[v];
     const float r = (skin.position[v].cast<float>() - result.block_centre[b]).norm();
     result.block_radius[b] = std::max(result.block_radius[b], r);
   }
@@ -98,28 +99,25 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
 std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeometry& skin,
                                 const std::vector<int>& vertices, const std::vector<int>& collision,
                                 const std::vector<DistanceSample>& sample) {
-  std::vector<float> deepest(static_cast<std::size_t>(stiffness.spots.count), 0.0F);
+  std::vector<float> deepest(stiffness.spots.count, 0.0F);
   std::vector<std::size_t> touched;
   for (const int v : collision) {
-    const auto s = static_cast<std::size_t>(stiffness.spots.patch[static_cast<std::size_t>(v)]);
+    const auto s = static_cast<std::size_t>(stiffness.spots.patch[v]);
     if (deepest[s] == 0.0F) touched.push_back(s);
-    deepest[s] =
-        std::max(deepest[s], static_cast<float>(-sample[static_cast<std::size_t>(v)].distance));
+    deepest[s] = std::max(deepest[s], static_cast<float>(-sample[v].distance));
   }
   // Vertices patch by patch, positions apart by coordinate: vector instructions.
   const std::size_t n = vertices.size();
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  const auto block_of = [&](int k) {
-    return stiffness.blocks.patch[static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)])];
-  };
+  const auto block_of = [&](int k) { return stiffness.blocks.patch[vertices[k]]; };
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return block_of(a) < block_of(b); });
   std::vector<float> x(n), y(n), z(n), depth(n, 0.0F);
   std::vector<int> finger(n);
   std::vector<std::size_t> first;  // of each patch
   for (std::size_t k = 0; k < n; ++k) {
-    const auto v = static_cast<std::size_t>(vertices[static_cast<std::size_t>(order[k])]);
+    const int v = vertices[order[k]];
     x[k] = static_cast<float>(skin.position[v].x());
     y[k] = static_cast<float>(skin.position[v].y());
     z[k] = static_cast<float>(skin.position[v].z());
@@ -133,7 +131,7 @@ std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeomet
     const float d = deepest[s];
     const int own = stiffness.spot_finger[s];
     for (std::size_t p = 0; p + 1 < first.size(); ++p) {
-      const auto b = static_cast<std::size_t>(block_of(order[first[p]]));
+      const auto b = block_of(order[first[p]]);
       const float near = kEnd + stiffness.block_radius[b];
       if ((c - stiffness.block_centre[b]).squaredNorm() > near * near) continue;
       for (std::size_t k = first[p]; k < first[p + 1]; ++k) {
@@ -151,8 +149,8 @@ std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeomet
   std::vector<double> result(n);
   for (std::size_t k = 0; k < n; ++k) {
     // A vertex's own penetration is beyond doubt; its spot's centre may be a little away.
-    const auto place = static_cast<std::size_t>(order[k]);
-    const auto v = static_cast<std::size_t>(vertices[place]);
+    const int place = order[k];
+    const int v = vertices[place];
     result[place] = std::max(static_cast<double>(depth[k]), -sample[v].distance);
   }
   return result;

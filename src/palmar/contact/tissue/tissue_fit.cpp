@@ -9,9 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
@@ -30,13 +30,6 @@ constexpr double kSingular = 1e-10;        // eigenvalue of the scaled normal ma
 constexpr double kLeastReading = 0.02;     // share of the largest force; below it relative errors
                                            // say little
 constexpr int kGridDepths = 16;
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 /// Readings, what the specimen answers at their depths, and the residuals of a set of unknowns.
 class Model {
@@ -62,8 +55,8 @@ class Model {
   const std::vector<double>& depths() const { return depths_; }
   double deepest() const { return depths_.back(); }
   bool is_layer_fitted() const { return is_layer_fitted_; }
-  double lower(int unknown) const { return lower_[static_cast<std::size_t>(unknown)]; }
-  double upper(int unknown) const { return upper_[static_cast<std::size_t>(unknown)]; }
+  double lower(int unknown) const { return lower_[unknown]; }
+  double upper(int unknown) const { return upper_[unknown]; }
   std::size_t size() const { return points_.size(); }
   int areas_counted() const { return areas_counted_; }
 
@@ -94,12 +87,11 @@ class Model {
     const double limit = std::exp(x[kLimitDepth]);
     Eigen::Index row = n;
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const MeasuredPoint& point = points_[i];
-      const PowerCurve::Value f = unit_force(i, x[kThickness]);
+      const MeasuredPoint& point = points_[k];
+      const PowerCurve::Value f = unit_force(k, x[kThickness]);
       const double m = std::min(1.0, point.depth / limit);
       const double modulus = g0 * (1.0 + (rho - 1.0) * m);
-      const double scale = force_scale_[i] * force_weight_;
+      const double scale = force_scale_[k] * force_weight_;
       r[k] = scale * (modulus * f.y - point.force);
       if (jacobian != nullptr) {
         (*jacobian)(k, kG0) = scale * modulus * f.y;
@@ -108,8 +100,8 @@ class Model {
         (*jacobian)(k, kThickness) = scale * modulus * f.y * f.slope;
       }
       if (areas_counted_ == 0 || !point.area) continue;
-      const PowerCurve::Value a = area(i, x[kThickness]);
-      const double area_scale = area_scale_[i] * area_weight_;
+      const PowerCurve::Value a = area(k, x[kThickness]);
+      const double area_scale = area_scale_[k] * area_weight_;
       r[row] = area_scale * (a.y - *point.area);
       if (jacobian != nullptr) (*jacobian)(row, kThickness) = area_scale * a.y * a.slope;
       ++row;
@@ -175,10 +167,11 @@ class Model {
     constexpr double kSlack = 1e-9;
     if (depths_.front() < response.depth.front() * (1.0 - kSlack) ||
         depths_.back() > response.depth.back() * (1.0 + kSlack)) {
-      throw UsageError("fit: readings from " + number(depths_.front()) + " to " +
-                       number(depths_.back()) + " mm; the specimen's response is known from " +
-                       number(response.depth.front()) + " to " + number(response.depth.back()) +
-                       " mm");
+      throw UsageError("fit: readings from " + significant(depths_.front(), 3) + " to " +
+                       significant(depths_.back(), 3) +
+                       " mm; the specimen's response is known from " +
+                       significant(response.depth.front(), 3) + " to " +
+                       significant(response.depth.back(), 3) + " mm");
     }
     const double force_rms = std::sqrt(force_sum / static_cast<double>(points_.size()));
     const double area_rms = areas > 0 ? std::sqrt(area_sum / areas) : 1.0;
@@ -239,7 +232,7 @@ struct Solved {
 std::vector<int> free_unknowns(const Mask& mask) {
   std::vector<int> list;
   for (int k = 0; k < kUnknowns; ++k) {
-    if (mask[static_cast<std::size_t>(k)]) list.push_back(k);
+    if (mask[k]) list.push_back(k);
   }
   return list;
 }
@@ -252,15 +245,15 @@ Solved descend(const Model& model, const Unknowns& start, const Mask& mask) {
   problem.upper.resize(n);
   Eigen::VectorXd from(n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    const int k = free[static_cast<std::size_t>(j)];
+    const int k = free[j];
     problem.lower[j] = model.lower(k);
     problem.upper[j] = model.upper(k);
-    from[j] = start[static_cast<std::size_t>(k)];
+    from[j] = start[k];
   }
   const auto whole = [&](const Eigen::VectorXd& x) {
     Unknowns all = start;
     for (Eigen::Index j = 0; j < n; ++j) {
-      all[static_cast<std::size_t>(free[static_cast<std::size_t>(j)])] = x[j];
+      all[free[j]] = x[j];
     }
     return all;
   };
@@ -270,7 +263,7 @@ Solved descend(const Model& model, const Unknowns& start, const Mask& mask) {
     if (jacobian == nullptr) return;
     jacobian->resize(r.size(), n);
     for (Eigen::Index j = 0; j < n; ++j) {
-      jacobian->col(j) = all.col(free[static_cast<std::size_t>(j)]);
+      jacobian->col(j) = all.col(free[j]);
     }
   };
   Solved solved;
@@ -446,15 +439,15 @@ class Fit {
   }
 
   bool is_at_bound(int unknown) const {
-    const double x = solved_.x[static_cast<std::size_t>(unknown)];
+    const double x = solved_.x[unknown];
     const double tiny = 1e-6 * (model_.upper(unknown) - model_.lower(unknown));
     return x <= model_.lower(unknown) + tiny || x >= model_.upper(unknown) - tiny;
   }
 
   void hold(int unknown, double log_value) {
-    solved_.x[static_cast<std::size_t>(unknown)] = log_value;
+    solved_.x[unknown] = log_value;
     Mask mask = solved_.is_free;
-    mask[static_cast<std::size_t>(unknown)] = false;
+    mask[unknown] = false;
     solved_ = descend(model_, solved_.x, mask);
     confidence_ = confidence_of(solved_, options_.confidence);
   }
@@ -477,10 +470,10 @@ class Fit {
     }
     remark_[kLimitDepth] =
         limit >= 0.98 * deepest
-            ? "the readings still stiffen at their deepest point, " + number(deepest) +
+            ? "the readings still stiffen at their deepest point, " + significant(deepest, 3) +
                   " mm: held there, and G_lim is the modulus there"
             : "the readings don't show where stiffening ends: held at their deepest point, " +
-                  number(deepest) + " mm";
+                  significant(deepest, 3) + " mm";
     hold(kLimitDepth, std::log(deepest));
   }
 
@@ -490,7 +483,7 @@ class Fit {
     fit_.iterations = numbers.iterations;
     fit_.degrees_of_freedom = confidence_.degrees_of_freedom;
     for (const int k : free_unknowns(solved_.is_free)) {
-      fit_.fitted.emplace_back(k == kRho ? "G_lim/G0" : kNames[static_cast<std::size_t>(k)]);
+      fit_.fitted.emplace_back(k == kRho ? "G_lim/G0" : kNames[k]);
     }
     fit_.correlation = confidence_.correlation;
     fit_.eigenvalues = confidence_.eigenvalues;
@@ -506,7 +499,7 @@ class Fit {
       fit_.remarks.insert(fit_.remarks.begin(), "The fit did not converge: don't use its numbers.");
     }
     if (fit_.area_ratio && std::abs(*fit_.area_ratio - 1.0) > 0.15) {
-      fit_.remarks.push_back("Measured areas are " + number(*fit_.area_ratio) +
+      fit_.remarks.push_back("Measured areas are " + significant(*fit_.area_ratio, 3) +
                              " times those of the model. Area doesn't depend on the modulus: "
                              "specimen, indenter, first touch or layer differ from the test.");
     }
@@ -553,28 +546,27 @@ class Fit {
     const std::array<double, kUnknowns> value = {1000.0 * law.g0, 1000.0 * law.g_limit,
                                                  law.limit_depth, thickness};
     for (int k = 0; k < kUnknowns; ++k) {
-      const auto j = static_cast<std::size_t>(k);
-      if (k == kThickness && !mask_[j]) continue;
+      if (k == kThickness && !mask_[k]) continue;
       FittedParameter one;
-      one.name = kNames[j];
+      one.name = kNames[k];
       one.unit = k == kG0 || k == kRho ? "kPa" : "mm";
-      one.value = value[j];
-      one.remark = remark_[j];
+      one.value = value[k];
+      one.remark = remark_[k];
       const std::optional<double> width =
-          solved_.is_free[j] || k == kG0 ? half_width(k) : std::nullopt;
-      if (!mask_[j]) {
+          solved_.is_free[k] || k == kG0 ? half_width(k) : std::nullopt;
+      if (!mask_[k]) {
         one.status = ParameterStatus::kHeld;
         one.remark = k == kRho              ? "equal to G0: one modulus was asked for"
                      : options_.is_constant ? "it has no meaning with one modulus"
                                             : "given, not fitted";
-      } else if (!solved_.is_free[j]) {
+      } else if (!solved_.is_free[k]) {
         one.status = ParameterStatus::kNotIdentifiable;
       } else if (width) {
         one.lower = one.value * std::exp(-*width);
         one.upper = one.value * std::exp(*width);
         if (is_at_bound(k)) {
           one.status = ParameterStatus::kNotIdentifiable;
-          one.remark = k == kThickness && solved_.x[j] > 0.5 * (model_.lower(k) + model_.upper(k))
+          one.remark = k == kThickness && solved_.x[k] > 0.5 * (model_.lower(k) + model_.upper(k))
                            ? "the readings see no bone: a half-space fits as well"
                            : "it stands at the end of what is tried";
         } else if (!(*width < std::log(kWidestFactor))) {
@@ -702,19 +694,19 @@ class Fit {
 
 void TissueFitOptions::check() const {
   if (limit_depth && !(*limit_depth > 0.0 && *limit_depth <= kMaxTissueLength)) {
-    throw UsageError("fit: limit depth is " + number(*limit_depth) +
-                     " mm; more than 0 and at most " + number(kMaxTissueLength) +
+    throw UsageError("fit: limit depth is " + significant(*limit_depth, 3) +
+                     " mm; more than 0 and at most " + significant(kMaxTissueLength, 3) +
                      " mm is required");
   }
   if (!(confidence > 0.0 && confidence < 1.0)) {
-    throw UsageError("fit: confidence is " + number(confidence) +
+    throw UsageError("fit: confidence is " + significant(confidence, 3) +
                      "; more than 0 and less than 1 is required");
   }
   if (start && !(start->g0 > 0.0 && start->g_limit > 0.0 && start->limit_depth > 0.0)) {
     throw UsageError("fit: the start has a modulus or limit depth of 0 or less");
   }
   if (start_thickness && !(*start_thickness > 0.0)) {
-    throw UsageError("fit: the start's thickness is " + number(*start_thickness) +
+    throw UsageError("fit: the start's thickness is " + significant(*start_thickness, 3) +
                      " mm; more than 0 is required");
   }
 }
@@ -727,8 +719,9 @@ TissueFit fit_tissue(const std::vector<MeasuredPoint>& points, const SpecimenRes
   for (const MeasuredPoint& point : points) {
     if (!(point.depth > 0.0 && point.force >= 0.0 && point.weight > 0.0)) {
       throw InputError("fit: line " + std::to_string(point.line) + " has depth " +
-                       number(point.depth) + " mm, force " + number(point.force) + " N, weight " +
-                       number(point.weight) + "; a depth and weight above 0 are required");
+                       significant(point.depth, 3) + " mm, force " + significant(point.force, 3) +
+                       " N, weight " + significant(point.weight, 3) +
+                       "; a depth and weight above 0 are required");
     }
     most = std::max(most, point.force);
   }

@@ -31,8 +31,8 @@ SpecimenResponse hertz_response(const std::vector<double>& depths) {
   response.force.resize(n, 1);
   response.area.resize(n, 1);
   for (Eigen::Index i = 0; i < n; ++i) {
-    response.force(i, 0) = hertz_force(depths[static_cast<std::size_t>(i)]);
-    response.area(i, 0) = hertz_area(depths[static_cast<std::size_t>(i)]);
+    response.force(i, 0) = hertz_force(depths[i]);
+    response.area(i, 0) = hertz_area(depths[i]);
   }
   return response;
 }
@@ -305,9 +305,8 @@ TEST(TissueFit, ALayerThatIsNotThereIsNotIdentifiable) {
   response.area.resize(8, 5);
   for (Eigen::Index i = 0; i < 8; ++i) {
     for (Eigen::Index j = 0; j < 5; ++j) {
-      const double depth = depths[static_cast<std::size_t>(i)];
-      const double chi =
-          std::sqrt(kRadius * depth) / response.thickness[static_cast<std::size_t>(j)];
+      const double depth = depths[i];
+      const double chi = std::sqrt(kRadius * depth) / response.thickness[j];
       // First terms of the table: 1.129 and 1.041 at chi = 0.1.
       response.force(i, j) = hertz_force(depth) * (1.0 + 1.29 * chi);
       response.area(i, j) = hertz_area(depth) * std::pow(1.0 + 0.41 * chi, 2);
@@ -370,7 +369,7 @@ TEST(PowerCurve, IsExactForPowersAndGivesItsOwnSlope) {
   const std::vector<double> x = {0.5, 1.0, 3.0, 10.0};
   Eigen::VectorXd power(4), other(4);
   for (Eigen::Index i = 0; i < 4; ++i) {
-    const double at = x[static_cast<std::size_t>(i)];
+    const double at = x[i];
     power[i] = 3.0 * std::pow(at, 1.5);
     other[i] = std::exp(0.1 * at) + at;
   }

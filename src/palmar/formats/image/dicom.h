@@ -46,7 +46,7 @@ struct ImageFile {
   std::vector<std::string> odd_slices;
 };
 
-/// Reads a folder of DICOM files, or a NIfTI (.nii, .nii.gz) or NRRD file. Throws InputError naming
+/// Reads a folder of DICOM files, or a NIfTI file (.nii, .nii.gz). Throws InputError naming
 /// file and place for: missing or doubled slices, mixed series, several that fit the choice (all
 /// named), colour, compression that can't be read, a truncated slice, axes that aren't square.
 ImageFile read_image(const std::string& path, const SeriesChoice& choice = {},
@@ -66,7 +66,7 @@ struct DicomHeader {
 /// bytes. `folder` is created; throws OutputError.
 void write_dicom_series(const std::string& folder, const Volume& image, const DicomHeader& header);
 
-/// Writes NIfTI or NRRD, by the ending of `path`.
+/// Writes NIfTI, gzipped if `path` says so.
 void write_image(const std::string& path, const Volume& image);
 
 }  // namespace palmar

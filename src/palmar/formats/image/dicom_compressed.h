@@ -2,28 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "palmar/core/progress.h"
 #include "palmar/formats/image/dicom_slice.h"
 
 namespace palmar {
 
-/// Name of a transfer syntax whose pixels are compressed in a way that isn't read ("JPEG 2000"); ""
-/// for RLE and lossless JPEG, which are.
+/// Name of a transfer syntax whose pixels are compressed in a way that isn't read ("MPEG-2"); ""
+/// for run lengths (RLE), JPEG, JPEG-LS and JPEG 2000, which are.
 std::string unread_compression(std::string_view transfer_syntax);
 
-/// Pixels of a slice in fragments, as an uncompressed file would have them: little-endian, row by
-/// row. Throws InputError naming the file if they are damaged, cut off or of another size.
+/// Pixels of slices in fragments, as an uncompressed file would have them: little-endian, row by
+/// row; by the slice's name. All have one transfer syntax or are grouped by it.
+///
+/// GDCM unpacks them in a child process, palmar-dicom, with limits of time and memory: some damaged
+/// streams crash its decoders. Throws InputError naming the file if pixels are damaged, cut off or
+/// of another size, if the child crashes on them or needs more than its limits (30 s and 10 s for a
+/// million pixels; 1 GB and four times the pixels); ProgramMissing if the program isn't there. Run
+/// lengths are unpacked here: GDCM crashes on more damaged ones than on any other kind.
 ///
 /// Source: DICOM PS3.5, A.4 (fragments), annex G (RLE).
-std::string decompressed_pixels(const DicomSlice& slice, std::string_view file);
-
-/// Lossless JPEG of one component, 2 to 16 bits: samples row by row. Throws InputError that begins
-/// with `name`.
-///
-/// Source: ITU-T T.81 (1992), annexes B.2, F.2.2 (Huffman codes) and H (lossless mode).
-std::vector<std::uint16_t> lossless_jpeg(std::string_view bytes, int columns, int rows,
-                                         const std::string& name);
+std::map<std::string, std::string> unpacked_pixels(const std::vector<DicomSlice>& slices,
+                                                   const Progress& progress = {});
 
 }  // namespace palmar

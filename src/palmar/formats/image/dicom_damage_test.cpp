@@ -98,13 +98,42 @@ TEST(DicomDamage, WhatIsNoGreyVolumeIsNamed) {
                 file.text(0x00280004, "CS", "RGB");
               }),
               HasSubstr("2.dcm: is a colour image (RGB); grey values are required"));
-  EXPECT_THAT(with_changed_slice([](DicomTestFile& file) { file.text(0x00280008, "IS", "60"); }),
-              HasSubstr("2.dcm: holds 60 frames"));
+  EXPECT_THAT(
+      with_changed_slice([](DicomTestFile& file) { file.text(0x00280008, "IS", "60"); }),
+      HasSubstr(
+          "2.dcm (frame 1): is cut off: 60 frames of 4 x 3 pixels of 16 bits need 1440 bytes, 24 "
+          "are there"));
   EXPECT_THAT(
       with_changed_slice([](DicomTestFile& file) { file.transfer_syntax = "1.2.840.10008.1.2.2"; }),
       HasSubstr("2.dcm: is big-endian, which isn't read"));
   EXPECT_THAT(with_changed_slice([](DicomTestFile& file) { file.element.erase(0x7FE00010); }),
               HasSubstr("2.dcm: holds no pixels"));
+}
+
+TEST(DicomDamage, FramesWithoutAPlaceAreNamed) {
+  const TestFolder folder;
+  const auto message = [&](const DicomTestFile& file) {
+    file.write(folder / "s/all.dcm");
+    return message_for(folder / "s");
+  };
+  DicomTestFile file = multi_frame_file(4, 3, {0.0, 1.0, 2.0});
+  file.text(0x00280008, "IS", "2");
+  EXPECT_THAT(message(file),
+              HasSubstr("all.dcm (frame 1): holds 2 frames and says of 3 where they lie"));
+  file = multi_frame_file(4, 3, {0.0, 1.0, 2.0});
+  file.element.erase(0x52009229);
+  EXPECT_THAT(message(file), HasSubstr("all.dcm (frame 1): has no Image Orientation"));
+  EXPECT_THAT(message(multi_frame_file(4, 3, {0.0, 1.0, 2.4, 3.0})), HasSubstr("unevenly spaced"));
+  const std::string whole = multi_frame_file(4, 3, {0.0, 1.0, 2.0}).bytes();
+  std::mt19937 random(2);
+  for (int n = 0; n < 300; ++n) {
+    std::string bytes = whole;
+    for (int m = 0; m < 3; ++m)
+      bytes[128 + random() % (bytes.size() - 128)] = static_cast<char>(random());
+    if (n % 5 == 0) bytes.resize(random() % bytes.size() + 1);
+    std::ofstream(folder / "s/all.dcm", std::ios::binary) << bytes;
+    message_for(folder / "s");  // reads, or throws InputError
+  }
 }
 
 TEST(DicomDamage, TagsThatCannotBeAreNamed) {

@@ -15,7 +15,14 @@ namespace {
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr DicomTag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 constexpr DicomTag kPixelData = 0x7FE00010;
+constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 constexpr int kDeepestSequence = 32;
+
+/// Sequences within the groups that say something of a frame's place or values: plane position and
+/// orientation, pixel measures, pixel value transformation.
+bool is_group_read(DicomTag tag) {
+  return tag == 0x00209113 || tag == 0x00209116 || tag == 0x00289110 || tag == 0x00289145;
+}
 
 std::string name_of(DicomTag tag) {
   return fmt::format("({:04X},{:04X})", tag >> 16, tag & 0xFFFF);
@@ -147,6 +154,10 @@ class ElementWalk {
       stopped_ = true;
       return;
     }
+    if (head->tag == kSharedGroups || head->tag == kFrameGroups) {
+      read_groups(*head);
+      return;
+    }
     if (head->length == kUndefined) {
       pass_sequence(is_explicit_ && head->vr != "UN", 0);
       return;
@@ -160,6 +171,63 @@ class ElementWalk {
       position_ += head->length;
     } else if (has(head->length, "an element")) {
       take(*head);
+    }
+  }
+
+  /// Where a sequence or item of this length ends at the latest.
+  std::uint64_t end_of(const ElementHead& head) {
+    if (head.length == kUndefined) return file_bytes_;
+    if (head.length <= file_bytes_ - position_) return position_ + head.length;
+    fail(fmt::format("element {} ends behind the file", name_of(head.tag)));
+    return position_;
+  }
+
+  /// Calls take(end) at the content of every item of a sequence.
+  template <typename Take>
+  void read_items(const ElementHead& sequence, const Take& take) {
+    const std::uint64_t end = end_of(sequence);
+    while (!stopped_ && position_ < end) {
+      const auto item = read_head(is_explicit_);
+      if (!item || item->tag == kSequenceEnd) return;
+      if (item->tag != kItem) {
+        return fail(fmt::format("element {} stands where an item belongs", name_of(item->tag)));
+      }
+      take(end_of(*item));
+    }
+  }
+
+  /// Functional groups: of all frames together, or one item for each frame.
+  void read_groups(const ElementHead& sequence) {
+    read_items(sequence, [&](std::uint64_t end) {
+      if (sequence.tag == kSharedGroups) return read_item(end, false, 0, result_.shared);
+      if (result_.frame.size() >= kMostDicomFrames) {
+        return fail(fmt::format("holds more than {} frames", kMostDicomFrames));
+      }
+      read_item(end, false, 0, result_.frame.emplace_back());
+    });
+  }
+
+  /// Elements of an item; kept if the sequence around it is one that is read.
+  void read_item(std::uint64_t end, bool is_kept, int depth, DicomAttributes& into) {
+    if (depth >= kDeepestSequence) return fail("sequences are nested too deeply");
+    while (!stopped_ && position_ < end) {
+      const auto head = read_head(is_explicit_);
+      if (!head || head->tag == kItemEnd) return;
+      if (is_group_read(head->tag)) {
+        read_items(*head,
+                   [&](std::uint64_t item_end) { read_item(item_end, true, depth + 1, into); });
+      } else if (head->length == kUndefined) {
+        pass_sequence(is_explicit_ && head->vr != "UN", depth);
+      } else {
+        const std::uint64_t behind = end_of(*head);
+        if (stopped_) return;
+        if (is_kept && head->vr != "SQ") {
+          if (!has(head->length, "an element")) return;
+          into.value.emplace(head->tag,
+                             bytes_.substr(static_cast<std::size_t>(position_), head->length));
+        }
+        position_ = behind;
+      }
     }
   }
 
@@ -264,7 +332,7 @@ bool is_utf8(std::string_view text) {
 
 }  // namespace
 
-std::string DicomElements::text(DicomTag tag) const {
+std::string DicomAttributes::text(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end()) return {};
   const std::string_view raw = trimmed(found->second.substr(0, 1024));
@@ -284,7 +352,7 @@ std::string DicomElements::text(DicomTag tag) const {
   return result;
 }
 
-std::optional<std::vector<double>> DicomElements::numbers(DicomTag tag) const {
+std::optional<std::vector<double>> DicomAttributes::numbers(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || trimmed(found->second).empty()) return std::nullopt;
   std::vector<double> result;
@@ -299,12 +367,12 @@ std::optional<std::vector<double>> DicomElements::numbers(DicomTag tag) const {
   }
 }
 
-std::optional<double> DicomElements::number(DicomTag tag) const {
+std::optional<double> DicomAttributes::number(DicomTag tag) const {
   const auto all = numbers(tag);
   return all ? std::optional<double>(all->front()) : std::nullopt;
 }
 
-std::optional<int> DicomElements::integer(DicomTag tag) const {
+std::optional<int> DicomAttributes::integer(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || found->second.size() < 2) return std::nullopt;
   return read_value<std::uint16_t>(found->second, 0);

@@ -94,6 +94,17 @@ DicomStack& chosen(std::vector<DicomStack>& stacks, const std::string& folder,
 
 /// Of slices at one position the first is kept; the others must show the same.
 std::vector<DicomSlice> without_doubles(const DicomStack& stack, std::vector<std::string>& notes) {
+  const auto is_double = [&](std::size_t s) {
+    return s > 0 &&
+           stack.slices[s].along_normal() - stack.slices[s - 1].along_normal() <= kSamePosition;
+  };
+  std::vector<DicomSlice> compared;
+  for (std::size_t s = 0; s < stack.slices.size(); ++s) {
+    if (is_double(s) || is_double(s + 1 < stack.slices.size() ? s + 1 : 0)) {
+      compared.push_back(stack.slices[s]);
+    }
+  }
+  const DicomPixels pixels(compared);
   std::vector<DicomSlice> kept;
   std::vector<std::string> doubles;
   for (const DicomSlice& slice : stack.slices) {
@@ -101,12 +112,12 @@ std::vector<DicomSlice> without_doubles(const DicomStack& stack, std::vector<std
       kept.push_back(slice);
       continue;
     }
-    if (read_dicom_pixels(slice) != read_dicom_pixels(kept.back())) {
+    if (pixels.values(slice) != pixels.values(kept.back())) {
       throw InputError(fmt::format(
           "{} and {}: two different images at one position ({:.2f} mm along the slices' normal)",
-          kept.back().path, slice.path, slice.along_normal()));
+          kept.back().name(), slice.name(), slice.along_normal()));
     }
-    doubles.push_back(std::filesystem::path(slice.path).filename().string());
+    doubles.push_back(std::filesystem::path(slice.name()).filename().string());
   }
   if (!doubles.empty()) {
     notes.push_back(fmt::format(
@@ -140,20 +151,40 @@ double stored_value(const DicomSlice& slice, std::string_view bytes, std::size_t
 
 }  // namespace
 
-std::vector<float> read_dicom_pixels(const DicomSlice& slice) {
-  check_image_size(slice.path, slice.columns, slice.rows, 1.0);
+DicomPixels::DicomPixels(const std::vector<DicomSlice>& slices, const Progress& progress) {
+  std::vector<DicomSlice> packed;
+  for (const DicomSlice& slice : slices) {
+    check_image_size(slice.path, slice.columns, slice.rows, slice.frames);
+    if (slice.is_encapsulated) {
+      packed.push_back(slice);
+    } else if (slice.frames > 1 && !file_.contains(slice.path)) {
+      file_[slice.path] = read_file(slice.path, kMaxImageBytes);
+    }
+  }
+  if (!packed.empty()) unpacked_ = unpacked_pixels(packed, progress);
+}
+
+std::vector<float> DicomPixels::values(const DicomSlice& slice) const {
   const std::size_t count =
       static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
   const std::size_t size = count * static_cast<std::size_t>(slice.bits_allocated / 8);
-  const std::string file = read_file(slice.path, kMaxImageBytes);
-  std::string unpacked;
-  if (slice.is_encapsulated) unpacked = decompressed_pixels(slice, file);
-  const std::uint64_t offset = slice.is_encapsulated ? 0 : slice.pixel_offset;
-  const std::string& source = slice.is_encapsulated ? unpacked : file;
-  if (offset > source.size() || source.size() - offset < size) {
+  std::string own;
+  std::string_view bytes;
+  std::uint64_t offset = 0;
+  if (slice.is_encapsulated) {
+    bytes = unpacked_.at(slice.name());
+  } else {
+    offset = slice.pixel_offset + static_cast<std::uint64_t>(slice.frame) * size;
+    if (slice.frames > 1) {
+      bytes = file_.at(slice.path);
+    } else {
+      bytes = own = read_file(slice.path, kMaxImageBytes);
+    }
+  }
+  if (offset > bytes.size() || bytes.size() - offset < size) {
     throw InputError(slice.path + ": changed while it was read");
   }
-  const auto bytes = std::string_view(source).substr(static_cast<std::size_t>(offset));
+  bytes.remove_prefix(static_cast<std::size_t>(offset));
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
     values[i] = static_cast<float>(stored_value(slice, bytes, i) * slice.slope + slice.intercept);
@@ -182,6 +213,7 @@ ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choic
   grid.origin = first.position;
   file.image.value.resize(grid.count());
   const std::size_t plane = grid.at(0, 0, 1);
+  const DicomPixels stored(slices, progress);
   constexpr std::size_t kAtOnce = 16;  // slices between two looks at the user's wish to stop
   for (std::size_t start = 0; start < slices.size(); start += kAtOnce) {
     progress.update(static_cast<double>(start) / static_cast<double>(slices.size()),
@@ -189,14 +221,14 @@ ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choic
     const std::size_t count = std::min(kAtOnce, slices.size() - start);
     parallel_for(static_cast<int>(count), [&](int i) {
       const std::size_t s = start + static_cast<std::size_t>(i);
-      const std::vector<float> pixels = read_dicom_pixels(slices[s]);
+      const std::vector<float> pixels = stored.values(slices[s]);
       std::copy(pixels.begin(), pixels.end(),
                 file.image.value.begin() + static_cast<std::ptrdiff_t>(s * plane));
     });
   }
   for (const OddSlice& odd : odd_slices(file.image)) {
     file.odd_slices.push_back(
-        odd_slice_text(slices[static_cast<std::size_t>(odd.index)].path, odd));
+        odd_slice_text(slices[static_cast<std::size_t>(odd.index)].name(), odd));
   }
   return file;
 }

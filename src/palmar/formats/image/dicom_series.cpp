@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/image/dicom_compressed.h"
@@ -20,7 +21,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kNamedPositions = 12;  // of missing slices, in a message
 constexpr double kSameDirection = 1e-3;      // sine of the angle between slices' axes
 
-std::string file_name(const DicomSlice& slice) { return fs::path(slice.path).filename().string(); }
+std::string file_name(const DicomSlice& slice) {
+  return fs::path(slice.name()).filename().string();
+}
 
 std::string count_text(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
@@ -37,7 +40,7 @@ std::string mixture_problem(const std::vector<DicomSlice>& slices) {
   if (damaged != slices.end()) {
     const auto more = std::count_if(damaged + 1, slices.end(),
                                     [](const DicomSlice& slice) { return !slice.damage.empty(); });
-    return fmt::format("{}: {}{}", damaged->path, damaged->damage,
+    return fmt::format("{}: {}{}", damaged->name(), damaged->damage,
                        more > 0 ? fmt::format(" ({} more files have errors)", more) : "");
   }
   for (const DicomSlice& slice : slices) {
@@ -50,13 +53,6 @@ std::string mixture_problem(const std::vector<DicomSlice>& slices) {
         slice.is_encapsulated ? unread_compression(slice.transfer_syntax) : std::string();
     if (!unread.empty()) {
       return fmt::format("{}: is compressed ({}), which isn't read", slice.path, unread);
-    }
-    if (slice.frames > 1) {
-      return fmt::format(
-          "{}: holds {} frames; such multi-frame (enhanced) files aren't read: let the scanner or "
-          "a "
-          "converter write one file per slice",
-          slice.path, slice.frames);
     }
   }
   const DicomSlice& first = slices.front();
@@ -195,6 +191,11 @@ void add_notes(DicomStack& stack) {
   if (first.photometric == "MONOCHROME1") {
     stack.notes.push_back("the series asks to be shown inverted; values are taken as stored");
   }
+  if (std::any_of(stack.slices.begin(), stack.slices.end(),
+                  [](const DicomSlice& slice) { return slice.is_lossy; })) {
+    stack.notes.push_back(
+        "the images were compressed with loss: fine differences of intensity are gone");
+  }
   std::set<std::string> sides;
   for (const DicomSlice& slice : stack.slices) sides.insert(slice.laterality);
   if (sides.size() > 1) {
@@ -248,8 +249,9 @@ DicomStack order_slices(std::vector<DicomSlice> slices) {
   DicomSeries& series = stack.series;
   series.refusal = mixture_problem(slices);
   // By name within one position, so that the order of the directory doesn't matter.
-  std::sort(slices.begin(), slices.end(),
-            [](const DicomSlice& a, const DicomSlice& b) { return a.path < b.path; });
+  std::sort(slices.begin(), slices.end(), [](const DicomSlice& a, const DicomSlice& b) {
+    return std::tie(a.path, a.frame) < std::tie(b.path, b.frame);
+  });
   if (series.refusal.empty()) {
     // One axis for all: a slice's own rounded axes would shift far positions.
     const Vec3 normal = slices.front().row.cross(slices.front().column);
@@ -271,7 +273,13 @@ DicomStack order_slices(std::vector<DicomSlice> slices) {
   series.columns = first.columns;
   series.rows = first.rows;
   series.slices = static_cast<int>(slices.size());
-  for (const DicomSlice& slice : slices) series.files.push_back(slice.path);
+  for (const DicomSlice& slice : slices) {
+    // A multi-frame file once.
+    if (slice.frames <= 1 ||
+        std::find(series.files.begin(), series.files.end(), slice.path) == series.files.end()) {
+      series.files.push_back(slice.path);
+    }
+  }
   stack.slices = std::move(slices);
   if (series.refusal.empty()) add_notes(stack);
   return stack;
@@ -286,14 +294,15 @@ std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progr
     progress.update(static_cast<double>(f) / static_cast<double>(files.size()),
                     "looking through " + folder);
     std::error_code ignored;
-    auto slice = fs::file_size(files[f], ignored) > 0 ? read_dicom_header(files[f].string())
-                                                      : std::optional<DicomSlice>();
-    if (!slice) {
+    std::vector<DicomSlice> slices;
+    if (fs::file_size(files[f], ignored) > 0) slices = read_dicom_headers(files[f].string());
+    if (slices.empty()) {
       others.push_back(files[f]);
       continue;
     }
     if (const std::string ending = ending_of(files[f]); !ending.empty()) endings.insert(ending);
-    by_uid[slice->series_uid].push_back(std::move(*slice));
+    std::vector<DicomSlice>& all = by_uid[slices.front().series_uid];
+    all.insert(all.end(), slices.begin(), slices.end());
   }
   for (const fs::path& path : others) {
     if (endings.contains(ending_of(path))) by_uid[""].push_back(not_dicom(path));

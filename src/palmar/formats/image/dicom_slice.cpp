@@ -24,7 +24,7 @@ int whole_number(const DicomElements& elements, DicomTag tag, int missing) {
 }
 
 /// Where the slice is; the reason if the file doesn't say it rightly.
-std::string read_plane(const DicomElements& elements, DicomSlice& slice) {
+std::string read_plane(const DicomAttributes& elements, DicomSlice& slice) {
   const auto orientation = elements.numbers(0x00200037);
   if (!orientation || orientation->size() != 6) {
     return "has no Image Orientation (0020,0037) of six numbers";
@@ -69,6 +69,22 @@ std::string read_plane(const DicomElements& elements, DicomSlice& slice) {
   return {};
 }
 
+/// Rescale Slope and Intercept; the reason if they are none.
+std::string read_rescaling(const DicomAttributes& elements, DicomSlice& slice) {
+  for (const auto& [tag, target, name] :
+       {std::tuple{DicomTag{0x00281053}, &slice.slope, "Rescale Slope (0028,1053)"},
+        std::tuple{DicomTag{0x00281052}, &slice.intercept, "Rescale Intercept (0028,1052)"}}) {
+    if (elements.text(tag).empty()) continue;
+    const auto value = elements.number(tag);
+    if (!value || std::abs(*value) > 1e12) {
+      return fmt::format("{} is \"{}\"; a number is required", name, elements.text(tag));
+    }
+    *target = *value;
+  }
+  if (slice.slope == 0.0) return "Rescale Slope (0028,1053) is 0";
+  return {};
+}
+
 /// How the pixels are stored; the reason if that can't be read.
 std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
   slice.rows = elements.integer(0x00280010).value_or(0);
@@ -76,6 +92,7 @@ std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
   slice.samples = elements.integer(0x00280002).value_or(1);
   slice.photometric = elements.text(0x00280004);
   slice.frames = whole_number(elements, 0x00280008, 1);
+  if (slice.frames == 0) slice.frames = 1;  // some writers mean "not a multi-frame file"
   slice.bits_allocated = elements.integer(0x00280100).value_or(0);
   slice.bits_stored = elements.integer(0x00280101).value_or(slice.bits_allocated);
   slice.high_bit = elements.integer(0x00280102).value_or(slice.bits_stored - 1);
@@ -91,33 +108,55 @@ std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
     return fmt::format("{} bits stored up to bit {} don't fit {} bits allocated", slice.bits_stored,
                        slice.high_bit, bits);
   }
-  for (const auto& [tag, target, name] :
-       {std::tuple{DicomTag{0x00281053}, &slice.slope, "Rescale Slope (0028,1053)"},
-        std::tuple{DicomTag{0x00281052}, &slice.intercept, "Rescale Intercept (0028,1052)"}}) {
-    if (elements.text(tag).empty()) continue;
-    const auto value = elements.number(tag);
-    if (!value || std::abs(*value) > 1e12) {
-      return fmt::format("{} is \"{}\"; a number is required", name, elements.text(tag));
-    }
-    *target = *value;
+  if (slice.frames < 1 || static_cast<std::size_t>(slice.frames) > kMostDicomFrames) {
+    return fmt::format("holds {} frames; 1 to {} are read", slice.frames, kMostDicomFrames);
   }
-  if (slice.slope == 0.0) return "Rescale Slope (0028,1053) is 0";
-  const bool is_native = slice.samples == 1 && slice.frames <= 1 && !slice.is_encapsulated;
+  const bool is_native = slice.samples == 1 && !slice.is_encapsulated;
   const std::uint64_t expected = static_cast<std::uint64_t>(slice.rows) *
                                  static_cast<std::uint64_t>(slice.columns) *
                                  static_cast<std::uint64_t>(bits / 8);
-  if (is_native && slice.pixel_length < expected) {
-    return fmt::format("is cut off: {} x {} pixels of {} bits need {} bytes, {} are there",
-                       slice.columns, slice.rows, bits, expected, slice.pixel_length);
+  const auto frames = static_cast<std::uint64_t>(slice.frames);
+  if (is_native && slice.pixel_length / frames < expected) {
+    return fmt::format("is cut off: {}{} x {} pixels of {} bits need {} bytes, {} are there",
+                       frames > 1 ? fmt::format("{} frames of ", frames) : "", slice.columns,
+                       slice.rows, bits, expected * frames, slice.pixel_length);
   }
-  return {};
+  return read_rescaling(elements, slice);
+}
+
+/// The frames of a multi-frame file: what each says of itself stands before what is said of all.
+std::vector<DicomSlice> frames_of(const DicomElements& elements, const DicomSlice& whole) {
+  if (elements.frame.size() != static_cast<std::size_t>(whole.frames)) {
+    DicomSlice slice = whole;
+    slice.damage = fmt::format(
+        "holds {} frames and says of {} where they lie (Per-frame Functional Groups (5200,9230)); "
+        "each "
+        "needs its place",
+        whole.frames, elements.frame.size());
+    return {slice};
+  }
+  std::vector<DicomSlice> slices(elements.frame.size(), whole);
+  for (std::size_t f = 0; f < slices.size(); ++f) {
+    DicomAttributes attributes = elements.frame[f];
+    attributes.value.insert(elements.shared.value.begin(), elements.shared.value.end());
+    DicomSlice& slice = slices[f];
+    slice.frame = static_cast<int>(f);
+    slice.thickness = attributes.number(0x00180050);
+    slice.damage = read_rescaling(attributes, slice);
+    if (slice.damage.empty()) slice.damage = read_plane(attributes, slice);
+  }
+  return slices;
 }
 
 }  // namespace
 
-std::optional<DicomSlice> read_dicom_header(const std::string& path) {
+std::string DicomSlice::name() const {
+  return frames > 1 ? fmt::format("{} (frame {})", path, frame + 1) : path;
+}
+
+std::vector<DicomSlice> read_dicom_headers(const std::string& path) {
   FileEnds ends = read_ends(path, kHeadBytes);
-  if (!looks_like_dicom(ends.head)) return std::nullopt;
+  if (!looks_like_dicom(ends.head)) return {};
   DicomElements elements = dicom_elements(ends.head, ends.bytes);
   std::string whole;
   if (elements.is_partial) {
@@ -125,7 +164,7 @@ std::optional<DicomSlice> read_dicom_header(const std::string& path) {
     elements = dicom_elements(whole, whole.size());
   }
   // A folder's index, as on a CD, is no slice.
-  if (elements.text(0x00020002) == "1.2.840.10008.1.3.10") return std::nullopt;
+  if (elements.text(0x00020002) == "1.2.840.10008.1.3.10") return {};
 
   DicomSlice slice;
   slice.path = path;
@@ -144,6 +183,9 @@ std::optional<DicomSlice> read_dicom_header(const std::string& path) {
   slice.thickness = elements.number(0x00180050);
   slice.has_pixels = elements.has_pixels;
   slice.is_encapsulated = elements.is_encapsulated;
+  slice.is_lossy = elements.text(0x00282110) == "01" ||
+                   slice.transfer_syntax == "1.2.840.10008.1.2.4.50" ||
+                   slice.transfer_syntax == "1.2.840.10008.1.2.4.51";
   slice.pixel_offset = elements.pixel_offset;
   slice.pixel_length = elements.pixel_length;
   slice.damage = elements.damage;
@@ -151,14 +193,16 @@ std::optional<DicomSlice> read_dicom_header(const std::string& path) {
     slice.damage = "is big-endian, which isn't read";
   if (slice.transfer_syntax == "1.2.840.10008.1.2.1.99")
     slice.damage = "is deflated, which isn't read";
-  if (!slice.damage.empty()) return slice;
+  if (!slice.damage.empty()) return {slice};
   if (!slice.has_pixels) {
     slice.damage = "holds no pixels";
-    return slice;
+    return {slice};
   }
   slice.damage = read_layout(elements, slice);
-  if (slice.damage.empty() && slice.frames <= 1) slice.damage = read_plane(elements, slice);
-  return slice;
+  if (!slice.damage.empty()) return {slice};
+  if (slice.frames > 1) return frames_of(elements, slice);
+  slice.damage = read_plane(elements, slice);
+  return {slice};
 }
 
 void check_image_size(const std::string& what, double width, double height, double slices) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,9 @@ struct DicomSlice {
   int series_number = 0;
   int instance = 0;               ///< Instance Number, 0 if none
   int images_in_acquisition = 0;  ///< 0 if not said
-  int rows = 0, columns = 0, samples = 1, frames = 1;
+  int rows = 0, columns = 0, samples = 1;
+  int frames = 1;  ///< in the file
+  int frame = 0;   ///< which of them this is
   int bits_allocated = 0, bits_stored = 0, high_bit = 0;
   bool is_signed = false;
   double slope = 1.0, intercept = 0.0;
@@ -29,15 +32,19 @@ struct DicomSlice {
   double pixel_width = 1.0, pixel_height = 1.0;      ///< mm, along i and j
   std::optional<double> thickness;                   ///< mm
   bool has_pixels = false, is_encapsulated = false;
+  bool is_lossy = false;  ///< compressed with loss, once
   std::uint64_t pixel_offset = 0, pixel_length = 0;
   /// Why it is no slice of a volume; empty if it is one.
   std::string damage;
 
   double along_normal() const { return row.cross(column).dot(position); }
+  /// The path; of a multi-frame file with the frame, from 1.
+  std::string name() const;
 };
 
-/// Reads the header of one file; nothing if it isn't DICOM. What is wrong goes into `damage`.
-std::optional<DicomSlice> read_dicom_header(const std::string& path);
+/// Reads the header of one file: its slice, or those of all its frames; nothing if it isn't DICOM.
+/// What is wrong goes into `damage`.
+std::vector<DicomSlice> read_dicom_headers(const std::string& path);
 
 /// A series with its slices' headers, in the order of `series.files`.
 struct DicomStack {
@@ -53,8 +60,20 @@ std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progr
 /// position stay, side by side.
 DicomStack order_slices(std::vector<DicomSlice> slices);
 
-/// Stored values of a slice, after rescaling, row by row. Throws InputError naming the file.
-std::vector<float> read_dicom_pixels(const DicomSlice& slice);
+/// Bytes of pixels that aren't read file by file: those of multi-frame files, and what was
+/// compressed.
+class DicomPixels {
+ public:
+  /// Reads multi-frame files and unpacks what is compressed. Throws InputError naming the file.
+  explicit DicomPixels(const std::vector<DicomSlice>& slices, const Progress& progress = {});
+  /// Values of a slice (one of those given), after rescaling, row by row. Throws InputError naming
+  /// the file.
+  std::vector<float> values(const DicomSlice& slice) const;
+
+ private:
+  std::map<std::string, std::string> file_;      ///< whole multi-frame files, by path
+  std::map<std::string, std::string> unpacked_;  ///< by name of the slice
+};
 
 /// Positions closer than this are one position, mm: writers round.
 inline constexpr double kSamePosition = 0.01;

@@ -231,6 +231,24 @@ TEST(DicomSeries, OneOfSeveralIsChosen) {
   EXPECT_EQ(read_image(folder.path()).description, "t1 coronal");
 }
 
+TEST(DicomSeries, FramesOfOneFileBecomeSlices) {
+  for (const bool is_open : {false, true}) {  // sequences with lengths, with delimiters
+    const TestFolder folder;
+    multi_frame_file(4, 3, {4.0, 0.0, 2.0}, is_open).write(folder / "s/all.dcm");
+    const auto series = find_dicom_series(folder / "s");
+    ASSERT_EQ(series.size(), 1U);
+    EXPECT_EQ(series[0].slices, 3);
+    EXPECT_EQ(series[0].files.size(), 1U);
+    const ImageFile file = read_image(folder / "s");
+    EXPECT_EQ(file.image.grid.size, (std::array<int, 3>{4, 3, 3}));
+    EXPECT_LT((file.image.grid.spacing - Vec3(0.25, 0.5, 2.0)).norm(), 1e-12);
+    // By position the second frame is first; values are 2 stored + 1.
+    EXPECT_EQ(file.image.value[0], 201.0F);
+    EXPECT_EQ(file.image.value[12], 401.0F);
+    EXPECT_EQ(file.image.value[24 + 11], 23.0F);
+  }
+}
+
 TEST(DicomSeries, AFileOfAnotherProgramReads) {
   const auto program = find_program("dump2dcm");
   if (!program) GTEST_SKIP() << "dump2dcm (Debian package dcmtk) isn't installed";

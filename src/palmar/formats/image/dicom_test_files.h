@@ -57,6 +57,18 @@ struct DicomTestFile {
     element[0x7FE00010] = {"OW", bytes};
   }
 
+  /// A sequence of these items, with their lengths or (`is_open`) delimiters.
+  void sequence(std::uint32_t tag, const std::vector<DicomTestFile>& items, bool is_open = false) {
+    std::string bytes;
+    for (const DicomTestFile& item : items) {
+      const std::string content = item.body();
+      bytes += std::string("\xFE\xFF\x00\xE0", 4) +
+               (is_open ? std::string(4, '\xFF') : four_bytes(content.size())) + content +
+               (is_open ? std::string("\xFE\xFF\x0D\xE0\0\0\0\0", 8) : std::string());
+    }
+    element[tag] = {"SQ", bytes};
+  }
+
   std::string bytes() const {
     std::string result;
     if (has_preamble) {
@@ -98,6 +110,38 @@ struct DicomTestFile {
     return result;
   }
 };
+
+/// A multi-frame (enhanced MR) file: one frame at each of these z, mm; values count up from 100
+/// times the frame's index.
+inline DicomTestFile multi_frame_file(int columns, int rows, const std::vector<double>& z,
+                                      bool is_open = false) {
+  const auto with = [](std::uint32_t tag, const std::string& value) {
+    DicomTestFile item;
+    item.text(tag, "DS", value);
+    return item;
+  };
+  DicomTestFile file = DicomTestFile::slice(columns, rows, 0);
+  for (const std::uint32_t tag : {0x00200032, 0x00200037, 0x00280030}) file.element.erase(tag);
+  DicomTestFile shared;
+  shared.sequence(0x00209116, {with(0x00200037, "1\\0\\0\\0\\1\\0")}, is_open);
+  shared.sequence(0x00289110, {with(0x00280030, "0.5\\0.25")}, is_open);
+  DicomTestFile scaled = with(0x00281052, "1");
+  scaled.text(0x00281053, "DS", "2");
+  shared.sequence(0x00289145, {scaled}, is_open);
+  file.sequence(0x52009229, {shared}, is_open);
+  std::vector<DicomTestFile> frames;
+  std::vector<int> pixels;
+  for (std::size_t f = 0; f < z.size(); ++f) {
+    DicomTestFile frame;
+    frame.sequence(0x00209113, {with(0x00200032, "-10\\20\\" + std::to_string(z[f]))}, is_open);
+    frames.push_back(frame);
+    for (int p = 0; p < columns * rows; ++p) pixels.push_back(100 * static_cast<int>(f) + p);
+  }
+  file.sequence(0x52009230, frames, is_open);
+  file.text(0x00280008, "IS", std::to_string(z.size()));
+  file.pixels(pixels);
+  return file;
+}
 
 /// A series of four slices of 4 x 3 pixels, 2 mm apart, as files in `folder`.
 inline void write_test_series(const std::filesystem::path& folder) {

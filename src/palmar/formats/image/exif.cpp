@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/formats/image/exif.h"
 
+#include <libexif/exif-data.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace palmar {
@@ -27,122 +30,83 @@ enum Tag : std::uint16_t {
 
 enum Type : std::uint16_t { kAscii = 2, kShort = 3, kLong = 4, kRational = 5 };
 
-/// Numbers of either byte order; beyond the end: 0.
-class TiffBytes {
- public:
-  explicit TiffBytes(std::string_view bytes) : bytes_(bytes), is_little_(bytes.starts_with("II")) {}
+/// libexif's data, freed at the end.
+using ExifPointer =
+    std::unique_ptr<ExifData, decltype([](ExifData* data) { exif_data_unref(data); })>;
 
-  std::uint32_t number(std::size_t at, std::size_t size) const {
-    if (at > bytes_.size() || size > bytes_.size() - at) return 0;
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t from = is_little_ ? at + size - 1 - i : at + i;
-      value = value << 8 | static_cast<std::uint8_t>(bytes_[from]);
-    }
-    return value;
+/// The fields of one file.
+class Fields {
+ public:
+  explicit Fields(std::string_view segment) : data_(exif_data_new()) {
+    // As the file has them: nothing left out, nothing filled in.
+    exif_data_unset_option(data_.get(), EXIF_DATA_OPTION_IGNORE_UNKNOWN_TAGS);
+    exif_data_unset_option(data_.get(), EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
+    exif_data_load_data(data_.get(), reinterpret_cast<const unsigned char*>(segment.data()),
+                        static_cast<unsigned int>(segment.size()));
   }
-  std::string_view text(std::size_t at, std::size_t size) const {
-    if (at > bytes_.size() || size > bytes_.size() - at) return {};
-    return bytes_.substr(at, size);
+
+  /// 0 if there is none.
+  double number(Tag tag) const {
+    const ExifEntry* entry = find(tag);
+    if (entry == nullptr || entry->data == nullptr || entry->components < 1 ||
+        entry->size < exif_format_get_size(entry->format)) {
+      return 0.0;
+    }
+    const ExifByteOrder order = exif_data_get_byte_order(data_.get());
+    switch (entry->format) {
+      case EXIF_FORMAT_SHORT:
+        return exif_get_short(entry->data, order);
+      case EXIF_FORMAT_LONG:
+        return exif_get_long(entry->data, order);
+      case EXIF_FORMAT_RATIONAL: {
+        const ExifRational ratio = exif_get_rational(entry->data, order);
+        return ratio.denominator > 0 ? static_cast<double>(ratio.numerator) / ratio.denominator
+                                     : 0.0;
+      }
+      default:
+        return 0.0;
+    }
+  }
+  std::string text(Tag tag) const {
+    const ExifEntry* entry = find(tag);
+    if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII || entry->data == nullptr) return {};
+    std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+    return text;
   }
 
  private:
-  std::string_view bytes_;
-  bool is_little_;
-};
-
-struct Field {
-  std::uint16_t type = 0;
-  std::uint32_t count = 0;
-  std::size_t at = 0;  ///< of its value
-};
-
-double number_of(const TiffBytes& tiff, const Field& field) {
-  if (field.type == kShort) return tiff.number(field.at, 2);
-  if (field.type == kLong) return tiff.number(field.at, 4);
-  if (field.type != kRational) return 0.0;
-  const double divisor = tiff.number(field.at + 4, 4);
-  return divisor > 0.0 ? tiff.number(field.at, 4) / divisor : 0.0;
-}
-
-std::string text_of(const TiffBytes& tiff, const Field& field) {
-  if (field.type != kAscii) return {};
-  std::string text(tiff.text(field.at, field.count));
-  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
-  return text;
-}
-
-/// Calls take(tag, field) for every field of the directory at `at`.
-template <typename Take>
-void read_directory(const TiffBytes& tiff, std::size_t at, const Take& take) {
-  const std::uint32_t count = tiff.number(at, 2);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::size_t entry = at + 2 + std::size_t{12} * i;
-    Field field{static_cast<std::uint16_t>(tiff.number(entry + 2, 2)), tiff.number(entry + 4, 4),
-                entry + 8};
-    const std::size_t size = field.type == kRational ? 8
-                             : field.type == kLong   ? 4
-                             : field.type == kShort  ? 2
-                                                     : 1;
-    constexpr std::size_t kInPlace = 4;
-    if (size * field.count > kInPlace) field.at = tiff.number(entry + 8, 4);
-    take(static_cast<std::uint16_t>(tiff.number(entry, 2)), field);
+  const ExifEntry* find(Tag tag) const {
+    for (const ExifIfd directory : {EXIF_IFD_0, EXIF_IFD_EXIF}) {
+      if (ExifEntry* entry =
+              exif_content_get_entry(data_->ifd[directory], static_cast<ExifTag>(tag))) {
+        return entry;
+      }
+    }
+    return nullptr;
   }
-}
+
+  ExifPointer data_;
+};
 
 void append(std::string& words, const std::string& more) {
   if (more.empty()) return;
   words += (words.empty() ? "" : " ") + more;
 }
 
-PhotoExif parse(const TiffBytes& tiff) {
+PhotoExif exif_of(const Fields& fields) {
   PhotoExif exif;
-  std::string make, model, serial;
-  double resolution = 0.0, unit = 2.0;
-  const auto take = [&](std::uint16_t tag, const Field& field) {
-    switch (tag) {
-      case kMake:
-        make = text_of(tiff, field);
-        break;
-      case kModel:
-        model = text_of(tiff, field);
-        break;
-      case kSerial:
-        serial = text_of(tiff, field);
-        break;
-      case kFocalLength:
-        exif.focal_mm = number_of(tiff, field);
-        break;
-      case kFocal35mm:
-        exif.focal_35mm = number_of(tiff, field);
-        break;
-      case kFocalPlaneX:
-        resolution = number_of(tiff, field);
-        break;
-      case kFocalPlaneUnit:
-        unit = number_of(tiff, field);
-        break;
-      case kWidth:
-        exif.width = static_cast<int>(number_of(tiff, field));
-        break;
-      case kHeight:
-        exif.height = static_cast<int>(number_of(tiff, field));
-        break;
-      default:
-        break;
-    }
-  };
-  std::size_t inner = 0;
-  read_directory(tiff, tiff.number(4, 4), [&](std::uint16_t tag, const Field& field) {
-    if (tag == kExifFields) inner = tiff.number(field.at, 4);
-    take(tag, field);
-  });
-  if (inner > 0) read_directory(tiff, inner, take);
-  append(exif.camera, make);
-  append(exif.camera, model);
-  append(exif.camera, serial);
+  append(exif.camera, fields.text(kMake));
+  append(exif.camera, fields.text(kModel));
+  append(exif.camera, fields.text(kSerial));
+  exif.focal_mm = fields.number(kFocalLength);
+  exif.focal_35mm = fields.number(kFocal35mm);
+  constexpr double kMostPixels = 1e6;  // along an edge
+  exif.width = static_cast<int>(std::min(fields.number(kWidth), kMostPixels));
+  exif.height = static_cast<int>(std::min(fields.number(kHeight), kMostPixels));
   constexpr double kInch = 25.4, kCentimetre = 10.0;  // mm
-  exif.pixels_per_mm = resolution / (unit == 3.0 ? kCentimetre : kInch);
+  exif.pixels_per_mm =
+      fields.number(kFocalPlaneX) / (fields.number(kFocalPlaneUnit) == 3.0 ? kCentimetre : kInch);
   return exif;
 }
 
@@ -232,7 +196,7 @@ std::optional<PhotoExif> read_exif(std::string_view jpeg) {
           !tiff.starts_with(std::string_view("MM\0*", 4))) {
         return {};
       }
-      return parse(TiffBytes(tiff));
+      return exif_of(Fields(segment));
     }
     at += 2 + length;
   }

@@ -31,13 +31,12 @@ ImageFile read_image(const std::string& path, const SeriesChoice& choice,
   if (looks_like_dicom(head)) {
     throw InputError(path + ": is one DICOM file; the folder with its series is required");
   }
-  const bool is_nrrd = head.starts_with("NRRD");
   const bool is_nifti = head.size() >= 348 && std::string_view(head).substr(344, 2) == "n+";
-  if (!is_nrrd && !is_nifti && !is_gzip(head)) {
-    throw InputError(path + ": is neither a folder of DICOM files nor NIfTI or NRRD");
+  if (!is_nifti && !is_gzip(head)) {
+    throw InputError(path + ": is neither a folder of DICOM files nor NIfTI");
   }
   const std::string bytes = read_file(path, kMaxImageBytes + 65536);
-  ImageFile file = is_nrrd ? read_nrrd(bytes, path) : read_nifti(bytes, path);
+  ImageFile file = read_nifti(bytes, path);
   for (const OddSlice& odd : odd_slices(file.image)) {
     file.odd_slices.push_back(
         odd_slice_text(fmt::format("{}: slice {}", path, odd.index + 1), odd));
@@ -55,8 +54,7 @@ std::string odd_slice_text(const std::string& where, const OddSlice& odd) {
 void write_image(const std::string& path, const Volume& image) {
   if (path.ends_with(".nii")) return write_file(path, nifti_bytes(image, false));
   if (path.ends_with(".nii.gz")) return write_file(path, nifti_bytes(image, true));
-  if (path.ends_with(".nrrd")) return write_file(path, nrrd_bytes(image));
-  throw OutputError(path + ": ends in none of .nii, .nii.gz, .nrrd");
+  throw OutputError(path + ": ends in neither .nii nor .nii.gz");
 }
 
 std::string gunzip(std::string_view bytes, std::size_t size, const std::string& name) {

@@ -26,12 +26,6 @@ ImageFile read_nifti(std::string_view bytes, const std::string& name);
 /// Float values, both transforms; gzipped if `compress`.
 std::string nifti_bytes(const Volume& image, bool compress);
 
-/// NRRD with its data attached, raw, gzip or text. Throws InputError that begins with `name`.
-///
-/// Source: G. Kindlmann, "Definition of NRRD File Format", version 5 (Teem 1.11).
-ImageFile read_nrrd(std::string_view bytes, const std::string& name);
-std::string nrrd_bytes(const Volume& image);
-
 /// Unpacks gzip up to `size` bytes; fewer if there are fewer. Throws InputError that begins with
 /// `name` for damaged data.
 std::string gunzip(std::string_view bytes, std::size_t size, const std::string& name);

@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/mesh/texture_file.h"
 #include "palmar/formats/test_files.h"
 
 namespace palmar {
@@ -70,6 +71,28 @@ TEST(ColouredMeshFile, NamesWhatIsMissingOrDamaged) {
   EXPECT_THAT(message(), HasSubstr("neither PNG nor JPEG"));
   write_file(folder / "my scan.mtl", "newmtl skin\nmap_Kd ../../etc/hand.png\n");
   EXPECT_THAT(message(), HasSubstr("outside its folder"));
+}
+
+TEST(TextureFile, AJpegThatIsCutOffOrDamagedIsRefused) {
+  RgbImage image{64, 48, {}};
+  for (int p = 0; p < 64 * 48 * 3; ++p) {
+    image.rgb.push_back(static_cast<std::uint8_t>(p * 37 % 251));  // no two blocks alike
+  }
+  const std::string whole = format_jpeg(image, 90);
+  EXPECT_EQ(read_texture(whole, "a.jpg").rgb.size(), image.rgb.size());
+  const auto message = [](const std::string& bytes) {
+    return message_of<InputError>([&] { read_texture(bytes, "a.jpg"); });
+  };
+  for (const double share : {0.3, 0.7, 0.95}) {
+    const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+    EXPECT_THAT(message(whole.substr(0, size)),
+                HasSubstr("a.jpg: is a damaged or truncated JPEG: Premature end of JPEG file"))
+        << share;
+  }
+  std::string holed = whole;
+  holed.erase(holed.size() / 2, holed.size() / 20);  // the end is there, a part before it isn't
+  EXPECT_THAT(message(holed),
+              HasSubstr("a.jpg: is a damaged or truncated JPEG: Corrupt JPEG data"));
 }
 
 TEST(ColouredMeshFile, VertexColoursOfObjAndPlyReadBack) {

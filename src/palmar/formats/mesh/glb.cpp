@@ -13,7 +13,7 @@
 namespace palmar {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"
 
@@ -140,7 +140,7 @@ int add_accessor(Glb& glb, int view, int component_type, std::size_t count, int 
 }  // namespace
 
 Glb parse_glb(const std::vector<std::uint8_t>& bytes, const std::string& name) {
-  if (bytes.size() < 20 || word_at(bytes, 0) != kMagic) {
+  if (bytes.size() < 20 || word_at(bytes, 0) != kGlbMagic) {
     throw InputError(name + ": not a binary glTF file (.glb): it has " +
                      std::to_string(bytes.size()) + " bytes and does not start with \"glTF\"");
   }
@@ -202,7 +202,7 @@ std::vector<std::uint8_t> format_glb(const Glb& glb) {
   const std::size_t total = 12 + 8 + text.size() + (buffer.empty() ? 0 : 8 + buffer.size());
   std::vector<std::uint8_t> bytes;
   bytes.reserve(total);
-  append_word(bytes, kMagic);
+  append_word(bytes, kGlbMagic);
   append_word(bytes, 2);
   append_word(bytes, static_cast<std::uint32_t>(total));
   append_word(bytes, static_cast<std::uint32_t>(text.size()));

@@ -270,7 +270,7 @@ class ObjReader {
   int material_ = -1;
 };
 
-MeshFile parse(std::string_view bytes, const std::string& name, ObjColours* colours) {
+MeshFile parse_obj_text(std::string_view bytes, const std::string& name, ObjColours* colours) {
   if (!looks_like_text(bytes)) {
     throw InputError(name + ": is no OBJ: its first 1024 bytes are not text");
   }
@@ -296,11 +296,11 @@ bool is_obj(std::string_view bytes) {
 }
 
 MeshFile parse_obj(std::string_view bytes, const std::string& name) {
-  return parse(bytes, name, nullptr);
+  return parse_obj_text(bytes, name, nullptr);
 }
 
 MeshFile parse_obj(std::string_view bytes, const std::string& name, ObjColours& colours) {
-  return parse(bytes, name, &colours);
+  return parse_obj_text(bytes, name, &colours);
 }
 
 std::string format_obj(const TriangleMesh& mesh) {

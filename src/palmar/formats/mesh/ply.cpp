@@ -460,7 +460,7 @@ class BodyReader {
   SurfaceColours* colours_;  ///< null: only the shape is wanted
 };
 
-MeshFile parse(std::string_view bytes, const std::string& name, SurfaceColours* colours) {
+MeshFile parse_ply_bytes(std::string_view bytes, const std::string& name, SurfaceColours* colours) {
   if (!is_ply(bytes)) {
     throw InputError(name + ": is no PLY: starts with " + in_quotes(bytes.substr(0, 8)) +
                      "; a line \"ply\" is required");
@@ -523,11 +523,11 @@ bool is_ply(std::string_view bytes) {
 }
 
 MeshFile parse_ply(std::string_view bytes, const std::string& name) {
-  return parse(bytes, name, nullptr);
+  return parse_ply_bytes(bytes, name, nullptr);
 }
 
 MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours) {
-  return parse(bytes, name, &colours);
+  return parse_ply_bytes(bytes, name, &colours);
 }
 
 std::string format_ply(const TriangleMesh& mesh) { return format(mesh, {}); }

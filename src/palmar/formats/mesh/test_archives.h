@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "palmar/formats/bytes.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/types.h"
 

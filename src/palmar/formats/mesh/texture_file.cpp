@@ -64,6 +64,14 @@ extern "C" void leave_jpeg(j_common_ptr decoder) {
   std::longjmp(errors->back, 1);
 }
 extern "C" void keep_silent(j_common_ptr /*decoder*/, int /*level*/) {}
+/// Counts warnings, which say that data are damaged or missing, and keeps the first.
+extern "C" void keep_warning(j_common_ptr decoder, int level) {
+  if (level >= 0) return;  // traces
+  auto* errors = reinterpret_cast<JpegErrors*>(decoder->err);
+  if (errors->base.num_warnings++ == 0) {
+    (*errors->base.format_message)(decoder, errors->message.data());
+  }
+}
 
 // The decoder's part by itself: nothing with a destructor may live where longjmp() leaves from.
 // Returns false with errors.message set.
@@ -94,7 +102,7 @@ RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
   JpegErrors errors{};
   decoder.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leave_jpeg;
-  errors.base.emit_message = keep_silent;
+  errors.base.emit_message = keep_warning;
   RgbImage image;
   const bool is_read = decode_jpeg(bytes, decoder, errors, image);
   const long warnings = errors.base.num_warnings;
@@ -102,7 +110,9 @@ RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
   if (!is_read) throw InputError(name + ": is no valid JPEG: " + errors.message.data());
   check_size(static_cast<std::uint64_t>(image.width), static_cast<std::uint64_t>(image.height),
              name);
-  if (warnings > 0) throw InputError(name + ": is a damaged or truncated JPEG");
+  if (warnings > 0) {
+    throw InputError(name + ": is a damaged or truncated JPEG: " + errors.message.data());
+  }
   return image;
 }
 

@@ -13,6 +13,7 @@ namespace palmar {
 struct WorkerLimits {
   double seconds = 60.0;    ///< of wall clock
   double memory_mb = 4096;  ///< of address space
+  bool is_fixed = false;    ///< no setting raises them; messages don't say how
   void check() const;       ///< throws UsageError: field, value, allowed range
 };
 

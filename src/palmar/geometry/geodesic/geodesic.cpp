@@ -71,9 +71,9 @@ GeodesicSolver::GeodesicSolver(const TriangleMesh& mesh) {
     return corners;
   };
   const MeshTopology topology = build_topology(mesh);
-  const auto at = [&](int v) -> const Vec3& { return mesh.vertices[static_cast<size_t>(v)]; };
+  const auto at = [&](int v) -> const Vec3& { return mesh.vertices[v]; };
   const auto apex = [&](int half_edge) {
-    const auto h = static_cast<size_t>(MeshTopology::previous(half_edge));
+    const auto h = static_cast<std::size_t>(MeshTopology::previous(half_edge));
     return mesh.triangles[h / 3][h % 3];
   };
 
@@ -93,9 +93,9 @@ GeodesicSolver::GeodesicSolver(const TriangleMesh& mesh) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     int place = 8;  // in the last of corners_
     for (const int h : topology.outgoing(v)) {
-      const auto t = static_cast<size_t>(h / 3);
+      const auto t = h / 3;
       const int opposite = MeshTopology::next(h);
-      const int a = mesh.triangles[t][static_cast<size_t>(opposite % 3)];
+      const int a = mesh.triangles[t][opposite % 3];
       const int b = apex(h);
       const Vec3 va = at(a) - at(v), vb = at(b) - at(v);
       sum += va.norm();
@@ -110,7 +110,7 @@ GeodesicSolver::GeodesicSolver(const TriangleMesh& mesh) {
         place = 0;
       }
       Corners& corner = corners_.back();
-      const auto k = static_cast<size_t>(place++);
+      const auto k = place++;
       corner.a[k] = a;
       corner.b[k] = b;
       corner.va[k] = va.norm();
@@ -120,8 +120,8 @@ GeodesicSolver::GeodesicSolver(const TriangleMesh& mesh) {
       const double scale = corner.va[k] * corner.vb[k];
       corner.cosine[k] = va.dot(vb) / scale;
       corner.sine[k] = va.cross(vb).norm() / scale;
-      const int twin = topology.twin[static_cast<size_t>(opposite)];
-      if (twin >= 0 && !is_needle[static_cast<size_t>(twin / 3)]) {
+      const int twin = topology.twin[opposite];
+      if (twin >= 0 && !is_needle[twin / 3]) {
         corner.across[k] = apex(twin);
         // Frame with a at the origin and b on +x: v above, the apex across below.
         const Vec3 ab = at(b) - at(a), aw = at(corner.across[k]) - at(a);
@@ -148,18 +148,18 @@ struct GeodesicSolver::Front {
   size_t current = 0;  // bucket being worked off
 
   void offer(int vertex, double candidate) {
-    const double known = w.distance_[static_cast<size_t>(vertex)];
+    const double known = w.distance_[vertex];
     if (!(candidate < known - gain)) return;
     if (known == kInfinity) w.touched_.push_back(vertex);
-    w.distance_[static_cast<size_t>(vertex)] = candidate;
+    w.distance_[vertex] = candidate;
     // Beyond the radius a distance is kept, since the wave rule may use it, but not carried on.
     if (candidate > radius) return;
     // A corner may turn out nearer than the vertex that tells so: not into a bucket that is done.
-    const auto bucket = std::max(current, static_cast<size_t>(candidate * buckets_per_length));
+    const auto bucket = std::max(current, static_cast<std::size_t>(candidate * buckets_per_length));
     if (bucket >= w.bucket_.size()) w.bucket_.resize(bucket + 1);
     w.bucket_[bucket].push_back(vertex);
   }
-  bool is_allowed(int v) const { return allowed.empty() || allowed[static_cast<size_t>(v)] != 0; }
+  bool is_allowed(int v) const { return allowed.empty() || allowed[v] != 0; }
 
   template <bool kIsLimited>
   [[gnu::always_inline]] inline unsigned candidates(const Corners& c, std::size_t first,
@@ -251,10 +251,10 @@ inline void GeodesicSolver::Front::work_off_inline() {
   for (current = 0; current < w.bucket_.size(); ++current) {
     // The bucket may grow while it is worked off, and `bucket_` may move.
     for (size_t i = 0; i < w.bucket_[current].size(); ++i) {
-      const auto v = static_cast<size_t>(w.bucket_[current][i]);
+      const int v = w.bucket_[current][i];
       if (i + 2 < w.bucket_[current].size()) {
         // Much of the time is waiting for memory.
-        const int next = solver.begin_[static_cast<size_t>(w.bucket_[current][i + 2])];
+        const int next = solver.begin_[w.bucket_[current][i + 2]];
         const auto* corners = reinterpret_cast<const char*>(solver.corners_.data() + next);
         for (int line = 0; line < 9; ++line) __builtin_prefetch(corners + 64 * line);
       }
@@ -262,10 +262,10 @@ inline void GeodesicSolver::Front::work_off_inline() {
       if (w.expanded_[v] <= dv) continue;
       w.expanded_[v] = dv;
       for (int c = solver.begin_[v]; c < solver.begin_[v + 1]; ++c) {
-        expand<kIsLimited>(solver.corners_[static_cast<size_t>(c)], dv);
+        expand<kIsLimited>(solver.corners_[c], dv);
       }
       for (int e = solver.needle_begin_[v]; e < solver.needle_begin_[v + 1]; ++e) {
-        const GeodesicReach& needle = solver.needle_[static_cast<size_t>(e)];
+        const GeodesicReach& needle = solver.needle_[e];
         if (is_allowed(needle.vertex)) offer(needle.vertex, dv + needle.distance);
       }
     }
@@ -276,7 +276,7 @@ inline void GeodesicSolver::Front::work_off_inline() {
 std::span<const GeodesicReach> GeodesicSolver::reach(int source, double radius,
                                                      GeodesicWorkspace& workspace,
                                                      std::span<const unsigned char> allowed) const {
-  const auto count = static_cast<size_t>(vertex_count());
+  const auto count = static_cast<std::size_t>(vertex_count());
   if (source < 0 || source >= vertex_count()) {
     std::ostringstream message;
     message << "geodesic distance: source vertex " << source << "; the mesh has " << count
@@ -301,10 +301,9 @@ std::span<const GeodesicReach> GeodesicSolver::reach(int source, double radius,
   front.offer(source, 0.0);
   front.work_off();
   for (const int v : w.touched_) {
-    const auto place = static_cast<size_t>(v);
-    if (w.distance_[place] <= radius) w.result_.push_back({v, w.distance_[place]});
-    w.distance_[place] = kInfinity;
-    w.expanded_[place] = kInfinity;
+    if (w.distance_[v] <= radius) w.result_.push_back({v, w.distance_[v]});
+    w.distance_[v] = kInfinity;
+    w.expanded_[v] = kInfinity;
   }
   return w.result_;
 }
@@ -312,24 +311,24 @@ std::span<const GeodesicReach> GeodesicSolver::reach(int source, double radius,
 std::vector<double> GeodesicSolver::distances(int source, double radius) const {
   GeodesicWorkspace workspace;
   const auto reached = reach(source, radius, workspace);
-  std::vector<double> result(static_cast<size_t>(vertex_count()), kInfinity);
-  for (const GeodesicReach& r : reached) result[static_cast<size_t>(r.vertex)] = r.distance;
+  std::vector<double> result(vertex_count(), kInfinity);
+  for (const GeodesicReach& r : reached) result[r.vertex] = r.distance;
   return result;
 }
 
 GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> vertices,
                              double radius, std::span<const unsigned char> allowed) {
-  std::vector<int> place_of(static_cast<size_t>(solver.vertex_count()), -1);
+  std::vector<int> place_of(solver.vertex_count(), -1);
   for (size_t i = 0; i < vertices.size(); ++i) {
     const int v = vertices[i];
-    if (v < 0 || v >= solver.vertex_count() || place_of[static_cast<size_t>(v)] >= 0) {
+    if (v < 0 || v >= solver.vertex_count() || place_of[v] >= 0) {
       std::ostringstream message;
       message << "geodesic table: vertex " << v
               << " is listed twice or outside the mesh, which has " << solver.vertex_count()
               << " vertices";
       throw UsageError(message.str());
     }
-    place_of[static_cast<size_t>(v)] = static_cast<int>(i);
+    place_of[v] = static_cast<int>(i);
   }
   struct Entry {
     int place;
@@ -343,14 +342,11 @@ GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> 
   parallel_for((count + kBlock - 1) / kBlock, [&](int block) {
     GeodesicWorkspace workspace;
     for (int i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      const auto reached =
-          solver.reach(vertices[static_cast<size_t>(i)], radius, workspace, allowed);
-      const auto place = [&](const GeodesicReach& r) {
-        return place_of[static_cast<size_t>(r.vertex)];
-      };
-      auto& row = later[static_cast<size_t>(i)];
-      row.reserve(static_cast<size_t>(std::count_if(reached.begin(), reached.end(),
-                                                    [&](const auto& r) { return place(r) > i; })));
+      const auto reached = solver.reach(vertices[i], radius, workspace, allowed);
+      const auto place = [&](const GeodesicReach& r) { return place_of[r.vertex]; };
+      auto& row = later[i];
+      row.reserve(std::count_if(reached.begin(), reached.end(),
+                                [&](const auto& r) { return place(r) > i; }));
       for (const GeodesicReach& r : reached) {
         if (place(r) > i) row.push_back({place(r), static_cast<float>(r.distance)});
       }
@@ -361,28 +357,28 @@ GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> 
   table.begin.assign(vertices.size() + 1, 0);
   for (size_t i = 0; i < later.size(); ++i) {
     table.begin[i + 1] += 1 + static_cast<int>(later[i].size());
-    for (const Entry& entry : later[i]) ++table.begin[static_cast<size_t>(entry.place) + 1];
+    for (const Entry& entry : later[i]) ++table.begin[entry.place + 1];
   }
   std::partial_sum(table.begin.begin(), table.begin.end(), table.begin.begin());
-  table.place.resize(static_cast<size_t>(table.begin.back()));
+  table.place.resize(table.begin.back());
   table.distance.resize(table.place.size());
   // Ascending rows without sorting: first what stands before the diagonal, from rows in ascending
   // order, then from that what stands behind it.
   std::vector<int> next(table.begin.begin(), table.begin.end() - 1);
   const auto put = [&](int row, int place, float distance) {
-    const auto k = static_cast<size_t>(next[static_cast<size_t>(row)]++);
+    const auto k = next[row]++;
     table.place[k] = place;
     table.distance[k] = distance;
   };
   for (int i = 0; i < count; ++i) {
-    for (const Entry& entry : later[static_cast<size_t>(i)]) put(entry.place, i, entry.distance);
-    std::vector<Entry>().swap(later[static_cast<size_t>(i)]);
+    for (const Entry& entry : later[i]) put(entry.place, i, entry.distance);
+    std::vector<Entry>().swap(later[i]);
   }
   for (int j = 0; j < count; ++j) {
-    const int end = next[static_cast<size_t>(j)];
+    const int end = next[j];
     put(j, j, 0.0F);
-    for (int k = table.begin[static_cast<size_t>(j)]; k < end; ++k) {
-      put(table.place[static_cast<size_t>(k)], j, table.distance[static_cast<size_t>(k)]);
+    for (int k = table.begin[j]; k < end; ++k) {
+      put(table.place[k], j, table.distance[k]);
     }
   }
   return table;

@@ -80,7 +80,7 @@ TEST(GeodesicSolver, UnrollsACylinder) {
     for (int i = 0; i < segments; ++i) {
       const double round = width * std::min(i, segments - i);
       const double exact = std::hypot(round, 80.0 * k / rings);
-      EXPECT_NEAR(d[static_cast<size_t>(k * segments + i)], exact, 0.005 * exact + 1e-9);
+      EXPECT_NEAR(d[k * segments + i], exact, 0.005 * exact + 1e-9);
     }
   }
 }
@@ -91,17 +91,17 @@ TEST(GeodesicSolver, GoesRoundASlit) {
   TriangleMesh mesh = make_grid_patch(20, 20, 1.0);
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     Vec3 centre = Vec3::Zero();
-    for (const int v : t) centre += mesh.vertices[static_cast<size_t>(v)] / 3.0;
+    for (const int v : t) centre += mesh.vertices[v] / 3.0;
     return centre.x() > 10.0 && centre.x() < 11.0 && centre.y() < 15.0;
   });
   const auto at = [](int x, int y) { return y * 21 + x; };
   const std::vector<double> d = GeodesicSolver(mesh).distances(at(5, 5));
   // Shortest path from (5, 5) over the corners (10, 15) and (11, 15) of the gap to (16, 5).
   const double round = 2.0 * std::hypot(5.0, 10.0) + 1.0;
-  EXPECT_GE(d[static_cast<size_t>(at(16, 5))], round - 1e-6);
-  EXPECT_LE(d[static_cast<size_t>(at(16, 5))], 1.01 * round);  // behind corners it loses up to 1 %
+  EXPECT_GE(d[at(16, 5)], round - 1e-6);
+  EXPECT_LE(d[at(16, 5)], 1.01 * round);  // behind corners it loses up to 1 %
   // In sight: straight.
-  EXPECT_NEAR(d[static_cast<size_t>(at(10, 9))], std::hypot(5.0, 4.0), 1e-6);
+  EXPECT_NEAR(d[at(10, 9)], std::hypot(5.0, 4.0), 1e-6);
 }
 
 TEST(GeodesicSolver, NeverBeatsTheStraightLineNorTheTriangleInequality) {
@@ -114,11 +114,11 @@ TEST(GeodesicSolver, NeverBeatsTheStraightLineNorTheTriangleInequality) {
   for (const int i : pick) d[i] = solver.distances(i);
   for (const int i : pick) {
     for (const int j : pick) {
-      const double ij = d[i][static_cast<size_t>(j)];
-      EXPECT_GE(ij, straight(mesh, static_cast<size_t>(i), static_cast<size_t>(j)) * (1 - 1e-9));
-      EXPECT_NEAR(ij, d[j][static_cast<size_t>(i)], 0.01 * ij);
+      const double ij = d[i][j];
+      EXPECT_GE(ij, straight(mesh, i, j) * (1 - 1e-9));
+      EXPECT_NEAR(ij, d[j][i], 0.01 * ij);
       for (const int k : pick) {
-        EXPECT_LE(ij, (d[i][static_cast<size_t>(k)] + d[k][static_cast<size_t>(j)]) * 1.01);
+        EXPECT_LE(ij, (d[i][k] + d[k][j]) * 1.01);
       }
     }
   }
@@ -136,7 +136,7 @@ TEST(GeodesicSolver, ReachesExactlyWhatLiesWithinTheRadius) {
   for (size_t v = 0; v < mesh.vertices.size(); ++v) within += straight(mesh, 0, v) <= 7.3;
   EXPECT_EQ(reached.size(), within);
   for (const GeodesicReach& r : reached) {
-    EXPECT_NEAR(r.distance, straight(mesh, 0, static_cast<size_t>(r.vertex)), 1e-6);
+    EXPECT_NEAR(r.distance, straight(mesh, 0, r.vertex), 1e-6);
   }
   EXPECT_EQ(solver.reach(3, 0.0, workspace).size(), 1U);
 }
@@ -161,12 +161,12 @@ TEST(GeodesicSolver, WorkspaceKeepsNothingFromCallToCall) {
 TEST(GeodesicSolver, StaysAmongAllowedVertices) {
   const TriangleMesh mesh = make_grid_patch(20, 20, 1.0);
   std::vector<unsigned char> allowed(mesh.vertices.size(), 1);
-  for (int y = 0; y < 15; ++y) allowed[static_cast<size_t>(y * 21 + 10)] = 0;  // a wall at x = 10
+  for (int y = 0; y < 15; ++y) allowed[y * 21 + 10] = 0;  // a wall at x = 10
   const GeodesicSolver solver(mesh);
   GeodesicWorkspace workspace;
   double far = 0.0;
   for (const auto& r : solver.reach(5 * 21 + 5, 100.0, workspace, allowed)) {
-    EXPECT_TRUE(allowed[static_cast<size_t>(r.vertex)]);
+    EXPECT_TRUE(allowed[r.vertex]);
     if (r.vertex == 5 * 21 + 15) far = r.distance;
   }
   // Every triangle at (10, 14) is closed: the shortest way is over (9, 15) and (11, 15).
@@ -233,11 +233,10 @@ TEST(GeodesicTable, IsSymmetricAscendingAndTheSameOnAnyNumberOfThreads) {
   std::map<std::pair<int, int>, double> entry;
   for (size_t i = 0; i < vertices.size(); ++i) {
     for (int e = one.begin[i]; e < one.begin[i + 1]; ++e) {
-      const auto place = static_cast<size_t>(e);
       if (e > one.begin[i]) {
-        EXPECT_LT(one.place[place - 1], one.place[place]);
+        EXPECT_LT(one.place[e - 1], one.place[e]);
       }
-      entry[{static_cast<int>(i), one.place[place]}] = one.distance[place];
+      entry[{static_cast<int>(i), one.place[e]}] = one.distance[e];
     }
     EXPECT_EQ((entry[{static_cast<int>(i), static_cast<int>(i)}]), 0.0);
   }

@@ -187,25 +187,23 @@ MatrixXd edge_path_distances(const TriangleMesh& mesh, std::span<const int> vert
       throw UsageError("edge paths: vertex " + std::to_string(v) + " is outside the mesh of " +
                        std::to_string(mesh.vertex_count()) + " vertices");
     }
-    if (place[static_cast<std::size_t>(v)] >= 0) {
+    if (place[v] >= 0) {
       throw UsageError("edge paths: vertex " + std::to_string(v) +
                        " is given twice; once is allowed");
     }
-    place[static_cast<std::size_t>(v)] = static_cast<int>(k);
+    place[v] = static_cast<int>(k);
   }
   const std::size_t n = vertices.size();
   std::vector<std::vector<Neighbour>> around(n);
   for (const Triangle& t : mesh.triangles) {
     std::array<int, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) p[k] = place[static_cast<std::size_t>(t[k])];
+    for (std::size_t k = 0; k < 3; ++k) p[k] = place[t[k]];
     if (*std::min_element(p.begin(), p.end()) < 0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
-      const double length = (mesh.vertices[static_cast<std::size_t>(t[k])] -
-                             mesh.vertices[static_cast<std::size_t>(t[next])])
-                                .norm();
-      around[static_cast<std::size_t>(p[k])].push_back({p[next], length});
-      around[static_cast<std::size_t>(p[next])].push_back({p[k], length});
+      const double length = (mesh.vertices[t[k]] - mesh.vertices[t[next]]).norm();
+      around[p[k]].push_back({p[next], length});
+      around[p[next]].push_back({p[k], length});
     }
   }
 
@@ -221,7 +219,7 @@ MatrixXd edge_path_distances(const TriangleMesh& mesh, std::span<const int> vert
       const auto [d, here] = front.top();
       front.pop();
       if (d > from[here]) continue;
-      for (const Neighbour& next : around[static_cast<std::size_t>(here)]) {
+      for (const Neighbour& next : around[here]) {
         const double longer = d + next.length;
         if (longer >= from[next.place]) continue;
         from[next.place] = longer;
@@ -234,9 +232,8 @@ MatrixXd edge_path_distances(const TriangleMesh& mesh, std::span<const int> vert
   for (Index j = 0; j < distance.cols(); ++j) {
     for (Index i = 0; i < j; ++i) {
       if (std::isinf(distance(i, j))) {
-        throw UsageError("edge paths: no path between vertices " +
-                         std::to_string(vertices[static_cast<std::size_t>(i)]) + " and " +
-                         std::to_string(vertices[static_cast<std::size_t>(j)]) +
+        throw UsageError("edge paths: no path between vertices " + std::to_string(vertices[i]) +
+                         " and " + std::to_string(vertices[j]) +
                          "; a patch in one piece is required");
       }
     }

@@ -26,7 +26,7 @@ MatrixXd straight_distances(const std::vector<Vec3>& points) {
   MatrixXd d(n, n);
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) {
-      d(i, j) = (points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)]).norm();
+      d(i, j) = (points[i] - points[j]).norm();
     }
   }
   return d;

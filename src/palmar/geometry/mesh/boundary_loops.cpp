@@ -45,7 +45,7 @@ class Rim {
 BoundaryLoops find_boundary_loops(const TriangleMesh& mesh, const MeshTopology& topology) {
   BoundaryLoops result;
   Rim rim(mesh, topology);
-  std::vector<int> place(static_cast<std::size_t>(mesh.vertex_count()),
+  std::vector<int> place(mesh.vertex_count(),
                          -1);  // on the way, if on it
   int used = 0;
   for (int seed = 0; seed < rim.vertex_count(); ++seed) {

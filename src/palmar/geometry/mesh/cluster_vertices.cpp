@@ -26,8 +26,7 @@ TriangleMesh cluster_vertices(const TriangleMesh& mesh, double spacing) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     Cell cell;
     for (int c = 0; c < 3; ++c) {
-      cell[static_cast<std::size_t>(c)] =
-          static_cast<std::int64_t>(std::floor(mesh.vertices[v][c] / spacing));
+      cell[c] = static_cast<std::int64_t>(std::floor(mesh.vertices[v][c] / spacing));
     }
     const auto [place, is_new] = cell_index.try_emplace(cell, coarse.vertex_count());
     if (is_new) {
@@ -35,14 +34,13 @@ TriangleMesh cluster_vertices(const TriangleMesh& mesh, double spacing) {
       count.push_back(0);
     }
     cell_of[v] = place->second;
-    coarse.vertices[static_cast<std::size_t>(place->second)] += mesh.vertices[v];
-    ++count[static_cast<std::size_t>(place->second)];
+    coarse.vertices[place->second] += mesh.vertices[v];
+    ++count[place->second];
   }
   for (std::size_t k = 0; k < count.size(); ++k) coarse.vertices[k] /= count[k];
   std::vector<Triangle> kept;
   for (const Triangle& t : mesh.triangles) {
-    Triangle s{cell_of[static_cast<std::size_t>(t[0])], cell_of[static_cast<std::size_t>(t[1])],
-               cell_of[static_cast<std::size_t>(t[2])]};
+    Triangle s{cell_of[t[0]], cell_of[t[1]], cell_of[t[2]]};
     if (s[0] == s[1] || s[1] == s[2] || s[2] == s[0]) continue;
     std::rotate(s.begin(), std::min_element(s.begin(), s.end()), s.end());
     kept.push_back(s);

@@ -38,7 +38,7 @@ void EditableMesh::settle_outgoing(int v, int h) {
     h = next(twin(h));
     if (h == first) break;
   }
-  outgoing_[static_cast<size_t>(v)] = h;
+  outgoing_[v] = h;
 }
 
 int EditableMesh::valence(int v) const {
@@ -72,8 +72,8 @@ int EditableMesh::add_triangle(int a, int b, int c) {
 }
 
 void EditableMesh::link(int h, int g) {
-  if (h >= 0) twin_[static_cast<size_t>(h)] = g;
-  if (g >= 0) twin_[static_cast<size_t>(g)] = h;
+  if (h >= 0) twin_[h] = g;
+  if (g >= 0) twin_[g] = h;
 }
 
 int EditableMesh::split(int h, const Vec3& p) {
@@ -87,7 +87,7 @@ int EditableMesh::split(int h, const Vec3& p) {
   const int t = add_triangle(m, b, c);
   const int bc = next(h);
   link(t + 1, twin(bc));
-  start_[static_cast<size_t>(bc)] = m;
+  start_[bc] = m;
   link(bc, t + 2);
   if (g >= 0) {
     // Triangle b a d becomes m a d (in place) and b m d.
@@ -95,7 +95,7 @@ int EditableMesh::split(int h, const Vec3& p) {
     const int d = start(db);
     const int s = add_triangle(b, m, d);
     link(s + 2, twin(db));
-    start_[static_cast<size_t>(g)] = m;
+    start_[g] = m;
     link(db, s + 1);
     link(t, s);
     settle_outgoing(d, s + 2);
@@ -135,7 +135,7 @@ bool EditableMesh::collapse(int h) {
   int o = first;
   do {
     const int following = turn(o);
-    start_[static_cast<size_t>(o)] = b;
+    start_[o] = b;
     o = following;
   } while (o != first);
   // Across each vanishing triangle its two other neighbours become each other's.
@@ -145,11 +145,11 @@ bool EditableMesh::collapse(int h) {
   link(ad, db);
   for (const int dead : {h, g}) {
     for (const int e : {dead, next(dead), previous(dead)}) {
-      start_[static_cast<size_t>(e)] = -1;
-      twin_[static_cast<size_t>(e)] = -1;
+      start_[e] = -1;
+      twin_[e] = -1;
     }
   }
-  outgoing_[static_cast<size_t>(a)] = -1;
+  outgoing_[a] = -1;
   // bc runs from c to b, ca from a (now b) to c; one of them may be a border's missing twin.
   settle_outgoing(b, ca >= 0 ? ca : next(bc));
   settle_outgoing(c, bc >= 0 ? bc : next(ca));
@@ -176,14 +176,14 @@ bool EditableMesh::flip(int h) {
   const int bc_twin = twin(bc), ca_twin = twin(ca), ad_twin = twin(ad), db_twin = twin(db);
   // h's triangle becomes c d b, g's triangle d c a; h and g stay twins.
   const auto set = [&](int e, int v, int other) {
-    start_[static_cast<size_t>(e)] = v;
+    start_[e] = v;
     link(e, other);
-    if (other < 0) twin_[static_cast<size_t>(e)] = -1;
+    if (other < 0) twin_[e] = -1;
   };
-  start_[static_cast<size_t>(h)] = c;
+  start_[h] = c;
   set(bc, d, db_twin);
   set(ca, b, bc_twin);
-  start_[static_cast<size_t>(g)] = d;
+  start_[g] = d;
   set(ad, c, ca_twin);
   set(db, a, ad_twin);
   settle_outgoing(a, db);
@@ -198,15 +198,14 @@ EditableMesh::Compacted EditableMesh::compacted() const {
   std::vector<int> new_of_old(position_.size(), -1);
   for (int v = 0; v < vertex_capacity(); ++v) {
     if (!has_vertex(v)) continue;
-    new_of_old[static_cast<size_t>(v)] = result.mesh.vertex_count();
+    new_of_old[v] = result.mesh.vertex_count();
     result.mesh.vertices.push_back(position(v));
     result.old_of_new.push_back(v);
   }
   for (int h = 0; h < half_edge_capacity(); h += 3) {
     if (!has_half_edge(h)) continue;
-    result.mesh.triangles.push_back({new_of_old[static_cast<size_t>(start(h))],
-                                     new_of_old[static_cast<size_t>(start(h + 1))],
-                                     new_of_old[static_cast<size_t>(start(h + 2))]});
+    result.mesh.triangles.push_back(
+        {new_of_old[start(h)], new_of_old[start(h + 1)], new_of_old[start(h + 2)]});
   }
   return result;
 }

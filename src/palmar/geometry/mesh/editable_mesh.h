@@ -24,26 +24,26 @@ class EditableMesh {
 
   int vertex_capacity() const { return static_cast<int>(position_.size()); }
   int half_edge_capacity() const { return static_cast<int>(start_.size()); }
-  bool has_vertex(int v) const { return outgoing_[static_cast<size_t>(v)] >= 0; }
-  bool has_half_edge(int h) const { return start_[static_cast<size_t>(h)] >= 0; }
+  bool has_vertex(int v) const { return outgoing_[v] >= 0; }
+  bool has_half_edge(int h) const { return start_[h] >= 0; }
 
   static int next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static int previous(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  int start(int h) const { return start_[static_cast<size_t>(h)]; }
+  int start(int h) const { return start_[h]; }
   int end(int h) const { return start(next(h)); }
   int apex(int h) const { return start(previous(h)); }
   /// The same edge in the neighbouring triangle; -1 on a border.
-  int twin(int h) const { return twin_[static_cast<size_t>(h)]; }
+  int twin(int h) const { return twin_[h]; }
   /// A half-edge that starts at v; at a border the one that lies on it.
-  int outgoing(int v) const { return outgoing_[static_cast<size_t>(v)]; }
+  int outgoing(int v) const { return outgoing_[v]; }
   /// The next half-edge that starts where h does, counter-clockwise; -1 past a border.
   int turn(int h) const { return twin(previous(h)); }
   bool is_border_vertex(int v) const { return twin(outgoing(v)) < 0; }
   /// Number of edges at v.
   int valence(int v) const;
 
-  const Vec3& position(int v) const { return position_[static_cast<size_t>(v)]; }
-  void set_position(int v, const Vec3& p) { position_[static_cast<size_t>(v)] = p; }
+  const Vec3& position(int v) const { return position_[v]; }
+  void set_position(int v, const Vec3& p) { position_[v] = p; }
 
   /// Puts a new vertex at p on the edge; returns it.
   int split(int h, const Vec3& p);

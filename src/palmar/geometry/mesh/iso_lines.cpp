@@ -31,8 +31,8 @@ std::vector<char> blocked_vertices(const TriangleMesh& mesh, const MeshTopology&
     const int half = static_cast<int>(h);
     const bool runs_on = twin >= 0 && start(twin) != start(half);
     if (runs_on) continue;
-    blocked[static_cast<std::size_t>(start(half))] = 1;
-    blocked[static_cast<std::size_t>(start(MeshTopology::next(half)))] = 1;
+    blocked[start(half)] = 1;
+    blocked[start(MeshTopology::next(half))] = 1;
   }
   return blocked;
 }
@@ -96,14 +96,14 @@ std::vector<IsoLoop> iso_loops(const TriangleMesh& mesh, std::span<const double>
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     int from = -1, to = -1;
     for (int k = 0; k < 3; ++k) {
-      const int edge = topology.edge_of[static_cast<std::size_t>(3 * t + k)];
+      const int edge = topology.edge_of[3 * t + k];
       if (edge < 0) break;
       const bool a = inside[mesh.triangles[t][k]] != 0;
       const bool b = inside[mesh.triangles[t][(k + 1) % 3]] != 0;
       if (a && !b) from = edge;
       if (b && !a) to = edge;
     }
-    if (from >= 0 && to >= 0) next[static_cast<std::size_t>(from)] = to;
+    if (from >= 0 && to >= 0) next[from] = to;
   }
   std::vector<IsoLoop> loops;
   for (std::size_t first = 0; first < next.size(); ++first) {

@@ -49,7 +49,7 @@ TEST(IsoLoops, GoRoundASphereAtAHeightWithTheInsideOnTheLeft) {
     turn += a.cross(b).z();
   }
   EXPECT_GT(turn, 0.0);
-  EXPECT_GE(ball.vertices[static_cast<std::size_t>(loops[0].inside_vertex)].z(), 12.0);
+  EXPECT_GE(ball.vertices[loops[0].inside_vertex].z(), 12.0);
   // A cap of height h has the area 2 pi r h.
   EXPECT_NEAR(sum_of(areas_above(ball, height, 12.0)), 2.0 * std::numbers::pi * 20.0 * 8.0, 3.0);
 }

@@ -10,9 +10,7 @@
 namespace palmar {
 namespace {
 
-const Vec3& point(std::span<const Vec3> vertices, int i) {
-  return vertices[static_cast<size_t>(i)];
-}
+const Vec3& point(std::span<const Vec3> vertices, int i) { return vertices[i]; }
 
 // atan2 stays accurate for needle-like triangles, where acos of the dot product does not.
 double angle_between(const Vec3& u, const Vec3& v) {
@@ -109,7 +107,7 @@ std::vector<Vec3> vertex_normals(std::span<const Vec3> vertices,
   for (const Triangle& t : triangles) {
     const Vec3 normal = unit_or_zero(area_vector(vertices, t));
     for (size_t k = 0; k < 3; ++k) {
-      normals[static_cast<size_t>(t[k])] += angle_at(vertices, t, k) * normal;
+      normals[t[k]] += angle_at(vertices, t, k) * normal;
     }
   }
   for (Vec3& n : normals) n = unit_or_zero(n);
@@ -143,15 +141,14 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
         const size_t q = (k + 1) % 3, r = (k + 2) % 3;
         part = (squared[q] * dot[q] + squared[r] * dot[r]) / (16.0 * area);
       }
-      areas[static_cast<size_t>(t[k])] += part;
+      areas[t[k]] += part;
     }
   }
   return areas;
 }
 
 double corner_angle(const TriangleMesh& mesh, int triangle, int corner) {
-  return angle_at(mesh.vertices, mesh.triangles[static_cast<size_t>(triangle)],
-                  static_cast<size_t>(corner));
+  return angle_at(mesh.vertices, mesh.triangles[triangle], corner);
 }
 
 std::vector<double> smallest_angles(const TriangleMesh& mesh) {
@@ -171,12 +168,11 @@ double largest_fold_angle(const TriangleMesh& mesh) {
   for (size_t h = 0; h < topology.twin.size(); ++h) {
     const int twin = topology.twin[h];
     if (twin <= static_cast<int>(h)) continue;
-    const auto other = static_cast<size_t>(twin);
     const Vec3& n = normals[h / 3];
     // Neighbours that disagree about outside (both run along the edge the same way) are compared
     // as if one of them were turned.
-    const bool agree = mesh.triangles[h / 3][h % 3] != mesh.triangles[other / 3][other % 3];
-    const Vec3 m = agree ? normals[other / 3] : Vec3(-normals[other / 3]);
+    const bool agree = mesh.triangles[h / 3][h % 3] != mesh.triangles[twin / 3][twin % 3];
+    const Vec3 m = agree ? normals[twin / 3] : Vec3(-normals[twin / 3]);
     if (n.isZero() || m.isZero()) continue;
     largest = std::max(largest, angle_between(n, m));
   }

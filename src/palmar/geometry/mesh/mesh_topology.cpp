@@ -14,7 +14,7 @@ namespace {
 // Union by smaller root, so that a root is the smallest member of its set.
 class DisjointSets {
  public:
-  explicit DisjointSets(int count) : parent_(static_cast<size_t>(count)) {
+  explicit DisjointSets(int count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int root(int i) {
@@ -28,7 +28,7 @@ class DisjointSets {
   }
 
  private:
-  int& at(int i) { return parent_[static_cast<size_t>(i)]; }
+  int& at(int i) { return parent_[i]; }
   std::vector<int> parent_;
 };
 
@@ -48,7 +48,7 @@ MeshTopology build_topology(const TriangleMesh& mesh) {
   MeshTopology topology;
   const int n = topology.vertex_count = mesh.vertex_count();
   const size_t half_edges = 3 * mesh.triangles.size();
-  topology.fan_begin.assign(static_cast<size_t>(n) + 1, 0);
+  topology.fan_begin.assign(static_cast<std::size_t>(n) + 1, 0);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int v : mesh.triangles[t]) {
       if (v >= 0 && v < n) continue;
@@ -58,11 +58,11 @@ MeshTopology build_topology(const TriangleMesh& mesh) {
       throw InputError(message.str());
     }
     if (is_collapsed(mesh.triangles[t])) continue;
-    for (const int v : mesh.triangles[t]) ++topology.fan_begin[static_cast<size_t>(v) + 1];
+    for (const int v : mesh.triangles[t]) ++topology.fan_begin[v + 1];
   }
   std::partial_sum(topology.fan_begin.begin(), topology.fan_begin.end(),
                    topology.fan_begin.begin());
-  topology.fan.resize(static_cast<size_t>(topology.fan_begin.back()));
+  topology.fan.resize(topology.fan_begin.back());
   std::vector<int> fill(topology.fan_begin.begin(), topology.fan_begin.end() - 1);
 
   // Half-edges in buckets by their smaller end; a bucket is short, so sorting it is cheap and the
@@ -70,7 +70,7 @@ MeshTopology build_topology(const TriangleMesh& mesh) {
   struct Link {
     int other, half_edge;
   };
-  std::vector<int> begin(static_cast<size_t>(n) + 1, 0);
+  std::vector<int> begin(static_cast<std::size_t>(n) + 1, 0);
   const auto ends = [&](size_t h) {
     const Triangle& t = mesh.triangles[h / 3];
     return std::minmax(t[h % 3], t[(h + 1) % 3]);
@@ -78,23 +78,23 @@ MeshTopology build_topology(const TriangleMesh& mesh) {
   for (size_t h = 0; h < half_edges; ++h) {
     if (is_collapsed(mesh.triangles[h / 3])) continue;
     const int v = mesh.triangles[h / 3][h % 3];
-    topology.fan[static_cast<size_t>(fill[static_cast<size_t>(v)]++)] = static_cast<int>(h);
-    ++begin[static_cast<size_t>(ends(h).first) + 1];
+    topology.fan[fill[v]++] = static_cast<int>(h);
+    ++begin[(ends(h).first) + 1];
   }
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Link> links(static_cast<size_t>(begin.back()));
+  std::vector<Link> links(begin.back());
   fill.assign(begin.begin(), begin.end() - 1);
   for (size_t h = 0; h < half_edges; ++h) {
     if (is_collapsed(mesh.triangles[h / 3])) continue;
     const auto [a, b] = ends(h);
-    links[static_cast<size_t>(fill[static_cast<size_t>(a)]++)] = {b, static_cast<int>(h)};
+    links[fill[a]++] = {b, static_cast<int>(h)};
   }
 
   topology.edge_of.assign(half_edges, -1);
   topology.twin.assign(half_edges, -1);
   for (int a = 0; a < n; ++a) {
-    const auto first = links.begin() + begin[static_cast<size_t>(a)];
-    const auto last = links.begin() + begin[static_cast<size_t>(a) + 1];
+    const auto first = links.begin() + begin[a];
+    const auto last = links.begin() + begin[a + 1];
     std::sort(first, last, [](const Link& x, const Link& y) {
       return x.other != y.other ? x.other < y.other : x.half_edge < y.half_edge;
     });
@@ -102,13 +102,13 @@ MeshTopology build_topology(const TriangleMesh& mesh) {
       auto run_end = run;
       const int e = static_cast<int>(topology.edge.size());
       for (; run_end != last && run_end->other == run->other; ++run_end) {
-        topology.edge_of[static_cast<size_t>(run_end->half_edge)] = e;
+        topology.edge_of[run_end->half_edge] = e;
       }
       topology.edge.push_back({a, run->other});
       topology.edge_use.push_back(static_cast<int>(run_end - run));
       if (run_end - run == 2) {
-        topology.twin[static_cast<size_t>(run->half_edge)] = (run + 1)->half_edge;
-        topology.twin[static_cast<size_t>((run + 1)->half_edge)] = run->half_edge;
+        topology.twin[run->half_edge] = (run + 1)->half_edge;
+        topology.twin[(run + 1)->half_edge] = run->half_edge;
       }
       run = run_end;
     }
@@ -131,7 +131,7 @@ std::vector<int> non_manifold_vertices(const TriangleMesh& mesh, const MeshTopol
     const auto fan = topology.outgoing(v);
     if (fan.size() < 2) continue;
     for (size_t i = 0; i < fan.size(); ++i) {
-      place[static_cast<size_t>(fan[i] / 3)] = static_cast<int>(i);
+      place[fan[i] / 3] = static_cast<int>(i);
     }
     // Triangles of one fan are joined over edges at v that two of them share.
     DisjointSets sets(static_cast<int>(fan.size()));
@@ -139,12 +139,11 @@ std::vector<int> non_manifold_vertices(const TriangleMesh& mesh, const MeshTopol
     int boundary = 0;
     for (size_t i = 0; i < fan.size(); ++i) {
       for (const int h : {fan[i], MeshTopology::previous(fan[i])}) {
-        const int use =
-            topology.edge_use[static_cast<size_t>(topology.edge_of[static_cast<size_t>(h)])];
+        const int use = topology.edge_use[topology.edge_of[h]];
         has_bad_edge |= use > 2;
         boundary += use == 1;
-        const int twin = topology.twin[static_cast<size_t>(h)];
-        if (twin >= 0) sets.unite(static_cast<int>(i), place[static_cast<size_t>(twin / 3)]);
+        const int twin = topology.twin[h];
+        if (twin >= 0) sets.unite(static_cast<int>(i), place[twin / 3]);
       }
     }
     bool is_one_fan = !has_bad_edge && boundary <= 2;
@@ -159,12 +158,12 @@ std::vector<int> non_manifold_vertices(const TriangleMesh& mesh, const MeshTopol
 std::vector<int> triangle_components(const TriangleMesh& mesh, const MeshTopology& topology) {
   DisjointSets sets(topology.vertex_count);
   for (const auto& [a, b] : topology.edge) sets.unite(a, b);
-  std::vector<int> number_of_root(static_cast<size_t>(topology.vertex_count), -1);
+  std::vector<int> number_of_root(topology.vertex_count, -1);
   std::vector<int> component(mesh.triangles.size(), -1);
   int count = 0;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (topology.edge_of[3 * t] < 0) continue;
-    int& number = number_of_root[static_cast<size_t>(sets.root(mesh.triangles[t][0]))];
+    int& number = number_of_root[sets.root(mesh.triangles[t][0])];
     if (number < 0) number = count++;
     component[t] = number;
   }
@@ -172,10 +171,10 @@ std::vector<int> triangle_components(const TriangleMesh& mesh, const MeshTopolog
 }
 
 std::vector<std::vector<int>> vertex_neighbours(const MeshTopology& topology) {
-  std::vector<std::vector<int>> result(static_cast<size_t>(topology.vertex_count));
+  std::vector<std::vector<int>> result(topology.vertex_count);
   // Edges ascend, so first the smaller then the larger neighbours arrive in order.
-  for (const auto& [a, b] : topology.edge) result[static_cast<size_t>(b)].push_back(a);
-  for (const auto& [a, b] : topology.edge) result[static_cast<size_t>(a)].push_back(b);
+  for (const auto& [a, b] : topology.edge) result[b].push_back(a);
+  for (const auto& [a, b] : topology.edge) result[a].push_back(b);
   return result;
 }
 
@@ -208,9 +207,7 @@ TopologyReport examine_topology(const TriangleMesh& mesh, const MeshTopology& to
   for (size_t h = 0; h < topology.twin.size(); ++h) {
     const int twin = topology.twin[h];
     if (twin <= static_cast<int>(h)) continue;
-    const auto other = static_cast<size_t>(twin);
-    report.inconsistent_edges +=
-        mesh.triangles[h / 3][h % 3] == mesh.triangles[other / 3][other % 3];
+    report.inconsistent_edges += mesh.triangles[h / 3][h % 3] == mesh.triangles[twin / 3][twin % 3];
   }
   report.non_manifold_vertices = static_cast<int>(non_manifold_vertices(mesh, topology).size());
   const std::vector<int> component = triangle_components(mesh, topology);

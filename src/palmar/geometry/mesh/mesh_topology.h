@@ -32,9 +32,7 @@ struct MeshTopology {
 
   /// Half-edges that start at `vertex`: one per triangle round it.
   std::span<const int> outgoing(int vertex) const {
-    const auto v = static_cast<size_t>(vertex);
-    return std::span(fan).subspan(static_cast<size_t>(fan_begin[v]),
-                                  static_cast<size_t>(fan_begin[v + 1] - fan_begin[v]));
+    return std::span(fan).subspan(fan_begin[vertex], fan_begin[vertex + 1] - fan_begin[vertex]);
   }
   static int next(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
   static int previous(int half_edge) { return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1; }

@@ -30,14 +30,14 @@ TEST(BuildTopology, TetrahedronHasSixEdgesEachSharedByTwo) {
                                          std::array{1, 2}, std::array{1, 3}, std::array{2, 3}));
   EXPECT_THAT(topology.edge_use, ElementsAre(2, 2, 2, 2, 2, 2));
   for (size_t h = 0; h < 12; ++h) {
-    const auto twin = static_cast<size_t>(topology.twin[h]);
+    const auto twin = static_cast<std::size_t>(topology.twin[h]);
     EXPECT_EQ(topology.twin[twin], static_cast<int>(h));
     EXPECT_EQ(mesh.triangles[h / 3][h % 3], mesh.triangles[twin / 3][(twin + 1) % 3]);
     EXPECT_EQ(topology.edge_of[h], topology.edge_of[twin]);
   }
   for (int v = 0; v < 4; ++v) {
     for (const int h : topology.outgoing(v)) {
-      EXPECT_EQ(mesh.triangles[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)], v);
+      EXPECT_EQ(mesh.triangles[h / 3][h % 3], v);
     }
     EXPECT_EQ(topology.outgoing(v).size(), 3U);
   }
@@ -145,7 +145,7 @@ TEST(VertexNeighbours, AreAscendingAndMutual) {
     EXPECT_TRUE(std::is_sorted(neighbours[v].begin(), neighbours[v].end()));
     fives += neighbours[v].size() == 5;
     for (const int n : neighbours[v]) {
-      EXPECT_THAT(neighbours[static_cast<size_t>(n)], ::testing::Contains(static_cast<int>(v)));
+      EXPECT_THAT(neighbours[n], ::testing::Contains(static_cast<int>(v)));
     }
   }
   EXPECT_EQ(fives, 12);  // an icosphere has twelve vertices of five neighbours, else six

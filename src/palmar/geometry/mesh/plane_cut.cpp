@@ -36,11 +36,11 @@ class PlaneCutter {
   }
 
  private:
-  double height(int v) const { return height_[static_cast<std::size_t>(v)]; }
+  double height(int v) const { return height_[v]; }
 
   int keep(int v) {
-    int& index = kept_[static_cast<std::size_t>(v)];
-    if (index < 0) index = add(position_[static_cast<std::size_t>(v)], height(v) == 0.0);
+    int& index = kept_[v];
+    if (index < 0) index = add(position_[v], height(v) == 0.0);
     return index;
   }
 
@@ -50,9 +50,8 @@ class PlaneCutter {
     const auto [entry, is_new] = crossing_.try_emplace({key.first, key.second}, -1);
     if (is_new) {
       const double share = height(key.first) / (height(key.first) - height(key.second));
-      const Vec3& from = position_[static_cast<std::size_t>(key.first)];
-      entry->second =
-          add(from + share * (position_[static_cast<std::size_t>(key.second)] - from), true);
+      const Vec3& from = position_[key.first];
+      entry->second = add(from + share * (position_[key.second] - from), true);
     }
     return entry->second;
   }
@@ -64,12 +63,12 @@ class PlaneCutter {
   }
 
   void cut(int t) {
-    const Triangle& corner = closed_.triangles[static_cast<std::size_t>(t)];
+    const Triangle& corner = closed_.triangles[t];
     if (std::none_of(corner.begin(), corner.end(), [&](int v) { return height(v) > 0.0; })) return;
     std::vector<int> polygon;
     for (int k = 0; k < 3; ++k) {
-      const int a = corner[static_cast<std::size_t>(k)];
-      const int b = corner[static_cast<std::size_t>((k + 1) % 3)];
+      const int a = corner[k];
+      const int b = corner[(k + 1) % 3];
       if (height(a) >= 0.0) polygon.push_back(keep(a));
       if (height(a) * height(b) < 0.0) polygon.push_back(crossing(a, b));
     }
@@ -83,7 +82,7 @@ class PlaneCutter {
     }
   }
 
-  const Vec3& at(int v) const { return result_.mesh.vertices[static_cast<std::size_t>(v)]; }
+  const Vec3& at(int v) const { return result_.mesh.vertices[v]; }
 
   /// Edges in the plane that no kept triangle runs the other way.
   void collect_rim() {
@@ -92,8 +91,7 @@ class PlaneCutter {
       for (std::size_t k = 0; k < 3; ++k) {
         const int a = t[k];
         const int b = t[(k + 1) % 3];
-        if (is_in_plane_[static_cast<std::size_t>(a)] &&
-            is_in_plane_[static_cast<std::size_t>(b)]) {
+        if (is_in_plane_[a] && is_in_plane_[b]) {
           ++in_plane[{a, b}];
         }
       }

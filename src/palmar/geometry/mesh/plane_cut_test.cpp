@@ -18,8 +18,8 @@ double rim_length(const CutMesh& cut) {
   double sum = 0.0;
   for (const std::vector<int>& loop : cut.rim) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      const auto a = static_cast<std::size_t>(loop[k]);
-      const auto b = static_cast<std::size_t>(loop[(k + 1) % loop.size()]);
+      const int a = loop[k];
+      const int b = loop[(k + 1) % loop.size()];
       sum += (cut.mesh.vertices[b] - cut.mesh.vertices[a]).norm();
     }
   }
@@ -29,9 +29,7 @@ double rim_length(const CutMesh& cut) {
 double area(const CutMesh& cut) {
   double sum = 0.0;
   for (const Triangle& t : cut.mesh.triangles) {
-    const auto at = [&](std::size_t k) {
-      return cut.mesh.vertices[static_cast<std::size_t>(t[k])];
-    };
+    const auto at = [&](std::size_t k) { return cut.mesh.vertices[t[k]]; };
     sum += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
   }
   return sum;
@@ -65,8 +63,7 @@ TEST(CutByPlane, RimRunsLikeItsTriangles) {
   Vec3 twice_area = Vec3::Zero();
   const std::vector<int>& loop = cut.rim.front();
   for (std::size_t k = 0; k < loop.size(); ++k) {
-    twice_area += cut.mesh.vertices[static_cast<std::size_t>(loop[k])].cross(
-        cut.mesh.vertices[static_cast<std::size_t>(loop[(k + 1) % loop.size()])]);
+    twice_area += cut.mesh.vertices[loop[k]].cross(cut.mesh.vertices[loop[(k + 1) % loop.size()]]);
   }
   EXPECT_GT(twice_area.z(), 0.0);
 }

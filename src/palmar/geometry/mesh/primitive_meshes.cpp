@@ -53,8 +53,7 @@ TriangleMesh split_in_four(const TriangleMesh& mesh) {
     const auto [place, is_new] =
         midpoints.try_emplace(std::minmax(a, b), static_cast<int>(result.vertices.size()));
     if (is_new) {
-      result.vertices.push_back(
-          0.5 * (mesh.vertices[static_cast<size_t>(a)] + mesh.vertices[static_cast<size_t>(b)]));
+      result.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
     }
     return place->second;
   };
@@ -151,7 +150,7 @@ TriangleMesh make_box(const Vec3& size, int divisions) {
     if (is_new) {
       Vec3 p;
       for (int k = 0; k < 3; ++k) {
-        p[k] = size[k] * (static_cast<double>(place[static_cast<size_t>(k)]) / divisions - 0.5);
+        p[k] = size[k] * (static_cast<double>(place[k]) / divisions - 0.5);
       }
       mesh.vertices.push_back(p);
     }

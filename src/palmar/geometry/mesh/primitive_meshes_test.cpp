@@ -74,10 +74,7 @@ TEST(MakeLatticePatch, IsMadeOfEquilateralTrianglesFacingUp) {
   EXPECT_EQ(mesh.vertices.front(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
     for (size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR((mesh.vertices[static_cast<size_t>(t[k])] -
-                   mesh.vertices[static_cast<size_t>(t[(k + 1) % 3])])
-                      .norm(),
-                  spacing, 1e-12);
+      EXPECT_NEAR((mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm(), spacing, 1e-12);
     }
   }
   for (const Vec3& n : triangle_normals(mesh)) EXPECT_NEAR(n.z(), 1.0, 1e-14);

@@ -24,14 +24,12 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
     throw UsageError("section plane: normal has length " + std::to_string(normal.norm()) +
                      "; a unit vector is required");
   }
-  const auto height = [&](int i) {
-    return normal.dot(mesh.vertices[static_cast<std::size_t>(i)] - point);
-  };
+  const auto height = [&](int i) { return normal.dot(mesh.vertices[i] - point); };
   std::vector<char> side(mesh.vertices.size());
   for (std::size_t i = 0; i < side.size(); ++i) {
     side[i] = normal.dot(mesh.vertices[i] - point) >= 0.0 ? 1 : 0;
   }
-  const auto is_above = [&](int i) { return side[static_cast<std::size_t>(i)] != 0; };
+  const auto is_above = [&](int i) { return side[i] != 0; };
   // Each crossed triangle is a piece from the edge through which its corners, walked in order,
   // leave the normal's side to the edge through which they come back.
   struct Piece {
@@ -62,8 +60,8 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
   std::sort(starting.begin(), starting.end());
   std::sort(ending.begin(), ending.end());
   const auto corner = [&](const Edge& e) -> Vec3 {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(e[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(e[1])];
+    const Vec3& a = mesh.vertices[e[0]];
+    const Vec3& b = mesh.vertices[e[1]];
     const double ha = height(e[0]), hb = height(e[1]);
     return a + ha / (ha - hb) * (b - a);
   };

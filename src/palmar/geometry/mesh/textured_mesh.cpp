@@ -14,12 +14,10 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Srgb pixel(const RgbImage& image, int column, int row) {
   const auto round = [](int i, int n) { return (i % n + n) % n; };
-  const std::size_t p =
-      3 * (at(round(row, image.height)) * at(image.width) + at(round(column, image.width)));
+  const std::size_t p = 3 * (static_cast<std::size_t>(round(row, image.height)) * image.width +
+                             static_cast<std::size_t>(round(column, image.width)));
   return Srgb(image.rgb[p], image.rgb[p + 1], image.rgb[p + 2]) / 255.0F;
 }
 
@@ -44,10 +42,10 @@ class Refiner {
     std::vector<float> count(mesh_.vertices.size(), 0.0F);
     for (std::size_t t = 0; t < colours_.texture.size(); ++t) {
       const int image = colours_.texture[t];
-      if (image < 0 || colours_.textures[at(image)].rgb.empty()) continue;
+      if (image < 0 || colours_.textures[image].rgb.empty()) continue;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t v = at(mesh_.triangles[t][k]);
-        out.colour[v] += colour_at(colours_.textures[at(image)], colours_.place[t][k]);
+        const int v = mesh_.triangles[t][k];
+        out.colour[v] += colour_at(colours_.textures[image], colours_.place[t][k]);
         count[v] += 1.0F;
       }
     }
@@ -70,7 +68,7 @@ class Refiner {
   }
 
   bool is_long(int a, int b) const {
-    return (mesh_.vertices[at(a)] - mesh_.vertices[at(b)]).squaredNorm() > squared_;
+    return (mesh_.vertices[a] - mesh_.vertices[b]).squaredNorm() > squared_;
   }
 
   int middle(int a, int b) {
@@ -78,9 +76,9 @@ class Refiner {
                               static_cast<std::uint32_t>(std::max(a, b));
     const auto [place, is_new] = middle_.try_emplace(key, mesh_.vertex_count());
     if (is_new) {
-      mesh_.vertices.push_back(0.5 * (mesh_.vertices[at(a)] + mesh_.vertices[at(b)]));
+      mesh_.vertices.push_back(0.5 * (mesh_.vertices[a] + mesh_.vertices[b]));
       if (!colours_.vertex.empty()) {
-        colours_.vertex.push_back(0.5F * (colours_.vertex[at(a)] + colours_.vertex[at(b)]));
+        colours_.vertex.push_back(0.5F * (colours_.vertex[a] + colours_.vertex[b]));
       }
     }
     return place->second;
@@ -142,7 +140,7 @@ class Refiner {
       add(next + 3, last, last + 3);
       // The rest is a quadrangle: its shorter diagonal.
       const auto squared = [&](std::size_t a, std::size_t b) {
-        return (mesh_.vertices[at(node[a])] - mesh_.vertices[at(node[b])]).squaredNorm();
+        return (mesh_.vertices[node[a]] - mesh_.vertices[node[b]]).squaredNorm();
       };
       if (squared(k, next + 3) <= squared(next, last + 3)) {
         add(k, next, next + 3);

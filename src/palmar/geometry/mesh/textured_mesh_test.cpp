@@ -41,7 +41,7 @@ TEST(TexturedMesh, FineMeshShowsTheTextureInPlace) {
                             {{0, 1, 2}, {0, 2, 3}}};
   SurfaceColours colours;
   const auto place = [&](int v) {
-    const Vec3& p = square.vertices[static_cast<std::size_t>(v)];
+    const Vec3& p = square.vertices[v];
     return Eigen::Vector2f(static_cast<float>(0.1 * p.x()), static_cast<float>(0.1 * p.y()));
   };
   for (const Triangle& t : square.triangles) {
@@ -53,8 +53,8 @@ TEST(TexturedMesh, FineMeshShowsTheTextureInPlace) {
   EXPECT_NEAR(surface_area(fine.mesh), 100.0, 1e-9);
   for (const Triangle& t : fine.mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& a = fine.mesh.vertices[static_cast<std::size_t>(t[k])];
-      const Vec3& b = fine.mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+      const Vec3& a = fine.mesh.vertices[t[k]];
+      const Vec3& b = fine.mesh.vertices[t[(k + 1) % 3]];
       EXPECT_LE((a - b).norm(), 0.7);
     }
   }

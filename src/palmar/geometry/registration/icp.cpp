@@ -14,6 +14,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -22,8 +23,6 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kAgreement = 0.5;  // cosine of 60 degrees between partners' normals
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Sample {
   Vec3 point, normal;
@@ -35,11 +34,11 @@ std::vector<Sample> spread_samples(const TriangleMesh& mesh, int count) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
   const double step = surface_area(mesh) / count;
   std::vector<Sample> samples;
-  samples.reserve(at(count));
+  samples.reserve(count);
   double before = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const std::array<Vec3, 3> corner = {mesh.vertices[at(t[0])], mesh.vertices[at(t[1])],
-                                        mesh.vertices[at(t[2])]};
+    const std::array<Vec3, 3> corner = {mesh.vertices[t[0]], mesh.vertices[t[1]],
+                                        mesh.vertices[t[2]]};
     const double area = triangle_area(corner[0], corner[1], corner[2]);
     while (static_cast<int>(samples.size()) < count &&
            (static_cast<double>(samples.size()) + 0.5) * step < before + area) {
@@ -50,7 +49,7 @@ std::vector<Sample> spread_samples(const TriangleMesh& mesh, int count) {
         v = 1.0 - v;
       }
       const double w = 1.0 - u - v;
-      const Vec3 normal = u * normals[at(t[0])] + v * normals[at(t[1])] + w * normals[at(t[2])];
+      const Vec3 normal = u * normals[t[0]] + v * normals[t[1]] + w * normals[t[2]];
       samples.push_back({u * corner[0] + v * corner[1] + w * corner[2], normal.normalized()});
     }
     before += area;
@@ -71,7 +70,7 @@ class FixedSurface {
     for (std::size_t h = 0; h < topology.edge_of.size(); ++h) {
       const int edge = topology.edge_of[h];
       // Edge k of a triangle runs from corner k to the next: its points have no weight at k + 2.
-      if (edge >= 0 && topology.edge_use[at(edge)] == 1) is_rim_[h / 3][(h % 3 + 2) % 3] = true;
+      if (edge >= 0 && topology.edge_use[edge] == 1) is_rim_[h / 3][(h % 3 + 2) % 3] = true;
     }
   }
 
@@ -81,17 +80,15 @@ class FixedSurface {
   }
   bool is_on_rim(const ClosestPoint& found) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (found.weights[k] == 0.0 && is_rim_[at(found.triangle)][k]) return true;
+      if (found.weights[k] == 0.0 && is_rim_[found.triangle][k]) return true;
     }
     return false;
   }
-  const Vec3& face_normal(const ClosestPoint& found) const {
-    return face_normal_[at(found.triangle)];
-  }
+  const Vec3& face_normal(const ClosestPoint& found) const { return face_normal_[found.triangle]; }
   Vec3 smooth_normal(const ClosestPoint& found) const {
-    const Triangle& t = mesh_.triangles[at(found.triangle)];
+    const Triangle& t = mesh_.triangles[found.triangle];
     Vec3 normal = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) normal += found.weights[k] * vertex_normal_[at(t[k])];
+    for (std::size_t k = 0; k < 3; ++k) normal += found.weights[k] * vertex_normal_[t[k]];
     return normal.normalized();
   }
 
@@ -235,12 +232,6 @@ class Registration {
   Vec3 centre_ = Vec3::Zero();
   double radius_ = 0.0;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Orders places by what their distances cost, a far one no more than a little: c is three times
 /// the least median of all.

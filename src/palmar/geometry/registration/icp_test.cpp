@@ -7,19 +7,17 @@
 #include <Eigen/Eigenvalues>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// About the shape of a phalanx: 44 mm long, waisted, flat on one side, a broad base and a head of
 /// two condyles. `flatness` 0 makes it a surface of revolution.
@@ -52,19 +50,19 @@ TriangleMesh part_of(const TriangleMesh& mesh, const Vec3& direction, double off
   part.triangles.clear();
   for (const Triangle& t : mesh.triangles) {
     Vec3 middle = Vec3::Zero();
-    for (const int v : t) middle += mesh.vertices[static_cast<std::size_t>(v)] / 3.0;
+    for (const int v : t) middle += mesh.vertices[v] / 3.0;
     if (middle.dot(direction) < offset) part.triangles.push_back(t);
   }
   return part;
 }
 
 Rigid3 some_motion() {
-  return Rigid3{Quat(Eigen::AngleAxisd(35.0 * kDeg, Vec3(0.4, -0.3, 0.85).normalized())),
+  return Rigid3{Quat(Eigen::AngleAxisd(35.0 * kDegree, Vec3(0.4, -0.3, 0.85).normalized())),
                 Vec3(12.0, -7.0, 20.0)};
 }
 
 double turn_between(const Rigid3& a, const Rigid3& b) {
-  return a.rotation.angularDistance(b.rotation) / kDeg;
+  return a.rotation.angularDistance(b.rotation) / kDegree;
 }
 
 /// Largest distance between where two motions put the vertices, mm.
@@ -96,14 +94,14 @@ TEST(RegisterRigidly, RecoversFromAStartTurnedBySixtyDegreesAboutAnyAxis) {
     const double z = 1.0 - (k + 0.5) / 3.5, phi = 2.399963 * k;
     const Vec3 axis(std::sqrt(1.0 - z * z) * std::cos(phi), z,
                     std::sqrt(1.0 - z * z) * std::sin(phi));
-    const Rigid3 wrong = truth * Rigid3::about_axis(axis, Vec3(0.0, -22.0, 0.0), 60.0 * kDeg);
+    const Rigid3 wrong = truth * Rigid3::about_axis(axis, Vec3(0.0, -22.0, 0.0), 60.0 * kDegree);
     const IcpResult result = register_rigidly(bone, fixed, wrong);
     EXPECT_LT(turn_between(result.fixed_from_moving, truth), 1.0) << "axis " << axis.transpose();
     EXPECT_LT(farthest(bone, result.fixed_from_moving, truth), 0.2) << "axis " << axis.transpose();
   }
   for (const double sign : {-1.0, 1.0}) {
     const Rigid3 wrong =
-        truth * Rigid3::about_axis(Vec3::UnitY(), Vec3::Zero(), sign * 60.0 * kDeg);
+        truth * Rigid3::about_axis(Vec3::UnitY(), Vec3::Zero(), sign * 60.0 * kDegree);
     EXPECT_LT(turn_between(register_rigidly(bone, fixed, wrong).fixed_from_moving, truth), 1.0);
   }
 }
@@ -125,7 +123,7 @@ TEST(RegisterRigidly, NoiseOfTheVerticesAveragesOut) {
   constexpr double kNoise = 0.3;  // mm
   const TriangleMesh bone = phalanx(1.0, 3);
   const Rigid3 truth = some_motion();
-  const double bound = least_turn_error(bone, kNoise) / kDeg;
+  const double bound = least_turn_error(bone, kNoise) / kDegree;
   ASSERT_LT(bound, 1.2);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const TriangleMesh seen = with_noise(bone, kNoise, seed);

@@ -59,13 +59,12 @@ class Target {
       if (zeros == 1) {
         for (size_t k = 0; k < 3; ++k) {
           if (last.point.weights[k] > 0.0) continue;
-          try_triangle(p, topology_.twin[3 * static_cast<size_t>(last.triangle) + (k + 1) % 3] / 3,
-                       topology_.twin[3 * static_cast<size_t>(last.triangle) + (k + 1) % 3] >= 0,
-                       foot);
+          try_triangle(
+              p, topology_.twin[3 * static_cast<std::size_t>(last.triangle) + (k + 1) % 3] / 3,
+              topology_.twin[3 * static_cast<std::size_t>(last.triangle) + (k + 1) % 3] >= 0, foot);
         }
       } else {
-        const int v =
-            mesh_.triangles[static_cast<size_t>(last.triangle)][static_cast<size_t>(corner)];
+        const int v = mesh_.triangles[last.triangle][corner];
         for (const int h : topology_.outgoing(v)) try_triangle(p, h / 3, true, foot);
       }
       if (foot.triangle == last.triangle) return foot;
@@ -74,14 +73,14 @@ class Target {
   }
 
   Vec3 normal(int triangle) const {
-    const auto& [a, b, c] = mesh_.triangles[static_cast<size_t>(triangle)];
+    const auto& [a, b, c] = mesh_.triangles[triangle];
     return (at(b) - at(a)).cross(at(c) - at(a)).normalized();
   }
 
  private:
-  const Vec3& at(int v) const { return mesh_.vertices[static_cast<size_t>(v)]; }
+  const Vec3& at(int v) const { return mesh_.vertices[v]; }
   TrianglePoint nearest(const Vec3& p, int triangle) const {
-    const auto& [a, b, c] = mesh_.triangles[static_cast<size_t>(triangle)];
+    const auto& [a, b, c] = mesh_.triangles[triangle];
     return closest_point_on_triangle(p, at(a), at(b), at(c));
   }
   void try_triangle(const Vec3& p, int triangle, bool exists, Foot& foot) const {
@@ -110,9 +109,9 @@ class Remesher {
   Remesher(const TriangleMesh& mesh, const RemeshOptions& options)
       : target_(mesh), edit_(mesh), rounds_(options.rounds) {
     length_ = options.edge_length * kSteeringLength;
-    foot_.assign(static_cast<size_t>(edit_.vertex_capacity()), 0);
+    foot_.assign(edit_.vertex_capacity(), 0);
     for (int h = 0; h < edit_.half_edge_capacity(); ++h) {
-      foot_[static_cast<size_t>(edit_.start(h))] = h / 3;
+      foot_[edit_.start(h)] = h / 3;
     }
   }
 
@@ -141,7 +140,7 @@ class Remesher {
   // Puts the vertex on the surface, from the foot of a vertex close by.
   void settle(int v, const Vec3& p, int start) {
     const Target::Foot foot = target_.descend(p, start);
-    foot_[static_cast<size_t>(v)] = foot.triangle;
+    foot_[v] = foot.triangle;
     edit_.set_position(v, foot.point.point);
   }
 
@@ -155,9 +154,9 @@ class Remesher {
       const bool is_border = edit_.twin(h) < 0;
       const Vec3 begin = at(a), end = at(edit_.end(h)), middle = 0.5 * (begin + end);
       const int v = edit_.split(h, middle);
-      foot_.push_back(foot_[static_cast<size_t>(a)]);
+      foot_.push_back(foot_[a]);
       if (!is_border) {
-        settle(v, middle, foot_[static_cast<size_t>(a)]);
+        settle(v, middle, foot_[a]);
         // A foot beside one end (on a crumpled surface the walk can stop there) would leave the
         // edge as long as it was, for ever; relax() brings the vertex down later.
         const double reach = 0.64 * (end - begin).squaredNorm();
@@ -200,7 +199,7 @@ class Remesher {
       const Vec3 p = keeps_end ? at(b) : Vec3(0.5 * (at(a) + at(b)));
       if (!is_sound_collapse(h, p)) continue;
       edit_.collapse(h);
-      if (!keeps_end) settle(b, p, foot_[static_cast<size_t>(b)]);
+      if (!keeps_end) settle(b, p, foot_[b]);
     }
   }
 
@@ -249,7 +248,7 @@ class Remesher {
 
   void relax() {
     const int count = edit_.vertex_capacity();
-    std::vector<Vec3> goal(static_cast<size_t>(count));
+    std::vector<Vec3> goal(count);
     for (int v = 0; v < count; ++v) {
       if (!edit_.has_vertex(v) || edit_.is_border_vertex(v)) continue;
       Vec3 sum = Vec3::Zero(), normal = Vec3::Zero();
@@ -264,21 +263,21 @@ class Remesher {
         h = edit_.turn(h);
         if (h == first) break;
       }
-      goal[static_cast<size_t>(v)] = at(v);
+      goal[v] = at(v);
       // Without a common normal (at a rim, say) there is no tangent plane to move in.
       if (!(normal.norm() > kCommonNormal * area)) continue;
       normal.normalize();
       const Vec3 step = sum / area - at(v);
-      goal[static_cast<size_t>(v)] += step - step.dot(normal) * normal;
+      goal[v] += step - step.dot(normal) * normal;
     }
     for (int v = 0; v < count; ++v) {
       if (!edit_.has_vertex(v) || edit_.is_border_vertex(v)) continue;
       const Vec3 last = at(v);
-      const int last_foot = foot_[static_cast<size_t>(v)];
-      settle(v, goal[static_cast<size_t>(v)], last_foot);
+      const int last_foot = foot_[v];
+      settle(v, goal[v], last_foot);
       if (!turns_triangle(v, last)) continue;
       edit_.set_position(v, last);
-      foot_[static_cast<size_t>(v)] = last_foot;
+      foot_[v] = last_foot;
     }
   }
 
@@ -308,7 +307,7 @@ uint64_t morton(const Vec3& unit) {
   uint64_t code = 0;
   std::array<uint64_t, 3> cell{};
   for (int k = 0; k < 3; ++k) {
-    cell[static_cast<size_t>(k)] = static_cast<uint64_t>(std::clamp(unit[k], 0.0, 1.0) * 1023.0);
+    cell[k] = static_cast<uint64_t>(std::clamp(unit[k], 0.0, 1.0) * 1023.0);
   }
   for (unsigned bit = 0; bit < 10; ++bit) {
     for (unsigned k = 0; k < 3; ++k) code |= ((cell[k] >> bit) & 1U) << (3 * bit + k);
@@ -331,19 +330,17 @@ RemeshResult Remesher::in_memory_order(const TriangleMesh& input) const {
   RemeshResult result;
   std::vector<int> new_of_old(vertices.size());
   for (const auto& [code, v] : order) {
-    const auto old = static_cast<size_t>(v);
-    new_of_old[old] = result.mesh.vertex_count();
-    const int triangle = foot_[static_cast<size_t>(compacted.old_of_new[old])];
-    const auto& [a, b, c] = input.triangles[static_cast<size_t>(triangle)];
-    const TrianglePoint foot = closest_point_on_triangle(
-        vertices[old], input.vertices[static_cast<size_t>(a)],
-        input.vertices[static_cast<size_t>(b)], input.vertices[static_cast<size_t>(c)]);
-    result.mesh.vertices.push_back(vertices[old]);
+    new_of_old[v] = result.mesh.vertex_count();
+    const int triangle = foot_[compacted.old_of_new[v]];
+    const auto& [a, b, c] = input.triangles[triangle];
+    const TrianglePoint foot = closest_point_on_triangle(vertices[v], input.vertices[a],
+                                                         input.vertices[b], input.vertices[c]);
+    result.mesh.vertices.push_back(vertices[v]);
     result.triangle.push_back(triangle);
     result.weights.push_back(foot.weights);
   }
   for (Triangle t : compacted.mesh.triangles) {
-    for (int& v : t) v = new_of_old[static_cast<size_t>(v)];
+    for (int& v : t) v = new_of_old[v];
     // Smallest corner first, orientation kept, so that triangles can be sorted by it.
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     result.mesh.triangles.push_back(t);

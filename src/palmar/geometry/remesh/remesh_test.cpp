@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
@@ -16,8 +16,6 @@
 
 namespace palmar {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 double smallest_angle(const TriangleMesh& mesh) {
   const std::vector<double> angles = smallest_angles(mesh);
@@ -45,8 +43,8 @@ TEST(Remesh, VerticesLieOnTheInputAtTheTold) {
   for (size_t v = 0; v < result.triangle.size(); ++v) {
     Vec3 p = Vec3::Zero();
     for (size_t k = 0; k < 3; ++k) {
-      const int corner = torus.triangles[static_cast<size_t>(result.triangle[v])][k];
-      p += result.weights[v][k] * torus.vertices[static_cast<size_t>(corner)];
+      const int corner = torus.triangles[result.triangle[v]][k];
+      p += result.weights[v][k] * torus.vertices[corner];
     }
     EXPECT_NEAR((p - result.mesh.vertices[v]).norm(), 0.0, 1e-9);
   }
@@ -69,10 +67,10 @@ TEST(Remesh, KeepsTwoBallsApartThatAlmostTouch) {
   TriangleMesh balls = make_icosphere(10.0, 4);
   const int count = balls.vertex_count();
   for (int v = 0; v < count; ++v) {
-    balls.vertices.push_back(balls.vertices[static_cast<size_t>(v)] + Vec3(20.05, 0.0, 0.0));
+    balls.vertices.push_back(balls.vertices[v] + Vec3(20.05, 0.0, 0.0));
   }
   for (int t = 0; t < 20 * 256; ++t) {
-    const auto [a, b, c] = balls.triangles[static_cast<size_t>(t)];
+    const auto [a, b, c] = balls.triangles[t];
     balls.triangles.push_back({a + count, b + count, c + count});
   }
   const RemeshResult result = remesh(balls, {.edge_length = 2.0});
@@ -85,12 +83,10 @@ TEST(Remesh, KeepsTwoBallsApartThatAlmostTouch) {
   const std::vector<int> component = triangle_components(result.mesh, build_topology(result.mesh));
   for (size_t t = 0; t < component.size(); ++t) {
     for (const int v : result.mesh.triangles[t]) {
-      const bool is_second = result.triangle[static_cast<size_t>(v)] >= 20 * 256;
-      EXPECT_EQ(is_second, result.mesh.vertices[static_cast<size_t>(v)].x() > 10.025);
-      EXPECT_EQ(
-          component[t] == component[0],
-          is_second == (result.mesh.vertices[static_cast<size_t>(result.mesh.triangles[0][0])].x() >
-                        10.025));
+      const bool is_second = result.triangle[v] >= 20 * 256;
+      EXPECT_EQ(is_second, result.mesh.vertices[v].x() > 10.025);
+      EXPECT_EQ(component[t] == component[0],
+                is_second == (result.mesh.vertices[result.mesh.triangles[0][0]].x() > 10.025));
     }
   }
 }

@@ -30,10 +30,10 @@ void require_share(const char* method, const char* name, double value, bool allo
 class Neighbourhood {
  public:
   explicit Neighbourhood(const MeshTopology& topology)
-      : topology_(topology), is_border_(static_cast<size_t>(topology.vertex_count), false) {
+      : topology_(topology), is_border_(topology.vertex_count, false) {
     for (size_t e = 0; e < topology.edge.size(); ++e) {
       if (topology.edge_use[e] == 2) continue;
-      for (const int v : topology.edge[e]) is_border_[static_cast<size_t>(v)] = true;
+      for (const int v : topology.edge[e]) is_border_[v] = true;
     }
   }
   bool is_border(size_t v) const { return is_border_[v]; }
@@ -43,8 +43,8 @@ class Neighbourhood {
     std::vector<Vec3> sum(points.size(), Vec3::Zero());
     std::vector<int> count(points.size(), 0);
     for (size_t e = 0; e < topology_.edge.size(); ++e) {
-      const auto a = static_cast<size_t>(topology_.edge[e][0]);
-      const auto b = static_cast<size_t>(topology_.edge[e][1]);
+      const int a = topology_.edge[e][0];
+      const int b = topology_.edge[e][1];
       const bool is_border_edge = topology_.edge_use[e] != 2;
       if (is_border_edge || !is_border_[a]) {
         sum[a] += points[b];
@@ -103,10 +103,9 @@ TriangleMesh smooth_tangentially(const TriangleMesh& mesh, const TangentialOptio
     const std::vector<Vec3> pull = neighbourhood.pull(result.vertices);
     std::vector<Vec3> normal(pull.size(), Vec3::Zero());
     for (const Triangle& t : result.triangles) {
-      const Vec3& a = result.vertices[static_cast<size_t>(t[0])];
-      const Vec3 area = (result.vertices[static_cast<size_t>(t[1])] - a)
-                            .cross(result.vertices[static_cast<size_t>(t[2])] - a);
-      for (const int v : t) normal[static_cast<size_t>(v)] += area;
+      const Vec3& a = result.vertices[t[0]];
+      const Vec3 area = (result.vertices[t[1]] - a).cross(result.vertices[t[2]] - a);
+      for (const int v : t) normal[v] += area;
     }
     for (size_t v = 0; v < pull.size(); ++v) {
       const double length = normal[v].norm();

@@ -48,7 +48,7 @@ TEST(SmoothTaubin, MultipliesAWaveByTheTransferFunction) {
   const double mu = 1.0 / (0.2 - 1.0 / 0.6), k = 1.0 - std::cos(2.0 * pi * m / n);
   const double gain = std::pow((1.0 - 0.6 * k) * (1.0 - mu * k), rounds);
   const TriangleMesh result = smooth_taubin(mesh, options);
-  for (size_t i = 0; i < static_cast<size_t>(n); ++i) {
+  for (size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
     EXPECT_NEAR(result.vertices[i].z(), gain * mesh.vertices[i].z(), 1e-12);
   }
 }
@@ -60,7 +60,7 @@ TEST(SmoothTangentially, BringsADisturbedLatticeBackWithoutLeavingThePlane) {
   std::uniform_real_distribution<double> noise(-0.2, 0.2);
   std::vector<bool> is_border(mesh.vertices.size(), false);
   for (const auto& [a, b] : boundary_edges(build_topology(mesh))) {
-    is_border[static_cast<size_t>(a)] = is_border[static_cast<size_t>(b)] = true;
+    is_border[a] = is_border[b] = true;
   }
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!is_border[v]) mesh.vertices[v] += Vec3(noise(random), noise(random), 0.0);

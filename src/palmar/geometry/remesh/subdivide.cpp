@@ -35,8 +35,8 @@ struct Rings {
 Rings sum_rings(const MeshTopology& topology, const std::vector<Vec3>& points) {
   Rings rings{std::vector<Ring>(points.size()), std::vector<Ring>(points.size())};
   for (size_t e = 0; e < topology.edge.size(); ++e) {
-    const auto a = static_cast<size_t>(topology.edge[e][0]);
-    const auto b = static_cast<size_t>(topology.edge[e][1]);
+    const int a = topology.edge[e][0];
+    const int b = topology.edge[e][1];
     const auto add = [&](std::vector<Ring>& ring) {
       ring[a].sum += points[b];
       ring[b].sum += points[a];
@@ -79,14 +79,14 @@ TriangleMesh refine(const TriangleMesh& mesh, const MeshTopology& topology) {
   result.vertices = apply_vertex_mask(topology, mesh.vertices, Mask::kRefine);
   const size_t n = mesh.vertices.size();
   result.vertices.resize(n + topology.edge.size(), Vec3::Zero());
-  const auto at = [&](int v) -> const Vec3& { return mesh.vertices[static_cast<size_t>(v)]; };
+  const auto at = [&](int v) -> const Vec3& { return mesh.vertices[v]; };
   for (size_t e = 0; e < topology.edge.size(); ++e) {
     const Vec3 ends = at(topology.edge[e][0]) + at(topology.edge[e][1]);
     result.vertices[n + e] = (topology.edge_use[e] == 2 ? 3.0 / 8.0 : 0.5) * ends;
   }
   for (size_t h = 0; h < topology.edge_of.size(); ++h) {
     if (topology.edge_of[h] < 0) continue;
-    const auto e = static_cast<size_t>(topology.edge_of[h]);
+    const auto e = static_cast<std::size_t>(topology.edge_of[h]);
     if (topology.edge_use[e] != 2) continue;
     result.vertices[n + e] += at(mesh.triangles[h / 3][(h + 2) % 3]) / 8.0;
   }

@@ -66,8 +66,8 @@ TEST(Subdivide, BorderBecomesACubicBSplineWhateverIsInside) {
   const SubdivisionOptions options{.scheme = SubdivisionScheme::kLoop, .levels = 3};
   const TriangleMesh a = subdivide(low, options), b = subdivide(high, options);
   for (const auto& [v, w] : boundary_edges(build_topology(a))) {
-    EXPECT_EQ(a.vertices[static_cast<size_t>(v)], b.vertices[static_cast<size_t>(v)]);
-    EXPECT_EQ(a.vertices[static_cast<size_t>(w)], b.vertices[static_cast<size_t>(w)]);
+    EXPECT_EQ(a.vertices[v], b.vertices[v]);
+    EXPECT_EQ(a.vertices[w], b.vertices[w]);
   }
   // Limit of a regular hexagon's corner: 2/3 + 2 * 1/6 * cos 60 deg = 5/6 of the radius.
   EXPECT_NEAR(a.vertices[1].norm(), 5.0 / 6.0, 1e-14);

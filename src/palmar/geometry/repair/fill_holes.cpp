@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <sstream>
 #include <unordered_map>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/repair/hole_patch.h"
@@ -23,12 +23,6 @@ constexpr double kFoldedPatch = 2.1;   // rad, 120 degrees between two triangles
 constexpr double kFoldedRim = 2.97;    // rad, 170 degrees: the patch lies on the surface round it
 constexpr double kSliver = 1e-3;       // of the perimeter: thinner triangles have no direction
 constexpr double kIslandShare = 1e-3;  // of the perimeter: another rim this near lies in the hole
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -128,14 +122,15 @@ class Filler {
     const bool is_crack =
         plain && surface_area(*plain) <= options_.crack_width * loop.perimeter / 2.0;
     if (loop.perimeter > options_.longest_perimeter && !is_crack) {
-      return "is " + number(loop.perimeter) + " mm round; up to " +
-             number(options_.longest_perimeter) + " mm are filled";
+      return "is " + significant(loop.perimeter, 4) + " mm round; up to " +
+             significant(options_.longest_perimeter, 4) + " mm are filled";
     }
     if (!plain) return "has a rim that no patch fits (" + std::to_string(loop.size()) + " corners)";
     const double share = surface_area(*plain) / piece_area_[piece_of_vertex_[loop.corner[0]]];
     if (share > options_.largest_share) {
-      return "would need a patch of " + number(100.0 * share) + " % of its piece's area; up to " +
-             number(100.0 * options_.largest_share) + " % is a hole";
+      return "would need a patch of " + significant(100.0 * share, 4) +
+             " % of its piece's area; up to " + significant(100.0 * options_.largest_share, 4) +
+             " % is a hole";
     }
     const TriangleMesh refined = refine_patch(*plain, loop.size(), is_joined);
     const auto around = beyond(loop);

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/repair/hole_patch.h"
@@ -97,7 +98,7 @@ TEST(FillHoles, AFlatHoleIsFilledFlat) {
   EXPECT_EQ(report.euler_number, 1);
   // As fine as the surface round it, without needles.
   const std::vector<double> angles = smallest_angles(filled.mesh);
-  EXPECT_GT(*std::min_element(angles.begin(), angles.end()), 12.0 * std::numbers::pi / 180.0);
+  EXPECT_GT(*std::min_element(angles.begin(), angles.end()), 12.0 * kDegree);
   EXPECT_LT(edge_lengths(filled.mesh).longest, 2.3);
 }
 

@@ -99,7 +99,7 @@ Votes cast_votes(const TriangleMesh& mesh, const Patch& patch, const std::vector
   const int samples = std::min(count, kMaxSamples);
   double weight = 0.0;
   for (int s = 0; s < samples; ++s) {
-    const auto at = static_cast<std::size_t>(static_cast<long>(s) * count / samples);
+    const auto at = static_cast<long>(s) * count / samples;
     const Triangle& k = mesh.triangles[patch.triangles[at]];
     const Vec3 &a = mesh.vertices[k[0]], &b = mesh.vertices[k[1]], &c = mesh.vertices[k[2]];
     const Vec3 n = (b - a).cross(c - a);

@@ -64,7 +64,7 @@ class BoxTree {
     triangle_box_.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
       Box3 box;
-      for (const int v : t) box.extend(mesh.vertices[static_cast<size_t>(v)]);
+      for (const int v : t) box.extend(mesh.vertices[v]);
       triangle_box_.push_back(box);
     }
     node_box_.resize(partition_.nodes.size());
@@ -73,7 +73,7 @@ class BoxTree {
       for (size_t k = 0; k < kWidth; ++k) {
         Box3& box = node_box_[n][k];
         if (node.child[k] >= 0) {
-          for (const Box3& part : node_box_[static_cast<size_t>(node.child[k])]) box.extend(part);
+          for (const Box3& part : node_box_[node.child[k]]) box.extend(part);
           continue;
         }
         for (int i = node.begin[k]; i < node.end[k]; ++i) box.extend(triangle_box_[at(i)]);
@@ -94,7 +94,7 @@ class BoxTree {
     size_t node, k;
   };
 
-  size_t at(int i) const { return static_cast<size_t>(partition_.order[static_cast<size_t>(i)]); }
+  size_t at(int i) const { return static_cast<std::size_t>(partition_.order[i]); }
   const Box3& box(const Part& p) const { return node_box_[p.node][p.k]; }
   const TrianglePartition::Node& node(const Part& p) const { return partition_.nodes[p.node]; }
   int child(const Part& p) const { return node(p).child[p.k]; }
@@ -111,7 +111,7 @@ class BoxTree {
     const auto& node = partition_.nodes[n];
     for (size_t k = 0; k < kWidth; ++k) {
       if (node.child[k] >= 0) {
-        within(static_cast<size_t>(node.child[k]), visit);
+        within(node.child[k], visit);
       } else {
         for (int i = node.begin[k]; i < node.end[k]; ++i) {
           for (int j = i + 1; j < node.end[k]; ++j) try_pair(i, j, visit);
@@ -137,7 +137,7 @@ class BoxTree {
     const Part& opened = opens_p ? p : q;
     const Part& other = opens_p ? q : p;
     for (size_t k = 0; k < kWidth; ++k) {
-      between({static_cast<size_t>(child(opened)), k}, other, visit);
+      between({static_cast<std::size_t>(child(opened)), k}, other, visit);
     }
   }
 
@@ -147,9 +147,8 @@ class BoxTree {
 };
 
 Corners corners_of(const TriangleMesh& mesh, int triangle) {
-  const auto& [a, b, c] = mesh.triangles[static_cast<size_t>(triangle)];
-  return {mesh.vertices[static_cast<size_t>(a)], mesh.vertices[static_cast<size_t>(b)],
-          mesh.vertices[static_cast<size_t>(c)]};
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
 }
 
 // Patch number of every vertex marked inside: connected over edges; -1 for the others.
@@ -164,9 +163,9 @@ std::vector<int> number_patches(const MeshTopology& topology, const std::vector<
     while (!front.empty()) {
       const int v = front.back();
       front.pop_back();
-      for (const int n : neighbours[static_cast<size_t>(v)]) {
-        if (!is_inside[static_cast<size_t>(n)] || patch[static_cast<size_t>(n)] >= 0) continue;
-        patch[static_cast<size_t>(n)] = count;
+      for (const int n : neighbours[v]) {
+        if (!is_inside[n] || patch[n] >= 0) continue;
+        patch[n] = count;
         front.push_back(n);
       }
     }
@@ -200,12 +199,12 @@ std::vector<Cover> collect_covers(const TriangleMesh& mesh,
                                   const std::vector<int>& patch) {
   std::vector<bool> crosses(mesh.triangles.size(), false);
   for (const auto& [i, j] : pairs) {
-    crosses[static_cast<size_t>(i)] = crosses[static_cast<size_t>(j)] = true;
+    crosses[i] = crosses[j] = true;
   }
   std::vector<Cover> covers;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     int own = -1;
-    for (const int v : mesh.triangles[t]) own = std::max(own, patch[static_cast<size_t>(v)]);
+    for (const int v : mesh.triangles[t]) own = std::max(own, patch[v]);
     if (own < 0 && !crosses[t]) continue;
     covers.push_back({mesh.triangles[t], corners_of(mesh, static_cast<int>(t)), own});
   }
@@ -232,8 +231,8 @@ std::vector<std::array<int, 2>> find_self_crossings(const TriangleMesh& mesh) {
   check_finite_and_indexed(mesh);
   std::vector<std::array<int, 2>> pairs;
   BoxTree(mesh).for_each_pair([&](int i, int j) {
-    const Triangle& s = mesh.triangles[static_cast<size_t>(i)];
-    const Triangle& t = mesh.triangles[static_cast<size_t>(j)];
+    const Triangle& s = mesh.triangles[i];
+    const Triangle& t = mesh.triangles[j];
     int shared = 0;
     size_t shared_s = 0, shared_t = 0;
     for (size_t a = 0; a < 3; ++a) {

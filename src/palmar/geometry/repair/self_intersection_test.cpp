@@ -103,7 +103,7 @@ TEST(FindSelfCrossings, MatchesTestingEveryPair) {
     soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   const auto corners = [&](int t) {
-    const auto v = static_cast<size_t>(3 * t);
+    const int v = 3 * t;
     return Corners{soup.vertices[v], soup.vertices[v + 1], soup.vertices[v + 2]};
   };
   std::vector<std::array<int, 2>> expected;
@@ -136,7 +136,7 @@ TEST(CrossingDepth, OfTwoOverlappingSpheresIsTheThicknessOfTheLens) {
     EXPECT_LE(result.deepest, depth);
     ASSERT_EQ(result.vertex.size(), result.depth.size());
     for (size_t i = 0; i < result.vertex.size(); ++i) {
-      const Vec3& v = both.vertices[static_cast<size_t>(result.vertex[i])];
+      const Vec3& v = both.vertices[result.vertex[i]];
       const Vec3 other = result.vertex[i] < ball.vertex_count() ? shift : Vec3(Vec3::Zero());
       EXPECT_NEAR(result.depth[i], 10.0 - (v - other).norm(), 0.05);
     }
@@ -160,7 +160,7 @@ TEST(CrossingDepth, OfACreaseIsTheThicknessOfItsOverlap) {
   EXPECT_FALSE(result.pairs.empty());
   int checked = 0;
   for (size_t i = 0; i < result.vertex.size(); ++i) {
-    const Vec3& v = rod.vertices[static_cast<size_t>(result.vertex[i])];
+    const Vec3& v = rod.vertices[result.vertex[i]];
     const double s = -v.z();
     if (std::abs(v.x()) > 1e-9 || std::abs(v.y() - 10.0) > 1e-9 || s < 0.6) continue;
     EXPECT_LT(s, 10.0 * slope);

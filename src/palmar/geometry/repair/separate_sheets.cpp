@@ -85,7 +85,7 @@ PartSheetsResult part_touching_sheets(const TriangleMesh& mesh, double gap) {
   const MeshTopology topology = build_topology(mesh);
   const int half_edges = 3 * mesh.triangle_count();
   std::vector<std::vector<int>> leaves(topology.edge.size());
-  Sets fans(static_cast<std::size_t>(half_edges));
+  Sets fans(half_edges);
   std::vector<int> free_corner(mesh.vertices.size(), -1);
   for (int h = 0; h < half_edges; ++h) {
     const int edge = topology.edge_of[h];

@@ -41,7 +41,7 @@ struct CellHash {
       h *= 0x9E3779B97F4A7C15ULL;
       h ^= h >> 29;
     }
-    return static_cast<size_t>(h);
+    return static_cast<std::size_t>(h);
   }
 };
 
@@ -56,7 +56,7 @@ std::vector<int> find_representatives(const TriangleMesh& mesh, double tolerance
   std::vector<int> previous(mesh.vertices.size(), -1);
   std::vector<int> representative(mesh.vertices.size());
   for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const Vec3& p = mesh.vertices[static_cast<size_t>(i)];
+    const Vec3& p = mesh.vertices[i];
     const auto cell = grid.cell_of(p);
     int best = i;
     const int64_t reach = tolerance > 0.0 ? 1 : 0;
@@ -65,19 +65,19 @@ std::vector<int> find_representatives(const TriangleMesh& mesh, double tolerance
         for (int64_t dz = -reach; dz <= reach; ++dz) {
           const auto entry = newest.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
           if (entry == newest.end()) continue;
-          for (int j = entry->second; j >= 0; j = previous[static_cast<size_t>(j)]) {
-            if (j < best && (mesh.vertices[static_cast<size_t>(j)] - p).squaredNorm() <= squared) {
+          for (int j = entry->second; j >= 0; j = previous[j]) {
+            if (j < best && (mesh.vertices[j] - p).squaredNorm() <= squared) {
               best = j;
             }
           }
         }
       }
     }
-    representative[static_cast<size_t>(i)] = best;
+    representative[i] = best;
     if (best != i) continue;
     const auto [entry, is_new] = newest.try_emplace(cell, i);
     if (!is_new) {
-      previous[static_cast<size_t>(i)] = entry->second;
+      previous[i] = entry->second;
       entry->second = i;
     }
   }
@@ -122,9 +122,7 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
   kept.reserve(mesh.triangles.size());
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
-    const Triangle r{representative[static_cast<size_t>(t[0])],
-                     representative[static_cast<size_t>(t[1])],
-                     representative[static_cast<size_t>(t[2])]};
+    const Triangle r{representative[t[0]], representative[t[1]], representative[t[2]]};
     if (r[0] == r[1] || r[1] == r[2] || r[2] == r[0]) {
       ++result.dropped_degenerate;
     } else {
@@ -144,7 +142,7 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
     std::vector<bool> is_duplicate(kept.size(), false);
     for (size_t k = 1; k < keys.size(); ++k) {
       if (keys[k].first != keys[k - 1].first) continue;
-      is_duplicate[static_cast<size_t>(keys[k].second)] = true;
+      is_duplicate[keys[k].second] = true;
       ++result.dropped_duplicate;
     }
     size_t end = 0;
@@ -159,24 +157,23 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
 
   std::vector<bool> is_used(mesh.vertices.size(), !options.drops_unused_vertices);
   for (const Triangle& t : kept) {
-    for (const int v : t) is_used[static_cast<size_t>(v)] = true;
+    for (const int v : t) is_used[v] = true;
   }
   result.new_of_old.assign(mesh.vertices.size(), -1);
   for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const auto old = static_cast<size_t>(i);
-    if (representative[old] != i) {
+    if (representative[i] != i) {
       ++result.merged_vertices;
-      result.new_of_old[old] = result.new_of_old[static_cast<size_t>(representative[old])];
-    } else if (is_used[old]) {
-      result.new_of_old[old] = result.mesh.vertex_count();
+      result.new_of_old[i] = result.new_of_old[representative[i]];
+    } else if (is_used[i]) {
+      result.new_of_old[i] = result.mesh.vertex_count();
       result.old_of_new.push_back(i);
-      result.mesh.vertices.push_back(mesh.vertices[old]);
+      result.mesh.vertices.push_back(mesh.vertices[i]);
     } else {
       ++result.dropped_unused;
     }
   }
   for (Triangle& t : kept) {
-    for (int& v : t) v = result.new_of_old[static_cast<size_t>(v)];
+    for (int& v : t) v = result.new_of_old[v];
   }
   result.mesh.triangles = std::move(kept);
   return result;

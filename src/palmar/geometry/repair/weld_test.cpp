@@ -24,7 +24,7 @@ TriangleMesh soup_of(const TriangleMesh& mesh) {
   TriangleMesh soup;
   for (const Triangle& t : mesh.triangles) {
     const int first = soup.vertex_count();
-    for (const int v : t) soup.vertices.push_back(mesh.vertices[static_cast<size_t>(v)]);
+    for (const int v : t) soup.vertices.push_back(mesh.vertices[v]);
     soup.triangles.push_back({first, first + 1, first + 2});
   }
   return soup;
@@ -51,7 +51,7 @@ TEST(Weld, WithinTheToleranceBringsNoisyCopiesTogether) {
   EXPECT_TRUE(examine_topology(result.mesh).is_closed);
   EXPECT_EQ(result.mesh.vertex_count(), 642);
   for (size_t v = 0; v < soup.vertices.size(); ++v) {
-    const auto to = static_cast<size_t>(result.new_of_old[v]);
+    const int to = result.new_of_old[v];
     EXPECT_LE((soup.vertices[v] - result.mesh.vertices[to]).norm(), 0.01);
   }
 }

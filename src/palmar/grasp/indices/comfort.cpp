@@ -3,9 +3,10 @@
 #include "palmar/grasp/indices/comfort.h"
 
 #include <array>
-#include <cstdio>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -17,12 +18,6 @@ constexpr const char* kAlgometerSource = "range quoted by Harih and Tada 2015";
 constexpr const char* kAlgometerDiscomfortSource =
     "range quoted by Harih and Tada 2015, times the ratios of Johansson et al. 1999";
 constexpr const char* kFlowSource = "Chalmers thesis 2004, publication 208";
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 class Rows {
  public:
@@ -75,13 +70,13 @@ ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact) {
     one.algometer_pain = kPainOnsetAlgometerLow;
     one.algometer_discomfort = one.algometer_pain * discomfort_over_pain(region.region);
     result.regions.push_back(one);
-    place[static_cast<std::size_t>(region.region)] = static_cast<int>(result.regions.size());
+    place[index_of(region.region)] = static_cast<int>(result.regions.size());
   }
   double film_discomfort = 0.0, film_pain = 0.0;
   for (std::size_t v = 0; v < contact.force.size(); ++v) {
-    const int at = place[static_cast<std::size_t>(hand.region[v])];
+    const int at = place[index_of(hand.region[v])];
     if (!(contact.force[v] > 0.0 && contact.pressure[v] > 0.0) || at == 0) continue;
-    RegionComfort& one = result.regions[static_cast<std::size_t>(at - 1)];
+    RegionComfort& one = result.regions[at - 1];
     const double area = contact.force[v] / contact.pressure[v];
     one.area += area;
     if (contact.pressure[v] > kBloodFlowStop) one.sustained_area += area;
@@ -133,8 +128,9 @@ GraspIndices to_indices(const ComfortResult& result) {
       "pain begins there (3.0 fingers, 2.6 palm, 2.0 MPa thenar)",
       kFilmSource);
   if (result.most_at_risk_film) {
-    peak.remark = "in " + std::string(name_of(film.region)) + ": " + number(film.peak_pressure) +
-                  " of " + number(film.film_pain) + " MPa";
+    peak.remark = "in " + std::string(name_of(film.region)) + ": " +
+                  significant(film.peak_pressure, 3) + " of " + significant(film.film_pain, 3) +
+                  " MPa";
   }
   rows.add("film_area_above_discomfort_percent", "film family: skin above the onset of discomfort",
            "%", 100.0 * result.film_discomfort_share,
@@ -158,9 +154,10 @@ GraspIndices to_indices(const ComfortResult& result) {
   if (result.most_at_risk_algometer) {
     mean.remark =
         "in " + std::string(name_of(algometer.region)) + ": mean " +
-        number(algometer.mean_pressure) + " MPa, discomfort from " +
-        number(algometer.algometer_discomfort) + " to " +
-        number(algometer.algometer_discomfort * kPainOnsetAlgometerHigh / kPainOnsetAlgometerLow) +
+        significant(algometer.mean_pressure, 3) + " MPa, discomfort from " +
+        significant(algometer.algometer_discomfort, 3) + " to " +
+        significant(
+            algometer.algometer_discomfort * kPainOnsetAlgometerHigh / kPainOnsetAlgometerLow, 3) +
         " MPa";
   }
   rows.add("algometer_area_above_discomfort_percent",

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "palmar/contact/response/skin_geometry.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -41,7 +42,7 @@ std::array<std::vector<LoadedVertex>, kRegionCount> loaded_by_region(const Hand&
       }
       one.normal = skin_normal[v];
     }
-    loaded[static_cast<std::size_t>(hand.region[v])].push_back(one);
+    loaded[index_of(hand.region[v])].push_back(one);
   }
   return loaded;
 }

@@ -150,8 +150,8 @@ class GrowingHull {
       Facet facet;
       for (int k = 0, i = 0; i <= D; ++i) {
         if (i == left_out) continue;
-        facet.vertex[static_cast<std::size_t>(k)] = i;
-        facet.neighbour[static_cast<std::size_t>(k)] = i;  // the facet that leaves out i
+        facet.vertex[k] = i;
+        facet.neighbour[k] = i;  // the facet that leaves out i
         ++k;
       }
       set_plane(facet);
@@ -161,7 +161,7 @@ class GrowingHull {
   }
 
   const std::vector<Facet>& facets() const { return facets_; }
-  Facet& facet(int f) { return facets_[static_cast<std::size_t>(f)]; }
+  Facet& facet(int f) { return facets_[f]; }
   const Point& centre() const { return centre_; }
   int alive() const { return alive_; }
   bool is_broken() const { return is_broken_; }
@@ -184,8 +184,7 @@ class GrowingHull {
   double volume_of(const Facet& facet) const {
     Eigen::Matrix<double, D, D> m;
     for (int k = 0; k < D; ++k) {
-      m.col(k) =
-          true_[static_cast<std::size_t>(facet.vertex[static_cast<std::size_t>(k)])] - centre_;
+      m.col(k) = true_[facet.vertex[k]] - centre_;
     }
     double factorial = 1.0;
     for (int k = 2; k <= D; ++k) factorial *= k;
@@ -209,7 +208,7 @@ class GrowingHull {
   /// points on a common plane, thin as the joggle, in long double.
   void set_plane(Facet& facet) const {
     if (!null_vector<double>(facet, 1e-3 * size_)) null_vector<long double>(facet, 0.0L);
-    facet.offset = facet.normal.dot(moved_[static_cast<std::size_t>(facet.vertex[0])]);
+    facet.offset = facet.normal.dot(moved_[facet.vertex[0]]);
     if (facet.normal.dot(centre_) > facet.offset) {
       facet.normal = -facet.normal;
       facet.offset = -facet.offset;
@@ -220,10 +219,9 @@ class GrowingHull {
   template <typename Real>
   bool null_vector(Facet& facet, Real least) const {
     Real m[D - 1][D];
-    const Point& origin = moved_[static_cast<std::size_t>(facet.vertex[0])];
+    const Point& origin = moved_[facet.vertex[0]];
     for (int i = 0; i + 1 < D; ++i) {
-      const Point& p =
-          moved_[static_cast<std::size_t>(facet.vertex[static_cast<std::size_t>(i) + 1])];
+      const Point& p = moved_[facet.vertex[i + 1]];
       for (int k = 0; k < D; ++k) m[i][k] = static_cast<Real>(p[k]) - static_cast<Real>(origin[k]);
     }
     int column[D];  // where the columns came from; they are swapped in place
@@ -266,16 +264,16 @@ class GrowingHull {
   }
 
   void find_visible(int apex, int from) {
-    const Point& p = moved_[static_cast<std::size_t>(apex)];
+    const Point& p = moved_[apex];
     seen_.resize(facets_.size(), 0);
     visible_.assign(1, from);
     horizon_.clear();
-    seen_[static_cast<std::size_t>(from)] = apex;
+    seen_[from] = apex;
     for (std::size_t at = 0; at < visible_.size(); ++at) {
       const int f = visible_[at];
       for (int k = 0; k < D; ++k) {
-        const int next = facet(f).neighbour[static_cast<std::size_t>(k)];
-        int& mark = seen_[static_cast<std::size_t>(next)];
+        const int next = facet(f).neighbour[k];
+        int& mark = seen_[next];
         if (mark == apex) continue;
         if (facet(next).normal.dot(p) > facet(next).offset) {
           mark = apex;
@@ -293,10 +291,10 @@ class GrowingHull {
     if (number == first_new) open_ = 0;
     Facet made;
     made.vertex = facet(inner).vertex;
-    made.vertex[static_cast<std::size_t>(side)] = apex;
+    made.vertex[side] = apex;
     made.neighbour.fill(-1);
-    const int outer = facet(inner).neighbour[static_cast<std::size_t>(side)];
-    made.neighbour[static_cast<std::size_t>(side)] = outer;
+    const int outer = facet(inner).neighbour[side];
+    made.neighbour[side] = outer;
     for (int& back : facet(outer).neighbour) {
       if (back == inner) {
         back = number;
@@ -312,7 +310,7 @@ class GrowingHull {
       int count = 0;
       for (int i = 0; i < D; ++i) {
         if (i == k || i == side) continue;
-        const auto v = static_cast<std::uint64_t>(made.vertex[static_cast<std::size_t>(i)]);
+        const auto v = static_cast<std::uint64_t>(made.vertex[i]);
         int at = count++;
         for (; at > 0 && others[at - 1] > v; --at) others[at] = others[at - 1];
         others[at] = v;
@@ -320,8 +318,8 @@ class GrowingHull {
       std::uint64_t key = 0;
       for (int i = 0; i < count; ++i) key = (key << 16) | others[i];
       if (const auto other = table_.match(key, number, k)) {
-        facet(number).neighbour[static_cast<std::size_t>(k)] = other->first;
-        facet(other->first).neighbour[static_cast<std::size_t>(other->second)] = number;
+        facet(number).neighbour[k] = other->first;
+        facet(other->first).neighbour[other->second] = number;
         --open_;
       } else {
         ++open_;

@@ -5,15 +5,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kLeastVariance = kDeg * kDeg;  // rad^2
+constexpr double kLeastVariance = kDegree * kDegree;  // rad^2
 
 /// One joint of the construction: angle = mean + spread (first z1 + second z2 + own z_own + what it
 /// shares with others), all z standard normal.
@@ -164,7 +163,7 @@ CoordinationBasis built_in_coordination(const Skeleton& skeleton) {
   for (int i = 0; i < kDigitDofCount; ++i) {
     const Dof dof = digit_dof(i);
     const ConstructedJoint a = constructed(dof);
-    mean[i] = kDeg * a.mean + (is_finger_abduction(dof) ? skeleton.dof(dof).reference : 0.0);
+    mean[i] = kDegree * a.mean + (is_finger_abduction(dof) ? skeleton.dof(dof).reference : 0.0);
     for (int k = 0; k < kDigitDofCount; ++k) {
       const ConstructedJoint b = constructed(digit_dof(k));
       double correlation = a.first * b.first + a.second * b.second;
@@ -176,7 +175,7 @@ CoordinationBasis built_in_coordination(const Skeleton& skeleton) {
       } else if (group != 0 && group == shared_group(digit_dof(k))) {
         correlation += rest * std::sqrt((1.0 - a.own) * (1.0 - b.own));
       }
-      covariance(i, k) = kDeg * kDeg * a.spread * b.spread * correlation;
+      covariance(i, k) = kDegree * kDegree * a.spread * b.spread * correlation;
     }
   }
   return coordination_basis(

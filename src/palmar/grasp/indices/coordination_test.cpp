@@ -6,16 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/indices/ease.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// Joints with ranges alone; that is all that ease asks of a skeleton.
 Skeleton plain_skeleton() {
@@ -23,8 +21,8 @@ Skeleton plain_skeleton() {
   for (int d = 0; d < kDofCount; ++d) {
     JointDof dof;
     dof.dof = static_cast<Dof>(d);
-    dof.lower = -10.0 * kDeg;
-    dof.upper = 90.0 * kDeg;
+    dof.lower = -10.0 * kDegree;
+    dof.upper = 90.0 * kDegree;
     skeleton.joints[0].dofs.push_back(dof);
   }
   return skeleton;
@@ -109,21 +107,21 @@ TEST(Coordination, MeasuredPosturesGiveTheirOwnDistribution) {
   for (int k = 0; k < kDigitDofCount; ++k) (k % 2 == 0 ? a : b)[k] = 1.0 / std::sqrt(10.0);
   std::vector<Posture> postures;
   for (int i = 0; i < 2000; ++i) {
-    const double x = 60.0 * kDeg * normal(random), y = 30.0 * kDeg * normal(random);
+    const double x = 60.0 * kDegree * normal(random), y = 30.0 * kDegree * normal(random);
     Posture posture;
     for (int k = 0; k < kDigitDofCount; ++k) {
-      posture[digit_dof(k)] = 0.5 + x * a[k] + y * b[k] + 0.5 * kDeg * normal(random);
+      posture[digit_dof(k)] = 0.5 + x * a[k] + y * b[k] + 0.5 * kDegree * normal(random);
     }
     postures.push_back(posture);
   }
   const CoordinationBasis basis = coordination_basis(postures, "drawn");
   EXPECT_EQ(basis.postures, 2000);
   EXPECT_EQ(basis.retained, 2);
-  EXPECT_NEAR(std::sqrt(basis.variance[0]) / kDeg, 60.0, 3.0);  // 3 standard errors of 1.6 %
-  EXPECT_NEAR(std::sqrt(basis.variance[1]) / kDeg, 30.0, 1.5);
+  EXPECT_NEAR(std::sqrt(basis.variance[0]) / kDegree, 60.0, 3.0);  // 3 standard errors of 1.6 %
+  EXPECT_NEAR(std::sqrt(basis.variance[1]) / kDegree, 30.0, 1.5);
   EXPECT_NEAR(std::abs(basis.component.col(0).dot(a)), 1.0, 1e-3);
   // Regularised: noise of half a degree is taken as one degree.
-  EXPECT_NEAR(basis.variance[19], kDeg * kDeg, 1e-15);
+  EXPECT_NEAR(basis.variance[19], kDegree * kDegree, 1e-15);
 
   // Three deviations along the first synergy are three; the median is where half of them lie.
   Posture far;
@@ -153,11 +151,11 @@ TEST(Ease, MiddleOfTheRangeIsZeroAndItsEndIsOne) {
   const Skeleton skeleton = plain_skeleton();
   const CoordinationBasis basis = built_in_coordination(skeleton);
   Posture posture;
-  for (double& angle : posture.angle) angle = 40.0 * kDeg;
+  for (double& angle : posture.angle) angle = 40.0 * kDegree;
   const EaseResult middle = assess_ease(skeleton, posture, basis);
   EXPECT_NEAR(middle.from_middle_rms, 0.0, 1e-12);
   EXPECT_EQ(middle.at_limit, 0);
-  posture[Dof::kRingPipFlexion] = 90.0 * kDeg;
+  posture[Dof::kRingPipFlexion] = 90.0 * kDegree;
   const EaseResult end = assess_ease(skeleton, posture, basis);
   EXPECT_NEAR(end.farthest_share, 1.0, 1e-12);
   EXPECT_EQ(end.farthest, Dof::kRingPipFlexion);

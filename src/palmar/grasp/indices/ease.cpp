@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 std::string number(double value, const char* format) {
   char text[32];
@@ -42,17 +41,17 @@ EaseResult assess_ease(const Skeleton& skeleton, const Posture& posture,
   for (int k = 0; k < kDigitDofCount; ++k) {
     const JointDof& dof = skeleton.dof(digit_dof(k));
     const double half = 0.5 * (dof.upper - dof.lower);
-    if (!(half > 0.5 * kDeg)) continue;
+    if (!(half > 0.5 * kDegree)) continue;
     const double angle = posture[dof.dof];
     const double share = std::abs(angle - 0.5 * (dof.lower + dof.upper)) / half;
-    result.from_middle[static_cast<std::size_t>(k)] = share;
+    result.from_middle[k] = share;
     squares += share * share;
     ++counted;
     if (share > result.farthest_share) {
       result.farthest_share = share;
       result.farthest = dof.dof;
     }
-    if (angle < dof.lower + kDeg || angle > dof.upper - kDeg) ++result.at_limit;
+    if (angle < dof.lower + kDegree || angle > dof.upper - kDegree) ++result.at_limit;
   }
   if (counted > 0) result.from_middle_rms = std::sqrt(squares / counted);
   return result;
@@ -76,7 +75,7 @@ GraspIndices to_indices(const EaseResult& result) {
                     number(result.coordination.median, "%.2f");
   rows.push_back(distance);
   GraspIndex outside = row("coordination_residual_deg", "departure from natural coordination",
-                           "deg", result.coordination.outside / kDeg);
+                           "deg", result.coordination.outside / kDegree);
   outside.definition =
       "root mean square, over 20 joint angles, of what those principal components can't describe";
   outside.source = basis.source;

@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
@@ -66,7 +68,7 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
     index.value = value;
     std::snprintf(text, sizeof text,
                   "palmar skin within %g mm that faces the product within %.0f deg", result.reach,
-                  result.facing * 180.0 / std::numbers::pi);
+                  result.facing * kDegreesPerRadian);
   } else {
     std::snprintf(text, sizeof text, "no palmar skin within %g mm of the product", result.reach);
   }
@@ -112,7 +114,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   const double least = std::cos(options.facing);
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (hand.region[v] == Region::kDorsum) continue;
-    const auto r = static_cast<std::size_t>(hand.region[v]);
+    const std::size_t r = index_of(hand.region[v]);
     skin_area[r] += areas[v];
     palmar += areas[v];
     const double facing = -normals[v].dot(samples[v].normal);
@@ -178,7 +180,7 @@ GraspIndices to_indices(const FitnessResult& result) {
   rms.definition = "root mean square, by area, of that distance";
   rows.push_back(rms);
   GraspIndex angle = row("normal_angle_deg", "angle between skin and product", "deg", Better::kDown,
-                         result, gap.normal_angle * 180.0 / std::numbers::pi);
+                         result, gap.normal_angle * kDegreesPerRadian);
   angle.lowest = 0.0;
   angle.highest = result.facing * 180.0 / std::numbers::pi;
   angle.definition = "mean, by area, of the angle between the surfaces of skin and product";

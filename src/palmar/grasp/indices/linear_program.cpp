@@ -27,8 +27,8 @@ class Simplex {
     sign_ = Eigen::VectorXd::Ones(rows_);
     for (int i = 0; i < rows_; ++i) sign_[i] = b[i] < 0.0 ? -1.0 : 1.0;
     for (int i = 0; i < rows_; ++i) basis_.push_back(columns_ + i);
-    in_basis_.assign(static_cast<std::size_t>(columns_ + rows_), 0);
-    for (const int j : basis_) in_basis_[static_cast<std::size_t>(j)] = 1;
+    in_basis_.assign(columns_ + rows_, 0);
+    for (const int j : basis_) in_basis_[j] = 1;
   }
 
   /// Minimises cost . x; artificial variables cost `artificial` each. In phase 2 they must stay 0.
@@ -49,8 +49,8 @@ class Simplex {
       const int leaving = pick_leaving(step, is_second, stalled > kStalled);
       if (leaving < 0) return ProgramStatus::kUnbounded;
       stalled = value_[leaving] > kTolerance ? 0 : stalled + 1;
-      in_basis_[static_cast<std::size_t>(basis_[leaving])] = 0;
-      in_basis_[static_cast<std::size_t>(entering)] = 1;
+      in_basis_[basis_[leaving]] = 0;
+      in_basis_[entering] = 1;
       basis_[leaving] = entering;
     }
     return ProgramStatus::kNotConverged;
@@ -95,7 +95,7 @@ class Simplex {
     int best = -1;
     double least = -kTolerance;
     for (int j = 0; j < columns_; ++j) {
-      if (in_basis_[static_cast<std::size_t>(j)] != 0 || reduced[j] >= least) continue;
+      if (in_basis_[j] != 0 || reduced[j] >= least) continue;
       best = j;
       if (is_bland) return best;
       least = reduced[j];

@@ -205,8 +205,7 @@ GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wren
   result.status = GripForceStatus::kHeld;
   result.sum = size * found.value;
   for (Eigen::Index j = 0; j < columns.wrench.cols(); ++j) {
-    result.force[static_cast<std::size_t>(columns.contact[static_cast<std::size_t>(j)])] +=
-        size * found.x[j] * columns.wrench.col(j).head<3>();
+    result.force[columns.contact[j]] += size * found.x[j] * columns.wrench.col(j).head<3>();
   }
   result.balance_error = (columns.wrench * found.x + w / size).norm();
   result.factor = least_factor(contacts, groups, w);

@@ -1,20 +1,14 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <cstdio>
 
+#include "palmar/core/text.h"
 #include "palmar/grasp/indices/stability.h"
 
 namespace palmar {
 namespace {
 
 constexpr const char* kGroup = "stability";
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 GraspIndex row(const std::string& key, const std::string& name, const std::string& unit,
                Better better, const std::string& definition, const std::string& source) {
@@ -32,9 +26,9 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
 
 std::string setting_words(const StabilityResult& result,
                           const std::vector<GraspContact>& contacts) {
-  return std::to_string(contacts.size()) + " contacts, friction " + number(result.friction) +
-         ", cones of " + std::to_string(result.wrench.sides) + " sides, moments divided by " +
-         number(result.l1.torque_scale) + " mm";
+  return std::to_string(contacts.size()) + " contacts, friction " +
+         significant(result.friction, 4) + ", cones of " + std::to_string(result.wrench.sides) +
+         " sides, moments divided by " + significant(result.l1.torque_scale, 4) + " mm";
 }
 
 void add_epsilon(const WrenchSpace<6>& space, const StabilityResult& result, GraspIndices& rows) {
@@ -58,7 +52,7 @@ void add_epsilon(const WrenchSpace<6>& space, const StabilityResult& result, Gra
   index.remark = space.status == ClosureStatus::kNoContact ? "nothing is touched"
                                                            : setting_words(result, result.contacts);
   if (space.status == ClosureStatus::kForceClosure && !space.body.is_distance_exact) {
-    index.remark += "; proven lower bound " + number(space.body.distance_lower);
+    index.remark += "; proven lower bound " + significant(space.body.distance_lower, 4);
   }
   rows.push_back(index);
 }
@@ -121,7 +115,7 @@ GraspIndices to_indices(const StabilityResult& result) {
       volume.value = body.volume;
       volume.remark = setting_words(result, result.volume_contacts);
       if (!body.is_volume_exact) {
-        volume.remark += "; lower bound, upper bound " + number(body.volume_upper);
+        volume.remark += "; lower bound, upper bound " + significant(body.volume_upper, 4);
       }
     }
     rows.push_back(volume);

@@ -32,7 +32,7 @@ double distance_by_all_planes(const std::vector<Eigen::Matrix<double, D, 1>>& po
   for (std::size_t i = 0; i < D; ++i) pick[i] = i;
   for (;;) {
     Eigen::Matrix<double, D, D> m;
-    for (int i = 0; i < D; ++i) m.row(i) = points[pick[static_cast<std::size_t>(i)]].transpose();
+    for (int i = 0; i < D; ++i) m.row(i) = points[pick[i]].transpose();
     // Plane n . x = 1 through all of them, unless it goes through the origin.
     const Eigen::FullPivLU<Eigen::Matrix<double, D, D>> lu(m);
     if (std::abs(lu.determinant()) > 1e-9) {
@@ -172,7 +172,7 @@ TEST(WrenchSpace, SevenFrictionlessContactsAreASimplex) {
     const auto w = flat_list(primitive_wrenches(contacts, Vec3::Zero(), scale, {}));
     ASSERT_EQ(w.size(), 7u);
     Eigen::Matrix<double, 6, 7> m;
-    for (int j = 0; j < 7; ++j) m.col(j) = w[static_cast<std::size_t>(j)];
+    for (int j = 0; j < 7; ++j) m.col(j) = w[j];
     const Eigen::Matrix<double, 7, 1> kernel = m.fullPivLu().kernel().col(0).normalized();
     const double sure = kernel.cwiseAbs().minCoeff();
     if (sure < 1e-3) continue;  // too near to the limit for a test
@@ -223,7 +223,7 @@ TEST(WrenchSpace, LinfOfFrictionlessContactsAgreesWithAllCorners) {
   std::vector<int> pick = {0, 1, 2, 3, 4};
   for (;;) {
     Eigen::Matrix<double, 5, 6> rows;
-    for (int i = 0; i < 5; ++i) rows.row(i) = w[static_cast<std::size_t>(pick[i])].transpose();
+    for (int i = 0; i < 5; ++i) rows.row(i) = w[pick[i]].transpose();
     const Wrench6 n = rows.fullPivLu().kernel().col(0).normalized();
     double plus = 0.0, minus = 0.0;
     for (const Wrench6& one : w) {
@@ -232,11 +232,11 @@ TEST(WrenchSpace, LinfOfFrictionlessContactsAgreesWithAllCorners) {
     }
     nearest = std::min({nearest, plus, minus});
     int at = 5;
-    while (at > 0 && pick[static_cast<std::size_t>(at - 1)] == 8 - 5 + at - 1) --at;
+    while (at > 0 && pick[at - 1] == 8 - 5 + at - 1) --at;
     if (at == 0) break;
-    ++pick[static_cast<std::size_t>(at - 1)];
+    ++pick[at - 1];
     for (int i = at; i < 5; ++i) {
-      pick[static_cast<std::size_t>(i)] = pick[static_cast<std::size_t>(i - 1)] + 1;
+      pick[i] = pick[i - 1] + 1;
     }
   }
   EXPECT_NEAR(space.epsilon, nearest, kTight * nearest);

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/power/site_distance.h"
 #include "palmar/grasp/power/skin_sampling.h"
 
@@ -21,24 +23,22 @@ constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coa
 constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
-constexpr double kWideOpen = -20.0 * std::numbers::pi / 180.0;  // MCP when the hand reaches out
-constexpr double kPreshape = 0.8;        // of the bend that fits the handle, before closing
-constexpr double kCoupling = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
-constexpr double kDipLag = 10.0 * std::numbers::pi / 180.0;     // DIP behind that while PIP closes
-constexpr double kDipLeave = 25.0 * std::numbers::pi / 180.0;   // DIP may be off that to lie on
-constexpr double kHookGive = 20.0 * std::numbers::pi / 180.0;   // that a hook's MCP may flex
-constexpr double kReleaseMcp = 8.0 * std::numbers::pi / 180.0;  // opened to move a finger aside
-constexpr double kReleasePip = 20.0 * std::numbers::pi / 180.0;
+constexpr double kWideOpen = -20.0 * kDegree;  // MCP when the hand reaches out
+constexpr double kPreshape = 0.8;              // of the bend that fits the handle, before closing
+constexpr double kCoupling = 2.0 / 3.0;        // DIP / PIP; Rijkpema & Girard 1991
+constexpr double kDipLag = 10.0 * kDegree;     // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * kDegree;   // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * kDegree;   // that a hook's MCP may flex
+constexpr double kReleaseMcp = 8.0 * kDegree;  // opened to move a finger aside
+constexpr double kReleasePip = 20.0 * kDegree;
 constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
 constexpr double kShareRange = 0.3;   // over which that fades
 constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
-constexpr double kIdleMore = 5.0 * std::numbers::pi / 180.0;  // that it bends beyond its neighbour
-constexpr int kLongestAdvance = 60;                           // steps
+constexpr double kIdleMore = 5.0 * kDegree;  // that it bends beyond its neighbour
+constexpr int kLongestAdvance = 60;          // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
-
-std::size_t index_of(Segment segment) { return static_cast<std::size_t>(segment); }
 
 }  // namespace
 
@@ -49,15 +49,15 @@ HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(
     std::vector<int> vertices;
     std::vector<double> area;
     for (std::size_t k = 0; k < sample.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(sample.vertex[k]);
+      const int v = sample.vertex[k];
       if (!belongs(hand.segment[v], hand.region[v])) continue;
       vertices.push_back(sample.vertex[k]);
       area.push_back(sample.area[k]);
     }
     SkinGroup group{PosableSkin(hand, vertices), {}, {}, std::move(area)};
     for (const int v : vertices) {
-      group.segment.push_back(hand.segment[static_cast<std::size_t>(v)]);
-      group.region.push_back(hand.region[static_cast<std::size_t>(v)]);
+      group.segment.push_back(hand.segment[v]);
+      group.region.push_back(hand.region[v]);
     }
     return group;
   };
@@ -66,16 +66,15 @@ HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     for (int level = 0; level < 3; ++level) {
-      groups_[static_cast<std::size_t>(f)][static_cast<std::size_t>(level)] =
-          group_of([&](Segment segment, Region region) {
-            const int own = level_of(finger, segment);
-            // The third group of the thumb is what its CMC joint moves.
-            const bool is_cmc = finger == Finger::kThumb && level == 2;
-            return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
-          });
+      groups_[f][level] = group_of([&](Segment segment, Region region) {
+        const int own = level_of(finger, segment);
+        // The third group of the thumb is what its CMC joint moves.
+        const bool is_cmc = finger == Finger::kThumb && level == 2;
+        return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
+      });
     }
   }
-  thumb_.emplace(hand, cones_, groups_[static_cast<std::size_t>(Finger::kThumb)], care_);
+  thumb_.emplace(hand, cones_, groups_[index_of(Finger::kThumb)], care_);
   const Skeleton& skeleton = hand.skeleton;
   Posture& posture = open_posture_;
   posture = reference_posture(skeleton);
@@ -165,7 +164,7 @@ Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& lim
   std::array<double, 3> turn{};  // that each phalanx takes round the handle, half of it
   for (std::size_t level = 0; level < 3; ++level) {
     const Vec3& a = skeleton.joint(joint_of(*segments[level])).centre;
-    const Vec3& b = level == 2 ? skeleton.fingertips[static_cast<std::size_t>(finger)]
+    const Vec3& b = level == 2 ? skeleton.fingertips[index_of(finger)]
                                : skeleton.joint(joint_of(*segments[level + 1])).centre;
     turn[level] = std::atan((b - a).norm() / (diameter + 2.0 * kHalfFinger));
   }
@@ -186,7 +185,7 @@ Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& lim
 
 bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
                          const Posture& posture) const {
-  const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][0];
+  const SkinGroup& group = groups_[index_of(finger)][0];
   const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
   return std::all_of(samples.begin(), samples.end(), [&](const DistanceSample& sample) {
     return sample.distance > -kSharedLimit * limits.finger;
@@ -211,7 +210,7 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
     return std::clamp(kCoupling * posture[pip.dof] + off, dip.lower, dip.upper);
   };
   const auto advance = [&](std::size_t level, const Posture& to) {
-    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][level];
+    const SkinGroup& group = groups_[index_of(finger)][level];
     // A proximal phalanx can't meet the palm.
     const Advance way = advance_skin(
         group, product, limits, level == 0 ? std::vector<Obstacle>{} : palm, posture, to, care_);
@@ -340,7 +339,7 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
 void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
                                    Posture& posture) const {
   const auto is_idle = [&](Finger finger) {
-    const SkinGroup& group = groups_[static_cast<std::size_t>(finger)][0];
+    const SkinGroup& group = groups_[index_of(finger)][0];
     const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
     return std::all_of(samples.begin(), samples.end(),
                        [](const DistanceSample& sample) { return sample.distance > kIdleGap; });
@@ -409,7 +408,7 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
     measure.touching += std::clamp(0.25 * (measure.penetration[s] + 3.0), 0.0, 1.0);
     if (measure.penetration[s] <= 0.0) continue;
     ++measure.segments;
-    touches[static_cast<std::size_t>(*finger_of(static_cast<Segment>(s)))] = true;
+    touches[index_of(*finger_of(static_cast<Segment>(s)))] = true;
   }
   for (const bool t : touches) measure.fingers += t ? 1 : 0;
   if (!turns.empty()) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -84,7 +86,7 @@ FingerMotion::FingerMotion(const Skeleton& skeleton, const Posture& posture)
             outer * Rigid3::about_axis(dof->axis, dof->centre, posture[dof->dof] - dof->reference);
       }
       chain.insert(chain.end(), own.begin(), own.end());
-      moving_[static_cast<std::size_t>(*segment)] = chain;
+      moving_[index_of(*segment)] = chain;
       proximal = outer;
     }
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/skeleton.h"
 
 namespace palmar {
@@ -34,9 +35,7 @@ class FingerMotion {
 
   const PosedSkeleton& posed() const { return posed_; }
   /// Those that move a phalanx, from the palm outwards.
-  const std::vector<DofMotion>& moving(Segment phalanx) const {
-    return moving_[static_cast<std::size_t>(phalanx)];
-  }
+  const std::vector<DofMotion>& moving(Segment phalanx) const { return moving_[index_of(phalanx)]; }
   /// Those that move the thumb's metacarpal.
   const std::vector<DofMotion>& moving_thumb_metacarpal() const { return cmc_; }
 

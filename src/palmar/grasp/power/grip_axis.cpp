@@ -253,9 +253,9 @@ Straightened straighten(const TriangleMesh& mesh, Window window, Vec3 axis, cons
 double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
   double moment = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const double s = direction.dot((a + b + c) / 3.0 - point);
     moment += (b - a).cross(c - a).norm() * s * s * s;
   }
@@ -280,9 +280,9 @@ std::vector<Vec3> directions(const TriangleMesh& mesh, const PrincipalFrame& fra
 double flare_of(const TriangleMesh& mesh, const GripSite& site) {
   std::array<double, 2> moment = {0.0, 0.0}, area = {0.0, 0.0};
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const Vec3 r = (a + b + c) / 3.0 - site.point;
     const double along = site.axis.dot(r);
     const std::size_t side = along > 0.0 ? 0 : 1;
@@ -321,9 +321,9 @@ void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm
   Vec3 moment = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const Vec3 r = (a + b + c) / 3.0 - site.point;
     if (site.axis.dot(r) < 0.45 * palm_breadth) continue;
     const double weight = 0.5 * (b - a).cross(c - a).norm();
@@ -348,9 +348,9 @@ PrincipalFrame principal_frame(const TriangleMesh& mesh) {
   centre.reserve(mesh.triangles.size());
   weight.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[static_cast<std::size_t>(t[0])] - origin;
-    const Vec3 b = mesh.vertices[static_cast<std::size_t>(t[1])] - origin;
-    const Vec3 c = mesh.vertices[static_cast<std::size_t>(t[2])] - origin;
+    const Vec3 a = mesh.vertices[t[0]] - origin;
+    const Vec3 b = mesh.vertices[t[1]] - origin;
+    const Vec3 c = mesh.vertices[t[2]] - origin;
     const double w = 0.5 * (b - a).cross(c - a).norm();
     const double six_volumes = a.dot(b.cross(c));
     centre.push_back((a + b + c) / 3.0);

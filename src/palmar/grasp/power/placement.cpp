@@ -6,10 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/geometry/degrees.h"
+
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kThinShare = 0.8;        // of half the thickness may be filled with skin
 constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
 constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
@@ -22,7 +23,7 @@ constexpr double kLeaveCost = 400.0;   // mm^2
 constexpr double kProximalUnit = 6.0;  // mm
 constexpr double kAlongUnit = 16.0;    // mm
 constexpr double kMostAlong = 24.0;    // mm from the site along its axis
-constexpr double kSlantUnit = 6.0 * kDeg;
+constexpr double kSlantUnit = 6.0 * kDegree;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
 constexpr double kUsualProximal = 0.074;  // hand lengths from the knuckles to the grip axis
@@ -44,13 +45,13 @@ constexpr double kAlike = 0.01;         // share of the score within which holds
 constexpr int kTurns = 8;
 // Steps by which a kept lay may be bettered for another hand.
 constexpr double kNearProximal = 3.0;  // mm
-constexpr double kNearSlant = 3.0 * kDeg;
+constexpr double kNearSlant = 3.0 * kDegree;
 constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
 constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
 constexpr std::size_t kBettered = 3;  // holds that are looked at more finely
 constexpr std::size_t kKept = 4;      // holds that are given back
-constexpr double kOtherAngle = 30.0 * kDeg;  // beyond which a way of holding is another one
-constexpr double kOtherPlace = 20.0;         // mm; the same
+constexpr double kOtherAngle = 30.0 * kDegree;  // beyond which a way of holding is another one
+constexpr double kOtherPlace = 20.0;            // mm; the same
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
 struct PalmFrame {
@@ -80,10 +81,10 @@ double strain_of(const Posture& posture) {
     const auto finger = static_cast<Finger>(f);
     const double mcp = posture[flexion_of(finger, 0)], pip = posture[flexion_of(finger, 1)],
                  dip = posture[flexion_of(finger, 2)];
-    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / kDeg - 15.0);
+    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / kDegree - 15.0);
     if (f == 1) continue;
     const double before = posture[flexion_of(static_cast<Finger>(f - 1), 0)];
-    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / kDeg - 15.0);
+    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / kDegree - 15.0);
   }
   return strain;
 }
@@ -310,11 +311,11 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     const bool is_hook = current.style.hook.has_value();
     improve(&Lay::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
             is_hook ? usual + 8.0 : kMostProximal);
-    improve(&Lay::tilt, 5.0 * kDeg, -15.0 * kDeg, 15.0 * kDeg);
-    improve(&Lay::oblique, 6.0 * kDeg, 2.0 * kDeg, 30.0 * kDeg);
+    improve(&Lay::tilt, 5.0 * kDegree, -15.0 * kDegree, 15.0 * kDegree);
+    improve(&Lay::oblique, 6.0 * kDegree, 2.0 * kDegree, 30.0 * kDegree);
     if (!search.is_place_fixed) improve(&Lay::along, 8.0, -kMostAlong, kMostAlong);
     if (!search.turn && site.thickness < 0.98 * site.width) {
-      improve(&Lay::turn, 15.0 * kDeg, -100.0, 100.0);
+      improve(&Lay::turn, 15.0 * kDegree, -100.0, 100.0);
     }
     return is_changed;
   };

@@ -64,7 +64,7 @@ double trim(const HandCloser& closer, const HeldProduct& product, const DepthLim
     bool is_changed = false;
     for (int s = 1; s < kSegmentCount; ++s) {
       const auto segment = static_cast<Segment>(s);
-      const double excess = depth[static_cast<std::size_t>(s)] - limits.finger;
+      const double excess = depth[s] - limits.finger;
       if (excess <= kTrimTolerance) continue;
       const Joint& joint = closer.hand().skeleton.joint(joint_of(segment));
       for (const JointDof& dof : joint.dofs) {
@@ -90,9 +90,9 @@ std::optional<Vec3> middle_of(const TriangleMesh& mesh, const Box3& region) {
   Vec3 moment = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const Vec3 centre = (a + b + c) / 3.0;
     if (!region.contains(centre)) continue;
     const double weight = (b - a).cross(c - a).norm();
@@ -229,7 +229,7 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
   PowerPlace result;
   Grasp& grasp = result.grasp;
   for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[static_cast<std::size_t>(s)].segment = static_cast<Segment>(s);
+    grasp.stops[s].segment = static_cast<Segment>(s);
   }
   grasp.posture = reference_posture(hand.skeleton);
   progress.update(0.0, "finding a place to hold " + product.name);

@@ -106,7 +106,7 @@ std::vector<SectionOutline> outlines_of(std::vector<Cut>& cuts, double station,
       auto next = std::lower_bound(cuts.begin(), cuts.end(), cuts[current].to,
                                    [](const Cut& c, std::uint64_t key) { return c.from < key; });
       while (next != cuts.end() && next->from == cuts[current].to &&
-             used[static_cast<std::size_t>(next - cuts.begin())] != 0) {
+             used[next - cuts.begin()] != 0) {
         ++next;
       }
       if (next == cuts.end() || next->from != cuts[current].to) break;
@@ -135,10 +135,10 @@ std::vector<Section> sections_along(const TriangleMesh& mesh, const Vec3& axis, 
   const int count = static_cast<int>(std::floor((high - low) / spacing + 0.5));
   if (count <= 0) return {};
   const double first = 0.5 * (low + high) - 0.5 * (count - 1) * spacing;
-  std::vector<std::vector<Cut>> cuts(static_cast<std::size_t>(count));
+  std::vector<std::vector<Cut>> cuts(count);
   for (const Triangle& triangle : mesh.triangles) {
     std::array<double, 3> h{};
-    for (std::size_t c = 0; c < 3; ++c) h[c] = height[static_cast<std::size_t>(triangle[c])];
+    for (std::size_t c = 0; c < 3; ++c) h[c] = height[triangle[c]];
     const double lowest = std::min({h[0], h[1], h[2]});
     const double highest = std::max({h[0], h[1], h[2]});
     const int begin = std::max(0, static_cast<int>(std::ceil((lowest - first) / spacing)));
@@ -160,19 +160,17 @@ std::vector<Section> sections_along(const TriangleMesh& mesh, const Vec3& axis, 
         const int a = triangle[c];
         const int b = triangle[(c + 1) % 3];
         const double share = (station - h[c]) / (h[(c + 1) % 3] - h[c]);
-        return plane.project((1.0 - share) * mesh.vertices[static_cast<std::size_t>(a)] +
-                             share * mesh.vertices[static_cast<std::size_t>(b)]);
+        return plane.project((1.0 - share) * mesh.vertices[a] + share * mesh.vertices[b]);
       };
-      cuts[static_cast<std::size_t>(k)].push_back(
-          {edge_key(triangle[*falls], triangle[(*falls + 1) % 3]),
-           edge_key(triangle[*rises], triangle[(*rises + 1) % 3]), point_on(*falls)});
+      cuts[k].push_back({edge_key(triangle[*falls], triangle[(*falls + 1) % 3]),
+                         edge_key(triangle[*rises], triangle[(*rises + 1) % 3]), point_on(*falls)});
     }
   }
-  std::vector<Section> sections(static_cast<std::size_t>(count));
+  std::vector<Section> sections(count);
   for (int k = 0; k < count; ++k) {
-    Section& section = sections[static_cast<std::size_t>(k)];
+    Section& section = sections[k];
     section.station = first + k * spacing;
-    section.outlines = outlines_of(cuts[static_cast<std::size_t>(k)], section.station, plane);
+    section.outlines = outlines_of(cuts[k], section.station, plane);
   }
   return sections;
 }

@@ -122,9 +122,9 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
   };
   std::vector<Probe> probes;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const Vec3 centre = (a + b + c) / 3.0;
     const Vec3 r = centre - site.point;
     const double along = site.axis.dot(r);

@@ -19,7 +19,7 @@ bool is_near(const DistanceSample& sample) { return std::abs(sample.distance) < 
 int level_of(Finger finger, Segment segment) {
   const auto segments = segments_of(finger);
   for (int level = 0; level < 3; ++level) {
-    if (segments[static_cast<std::size_t>(level)] == segment) return level;
+    if (segments[level] == segment) return level;
   }
   return -1;
 }
@@ -187,7 +187,7 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
   for (std::size_t k = 0; k < count; ++k) {
     const auto finger = finger_of(group.segment[k]);
     if (!finger) continue;
-    double& deepest = result.deepest[static_cast<std::size_t>(level_of(*finger, group.segment[k]))];
+    double& deepest = result.deepest[level_of(*finger, group.segment[k])];
     deepest = std::max(deepest, -now.sample[k].distance);
   }
   return result;

@@ -13,11 +13,11 @@ namespace {
 std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   std::vector<double> area(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     const double third = (b - a).cross(c - a).norm() / 6.0;
-    for (const int v : t) area[static_cast<std::size_t>(v)] += third;
+    for (const int v : t) area[v] += third;
   }
   return area;
 }
@@ -34,11 +34,10 @@ SkinSample sample_skin(const Hand& hand, double spacing) {
   }
   std::map<std::array<int, 3>, std::vector<int>> cells;  // entries of the sample by grid cell
   for (int v = 0; v < hand.skin.vertex_count(); ++v) {
-    const auto i = static_cast<std::size_t>(v);
-    const Vec3& p = hand.skin.vertices[i];
+    const Vec3& p = hand.skin.vertices[v];
     std::array<int, 3> cell{};
     for (int c = 0; c < 3; ++c) {
-      cell[static_cast<std::size_t>(c)] = static_cast<int>(std::floor(p[c] / spacing));
+      cell[c] = static_cast<int>(std::floor(p[c] / spacing));
     }
     int nearest = -1;
     double distance = spacing;
@@ -48,9 +47,8 @@ SkinSample sample_skin(const Hand& hand, double spacing) {
           const auto found = cells.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
           if (found == cells.end()) continue;
           for (const int entry : found->second) {
-            const auto other =
-                static_cast<std::size_t>(sample.vertex[static_cast<std::size_t>(entry)]);
-            if (hand.region[other] != hand.region[i] || hand.segment[other] != hand.segment[i]) {
+            const int other = sample.vertex[entry];
+            if (hand.region[other] != hand.region[v] || hand.segment[other] != hand.segment[v]) {
               continue;
             }
             const double d = (hand.skin.vertices[other] - p).norm();
@@ -63,11 +61,11 @@ SkinSample sample_skin(const Hand& hand, double spacing) {
       }
     }
     if (nearest >= 0) {
-      sample.area[static_cast<std::size_t>(nearest)] += area[i];
+      sample.area[nearest] += area[v];
     } else {
       cells[cell].push_back(static_cast<int>(sample.vertex.size()));
       sample.vertex.push_back(v);
-      sample.area.push_back(area[i]);
+      sample.area.push_back(area[v]);
     }
   }
   return sample;

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
 constexpr double kEndFace = 0.7;  // of the normal along the grip axis: not held, but hooked
-constexpr double kStraightIp = 50.0 * std::numbers::pi / 180.0;  // ordinary bend of the IP joint
-constexpr double kStraightMp = 30.0 * std::numbers::pi / 180.0;  // ... of the MP joint
+constexpr double kStraightIp = 50.0 * kDegree;  // ordinary bend of the IP joint
+constexpr double kStraightMp = 30.0 * kDegree;  // ... of the MP joint
 
 }  // namespace
 
@@ -34,11 +36,11 @@ Posture ThumbCloser::wrap(const HeldProduct& product, const DepthLimits& limits,
     const Dof dof = flexion_of(Finger::kThumb, level);
     target = posture;
     target[dof] = hand_->skeleton.dof(dof).upper;
-    const Advance moved = advance_skin((*groups_)[static_cast<std::size_t>(level)], product, limits,
-                                       fingers, posture, target, care_);
+    const Advance moved =
+        advance_skin((*groups_)[level], product, limits, fingers, posture, target, care_);
     posture = moved.posture;
-    SegmentStop& stop = stops[static_cast<std::size_t>(segments[static_cast<std::size_t>(level)])];
-    stop.segment = segments[static_cast<std::size_t>(level)];
+    SegmentStop& stop = stops[index_of(segments[level])];
+    stop.segment = segments[level];
     stop.reason = moved.reason_for(stop.segment);
   }
   return posture;
@@ -75,9 +77,9 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
   }
   // A thumb laid across the handle opposes the fingers; laid along it, it holds next to nothing.
   const PosedSkeleton pose = pose_skeleton(hand_->skeleton, posture);
-  const Vec3 tip = pose.segment[static_cast<std::size_t>(Segment::kThumbDistal)] *
-                   hand_->skeleton.fingertips[static_cast<std::size_t>(Finger::kThumb)];
-  const Vec3 base = pose.segment[static_cast<std::size_t>(Segment::kThumbProximal)] *
+  const Vec3 tip = pose.segment[index_of(Segment::kThumbDistal)] *
+                   hand_->skeleton.fingertips[index_of(Finger::kThumb)];
+  const Vec3 base = pose.segment[index_of(Segment::kThumbProximal)] *
                     hand_->skeleton.joint(JointId::kThumbMp).centre;
   const double across = (tip - base).normalized().cross(grip_axis_in_hand).norm();
   // A thumb hooked over an edge bends at its tip alone; one that reaches round the air, at its MP.

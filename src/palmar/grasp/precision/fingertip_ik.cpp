@@ -5,9 +5,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/power/finger_motion.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/posture_terms.h"
@@ -18,14 +19,13 @@ namespace {
 constexpr int kPlacement = 6;  // unknowns of the hand against the product
 constexpr int kFirstDof = static_cast<int>(Dof::kThumbCmcFlexion);
 constexpr int kUnknowns = kPlacement + kDofCount - kFirstDof;
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 constexpr double kBalanceSpread = 0.3;  // rad; thumb against the others
-constexpr double kEnd = 5.0 * kDeg;     // last part of a range, which hands avoid
-constexpr double kEndSpread = 5.0 * kDeg;
+constexpr double kEnd = 5.0 * kDegree;  // last part of a range, which hands avoid
+constexpr double kEndSpread = 5.0 * kDegree;
 constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
 constexpr double kNextGive = 0.5;     // mm, phalanges next to one that touches
@@ -96,19 +96,19 @@ class FingertipSystem {
     }
     is_contact_.fill(false);
     for (const FingertipGoal& goal : problem.goals) {
-      is_contact_[static_cast<std::size_t>(goal.fingertip.segment)] = true;
-      depth_[static_cast<std::size_t>(goal.fingertip.segment)] = goal.depth;
+      is_contact_[index_of(goal.fingertip.segment)] = true;
+      depth_[index_of(goal.fingertip.segment)] = goal.depth;
     }
     lower_.setConstant(-1e9);
     upper_.setConstant(1e9);
     is_free_.fill(problem.is_hand_free);
     for (int d = kFirstDof; d < kDofCount; ++d) {
       const JointDof& dof = ik.hand().skeleton.dof(static_cast<Dof>(d));
-      const auto column = static_cast<std::size_t>(column_of(dof.dof));
+      const auto column = column_of(dof.dof);
       lower_[column_of(dof.dof)] = dof.lower;
       upper_[column_of(dof.dof)] = dof.upper;
-      is_free_[column] = problem.is_finger_free[static_cast<std::size_t>(finger_of_dof(dof.dof))] &&
-                         dof.upper > dof.lower;
+      is_free_[column] =
+          problem.is_finger_free[index_of(finger_of_dof(dof.dof))] && dof.upper > dof.lower;
     }
   }
 
@@ -149,8 +149,7 @@ class FingertipSystem {
     }
   }
   Vec3 in_hand(const FingerMotion& motion, const FingertipGoal& goal) const {
-    return motion.posed().segment[static_cast<std::size_t>(goal.fingertip.segment)] *
-           goal.fingertip.point;
+    return motion.posed().segment[index_of(goal.fingertip.segment)] * goal.fingertip.point;
   }
   bool slides(const FingertipGoal& goal) const {
     return goal.is_sliding && problem_->product != nullptr;
@@ -173,9 +172,7 @@ class FingertipSystem {
   void add_crossings(const State& state, const FingerMotion& motion);
   void add_balls(const State& state, const FingerMotion& motion);
   double give_of(const FingertipIk::Ball& ball) const;
-  bool is_moving(Finger finger) const {
-    return problem_->is_finger_free[static_cast<std::size_t>(finger)];
-  }
+  bool is_moving(Finger finger) const { return problem_->is_finger_free[index_of(finger)]; }
   State stepped(const State& state, const Row& step) const;
   void minimise(State& state, const Stage& stage, int most);
 
@@ -199,7 +196,7 @@ class FingertipSystem {
 FingertipSystem::Touch FingertipSystem::touch_of(const State& state, const FingerMotion& motion,
                                                  const FingertipGoal& goal, bool with_bend) const {
   Touch touch;
-  touch.in_hand = motion.posed().segment[static_cast<std::size_t>(goal.fingertip.segment)] *
+  touch.in_hand = motion.posed().segment[index_of(goal.fingertip.segment)] *
                   Vec3(goal.fingertip.point - kPulp * goal.fingertip.normal);
   // One call for the point and for its normal's changes along the hand's axes, so that a turned
   // product or a left hand goes the same way.
@@ -207,7 +204,7 @@ FingertipSystem::Touch FingertipSystem::touch_of(const State& state, const Finge
   points.fill(state.product_from_hand * touch.in_hand);
   Eigen::Matrix3d axes = state.product_from_hand.rotation.toRotationMatrix();
   if (ik_->hand().side == Side::kLeft) axes.col(0) = -axes.col(0);
-  for (int c = 0; c < 3; ++c) points[static_cast<std::size_t>(c + 1)] += kBendStep * axes.col(c);
+  for (int c = 0; c < 3; ++c) points[c + 1] += kBendStep * axes.col(c);
   std::array<DistanceSample, 4> samples;
   const std::size_t count = with_bend ? 4 : 1;
   problem_->product->sample(std::span(points).first(count), kEverywhere,
@@ -256,7 +253,7 @@ void FingertipSystem::add_goals(const State& state, const FingerMotion& motion,
       continue;
     }
     const std::vector<DofMotion>& moving = motion.moving(goal.fingertip.segment);
-    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+    const std::size_t s = index_of(goal.fingertip.segment);
     const Vec3 x = in_hand(motion, goal);
     const Vec3 there = state.product_from_hand * x;
     Vec3 want = goal.point;
@@ -321,7 +318,7 @@ void FingertipSystem::add_posture(const State& state, const Stage& stage) {
 void FingertipSystem::add_crossings(const State& state, const FingerMotion& motion) {
   const std::vector<RoundCone> cones = ik_->cones_.posed(ik_->hand().skeleton, state.posture);
   const auto phalanx_of = [](const RoundCone& cone) {
-    return *segments_of(cone.finger)[static_cast<std::size_t>(cone.level - 1)];
+    return *segments_of(cone.finger)[cone.level - 1];
   };
   for (const RoundCone& p : cones) {
     for (const RoundCone& q : cones) {
@@ -329,9 +326,8 @@ void FingertipSystem::add_crossings(const State& state, const FingerMotion& moti
       if (!is_moving(p.finger) && !is_moving(q.finger)) continue;
       const Segment sp = phalanx_of(p), sq = phalanx_of(q);
       // Two that touch the product face each other over it, flattened.
-      const bool is_facing = p.finger == Finger::kThumb &&
-                             is_contact_[static_cast<std::size_t>(sp)] &&
-                             is_contact_[static_cast<std::size_t>(sq)];
+      const bool is_facing =
+          p.finger == Finger::kThumb && is_contact_[index_of(sp)] && is_contact_[index_of(sq)];
       const Crossing crossing = crossing_of(p, q);
       const double excess = crossing.overlap - (is_facing ? kFacingGive : kNeighbourGive);
       if (excess <= 0.0) continue;
@@ -353,11 +349,11 @@ void FingertipSystem::add_crossings(const State& state, const FingerMotion& moti
 
 double FingertipSystem::give_of(const FingertipIk::Ball& ball) const {
   if (!ball.phalanx || !ball.finger) return 0.0;
-  if (is_contact_[static_cast<std::size_t>(*ball.phalanx)]) {
-    return kTouchGive + depth_[static_cast<std::size_t>(*ball.phalanx)];
+  if (is_contact_[index_of(*ball.phalanx)]) {
+    return kTouchGive + depth_[index_of(*ball.phalanx)];
   }
   for (const std::optional<Segment>& segment : segments_of(*ball.finger)) {
-    if (segment && is_contact_[static_cast<std::size_t>(*segment)]) return kNextGive;
+    if (segment && is_contact_[index_of(*segment)]) return kNextGive;
   }
   return 0.0;
 }
@@ -371,9 +367,8 @@ void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) 
     const bool is_still = !ball.finger || (!ball.phalanx && ball.finger != Finger::kThumb);
     if (!problem_->is_hand_free && (is_still || !is_moving(*ball.finger))) continue;
     balls.push_back(&ball);
-    const Rigid3& moved = !ball.finger ? motion.posed().forearm
-                          : ball.phalanx
-                              ? motion.posed().segment[static_cast<std::size_t>(*ball.phalanx)]
+    const Rigid3& moved = !ball.finger   ? motion.posed().forearm
+                          : ball.phalanx ? motion.posed().segment[index_of(*ball.phalanx)]
                           : *ball.finger == Finger::kThumb ? motion.posed().thumb_metacarpal
                                                            : motion.posed().segment[0];
     points_in_hand_.push_back(moved * ball.centre);
@@ -428,12 +423,15 @@ FingertipSystem::State FingertipSystem::stepped(const State& state, const Row& s
   for (int d = kFirstDof; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
     const int c = column_of(dof);
-    if (!is_free_[static_cast<std::size_t>(c)]) continue;
+    if (!is_free_[c]) continue;
     next.posture[dof] = std::clamp(next.posture[dof] + step[c], lower_[c], upper_[c]);
   }
   return next;
 }
 
+// A loop of its own, not solve_least_squares(): how many residuals there are changes from step to
+// step (fingers begin to cross, joints come near their ends), so evaluate() adds up the normal
+// matrix and the gradient, whose size stays.
 void FingertipSystem::minimise(State& state, const Stage& stage, int most) {
   Square h;
   Row g;
@@ -444,7 +442,7 @@ void FingertipSystem::minimise(State& state, const Stage& stage, int most) {
     Square system = h.selfadjointView<Eigen::Lower>();
     Row rhs = -g;
     for (int c = 0; c < kUnknowns; ++c) {
-      bool is_held = !is_free_[static_cast<std::size_t>(c)];
+      bool is_held = !is_free_[c];
       if (c >= kPlacement && !is_held) {
         const double q = state.posture[static_cast<Dof>(c - kPlacement + kFirstDof)];
         is_held = (q <= lower_[c] && g[c] > 0.0) || (q >= upper_[c] && g[c] < 0.0);
@@ -501,7 +499,7 @@ FingertipSolution FingertipSystem::solution(const State& state) {
   result.iterations = iterations_;
   const FingerMotion motion(ik_->hand().skeleton, state.posture);
   for (const FingertipGoal& goal : problem_->goals) {
-    const auto s = static_cast<std::size_t>(goal.fingertip.segment);
+    const std::size_t s = index_of(goal.fingertip.segment);
     const Vec3 x = state.product_from_hand * in_hand(motion, goal);
     std::optional<Vec3> normal = goal.normal;
     if (slides(goal)) {
@@ -542,7 +540,7 @@ FingertipIk::FingertipIk(const Hand& hand) : hand_(&hand), cones_(hand) {
       ball.radius = (1.0 - t) * cone.radius_a + t * cone.radius_b;
       ball.finger = cone.finger;
       if (!is_metacarpal) {
-        ball.phalanx = segments_of(cone.finger)[static_cast<std::size_t>(cone.level - 1)];
+        ball.phalanx = segments_of(cone.finger)[cone.level - 1];
       }
       balls_.push_back(ball);
     }
@@ -567,8 +565,8 @@ double FingertipIk::clash_of(const DistanceField& product, const Posture& postur
   const PosedSkeleton posed = pose_skeleton(hand_->skeleton, posture);
   std::vector<Vec3> points;
   for (const Ball& ball : balls_) {
-    const Rigid3& moved = !ball.finger   ? posed.forearm
-                          : ball.phalanx ? posed.segment[static_cast<std::size_t>(*ball.phalanx)]
+    const Rigid3& moved = !ball.finger                     ? posed.forearm
+                          : ball.phalanx                   ? posed.segment[index_of(*ball.phalanx)]
                           : *ball.finger == Finger::kThumb ? posed.thumb_metacarpal
                                                            : posed.segment[0];
     points.push_back(product_from_hand * (moved * ball.centre));

@@ -4,19 +4,19 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kPadShare = 0.55;
-constexpr double kTipShare = 0.72, kTipTilt = 50.0 * kDeg;
-constexpr double kSideShare = 0.65, kSideTilt = 20.0 * kDeg;
+constexpr double kTipShare = 0.72, kTipTilt = 50.0 * kDegree;
+constexpr double kSideShare = 0.65, kSideTilt = 20.0 * kDegree;
 constexpr double kNormalRadius = 4.0;  // mm; the skin's normal is a mean over that much pulp
 
 struct SkinHit {
@@ -33,12 +33,12 @@ std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3
     const Triangle& corner = hand.skin.triangles[t];
     bool belongs = false;
     for (const int v : corner) {
-      belongs = belongs || finger_of(hand.segment[static_cast<std::size_t>(v)]) == finger;
+      belongs = belongs || finger_of(hand.segment[v]) == finger;
     }
     if (!belongs) continue;
-    const Vec3& a = hand.skin.vertices[static_cast<std::size_t>(corner[0])];
-    const Vec3 ab = hand.skin.vertices[static_cast<std::size_t>(corner[1])] - a;
-    const Vec3 ac = hand.skin.vertices[static_cast<std::size_t>(corner[2])] - a;
+    const Vec3& a = hand.skin.vertices[corner[0]];
+    const Vec3 ab = hand.skin.vertices[corner[1]] - a;
+    const Vec3 ac = hand.skin.vertices[corner[2]] - a;
     const Vec3 p = direction.cross(ac);
     const double det = ab.dot(p);
     if (std::abs(det) < 1e-12) continue;
@@ -57,9 +57,9 @@ std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3
 Vec3 mean_normal(const Hand& hand, const Vec3& point, const Vec3& outwards) {
   Vec3 sum = Vec3::Zero();
   for (const Triangle& t : hand.skin.triangles) {
-    const Vec3& a = hand.skin.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = hand.skin.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = hand.skin.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = hand.skin.vertices[t[0]];
+    const Vec3& b = hand.skin.vertices[t[1]];
+    const Vec3& c = hand.skin.vertices[t[2]];
     const double r = ((a + b + c) / 3.0 - point).norm();
     if (r >= kNormalRadius) continue;
     const Vec3 normal = (b - a).cross(c - a);
@@ -94,7 +94,7 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
   const JointDof& flexion = skeleton.joint(joint_of(segment)).dofs.back();
   const Vec3 from = skeleton.joint(joint_of(segment)).centre;
   const Vec3 to = is_side ? skeleton.joint(joint_of(*segments[2])).centre
-                          : skeleton.fingertips[static_cast<std::size_t>(finger)];
+                          : skeleton.fingertips[index_of(finger)];
   const Vec3 along = (to - from).normalized();
   const Vec3 palmar = flexion.axis.cross(along).normalized();
   Vec3 radial = along.cross(palmar);

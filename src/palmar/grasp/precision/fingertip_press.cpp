@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -39,7 +41,7 @@ SkinDepth FingertipPress::look(const DistanceField& product, const Posture& post
   result.palmar.fill(-kRange);
   result.any.fill(-kRange);
   for (std::size_t v = 0; v < posed.size(); ++v) {
-    const auto s = static_cast<std::size_t>(hand.segment[v]);
+    const std::size_t s = index_of(hand.segment[v]);
     result.any[s] = std::max(result.any[s], -samples[v].distance);
     if (hand.region[v] == Region::kDorsum) continue;
     result.palmar[s] = std::max(result.palmar[s], -samples[v].distance);
@@ -55,9 +57,8 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
   for (const FingertipGoal& goal : goals) {
     std::vector<int> pulp;
     for (int v = 0; v < hand.skin.vertex_count(); ++v) {
-      const auto i = static_cast<std::size_t>(v);
-      if (hand.segment[i] != goal.fingertip.segment) continue;
-      if ((hand.skin.vertices[i] - goal.fingertip.point).norm() < kPulp) pulp.push_back(v);
+      if (hand.segment[v] != goal.fingertip.segment) continue;
+      if ((hand.skin.vertices[v] - goal.fingertip.point).norm() < kPulp) pulp.push_back(v);
     }
     std::vector<Vec3> posed;
     PosableSkin(hand, std::move(pulp)).pose(solution.posture, posed);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/grip_axis.h"
@@ -14,22 +14,21 @@
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr int kPoints = 300;
-constexpr double kCone = 35.0 * kDeg;       // normals against the line through both points
-constexpr double kEdge = 25.0 * kDeg;       // mean normal against the triangle's
-constexpr double kPadOffset = 3.0;          // mm off the surface, where its distance is smooth
-constexpr double kFingerRoom = 7.0;         // mm off the surface that has to be free for a finger
-constexpr double kThinnest = 0.2;           // mm
-constexpr double kAway = 50.0;              // mm; unit of the cost of being off centre
-constexpr double kAngleUnit = 20.0 * kDeg;  // of the cost of slanting normals
-constexpr double kWidthUnit = 20.0;         // mm
-constexpr double kPenSlenderness = 4.5;     // length over breadth
-constexpr double kPenBreadth = 32.0;        // mm; thicker bars are no pens
-constexpr double kPenLength = 80.0;         // mm
-constexpr double kPenGrip = 35.0;           // mm behind the tip ...
-constexpr double kPenShare = 0.28;          // ... or this share of the length if that is less
-constexpr double kAlike = 0.92;             // ends whose girths differ less look alike
+constexpr double kCone = 35.0 * kDegree;  // normals against the line through both points
+constexpr double kEdge = 25.0 * kDegree;  // mean normal against the triangle's
+constexpr double kPadOffset = 3.0;        // mm off the surface, where its distance is smooth
+constexpr double kFingerRoom = 7.0;       // mm off the surface that has to be free for a finger
+constexpr double kThinnest = 0.2;         // mm
+constexpr double kAway = 50.0;            // mm; unit of the cost of being off centre
+constexpr double kAngleUnit = 20.0 * kDegree;  // of the cost of slanting normals
+constexpr double kWidthUnit = 20.0;            // mm
+constexpr double kPenSlenderness = 4.5;        // length over breadth
+constexpr double kPenBreadth = 32.0;           // mm; thicker bars are no pens
+constexpr double kPenLength = 80.0;            // mm
+constexpr double kPenGrip = 35.0;              // mm behind the tip ...
+constexpr double kPenShare = 0.28;             // ... or this share of the length if that is less
+constexpr double kAlike = 0.92;                // ends whose girths differ less look alike
 
 void add_points(const std::array<Vec3, 3>& c, double longest, int depth, const Vec3& normal,
                 std::vector<SurfacePoint>& points) {
@@ -56,9 +55,7 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count) {
   const double spacing = std::sqrt(surface_area(mesh) / (0.7 * count));
   std::vector<SurfacePoint> all;
   for (Triangle t : mesh.triangles) {
-    const auto at = [&](int v) -> const Vec3& {
-      return mesh.vertices[static_cast<std::size_t>(v)];
-    };
+    const auto at = [&](int v) -> const Vec3& { return mesh.vertices[v]; };
     const Vec3 normal = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
     if (normal.norm() < 1e-12) continue;
     // A mirrored mesh has its corners in another order.
@@ -143,7 +140,7 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
     const std::vector<RayHit> hits = rays.all_hits(start.point, -*normal, kThinnest);
     std::vector<RayHit> exits;
     for (const RayHit& hit : hits) {
-      if (normals[static_cast<std::size_t>(hit.triangle)].dot(-*normal) <= 0.0) continue;
+      if (normals[hit.triangle].dot(-*normal) <= 0.0) continue;
       if (hit.distance > options.widest) break;
       if (exits.size() < 2) exits.push_back(hit);
       exits.back() = hit;
@@ -153,8 +150,7 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
       pair.a = start.point;
       pair.b = start.point - exit.distance * *normal;
       pair.normal_a = *normal;
-      const std::optional<Vec3> behind =
-          pad_normal(pair.b, normals[static_cast<std::size_t>(exit.triangle)]);
+      const std::optional<Vec3> behind = pad_normal(pair.b, normals[exit.triangle]);
       if (!behind) continue;
       pair.normal_b = *behind;
       const Vec3 line = (pair.a - pair.b).normalized();
@@ -174,7 +170,7 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
     return std::llround(1e6 * p.cost) < std::llround(1e6 * q.cost);
   });
   if (static_cast<int>(pairs.size()) > options.most) {
-    pairs.resize(static_cast<std::size_t>(options.most));
+    pairs.resize(options.most);
   }
   return pairs;
 }

@@ -40,18 +40,18 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
     : hand_(&hand), vertices_(std::move(vertices)) {
   std::vector<int> slot(hand.skin.vertices.size(), -1);
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(vertices_[k]);
+    const int v = vertices_[k];
     slot[v] = static_cast<int>(k);
     reference_.push_back(hand.skin.vertices[v]);
   }
   for (const int v : hand.thumb_ball.vertex) {
-    has_thumb_ball_ = has_thumb_ball_ || slot[static_cast<std::size_t>(v)] >= 0;
+    has_thumb_ball_ = has_thumb_ball_ || slot[v] >= 0;
   }
   for (const JointWeights& weights : hand.weights) {
     if (weights.bulge.empty()) continue;
     JointBulge bulge{weights.joint, {}, {}};
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-      const int s = slot[static_cast<std::size_t>(weights.vertex[k])];
+      const int s = slot[weights.vertex[k]];
       if (s < 0 || weights.bulge[k] == Vec3::Zero()) continue;
       bulge.slot.push_back(s);
       bulge.bulge.push_back(weights.bulge[k]);
@@ -63,7 +63,7 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
     for (const JointWeights& weights : hand.weights) {
       if (weights.joint != id) continue;
       for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-        const int s = slot[static_cast<std::size_t>(weights.vertex[k])];
+        const int s = slot[weights.vertex[k]];
         if (s < 0) continue;
         const double w = weights.w1[k] * weights.w2[k];
         if (w == 1.0) {
@@ -90,7 +90,7 @@ void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
     const double turn = posture[flexion.dof] - flexion.reference;
     if (!(turn > 0.0)) continue;
     for (std::size_t k = 0; k < bulge.slot.size(); ++k) {
-      posed[static_cast<std::size_t>(bulge.slot[k])] += turn * bulge.bulge[k];
+      posed[bulge.slot[k]] += turn * bulge.bulge[k];
     }
   }
   for (const JointShare& share : shares_) {
@@ -98,11 +98,11 @@ void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
     const Rigid3 whole = displacement(skeleton, share.joint, posture, 1.0);
     const Eigen::Matrix3d rotation = whole.rotation.toRotationMatrix();
     for (const int s : share.full) {
-      Vec3& p = posed[static_cast<std::size_t>(s)];
+      Vec3& p = posed[s];
       p = rotation * p + whole.translation;
     }
     for (std::size_t k = 0; k < share.part.size(); ++k) {
-      Vec3& p = posed[static_cast<std::size_t>(share.part[k])];
+      Vec3& p = posed[share.part[k]];
       p = displacement(skeleton, share.joint, posture, share.weight[k]) * p;
     }
   }

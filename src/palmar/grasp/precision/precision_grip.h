@@ -26,8 +26,8 @@ struct PrecisionGripOptions {
   void check() const;                    ///< throws UsageError: field, value, allowed range
 };
 
-/// Precision grip (docs/method/precision.md): pads of the grip's fingers on points of the product by
-/// inverse kinematics under the ranges of motion, fingers not crossing, near their natural
+/// Precision grip (docs/method/precision.md): pads of the grip's fingers on points of the product
+/// by inverse kinematics under the ranges of motion, fingers not crossing, near their natural
 /// coordination. Deterministic. Not being able to reach is a status with a message that says which
 /// finger misses by how much, never an exception. Throws UsageError (bad options, a target farther
 /// than 2 mm from the surface), Cancelled.

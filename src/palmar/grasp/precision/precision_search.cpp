@@ -6,27 +6,29 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
+
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr int kTurns = 12;
 constexpr std::size_t kFinalists = 40;
 constexpr std::size_t kPerPair = 3;  // finalists
 constexpr std::size_t kStarts = 8;   // for given points
 constexpr double kClashRate = 0.12;  // cost per mm of a coarse look
 constexpr double kStrainUnit = 10.0;
-constexpr double kTiltUnit = 40.0 * kDeg;
+constexpr double kTiltUnit = 40.0 * kDegree;
 constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
-constexpr double kBalanceUnit = 30.0 * kDeg;
-constexpr double kOffsetUnit = 10.0;       // mm
-constexpr double kBallSlide = 8.0;         // mm
-constexpr double kBallSquare = 0.9;        // rad
-constexpr double kPenLean = 0.4;           // cost of a pen square to the way it likes to lean
-constexpr double kAxisWeight = 2.0;        // of the asked axis
-constexpr double kLikeShift = 12.0;        // mm; holds nearer than that ...
-constexpr double kLikeTurn = 25.0 * kDeg;  // ... and turned less are the same
+constexpr double kBalanceUnit = 30.0 * kDegree;
+constexpr double kOffsetUnit = 10.0;          // mm
+constexpr double kBallSlide = 8.0;            // mm
+constexpr double kBallSquare = 0.9;           // rad
+constexpr double kPenLean = 0.4;              // cost of a pen square to the way it likes to lean
+constexpr double kAxisWeight = 2.0;           // of the asked axis
+constexpr double kLikeShift = 12.0;           // mm; holds nearer than that ...
+constexpr double kLikeTurn = 25.0 * kDegree;  // ... and turned less are the same
 constexpr std::size_t kMostHolds = 8;
 
 /// Directions of a hand about which placements are said.
@@ -164,8 +166,8 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
       goal.slide = kBallSlide;
       goal.square = kBallSquare;
     }
-    const Vec3 there = candidate.product_from_hand *
-                       (posed.segment[static_cast<std::size_t>(tip.segment)] * tip.point);
+    const Vec3 there =
+        candidate.product_from_hand * (posed.segment[index_of(tip.segment)] * tip.point);
     const bool is_pinch = openings_->fingertips().size() == 2;
     goal.point = tip.finger == Finger::kThumb ? candidate.thumb
                  : is_pinch                   ? candidate.other
@@ -317,9 +319,8 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
                ik.clash_of(*product.distance, opening.posture, one.product_from_hand,
                            openings.fingertips());
     for (const FingertipGoal& goal : goals) {
-      const Vec3 there =
-          one.product_from_hand *
-          (posed.segment[static_cast<std::size_t>(goal.fingertip.segment)] * goal.fingertip.point);
+      const Vec3 there = one.product_from_hand *
+                         (posed.segment[index_of(goal.fingertip.segment)] * goal.fingertip.point);
       one.cost += (there - goal.point).squaredNorm() / 400.0;
     }
     candidates.push_back(one);

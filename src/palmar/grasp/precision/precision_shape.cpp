@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/analytic_distance.h"
 #include "palmar/grasp/power/finger_motion.h"
 #include "palmar/grasp/power/skin_advance.h"
@@ -15,11 +16,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kReached = 0.5;  // mm
-constexpr double kSquare = 40.0 * kDeg;
-constexpr double kSquareOnBall = 65.0 * kDeg;  // fingertips touch a ball with their sides, too
-constexpr double kBallSlide = 8.0;             // mm
+constexpr double kSquare = 40.0 * kDegree;
+constexpr double kSquareOnBall = 65.0 * kDegree;  // fingertips touch a ball with their sides, too
+constexpr double kBallSlide = 8.0;                // mm
 constexpr double kBallSquare = 0.9;   // rad; fingers spread round a ball touch with their sides
 constexpr double kSideBySide = 17.0;  // mm between the pads of index and middle finger
 constexpr std::array<double, 12> kWidths = {2, 8, 14, 20, 28, 36, 45, 55, 65, 75, 85, 95};
@@ -30,7 +30,7 @@ Posture named(const Skeleton& skeleton, const char* name) {
 
 void set(Posture& posture, Finger finger, const std::array<double, 3>& flexion_deg) {
   for (int level = 0; level < (finger == Finger::kThumb ? 2 : 3); ++level) {
-    posture[flexion_of(finger, level)] = kDeg * flexion_deg[static_cast<std::size_t>(level)];
+    posture[flexion_of(finger, level)] = kDegree * flexion_deg[level];
   }
 }
 
@@ -76,9 +76,9 @@ Posture natural_posture(const Skeleton& skeleton, Grip grip) {
            {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
         set(posture, finger, {40, 38, 22});
       }
-      posture[Dof::kIndexMcpAbduction] += 12.0 * kDeg;
-      posture[Dof::kRingMcpAbduction] -= 8.0 * kDeg;
-      posture[Dof::kLittleMcpAbduction] -= 18.0 * kDeg;
+      posture[Dof::kIndexMcpAbduction] += 12.0 * kDegree;
+      posture[Dof::kRingMcpAbduction] -= 8.0 * kDegree;
+      posture[Dof::kLittleMcpAbduction] -= 18.0 * kDegree;
       set(posture, Finger::kThumb, {10, 15, 0});
       break;
     default:  // pads of thumb and index finger
@@ -103,7 +103,7 @@ GripOpenings::GripOpenings(const FingertipIk& ik, Grip grip)
     const PosedSkeleton posed = pose_skeleton(skeleton, start);
     std::vector<Vec3> tips;
     for (const FingertipPoint& tip : fingertips_) {
-      tips.push_back(posed.segment[static_cast<std::size_t>(tip.segment)] * tip.point);
+      tips.push_back(posed.segment[index_of(tip.segment)] * tip.point);
     }
     Vec3 others = Vec3::Zero();
     for (std::size_t k = 1; k < tips.size(); ++k) {
@@ -157,8 +157,8 @@ GripOpenings::GripOpenings(const FingertipIk& ik, Grip grip)
     opening.strain = solution.strain;
     const FingerMotion motion(skeleton, solution.posture);
     for (std::size_t k = 0; k < fingertips_.size(); ++k) {
-      const Vec3 tip = motion.posed().segment[static_cast<std::size_t>(fingertips_[k].segment)] *
-                       fingertips_[k].point;
+      const Vec3 tip =
+          motion.posed().segment[index_of(fingertips_[k].segment)] * fingertips_[k].point;
       if (k == 0) {
         opening.thumb = tip;
       } else {

@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
@@ -21,17 +22,16 @@
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-constexpr double kReached = 1.0;           // mm
-constexpr double kOffSurface = 2.0;        // mm
-constexpr double kPadOffset = 3.0;         // mm off the surface, where its distance is smooth
-constexpr double kMostTilt = 60.0 * kDeg;  // a pad pressed over its edge presses no more
-constexpr double kAwkwardTilt = 35.0 * kDeg;
-constexpr double kAwkwardMargin = 8.0 * kDeg;
-constexpr double kAwkwardBend = 25.0 * kDeg;  // of DIP from 2/3 PIP
-constexpr double kMostClash = 3.0;            // mm; deeper in product or neighbour is no way to be
-constexpr double kFar = 50.0;                 // mm; who misses by more hasn't tried
-constexpr double kOpposed = 120.0 * kDeg;
+constexpr double kReached = 1.0;              // mm
+constexpr double kOffSurface = 2.0;           // mm
+constexpr double kPadOffset = 3.0;            // mm off the surface, where its distance is smooth
+constexpr double kMostTilt = 60.0 * kDegree;  // a pad pressed over its edge presses no more
+constexpr double kAwkwardTilt = 35.0 * kDegree;
+constexpr double kAwkwardMargin = 8.0 * kDegree;
+constexpr double kAwkwardBend = 25.0 * kDegree;  // of DIP from 2/3 PIP
+constexpr double kMostClash = 3.0;  // mm; deeper in product or neighbour is no way to be
+constexpr double kFar = 50.0;       // mm; who misses by more hasn't tried
+constexpr double kOpposed = 120.0 * kDegree;
 constexpr double kTouchRange = 5.0;  // mm
 
 std::string words_of(Finger finger) {
@@ -115,7 +115,7 @@ std::vector<Posture> Reacher::starts(Finger finger) const {
 
 FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
                           double hopeless) const {
-  const auto f = static_cast<std::size_t>(finger);
+  const std::size_t f = index_of(finger);
   FingerReach best;
   best.finger = finger;
   best.posture = grasp_->posture;
@@ -176,10 +176,10 @@ bool is_preferred(const FingerReach& a, const FingerReach& b) {
 
 std::string message_of(const ButtonReach& reach) {
   if (reach.best) {
-    const FingerReach& best = reach.fingers[static_cast<std::size_t>(*reach.best)];
+    const FingerReach& best = reach.fingers[index_of(*reach.best)];
     return fmt::format("the {} reaches it{}, {:.0f} degrees from the end of its {}",
                        words_of(*reach.best), best.is_awkward ? " awkwardly" : "",
-                       best.margin / kDeg, std::string(name_of(best.tightest)));
+                       best.margin / kDegree, std::string(name_of(best.tightest)));
   }
   const auto loses = std::find_if(reach.fingers.begin(), reach.fingers.end(),
                                   [](const FingerReach& one) { return one.is_reached; });
@@ -196,7 +196,7 @@ std::string message_of(const ButtonReach& reach) {
                              words_of(nearest->finger))
                : fmt::format(
                      "the {} gets there, but not with its pad, which is {:.0f} degrees askew",
-                     words_of(nearest->finger), nearest->tilt / kDeg);
+                     words_of(nearest->finger), nearest->tilt / kDegree);
   }
   return fmt::format("no finger reaches it; the {} comes nearest and misses it by {:.1f} mm",
                      words_of(nearest->finger), nearest->miss);
@@ -221,7 +221,7 @@ std::vector<TouchingSegment> touching_segments(const Hand& hand, const Product& 
     const double depth = -samples[v].distance;
     // Deeper than the range nothing is known of the surface.
     if (depth <= 0.0 || depth >= kTouchRange) continue;
-    const auto s = static_cast<std::size_t>(hand.segment[v]);
+    const std::size_t s = index_of(hand.segment[v]);
     weight[s] += depth;
     all[s].point += depth * skin[v];
     normal[s] += depth * samples[v].normal;
@@ -292,7 +292,7 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
     }
     for (const FingerReach& one : reach.fingers) {
       if (!one.is_reached || !one.is_grip_kept) continue;
-      if (reach.best && !is_preferred(one, reach.fingers[static_cast<std::size_t>(*reach.best)])) {
+      if (reach.best && !is_preferred(one, reach.fingers[index_of(*reach.best)])) {
         continue;
       }
       reach.best = one.finger;
@@ -318,14 +318,13 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
   progress.update(0.0, "sending fingers over the surface");
   parallel_for(static_cast<int>(places.size()), [&](int place) {
     if (progress.is_cancelled()) return;
-    const auto i = static_cast<std::size_t>(place);
-    Value& value = values[i];
+    Value& value = values[place];
     std::optional<FingerReach> best;
     for (int f = 0; f < kFingerCount; ++f) {
       const auto finger = static_cast<Finger>(f);
-      if (!reacher.may_leave(finger, -places[i].normal)) continue;
-      const FingerReach one =
-          reacher.send(finger, places[i].point, places[i].normal, -places[i].normal, kReached);
+      if (!reacher.may_leave(finger, -places[place].normal)) continue;
+      const FingerReach one = reacher.send(finger, places[place].point, places[place].normal,
+                                           -places[place].normal, kReached);
       value.miss = std::min(value.miss, std::max(0.0, one.miss));
       if (one.is_reached && (!best || is_preferred(one, *best))) best = one;
     }

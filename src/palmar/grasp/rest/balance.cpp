@@ -8,9 +8,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/power/skin_advance.h"
@@ -35,8 +36,8 @@ constexpr double kLostShare = 0.05;  // of the grip force at the start; less is 
 // Passive coupling of DIP and PIP (Rijkpema & Girard 1991; tolerance: joint_coupling table of
 // modelling rules, 15 deg): beyond it a moment of kCoupling per radian.
 constexpr double kDipPerPip = 2.0 / 3.0;
-constexpr double kCouplingFree = 10.0 / 57.29578;  // rad
-constexpr double kCoupling = 1500.0;               // N mm/rad; our choice
+constexpr double kCouplingFree = 10.0 * kDegree;  // rad
+constexpr double kCoupling = 1500.0;              // N mm/rad; our choice
 constexpr double kMostMuscles = 1.5;  // of flexion_strength(); its figures are the lowest measured
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
@@ -73,7 +74,7 @@ class Settling {
         cones_(hand.hand()),
         start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
         mechanics_(hand, product, contact, options.friction, start_) {
-    is_held_[static_cast<std::size_t>(Finger::kThumb)] = is_by_muscles_;
+    is_held_[index_of(Finger::kThumb)] = is_by_muscles_;
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =
@@ -132,8 +133,8 @@ class Settling {
 void Settling::add_coupling(GripVector& residual, GripMatrix& stiffness) const {
   for (int finger = 0; finger < 4; ++finger) {
     const int pip = 4 + 3 * finger, dip = pip + 1;
-    const double off = state_.posture[kSqueezeDofs[static_cast<std::size_t>(dip)]] -
-                       kDipPerPip * state_.posture[kSqueezeDofs[static_cast<std::size_t>(pip)]];
+    const double off =
+        state_.posture[kSqueezeDofs[dip]] - kDipPerPip * state_.posture[kSqueezeDofs[pip]];
     const double excess = off - std::clamp(off, -kCouplingFree, kCouplingFree);
     if (excess == 0.0) continue;
     residual[dip] -= kCoupling * excess;
@@ -219,7 +220,7 @@ Posture Settling::without_crossing(const Posture& next) {
       if (cones[b].finger == Finger::kThumb || cones[b].level == 0) continue;
       const double allowed = std::max(kNeighbourGive, overlap(start_cones_[a], start_cones_[b]));
       if (overlap(cones[a], cones[b]) > allowed + 1e-6) {
-        is_held_[static_cast<std::size_t>(cones[b].finger)] = true;
+        is_held_[index_of(cones[b].finger)] = true;
       }
     }
   }
@@ -236,8 +237,7 @@ Posture Settling::without_crossing(const Posture& next) {
 void Settling::step(const Misfit& misfit, double missing) {
   std::vector<int> free;
   for (int j = 0; j < kSqueezeJoints; ++j) {
-    const auto index = static_cast<std::size_t>(j);
-    if (is_by_muscles_ && is_loaded(index) && !is_stuck(index, misfit.residual[j])) {
+    if (is_by_muscles_ && is_loaded(j) && !is_stuck(j, misfit.residual[j])) {
       free.push_back(j);
     }
   }
@@ -372,10 +372,10 @@ Balance Settling::run(const Progress& progress) {
     if (is_lost || judge_way(balance)) {
       balance.status = BalanceStatus::kSlipsOut;
       balance.slip = moved_.norm() > 0.0 ? Vec3(moved_.normalized()) : Vec3(Vec3::UnitY());
-      balance.message = balance.turned > kOutTurn && balance.moved < kOut
-                            ? format("turns by more than %.0f degrees in the hand",
-                                     kOutTurn * 180.0 / std::numbers::pi)
-                            : "slips out, towards " + way_words(*hand_, *balance.slip);
+      balance.message =
+          balance.turned > kOutTurn && balance.moved < kOut
+              ? format("turns by more than %.0f degrees in the hand", kOutTurn * kDegreesPerRadian)
+              : "slips out, towards " + way_words(*hand_, *balance.slip);
       break;
     }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -85,17 +87,16 @@ FingerCones::FingerCones(const Hand& hand) {
     fit_radii(hand, belongs, metacarpal.cone);
     parts_.push_back(metacarpal);
 
-    for (int level = 0; level < 3 && segments[static_cast<std::size_t>(level)]; ++level) {
-      const Segment segment = *segments[static_cast<std::size_t>(level)];
+    for (int level = 0; level < 3 && segments[level]; ++level) {
+      const Segment segment = *segments[level];
       Part part;
       part.segment = segment;
       part.cone.finger = finger;
       part.cone.level = level + 1;
       part.cone.a = skeleton.joint(joint_of(segment)).centre;
-      const bool is_last = level == 2 || !segments[static_cast<std::size_t>(level + 1)];
+      const bool is_last = level == 2 || !segments[level + 1];
       part.cone.b =
-          is_last ? skeleton.fingertips[static_cast<std::size_t>(f)]
-                  : skeleton.joint(joint_of(*segments[static_cast<std::size_t>(level + 1)])).centre;
+          is_last ? skeleton.fingertips[f] : skeleton.joint(joint_of(*segments[level + 1])).centre;
       for (std::size_t v = 0; v < belongs.size(); ++v) {
         belongs[v] = hand.segment[v] == segment ? 1 : 0;
       }
@@ -118,7 +119,7 @@ std::vector<RoundCone> FingerCones::posed(const Skeleton& skeleton, const Postur
     RoundCone cone = part.cone;
     Rigid3 moved;
     if (part.segment) {
-      moved = pose.segment[static_cast<std::size_t>(*part.segment)];
+      moved = pose.segment[index_of(*part.segment)];
     } else if (cone.finger == Finger::kThumb) {
       moved = pose.thumb_metacarpal;
     }

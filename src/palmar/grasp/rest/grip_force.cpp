@@ -74,16 +74,16 @@ Squeeze grip_force(const std::vector<Vec3>& forces) {
   };
   std::array<Climb, kStarts> climb;
   for (int k = 0; k < kStarts; ++k) {
-    climb[static_cast<std::size_t>(k)].across = start_direction(k);
+    climb[k].across = start_direction(k);
   }
   std::array<int, kLanes> at;  // start that a lane climbs from; -1: idle
   Lanes across = {}, sum;
   int next = 0, busy = 0;
   const auto take = [&](int lane) {
     const bool is_left = next < kStarts;
-    at[static_cast<std::size_t>(lane)] = is_left ? next : -1;
+    at[lane] = is_left ? next : -1;
     if (!is_left) return;
-    for (int c = 0; c < 3; ++c) across[c][lane] = climb[static_cast<std::size_t>(next)].across[c];
+    for (int c = 0; c < 3; ++c) across[c][lane] = climb[next].across[c];
     ++next;
     ++busy;
   };
@@ -91,8 +91,8 @@ Squeeze grip_force(const std::vector<Vec3>& forces) {
   while (busy > 0) {
     sum_to_sides(forces, across, sum);
     for (int l = 0; l < kLanes; ++l) {
-      if (at[static_cast<std::size_t>(l)] < 0) continue;
-      Climb& one = climb[static_cast<std::size_t>(at[static_cast<std::size_t>(l)])];
+      if (at[l] < 0) continue;
+      Climb& one = climb[at[l]];
       const Vec3 whole(sum[0][l], sum[1][l], sum[2][l]);
       const double now = 0.5 * whole.norm();
       if (!(now > one.force * (1.0 + 1e-12))) {
@@ -124,7 +124,7 @@ Squeeze grip_force(const ContactResult& contact, const DistanceField& product) {
   const std::vector<int> loaded = loaded_vertices(contact);
   std::vector<Vec3> forces = contact_normals(contact, product, loaded);
   for (std::size_t k = 0; k < loaded.size(); ++k) {
-    forces[k] *= -contact.force[static_cast<std::size_t>(loaded[k])];
+    forces[k] *= -contact.force[loaded[k]];
   }
   return grip_force(forces);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "palmar/contact/contact_normals.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
@@ -38,31 +39,30 @@ GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
     is_moved_[j].assign(h.skin.vertices.size(), 0);
     for (const JointWeights& weights : h.weights) {
       if (weights.joint != kSqueezeJointIds[j]) continue;
-      for (const int v : weights.vertex) is_moved_[j][static_cast<std::size_t>(v)] = 1;
+      for (const int v : weights.vertex) is_moved_[j][v] = 1;
     }
     // The correction of the thumb's ball goes with the CMC joint.
     if (kSqueezeJointIds[j] != JointId::kThumbCmc) continue;
-    for (const int v : h.thumb_ball.vertex) is_moved_[j][static_cast<std::size_t>(v)] = 1;
+    for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
   }
   anchor_ = pose_skin(h, start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
 }
 
 GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) const {
-  const auto j = static_cast<std::size_t>(joint);
   Column result;
   std::vector<int> vertices;
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    if (is_moved_[j][static_cast<std::size_t>(loaded_[k])] == 0) continue;
+    if (is_moved_[joint][loaded_[k]] == 0) continue;
     result.row.push_back(static_cast<int>(k));
     vertices.push_back(loaded_[k]);
   }
   if (vertices.empty()) return result;
   Posture turned = posture;
-  turned[kSqueezeDofs[j]] += kTurn;
+  turned[kSqueezeDofs[joint]] += kTurn;
   result.speed = pose_skin_vertices(hand_->hand(), turned, vertices);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    result.speed[i] = (result.speed[i] - posed_[static_cast<std::size_t>(vertices[i])]) / kTurn;
+    result.speed[i] = (result.speed[i] - posed_[vertices[i]]) / kTurn;
   }
   return result;
 }
@@ -87,14 +87,14 @@ bool GripMechanics::look(const GripState& state) {
   std::array<double, kRegionCount> depth;
   depth.fill(kLeastDepth);
   for (const RegionContact& region : contact_.regions) {
-    double& d = depth[static_cast<std::size_t>(region.region)];
+    double& d = depth[index_of(region.region)];
     d = std::max(d, region.max_penetration);
   }
   normal_ = contact_normals(contact_, *product_->distance, loaded_);
   double sum = 0.0;
   centre_ = Vec3::Zero();
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded_[k]);
+    const int v = loaded_[k];
     normal_[k] = hand_from_product_ * normal_[k];
     sum += contact_.force[v];
     centre_ += contact_.force[v] * posed_[v];
@@ -106,14 +106,14 @@ bool GripMechanics::look(const GripState& state) {
   for (int j = 0; j < kSqueezeJoints; ++j) {
     const Column one = column(state.posture, j);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
-      motion[static_cast<std::size_t>(one.row[i])].emplace_back(j, one.speed[i]);
+      motion[one.row[i]].emplace_back(j, one.speed[i]);
     }
-    is_loaded_[static_cast<std::size_t>(j)] = !one.row.empty();
+    is_loaded_[j] = !one.row.empty();
   }
 
   double spread = 0.0, rubbing = 0.0, limit = 0.0;
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded_[k]);
+    const int v = loaded_[k];
     const Vec3& n = normal_[k];
     const Vec3 x = posed_[v] - centre_;
     spread += contact_.force[v] * x.squaredNorm();
@@ -123,7 +123,7 @@ bool GripMechanics::look(const GripState& state) {
       moves.emplace_back(kSqueezeJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     const double p = contact_.force[v];
-    const double stiff = kPower * p / depth[static_cast<std::size_t>(hand.region[v])];
+    const double stiff = kPower * p / depth[index_of(hand.region[v])];
     // Tangential way since the start, of the skin over the product.
     Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
     way -= n * n.dot(way);
@@ -160,7 +160,7 @@ bool GripMechanics::look(const GripState& state) {
 Squeeze GripMechanics::squeeze_of_normals() const {
   std::vector<Vec3> forces(loaded_.size());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    forces[k] = -contact_.force[static_cast<std::size_t>(loaded_[k])] * normal_[k];
+    forces[k] = -contact_.force[loaded_[k]] * normal_[k];
   }
   return grip_force(forces);
 }
@@ -168,7 +168,7 @@ Squeeze GripMechanics::squeeze_of_normals() const {
 Eigen::Matrix<double, 6, 1> GripMechanics::wrench_of(std::optional<Finger> finger) const {
   Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    const auto v = static_cast<std::size_t>(loaded_[k]);
+    const int v = loaded_[k];
     if (finger_of(hand_->hand().segment[v]) != finger) continue;
     const Vec3 force = -contact_.force[v] * normal_[k];
     wrench.head<3>() += force;
@@ -181,7 +181,7 @@ std::vector<Vec3> GripMechanics::friction_force() const {
   std::vector<Vec3> result(contact_.force.size(), Vec3::Zero());
   const Quat product_from_hand = hand_from_product_.conjugate();
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    result[static_cast<std::size_t>(loaded_[k])] = product_from_hand * -tangential_[k];
+    result[loaded_[k]] = product_from_hand * -tangential_[k];
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/bones/bone_shape.h"
@@ -22,9 +23,6 @@ constexpr double kTypicalWristToMcp = 92.5;  // mm; see bones.h
 // Buryanov & Kotiuk 2010, Table I (66 adults), I to V: metacarpals, soft tissue beyond the tip, mm.
 constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
 constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-std::size_t at(Finger f) { return static_cast<std::size_t>(f); }
 
 // A bone being placed: its mesh and, per vertex, the point of its axis it is drawn in to.
 struct Draft {
@@ -71,9 +69,9 @@ void draw_in(Draft& draft, const IsFree& is_free) {
   for (int pass = 0; pass < 8; ++pass) {
     for (const Triangle& t : mesh.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        double& mine = share[at(t[k])];
-        mine = std::min(mine, share[at(t[(k + 1) % 3])] + kRelief);
-        mine = std::min(mine, share[at(t[(k + 2) % 3])] + kRelief);
+        double& mine = share[t[k]];
+        mine = std::min(mine, share[t[(k + 1) % 3]] + kRelief);
+        mine = std::min(mine, share[t[(k + 2) % 3]] + kRelief);
       }
     }
   }
@@ -171,7 +169,7 @@ Vec3 BoneMaker::metacarpal_base(Finger finger, double head_radius) const {
   // dorsal, each at its measured distance from its head.
   const Vec3& wrist = skeleton_.joint(JointId::kWrist).centre;
   const Vec3 head = mcp(finger);
-  const double length = kMetacarpal[at(finger)] * scale_ - head_radius;
+  const double length = kMetacarpal[index_of(finger)] * scale_ - head_radius;
   Vec3 base(wrist.x() + 0.6 * (head.x() - wrist.x()), 0.0,
             wrist.z() + 0.5 * (head.z() - wrist.z()));
   const double aside = (head - base).x(), deep = (head - base).z();
@@ -185,38 +183,38 @@ void BoneMaker::make_ray(Finger finger) {
   const std::string name(name_of(finger));
   const int count = is_thumb ? 2 : 3;
   const int first_node = is_thumb ? 2 : 1;  // of the ray in creases.h: MP or MCP
-  const Vec3& tip = skeleton_.fingertips[at(finger)];
+  const Vec3& tip = skeleton_.fingertips[index_of(finger)];
   // Joint centres from MP or MCP on, then the tip.
   std::vector<Vec3> node;
-  for (int k = 0; k < count; ++k) node.push_back(skeleton_.joint(joint_of(*chain[at(k)])).centre);
+  for (int k = 0; k < count; ++k) node.push_back(skeleton_.joint(joint_of(*chain[k])).centre);
   node.push_back(tip);
-  const auto along = [&](int k) { return (node[at(k + 1)] - node[at(k)]).normalized(); };
+  const auto along = [&](int k) { return (node[k + 1] - node[k]).normalized(); };
 
   // Breadth of the finger at its interphalangeal joints, free of the webs, sets all widths.
-  std::vector<double> width(at(count), 0.0);
-  std::vector<Surroundings> round(at(count));
+  std::vector<double> width(count, 0.0);
+  std::vector<Surroundings> round(count);
   for (int k = 1; k < count; ++k) {
-    round[at(k)] = look_round(node[at(k)], (along(k - 1) + along(k)).normalized(),
-                              creases_.palmar_direction(finger, first_node + k));
-    width[at(k)] = 2.0 * round[at(k)].half_width;
+    round[k] = look_round(node[k], (along(k - 1) + along(k)).normalized(),
+                          creases_.palmar_direction(finger, first_node + k));
+    width[k] = 2.0 * round[k].half_width;
   }
   width[0] = width[1];
   // Radius of the head that each joint centre sits in, and its half width.
   std::vector<double> radius, half_width;
   for (int k = 0; k < count; ++k) {
-    radius.push_back((k == 0 ? 0.38 : 0.25) * width[at(k)]);
-    half_width.push_back((k == 0 ? 0.40 : 0.32) * width[at(k)]);
+    radius.push_back((k == 0 ? 0.38 : 0.25) * width[k]);
+    half_width.push_back((k == 0 ? 0.40 : 0.32) * width[k]);
   }
   // The joints of the bones lie a little dorsal of the centres that the skin turns about.
   std::vector<Vec3> centre = node;
   for (int k = 1; k < count; ++k) {
-    const double shift = dorsal_shift(round[at(k)], radius[at(k)], 1.5 * scale_);
-    centre[at(k)] -= shift * creases_.palmar_direction(finger, first_node + k);
+    const double shift = dorsal_shift(round[k], radius[k], 1.5 * scale_);
+    centre[k] -= shift * creases_.palmar_direction(finger, first_node + k);
   }
 
   // Metacarpal.
   const Vec3 base = metacarpal_base(finger, radius[0]);
-  base_[at(finger)] = base;
+  base_[index_of(finger)] = base;
   const Vec3 shaft = (centre[0] - base).normalized();
   Vec3 palmar = is_thumb ? creases_.palmar_direction(finger, 1) : Vec3::UnitZ();
   const double w = width[0];
@@ -241,13 +239,13 @@ void BoneMaker::make_ray(Finger finger) {
 
   for (int k = 0; k < count; ++k) {
     const bool is_last = k + 1 == count;
-    Vec3 end = centre[at(k + 1)];
-    const Vec3 direction = (end - centre[at(k)]).normalized();
+    Vec3 end = centre[k + 1];
+    const Vec3 direction = (end - centre[k]).normalized();
     palmar = (creases_.palmar_direction(finger, first_node + k) +
               creases_.palmar_direction(finger, first_node + k + 1))
                  .normalized();
-    const double here = width[at(k)];
-    BoneShape shape{.from = centre[at(k)] + (radius[at(k)] + kJointGap) * direction,
+    const double here = width[k];
+    BoneShape shape{.from = centre[k] + (radius[k] + kJointGap) * direction,
                     .to = {},
                     .palmar = palmar,
                     .station = {},
@@ -257,25 +255,25 @@ void BoneMaker::make_ray(Finger finger) {
                     .rings = 18,
                     .around = 20};
     if (is_last) {
-      shape.to = end - kTipTissue[at(finger)] * scale_ * direction;
+      shape.to = end - kTipTissue[index_of(finger)] * scale_ * direction;
       shape.station = {{0.08, 0.34 * here, 0.24 * here},
                        {0.55, 0.16 * here, 0.15 * here},
                        {0.85, 0.25 * here, 0.15 * here}};
       shape.head_cap = 0.2 * here;
     } else {
-      shape.to = end + radius[at(k + 1)] * direction;
-      const double next = width[at(k + 1)];
+      shape.to = end + radius[k + 1] * direction;
+      const double next = width[k + 1];
       const double flare = k == 0 ? 0.42 : 0.38;
       shape.station = {{0.06, flare * here, 0.8 * flare * here},
                        {0.55, 0.26 * next, 0.22 * next},
-                       {0.90, half_width[at(k + 1)], radius[at(k + 1)]}};
-      shape.head_cap = radius[at(k + 1)];
-      shape.groove = 0.15 * radius[at(k + 1)];
+                       {0.90, half_width[k + 1], radius[k + 1]}};
+      shape.head_cap = radius[k + 1];
+      shape.groove = 0.15 * radius[k + 1];
     }
     Draft phalanx;
     const std::string which = is_last ? "distal" : (k == 0 ? "proximal" : "middle");
     phalanx.bone.name = name + "_" + which + "_phalanx";
-    phalanx.bone.segment = chain[at(k)];
+    phalanx.bone.segment = chain[k];
     phalanx.bone.mesh = bone_mesh(shape);
     phalanx.core =
         core_on_axis(phalanx.bone.mesh, shape.from, shape.to, 2.0 * scale_, shape.head_cap);
@@ -300,12 +298,12 @@ void BoneMaker::make_carpals() {
   const Vec3& cmc = skeleton_.joint(JointId::kThumbCmc).centre;
   const double s = creases_.radial_sign();
   const auto below = [&](Finger f, double aside, double proximal) -> Vec3 {
-    return base_[at(f)] + scale_ * Vec3(s * aside, -proximal, 0.0);
+    return base_[index_of(f)] + scale_ * Vec3(s * aside, -proximal, 0.0);
   };
-  const double carpus = base_[at(Finger::kMiddle)].y() - wrist.y();
+  const double carpus = base_[index_of(Finger::kMiddle)].y() - wrist.y();
   const auto proximal_row = [&](double aside, double share, double palmar) -> Vec3 {
     return wrist + Vec3(s * aside * scale_, share * carpus,
-                        0.5 * (base_[at(Finger::kMiddle)].z() - wrist.z()) + palmar * scale_);
+                        0.5 * (base_[index_of(Finger::kMiddle)].z() - wrist.z()) + palmar * scale_);
   };
   const Vec3 away = (cmc - skeleton_.joint(JointId::kThumbMp).centre).normalized();
   place_ellipsoid("trapezium", cmc + 7.0 * scale_ * away, scale_ * Vec3(6.5, 6.5, 6.5));

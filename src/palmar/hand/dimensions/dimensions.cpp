@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/hand_sections.h"
 
 namespace palmar {
@@ -21,25 +22,23 @@ HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton,
                             const HandCreases& creases) {
   const HandSections sections = hand_sections(skin, skeleton, creases);
   HandDimensions d;
-  d.hand_length = in_palm_plane(skeleton.fingertips[static_cast<std::size_t>(Finger::kMiddle)],
-                                sections.wrist_middle);
+  d.hand_length =
+      in_palm_plane(skeleton.fingertips[index_of(Finger::kMiddle)], sections.wrist_middle);
   d.hand_circumference = girth(sections.heads.point, sections.normal);
   d.hand_width = extent(sections.heads.point, sections.radial);
   const Chord thickness = chord(sections.heads, skeleton.joint(JointId::kMiddleMcp).centre,
                                 sections.palmar, sections.radial);
   d.hand_thickness = std::max(0.0, thickness.highest - thickness.lowest);
   for (int k = 1; k < kSegmentCount; ++k) {
-    const SegmentSection& s = sections.segment[static_cast<std::size_t>(k)];
-    d.segment[static_cast<std::size_t>(k)] = {.length = s.along.dot(s.to_palmar - s.from_palmar),
-                                              .width = extent(s.middle.point, s.across),
-                                              .thickness = extent(s.middle.point, s.palmar)};
+    const SegmentSection& s = sections.segment[k];
+    d.segment[k] = {.length = s.along.dot(s.to_palmar - s.from_palmar),
+                    .width = extent(s.middle.point, s.across),
+                    .thickness = extent(s.middle.point, s.palmar)};
   }
-  const Vec3& base =
-      sections.segment[static_cast<std::size_t>(Segment::kMiddleProximal)].from_palmar;
-  d.segment[static_cast<std::size_t>(Segment::kPalm)] = {
-      .length = base.y() - creases.wrist().point.y(),
-      .width = d.hand_width,
-      .thickness = d.hand_thickness};
+  const Vec3& base = sections.segment[index_of(Segment::kMiddleProximal)].from_palmar;
+  d.segment[index_of(Segment::kPalm)] = {.length = base.y() - creases.wrist().point.y(),
+                                         .width = d.hand_width,
+                                         .thickness = d.hand_thickness};
   return d;
 }
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
 SegmentDimensions& segment_of(HandDimensions& dimensions, HandDimension dimension) {
-  return dimensions.segment[static_cast<std::size_t>(dimension.segment)];
+  return dimensions.segment[index_of(dimension.segment)];
 }
 
 // The place where a dimension is kept.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -86,10 +87,10 @@ void lay_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCr
   const int first_node = finger == Finger::kThumb ? 2 : 1;
   const int count = chain[2] ? 3 : 2;
   const auto section = [&](int k) -> SegmentSection& {
-    return sections.segment[static_cast<std::size_t>(*chain[static_cast<std::size_t>(k)])];
+    return sections.segment[index_of(*chain[k])];
   };
   for (int k = 0; k < count; ++k) {
-    const Segment segment = *chain[static_cast<std::size_t>(k)];
+    const Segment segment = *chain[k];
     const CreasePlane& crease = creases.proximal_crease(segment);
     const CreaseEnds ends = crease_ends(
         skin, crease, creases.palmar_direction(finger, first_node + k), object_of(segment));
@@ -97,7 +98,7 @@ void lay_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCr
     section(k).from_palmar = ends.palmar;
     section(k).from_dorsal = ends.dorsal;
   }
-  const Vec3& tip = skeleton.fingertips[static_cast<std::size_t>(finger)];
+  const Vec3& tip = skeleton.fingertips[index_of(finger)];
   for (int k = 0; k < count; ++k) {
     SegmentSection& s = section(k);
     const bool is_last = k + 1 == count;
@@ -109,8 +110,7 @@ void lay_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCr
                              creases.palmar_direction(finger, first_node + k + 1);
     s.across = s.along.cross(mean_palmar).normalized();
     s.palmar = s.across.cross(s.along);
-    s.middle = curve_round(skin, 0.5 * (s.from + s.to), s.along,
-                           object_of(*chain[static_cast<std::size_t>(k)]));
+    s.middle = curve_round(skin, 0.5 * (s.from + s.to), s.along, object_of(*chain[k]));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/hand_sections.h"
 
 namespace palmar {
@@ -112,7 +113,7 @@ std::optional<double> along_middle_finger(const HandTape& tape,
   double sum = 0.0;
   for (const Segment segment :
        {Segment::kPalm, Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal}) {
-    const auto& part = tape.segment[static_cast<std::size_t>(segment)].*length;
+    const auto& part = tape.segment[index_of(segment)].*length;
     if (!part) return {};
     sum += *part;
   }
@@ -162,23 +163,22 @@ HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
   const HandSections sections = hand_sections(skin, skeleton, creases);
   HandTape result;
   const Vec3 palmar = Vec3::UnitZ();
-  const SegmentSection& base = sections.segment[static_cast<std::size_t>(Segment::kMiddleProximal)];
+  const SegmentSection& base = sections.segment[index_of(Segment::kMiddleProximal)];
   const auto over_heads = widths(sections.heads, sections.radial, sections.palmar);
-  result.segment[static_cast<std::size_t>(Segment::kPalm)] = {
+  result.segment[index_of(Segment::kPalm)] = {
       .girth = girth(sections.heads.point, sections.normal),
       .palmar_length = tape(skin, sections.wrist_palmar, base.from_palmar, palmar),
       .dorsal_length = tape(skin, sections.wrist_dorsal, base.from_dorsal, -palmar),
       .palmar_width = over_heads[0],
       .dorsal_width = over_heads[1]};
   for (int k = 1; k < kSegmentCount; ++k) {
-    const SegmentSection& s = sections.segment[static_cast<std::size_t>(k)];
+    const SegmentSection& s = sections.segment[k];
     const auto half_way = widths(s.middle, s.across, s.palmar);
-    result.segment[static_cast<std::size_t>(k)] = {
-        .girth = girth(s.middle.point, s.along),
-        .palmar_length = tape(skin, s.from_palmar, s.to_palmar, s.palmar),
-        .dorsal_length = tape(skin, s.from_dorsal, s.to_dorsal, -s.palmar),
-        .palmar_width = half_way[0],
-        .dorsal_width = half_way[1]};
+    result.segment[k] = {.girth = girth(s.middle.point, s.along),
+                         .palmar_length = tape(skin, s.from_palmar, s.to_palmar, s.palmar),
+                         .dorsal_length = tape(skin, s.from_dorsal, s.to_dorsal, -s.palmar),
+                         .palmar_width = half_way[0],
+                         .dorsal_width = half_way[1]};
   }
   return result;
 }
@@ -193,7 +193,7 @@ std::vector<TapeValue> values_of(const HandTape& tape) {
   add("hand_length_dorsal", {}, tape.dorsal_hand_length());
   for (int k = 0; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
-    const SegmentTape& s = tape.segment[static_cast<std::size_t>(k)];
+    const SegmentTape& s = tape.segment[k];
     add("girth", segment, s.girth);
     add("length_palmar", segment, s.palmar_length);
     add("length_dorsal", segment, s.dorsal_length);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/hand/instance/instance_problem.h"
@@ -57,7 +58,7 @@ HandInstanceMaker::Impl::Found HandInstanceMaker::Impl::search(
     found.measured = shape.measured(found.scales);
     double miss = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const SizedDimension& d = problem.equation[static_cast<std::size_t>(i)];
+      const SizedDimension& d = problem.equation[i];
       const double value = value_of(found.measured, d.dimension);
       if (!(value > 0.0)) {
         throw NumericalError(fmt::format("{} comes out as {:.1f} mm", name_of(d.dimension), value));
@@ -91,8 +92,8 @@ std::string HandInstanceMaker::Impl::crowding(const SegmentScales& scales) {
   std::string text;
   for (const Finger f : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
     for (const auto& segment : segments_of(f)) {
-      const double ratio = scales.segment[static_cast<std::size_t>(*segment)].across /
-                           scales.segment[static_cast<std::size_t>(Segment::kPalm)].across;
+      const double ratio = scales.segment[index_of(*segment)].across /
+                           scales.segment[index_of(Segment::kPalm)].across;
       if (!(ratio > most)) continue;
       most = ratio;
       text = fmt::format(

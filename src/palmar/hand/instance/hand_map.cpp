@@ -44,7 +44,7 @@ Skeleton mapped_skeleton(const Skeleton& skeleton, const HandMap& map) {
     limit->t = mapped_displacement(*limit, stretch);
   }
   for (int f = 0; f < kFingerCount; ++f) {
-    result.fingertips[static_cast<std::size_t>(f)] = map.fingertip(static_cast<Finger>(f));
+    result.fingertips[f] = map.fingertip(static_cast<Finger>(f));
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/dimensions/dimensions.h"
@@ -27,9 +28,6 @@ constexpr HandDimension kGirth{DimensionKind::kHandCircumference};
 constexpr HandDimension kWidth{DimensionKind::kHandWidth};
 constexpr HandDimension kThickness{DimensionKind::kHandThickness};
 constexpr HandDimension kPalmLength{DimensionKind::kSegmentLength, Segment::kPalm};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-std::size_t at(Segment segment) { return static_cast<std::size_t>(segment); }
 
 // Place of a segment's factor among those of a problem.
 constexpr int factor_of(DimensionKind kind, Segment segment) {
@@ -91,11 +89,11 @@ class ProblemBuilder {
 
  private:
   void drive(int factor, HandDimension dimension, double start) {
-    problem_.rule[at(factor)].unknown = static_cast<int>(start_.size());
+    problem_.rule[factor].unknown = static_cast<int>(start_.size());
     problem_.equation.push_back({dimension, *t_.get(dimension)});
     start_.push_back(start);
   }
-  void follow(int factor, double constant) { problem_.rule[at(factor)] = {constant, -1}; }
+  void follow(int factor, double constant) { problem_.rule[factor] = {constant, -1}; }
 
   void palm_across() {
     follow(kAcross, girth_);
@@ -111,11 +109,10 @@ class ProblemBuilder {
     }
     // What is driven by one number keeps its shape.
     if (t_.has(kWidth) == t_.has(kThickness)) {
-      if (!t_.has(kWidth)) problem_.rule[at(kThick)] = problem_.rule[at(kAcross)];
+      if (!t_.has(kWidth)) problem_.rule[kThick] = problem_.rule[kAcross];
     } else if (!t_.has(kGirth)) {
       const bool has_width = t_.has(kWidth);
-      problem_.rule[at(has_width ? kThick : kAcross)] =
-          problem_.rule[at(has_width ? kAcross : kThick)];
+      problem_.rule[has_width ? kThick : kAcross] = problem_.rule[has_width ? kAcross : kThick];
     }
   }
 
@@ -156,9 +153,9 @@ class ProblemBuilder {
         follow(factor, length_);
       } else if (of_rest < 0) {
         drive(factor, kLength, std::log(rest));
-        of_rest = problem_.rule[at(factor)].unknown;
+        of_rest = problem_.rule[factor].unknown;
       } else {
-        problem_.rule[at(factor)].unknown = of_rest;
+        problem_.rule[factor].unknown = of_rest;
       }
     }
   }
@@ -226,12 +223,12 @@ std::string InstanceTargets::told() const {
 SegmentScales InstanceProblem::scales(const Eigen::VectorXd& unknowns) const {
   SegmentScales result;
   const auto value = [&](int factor) {
-    const Factor& of = rule[at(factor)];
+    const Factor& of = rule[factor];
     return of.unknown >= 0 ? unknowns[of.unknown] : of.constant;
   };
   for (int s = 0; s < kSegmentCount; ++s) {
-    result.segment[at(s)] = {std::exp(value(3 * s)), std::exp(value(3 * s + 1)),
-                             std::exp(value(3 * s + 2))};
+    result.segment[s] = {std::exp(value(3 * s)), std::exp(value(3 * s + 1)),
+                         std::exp(value(3 * s + 2))};
   }
   result.bow = value(kBow);
   return result;
@@ -274,16 +271,16 @@ Eigen::MatrixXd InstanceShape::sensitivity(const InstanceProblem& problem) const
     std::array<double, 3> length{};
     const auto chain = segments_of(finger);
     for (std::size_t k = 0; k < 3 && chain[k]; ++k) {
-      length[k] = scaling_.parts(finger)[segment][k] * start.segment[at(*chain[k])].along;
+      length[k] = scaling_.parts(finger)[segment][k] * start.segment[index_of(*chain[k])].along;
     }
     return length;
   };
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto add = [&](int factor, double slope) {
-      const int unknown = problem.rule[at(factor)].unknown;
+      const int unknown = problem.rule[factor].unknown;
       if (unknown >= 0) result(i, unknown) += slope;
     };
-    const auto& [d, value] = problem.equation[static_cast<std::size_t>(i)];
+    const auto& [d, value] = problem.equation[i];
     if (d == kLength) {
       double fingers = 0.0;
       const auto chain = segments_of(Finger::kMiddle);
@@ -299,8 +296,8 @@ Eigen::MatrixXd InstanceShape::sensitivity(const InstanceProblem& problem) const
     } else if (d == kGirth) {
       constexpr double kStep = 1e-4;
       SegmentScales wider = start, thicker = start, bowed = start;
-      wider.segment[at(Segment::kPalm)].across *= std::exp(kStep);
-      thicker.segment[at(Segment::kPalm)].thickness *= std::exp(kStep);
+      wider.segment[index_of(Segment::kPalm)].across *= std::exp(kStep);
+      thicker.segment[index_of(Segment::kPalm)].thickness *= std::exp(kStep);
       bowed.bow += kStep;
       const double before = girth(start);
       add(kAcross, std::log(girth(wider) / before) / kStep);
@@ -314,7 +311,7 @@ Eigen::MatrixXd InstanceShape::sensitivity(const InstanceProblem& problem) const
       const Finger finger = *finger_of(d.segment);
       const auto chain = segments_of(finger);
       const auto place = std::find(chain.begin(), chain.end(), d.segment) - chain.begin();
-      const std::array<double, 3> part = parts(finger, static_cast<std::size_t>(place));
+      const std::array<double, 3> part = parts(finger, place);
       const double whole = part[0] + part[1] + part[2];
       for (std::size_t k = 0; k < 3 && chain[k]; ++k) {
         add(factor_of(d.kind, *chain[k]), part[k] / whole);
@@ -330,8 +327,8 @@ void InstanceShape::check_girth(const InstanceProblem& problem,
                                 const InstanceTargets& targets) const {
   if (!targets.has(kGirth) || (!targets.has(kWidth) && !targets.has(kThickness))) return;
   SegmentScales least = problem.scales(problem.start), most = least;
-  auto& thin = least.segment[static_cast<std::size_t>(Segment::kPalm)];
-  auto& thick = most.segment[static_cast<std::size_t>(Segment::kPalm)];
+  auto& thin = least.segment[index_of(Segment::kPalm)];
+  auto& thick = most.segment[index_of(Segment::kPalm)];
   std::string beside;
   if (targets.has(kWidth) && targets.has(kThickness)) {
     least.bow = kLeastBow;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/hand/instance/hand_map.h"
@@ -19,11 +20,11 @@ class UniformMap : public HandMap {
   std::vector<Vec3> skin() const override { return scaled(hand_.skin.vertices); }
   Eigen::Matrix3d skin_stretch(int) const override { return stretch(); }
   std::vector<Vec3> bone(int index) const override {
-    return scaled(hand_.bones[static_cast<std::size_t>(index)].mesh.vertices);
+    return scaled(hand_.bones[index].mesh.vertices);
   }
   Vec3 joint(JointId id) const override { return factor_ * hand_.skeleton.joint(id).centre; }
   Vec3 fingertip(Finger finger) const override {
-    return factor_ * hand_.skeleton.fingertips[static_cast<std::size_t>(finger)];
+    return factor_ * hand_.skeleton.fingertips[index_of(finger)];
   }
   Vec3 in_palm(const Vec3& point) const override { return factor_ * point; }
   Eigen::Matrix3d palm_stretch(const Vec3&) const override { return stretch(); }
@@ -50,7 +51,7 @@ Hand scaled(const Hand& hand, double factor) {
   for (const HandDimension dimension : all_hand_dimensions()) {
     set_value(result.dimensions, dimension, factor * value_of(hand.dimensions, dimension));
   }
-  SegmentDimensions& palm = result.dimensions.segment[static_cast<std::size_t>(Segment::kPalm)];
+  SegmentDimensions& palm = result.dimensions.segment[index_of(Segment::kPalm)];
   palm.width *= factor;
   palm.thickness *= factor;
   result.provenance += "; scaled by " + std::to_string(factor);

@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/smooth_step.h"
 #include "palmar/hand/skin/creases.h"
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double smooth_step(double t) {
-  const double s = std::clamp(t, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
-}
 
 /// max(0, t) with its corner rounded over [-half, half].
 double rounded_ramp(double t, double half) {
@@ -37,49 +32,49 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     const bool is_thumb = finger == Finger::kThumb;
-    Ray& ray = ray_[at(f)];
+    Ray& ray = ray_[f];
     const auto chain = segments_of(finger);
     ray.links = is_thumb ? 2 : 3;
     const int first_node = is_thumb ? 2 : 1;  // of the finger's ray in HandCreases
     for (int k = 0; k < ray.links; ++k) {
-      ray.segment[at(k)] = *chain[at(k)];
-      ray.joint[at(k)] = joint_of(*chain[at(k)]);
-      ray.node[at(k)] = skeleton.joint(ray.joint[at(k)]).centre;
+      ray.segment[k] = *chain[k];
+      ray.joint[k] = joint_of(*chain[k]);
+      ray.node[k] = skeleton.joint(ray.joint[k]).centre;
     }
-    ray.node[at(ray.links)] = skeleton.fingertips[at(f)];
+    ray.node[ray.links] = skeleton.fingertips[f];
     for (int k = 0; k < ray.links; ++k) {
-      const Vec3 link = ray.node[at(k + 1)] - ray.node[at(k)];
-      ray.along[at(k)] = link.normalized();
-      ray.level[at(k + 1)] = ray.level[at(k)] + link.norm();
+      const Vec3 link = ray.node[k + 1] - ray.node[k];
+      ray.along[k] = link.normalized();
+      ray.level[k + 1] = ray.level[k] + link.norm();
     }
     for (int k = 0; k <= ray.links; ++k) {
-      ray.palmar[at(k)] = creases.palmar_direction(finger, first_node + k);
-      const Vec3& before = ray.along[at(std::max(0, k - 1))];
-      const Vec3& after = ray.along[at(std::min(k, ray.links - 1))];
-      ray.cut[at(k)] = (before + after).normalized();
+      ray.palmar[k] = creases.palmar_direction(finger, first_node + k);
+      const Vec3& before = ray.along[std::max(0, k - 1)];
+      const Vec3& after = ray.along[std::min(k, ray.links - 1)];
+      ray.cut[k] = (before + after).normalized();
     }
     const Vec3 base = creases.proximal_crease(ray.segment[0]).point;
     ray.base = std::clamp(ray.along[0].dot(base - ray.node[0]), 0.0, 0.8 * ray.level[1]);
     std::array<double, 4> crease{};  // arc lengths, and that of the tip
     for (int k = 0; k < ray.links; ++k) {
-      const Vec3& from = creases.proximal_crease(ray.segment[at(k)]).point;
-      const Vec3 to = k + 1 < ray.links ? creases.proximal_crease(ray.segment[at(k + 1)]).point
-                                        : ray.node[at(ray.links)];
-      ray.middle[at(k)] = place(f, 0.5 * (from + to)).level;
-      crease[at(k)] = k == 0 ? ray.base : place(f, from).level;
+      const Vec3& from = creases.proximal_crease(ray.segment[k]).point;
+      const Vec3 to = k + 1 < ray.links ? creases.proximal_crease(ray.segment[k + 1]).point
+                                        : ray.node[ray.links];
+      ray.middle[k] = place(f, 0.5 * (from + to)).level;
+      crease[k] = k == 0 ? ray.base : place(f, from).level;
     }
-    crease[at(ray.links)] = ray.level[at(ray.links)];
+    crease[ray.links] = ray.level[ray.links];
     for (int s = 0; s < ray.links; ++s) {
       for (int k = 0; k < ray.links; ++k) {
-        const double begin = std::max(crease[at(s)], ray.level[at(k)]);
-        const double end = std::min(crease[at(s + 1)], ray.level[at(k + 1)]);
-        ray.parts[at(s)][at(k)] = std::max(0.0, end - begin);
+        const double begin = std::max(crease[s], ray.level[k]);
+        const double end = std::min(crease[s + 1], ray.level[k + 1]);
+        ray.parts[s][k] = std::max(0.0, end - begin);
       }
     }
     ray.rounding[0] = 0.5 * std::max(1e-3, std::min(ray.base, ray.middle[0] - ray.base));
     for (int k = 1; k < ray.links; ++k) {
-      ray.rounding[at(k)] = 0.25 * std::min(ray.level[at(k)] - ray.level[at(k - 1)],
-                                            ray.level[at(k + 1)] - ray.level[at(k)]);
+      ray.rounding[k] =
+          0.25 * std::min(ray.level[k] - ray.level[k - 1], ray.level[k + 1] - ray.level[k]);
     }
   }
 
@@ -88,9 +83,9 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
   for (auto& of_vertex : share) of_vertex.fill(0.0);
   for (const JointWeights& weights : hand.weights) {
     for (int f = 0; f < kFingerCount; ++f) {
-      if (weights.joint != ray_[at(f)].joint[0]) continue;
+      if (weights.joint != ray_[f].joint[0]) continue;
       for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-        share[at(weights.vertex[k])][at(f)] = weights.w2[k];
+        share[weights.vertex[k]][f] = weights.w2[k];
       }
     }
   }
@@ -106,7 +101,7 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
   for (const Bone& bone : hand.bones) {
     std::array<double, kFingerCount> of_bone{};
     const auto finger = bone.segment ? finger_of(*bone.segment) : std::nullopt;
-    if (finger) of_bone[static_cast<std::size_t>(*finger)] = 1.0;
+    if (finger) of_bone[index_of(*finger)] = 1.0;
     PointSet& set = bones_.emplace_back();
     set.begin.push_back(0);
     for (const Vec3& v : bone.mesh.vertices) add(set, v, of_bone);
@@ -114,15 +109,15 @@ SegmentScaling::SegmentScaling(const Hand& hand) : hand_(&hand) {
 }
 
 SegmentScaling::Placed SegmentScaling::place(int r, const Vec3& point) const {
-  const Ray& ray = ray_[at(r)];
+  const Ray& ray = ray_[r];
   Placed placed;
   placed.ray = r;
   // Between which two of the planes through the joints the point lies.
   int k = 0;
-  while (k + 1 < ray.links && ray.cut[at(k + 1)].dot(point - ray.node[at(k + 1)]) >= 0.0) ++k;
-  const double behind = ray.cut[at(k)].dot(point - ray.node[at(k)]);
-  const double ahead = ray.cut[at(k + 1)].dot(ray.node[at(k + 1)] - point);
-  const double length = ray.level[at(k + 1)] - ray.level[at(k)];
+  while (k + 1 < ray.links && ray.cut[k + 1].dot(point - ray.node[k + 1]) >= 0.0) ++k;
+  const double behind = ray.cut[k].dot(point - ray.node[k]);
+  const double ahead = ray.cut[k + 1].dot(ray.node[k + 1] - point);
+  const double length = ray.level[k + 1] - ray.level[k];
   double t = 0.0;  // along the link; beyond 0 and 1 past the chain's ends
   if (k == 0 && behind < 0.0) {
     t = behind / length;
@@ -131,25 +126,25 @@ SegmentScaling::Placed SegmentScaling::place(int r, const Vec3& point) const {
   } else {
     t = behind / std::max(1e-12, behind + ahead);
   }
-  placed.level = ray.level[at(k)] + t * length;
+  placed.level = ray.level[k] + t * length;
   const double inside = std::clamp(t, 0.0, 1.0);
-  const Vec3 along = ((1.0 - inside) * ray.cut[at(k)] + inside * ray.cut[at(k + 1)]).normalized();
-  const Vec3 palmar = (1.0 - inside) * ray.palmar[at(k)] + inside * ray.palmar[at(k + 1)];
+  const Vec3 along = ((1.0 - inside) * ray.cut[k] + inside * ray.cut[k + 1]).normalized();
+  const Vec3 palmar = (1.0 - inside) * ray.palmar[k] + inside * ray.palmar[k + 1];
   const Vec3 across = along.cross(palmar).normalized();
   placed.frame.col(0) = across;
   placed.frame.col(1) = across.cross(along);
   placed.frame.col(2) = along;
-  const Vec3 centre = ray.node[at(k)] + t * length * ray.along[at(k)];
+  const Vec3 centre = ray.node[k] + t * length * ray.along[k];
   placed.offset = placed.frame.transpose() * (point - centre);
   for (int c = 0; c < ray.links; ++c) {
-    const double corner = c == 0 ? ray.base : ray.level[at(c)];
-    placed.past[at(c)] = rounded_ramp(placed.level - corner, ray.rounding[at(c)]);
+    const double corner = c == 0 ? ray.base : ray.level[c];
+    placed.past[c] = rounded_ramp(placed.level - corner, ray.rounding[c]);
   }
   int s = 0;
-  while (s + 2 < ray.links && placed.level > ray.middle[at(s + 1)]) ++s;
+  while (s + 2 < ray.links && placed.level > ray.middle[s + 1]) ++s;
   placed.segment = s;
   placed.towards_next =
-      smooth_step((placed.level - ray.middle[at(s)]) / (ray.middle[at(s + 1)] - ray.middle[at(s)]));
+      smooth_step((placed.level - ray.middle[s]) / (ray.middle[s + 1] - ray.middle[s]));
   return placed;
 }
 
@@ -157,9 +152,9 @@ void SegmentScaling::add(PointSet& set, const Vec3& point,
                          const std::array<double, kFingerCount>& share) const {
   set.point.push_back(point);
   for (int f = 0; f < kFingerCount; ++f) {
-    if (share[at(f)] <= 0.0) continue;
+    if (share[f] <= 0.0) continue;
     Placed placed = place(f, point);
-    placed.share = share[at(f)] * smooth_step(placed.level / ray_[at(f)].middle[0]);
+    placed.share = share[f] * smooth_step(placed.level / ray_[f].middle[0]);
     if (placed.share > 0.0) set.placed.push_back(placed);
   }
   set.begin.push_back(static_cast<int>(set.placed.size()));
@@ -169,23 +164,23 @@ std::array<SegmentScaling::ScaledRay, kFingerCount> SegmentScaling::scaled_rays(
     const SegmentScales& scales) const {
   std::array<ScaledRay, kFingerCount> result;
   for (int f = 0; f < kFingerCount; ++f) {
-    const Ray& ray = ray_[at(f)];
-    ScaledRay& scaled = result[at(f)];
-    scaled.slope[0] = scales.segment[static_cast<std::size_t>(Segment::kPalm)].along;
+    const Ray& ray = ray_[f];
+    ScaledRay& scaled = result[f];
+    scaled.slope[0] = scales.segment[index_of(Segment::kPalm)].along;
     scaled.node[0] = in_palm(ray.node[0], scales);
     for (int k = 0; k < ray.links; ++k) {
-      scaled.slope[at(k + 1)] = scales.segment[static_cast<std::size_t>(ray.segment[at(k)])].along;
-      double length = scaled.slope[at(k + 1)] * (ray.level[at(k + 1)] - ray.level[at(k)]);
+      scaled.slope[k + 1] = scales.segment[index_of(ray.segment[k])].along;
+      double length = scaled.slope[k + 1] * (ray.level[k + 1] - ray.level[k]);
       if (k == 0) length += (scaled.slope[0] - scaled.slope[1]) * ray.base;
-      scaled.level[at(k + 1)] = scaled.level[at(k)] + length;
-      scaled.node[at(k + 1)] = scaled.node[at(k)] + length * ray.along[at(k)];
+      scaled.level[k + 1] = scaled.level[k] + length;
+      scaled.node[k + 1] = scaled.node[k] + length * ray.along[k];
     }
   }
   return result;
 }
 
 double SegmentScaling::palm_thickness(const Vec3& point, const SegmentScales& scales) const {
-  const double thickness = scales.segment[static_cast<std::size_t>(Segment::kPalm)].thickness;
+  const double thickness = scales.segment[index_of(Segment::kPalm)].thickness;
   if (scales.bow == 0.0) return thickness;
   const double s = (point.x() - head_.x()) / border_;
   const double t = (point.y() - head_.y()) / (0.45 * head_.y());
@@ -199,15 +194,15 @@ Vec3 SegmentScaling::in_palm(const Vec3& point, const SegmentScales& scales) con
 
 Eigen::DiagonalMatrix<double, 3> SegmentScaling::palm_stretch(const Vec3& point,
                                                               const SegmentScales& scales) const {
-  const auto& palm = scales.segment[static_cast<std::size_t>(Segment::kPalm)];
+  const auto& palm = scales.segment[index_of(Segment::kPalm)];
   return Eigen::DiagonalMatrix<double, 3>(palm.across, palm.along, palm_thickness(point, scales));
 }
 
 Eigen::Matrix3d SegmentScaling::ray_stretch(const Placed& placed,
                                             const SegmentScales& scales) const {
-  const Ray& ray = ray_[at(placed.ray)];
-  const auto& here = scales.segment[static_cast<std::size_t>(ray.segment[at(placed.segment)])];
-  const auto& next = scales.segment[static_cast<std::size_t>(ray.segment[at(placed.segment + 1)])];
+  const Ray& ray = ray_[placed.ray];
+  const auto& here = scales.segment[index_of(ray.segment[placed.segment])];
+  const auto& next = scales.segment[index_of(ray.segment[placed.segment + 1])];
   const double t = placed.towards_next;
   const double across = here.across + t * (next.across - here.across);
   const double thickness = here.thickness + t * (next.thickness - here.thickness);
@@ -221,19 +216,18 @@ Vec3 SegmentScaling::moved(const PointSet& set, std::size_t i,
   if (set.begin[i] == set.begin[i + 1]) return result;
   const Vec3 of_palm = result;
   for (int p = set.begin[i]; p < set.begin[i + 1]; ++p) {
-    const Placed& placed = set.placed[at(p)];
-    const Ray& ray = ray_[at(placed.ray)];
-    const ScaledRay& scaled = rays[at(placed.ray)];
+    const Placed& placed = set.placed[p];
+    const Ray& ray = ray_[placed.ray];
+    const ScaledRay& scaled = rays[placed.ray];
     double level = scaled.slope[0] * placed.level;
     for (int c = 0; c < ray.links; ++c) {
-      level += (scaled.slope[at(c + 1)] - scaled.slope[at(c)]) * placed.past[at(c)];
+      level += (scaled.slope[c + 1] - scaled.slope[c]) * placed.past[c];
     }
     int k = 0;
-    while (k + 1 < ray.links && level > scaled.level[at(k + 1)]) ++k;
-    const Vec3 centre = scaled.node[at(k)] + (level - scaled.level[at(k)]) * ray.along[at(k)];
-    const auto& here = scales.segment[static_cast<std::size_t>(ray.segment[at(placed.segment)])];
-    const auto& next =
-        scales.segment[static_cast<std::size_t>(ray.segment[at(placed.segment + 1)])];
+    while (k + 1 < ray.links && level > scaled.level[k + 1]) ++k;
+    const Vec3 centre = scaled.node[k] + (level - scaled.level[k]) * ray.along[k];
+    const auto& here = scales.segment[index_of(ray.segment[placed.segment])];
+    const auto& next = scales.segment[index_of(ray.segment[placed.segment + 1])];
     const double t = placed.towards_next;
     const double across = here.across + t * (next.across - here.across);
     const double thickness = here.thickness + t * (next.thickness - here.thickness);
@@ -256,7 +250,7 @@ std::vector<Vec3> SegmentScaling::skin_at(const std::vector<int>& vertices,
   const auto rays = scaled_rays(scales);
   std::vector<Vec3> result;
   result.reserve(vertices.size());
-  for (const int v : vertices) result.push_back(moved(skin_, at(v), rays, scales));
+  for (const int v : vertices) result.push_back(moved(skin_, v, rays, scales));
   return result;
 }
 
@@ -270,17 +264,17 @@ class SegmentScaling::Map : public HandMap {
 
   Eigen::Matrix3d skin_stretch(int vertex) const override {
     const PointSet& set = scaling_.skin_;
-    const Eigen::Matrix3d of_palm = palm_stretch(set.point[at(vertex)]);
+    const Eigen::Matrix3d of_palm = palm_stretch(set.point[vertex]);
     Eigen::Matrix3d result = of_palm;
-    for (int p = set.begin[at(vertex)]; p < set.begin[at(vertex + 1)]; ++p) {
-      const Placed& placed = set.placed[at(p)];
+    for (int p = set.begin[vertex]; p < set.begin[vertex + 1]; ++p) {
+      const Placed& placed = set.placed[p];
       result += placed.share * (scaling_.ray_stretch(placed, scales_) - of_palm);
     }
     return result;
   }
 
   std::vector<Vec3> bone(int index) const override {
-    const PointSet& set = scaling_.bones_[at(index)];
+    const PointSet& set = scaling_.bones_[index];
     std::vector<Vec3> result(set.point.size());
     for (std::size_t v = 0; v < result.size(); ++v) {
       result[v] = scaling_.moved(set, v, rays_, scales_);
@@ -290,17 +284,16 @@ class SegmentScaling::Map : public HandMap {
 
   Vec3 joint(JointId id) const override {
     for (int f = 0; f < kFingerCount; ++f) {
-      const Ray& ray = scaling_.ray_[at(f)];
+      const Ray& ray = scaling_.ray_[f];
       for (int k = 0; k < ray.links; ++k) {
-        if (ray.joint[at(k)] == id) return rays_[at(f)].node[at(k)];
+        if (ray.joint[k] == id) return rays_[f].node[k];
       }
     }
     return in_palm(scaling_.hand_->skeleton.joint(id).centre);
   }
 
   Vec3 fingertip(Finger finger) const override {
-    const auto f = static_cast<std::size_t>(finger);
-    return rays_[f].node[at(scaling_.ray_[f].links)];
+    return rays_[index_of(finger)].node[scaling_.ray_[index_of(finger)].links];
   }
 
   Vec3 in_palm(const Vec3& point) const override { return scaling_.in_palm(point, scales_); }

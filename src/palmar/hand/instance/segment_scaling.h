@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/instance/hand_map.h"
 
 namespace palmar {
@@ -44,7 +45,7 @@ class SegmentScaling {
   /// [segment][link], mm. A link follows the factor `along` of the segment of the same number, the
   /// first one only beyond the base crease.
   using Parts = std::array<std::array<double, 3>, 3>;
-  const Parts& parts(Finger finger) const { return ray_[static_cast<std::size_t>(finger)].parts; }
+  const Parts& parts(Finger finger) const { return ray_[index_of(finger)].parts; }
 
   std::vector<Vec3> skin(const SegmentScales& scales) const;
   std::vector<Vec3> skin_at(const std::vector<int>& vertices, const SegmentScales& scales) const;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/hand_frame.h"
@@ -92,8 +93,8 @@ void slide(const TriangleMesh& skin, Rigid3& frame, const Vec3& before, const Ve
 }  // namespace
 
 double published_distal_share(Finger finger) {
-  const auto f = static_cast<std::size_t>(finger);
-  return 0.5 * (distal_share(kBuchholz[f]) + distal_share(kBuryanov[f]));
+  return 0.5 *
+         (distal_share(kBuchholz[index_of(finger)]) + distal_share(kBuryanov[index_of(finger)]));
 }
 
 double published_thumb_metacarpal() {

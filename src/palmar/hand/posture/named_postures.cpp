@@ -4,12 +4,11 @@
 
 #include <array>
 #include <cstddef>
-#include <numbers>
+
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 struct FingerAngles {
   double mcp = 0, pip = 0, dip = 0;  ///< flexion, degrees
@@ -70,7 +69,7 @@ constexpr std::array<NamedAngles, 10> kPostures = {{
      {{{45, 50, 28, 0}, {48, 52, 30, 2}, {52, 52, 30, 4}, {56, 50, 28, 5}}}},
 }};
 
-void set(Posture& posture, Dof dof, double angle_deg) { posture[dof] = kDeg * angle_deg; }
+void set(Posture& posture, Dof dof, double angle_deg) { posture[dof] = kDegree * angle_deg; }
 
 }  // namespace
 
@@ -92,7 +91,7 @@ std::optional<Posture> named_posture(const Skeleton& skeleton, std::string_view 
       const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * static_cast<int>(f);
       const FingerAngles& angles = one.finger[f];
       set(posture, static_cast<Dof>(first), angles.mcp);
-      posture[static_cast<Dof>(first + 1)] += kDeg * angles.abduction;
+      posture[static_cast<Dof>(first + 1)] += kDegree * angles.abduction;
       set(posture, static_cast<Dof>(first + 2), angles.pip);
       set(posture, static_cast<Dof>(first + 3), angles.dip);
     }

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/anatomy.h"
 
 namespace palmar {
@@ -12,8 +13,8 @@ namespace palmar {
 struct Posture {
   std::array<double, kDofCount> angle{};
 
-  double& operator[](Dof dof) { return angle[static_cast<std::size_t>(dof)]; }
-  double operator[](Dof dof) const { return angle[static_cast<std::size_t>(dof)]; }
+  double& operator[](Dof dof) { return angle[index_of(dof)]; }
+  double operator[](Dof dof) const { return angle[index_of(dof)]; }
 };
 
 }  // namespace palmar

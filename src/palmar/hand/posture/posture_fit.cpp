@@ -9,10 +9,13 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/numeric_jacobian.h"
 #include "palmar/geometry/rotation.h"
 #include "palmar/hand/posture/named_postures.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 
@@ -42,13 +45,6 @@ constexpr double kStep = 1e-5;          // rad; of the numeric Jacobian, error 1
 constexpr int kFewestPoints = 4;        // three give a place and no angle
 constexpr double kLostPlacement = 0.5;  // rad; the hand's orientation is not determined
 constexpr double kMedianOfChi3 = 1.5382;  // median length of a 3-vector of unit normal errors
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 int count_of(const Measured& measured) {
   return static_cast<int>(std::count_if(measured.begin(), measured.end(),
@@ -175,7 +171,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
   std::vector<Dof> free;
   for (int d = 0; d < kDofCount; ++d) {
     const JointDof& dof = skeleton_.dof(static_cast<Dof>(d));
-    if (!is_held[static_cast<std::size_t>(d)] && dof.upper - dof.lower > 1e-9) {
+    if (!is_held[d] && dof.upper - dof.lower > 1e-9) {
       free.push_back(static_cast<Dof>(d));
     }
   }
@@ -222,7 +218,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
   }
 
   LeastSquaresProblem problem;
-  problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
+  const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     r.resize(m + n);
     r.head(m) = points_at(place_at(x)) - wanted;
     Eigen::VectorXd prior = Eigen::VectorXd::Constant(n, 1.0 / kPriorSd);
@@ -232,18 +228,10 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
       middle[first + static_cast<Eigen::Index>(k)] = reference_[free[k]];
     }
     r.tail(n) = prior.cwiseProduct(x - middle);
-    if (jacobian == nullptr) return;
-    jacobian->setZero(m + n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Eigen::VectorXd ahead = x, behind = x;
-      const double step = j >= 3 && j < 6 ? 1e-2 : kStep;  // mm: linear, any step will do
-      ahead[j] += step;
-      behind[j] -= step;
-      jacobian->col(j).head(m) =
-          (points_at(place_at(ahead)) - points_at(place_at(behind))) / (2.0 * step);
-      (*jacobian)(m + j, j) = prior[j];
-    }
   };
+  problem.evaluate = with_numeric_jacobian(residual, [](Eigen::Index j, double) {
+    return j >= 3 && j < 6 ? 1e-2 : kStep;  // mm: linear, any step will do
+  });
   problem.lower = Eigen::VectorXd::Constant(n, -4.0);  // rad
   problem.upper = Eigen::VectorXd::Constant(n, 4.0);
   problem.lower.segment<3>(3).setConstant(-1e6);  // mm
@@ -280,8 +268,8 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
   }
   for (std::size_t k = 0; k < free.size(); ++k) {
     const Eigen::Index j = first + static_cast<Eigen::Index>(k);
-    solved.sd[static_cast<std::size_t>(free[k])] = sd_of(j);
-    if (found.at_bound[static_cast<std::size_t>(j)]) solved.at_limit.push_back(free[k]);
+    solved.sd[index_of(free[k])] = sd_of(j);
+    if (found.at_bound[j]) solved.at_limit.push_back(free[k]);
   }
   return solved;
 }
@@ -412,7 +400,7 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
 
   // The most uncertain angle first: with it held the others may become certain.
   for (int d = 0; d < kDofCount; ++d) {
-    if (solved.sd[static_cast<std::size_t>(d)] > options_.largest_sd) {
+    if (solved.sd[d] > options_.largest_sd) {
       result.not_observed.push_back(static_cast<Dof>(d));
     }
   }

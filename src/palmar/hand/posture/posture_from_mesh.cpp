@@ -28,7 +28,7 @@ std::optional<MeshFit> fit_vertices(const Hand& hand, const TriangleMesh& mesh,
   std::vector<std::optional<Vec3>> measured;
   for (int v = 0; v < hand.skin.vertex_count(); v += stride) {
     points.push_back(skin_point(hand, v));
-    measured.emplace_back(mesh.vertices[static_cast<std::size_t>(v)]);
+    measured.emplace_back(mesh.vertices[v]);
   }
   const PostureFitter fitter(hand, points,
                              {.point_sd = 0.5,
@@ -58,7 +58,7 @@ double quantile(std::vector<double>& values, double share) {
   const auto k = static_cast<std::ptrdiff_t>(
       std::min(share * static_cast<double>(values.size()), static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + k, values.end());
-  return values[static_cast<std::size_t>(k)];
+  return values[k];
 }
 
 /// Distances of the whole skin, at the end.

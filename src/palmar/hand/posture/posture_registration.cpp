@@ -11,6 +11,7 @@
 #include <map>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/least_squares.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
@@ -94,9 +95,9 @@ Target::Target(const TriangleMesh& mesh)
   }
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
     area += (b - a).cross(c - a).norm();
   }
   if (!(area > 0.0)) throw InputError("the mesh of the hand has no area");
@@ -107,14 +108,14 @@ Target::Target(const TriangleMesh& mesh)
 std::optional<Partner> Target::partner(const Vec3& point, const Vec3& normal, double reach) const {
   const auto near = query_.closest(point, reach);
   if (!near) return std::nullopt;
-  const auto t = static_cast<std::size_t>(near->triangle);
+  const int t = near->triangle;
   for (std::size_t k = 0; k < 3; ++k) {
     // On an open edge: the nearest surface may lie beyond it.
     if (is_border_[3 * t + k] && near->weights[(k + 2) % 3] < 1e-9) return std::nullopt;
   }
   Vec3 n = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    n += near->weights[k] * normal_[static_cast<std::size_t>(mesh_.triangles[t][k])];
+    n += near->weights[k] * normal_[mesh_.triangles[t][k]];
   }
   n.stableNormalize();
   if (n.dot(normal) < kNormalsAgree) return std::nullopt;
@@ -125,9 +126,9 @@ std::vector<Partner> Target::samples(int count) const {
   std::vector<double> until;
   double area = 0.0;
   for (const Triangle& t : mesh_.triangles) {
-    const Vec3& a = mesh_.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh_.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh_.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = mesh_.vertices[t[0]];
+    const Vec3& b = mesh_.vertices[t[1]];
+    const Vec3& c = mesh_.vertices[t[2]];
     area += 0.5 * (b - a).cross(c - a).norm();
     until.push_back(area);
   }
@@ -139,8 +140,8 @@ std::vector<Partner> Target::samples(int count) const {
     const Triangle& t = mesh_.triangles[i];
     Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
     for (const int v : t) {
-      point += mesh_.vertices[static_cast<std::size_t>(v)] / 3.0;
-      normal += normal_[static_cast<std::size_t>(v)];
+      point += mesh_.vertices[v] / 3.0;
+      normal += normal_[v];
     }
     samples.push_back({point, normal.stableNormalized(), 0.0});
   }
@@ -158,7 +159,7 @@ std::vector<int> every(const Hand& hand, int stride) {
 std::vector<HandPoint> points_at(const Hand& hand, const std::vector<int>& vertices) {
   std::vector<HandPoint> points;
   for (const int v : vertices) {
-    points.push_back({hand.skin.vertices[static_cast<std::size_t>(v)], v, {}});
+    points.push_back({hand.skin.vertices[v], v, {}});
   }
   return points;
 }
@@ -169,21 +170,20 @@ SkinPoints::SkinPoints(const Hand& hand, int stride)
     : hand_(&hand), vertex_(every(hand, stride)), points_(hand, points_at(hand, vertex_)) {
   std::vector<double> area(hand.skin.vertices.size(), 0.0);
   for (const Triangle& t : hand.skin.triangles) {
-    const Vec3& a = hand.skin.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = hand.skin.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = hand.skin.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3& a = hand.skin.vertices[t[0]];
+    const Vec3& b = hand.skin.vertices[t[1]];
+    const Vec3& c = hand.skin.vertices[t[2]];
     const double third = (b - a).cross(c - a).norm() / 6.0;
-    for (const int v : t) area[static_cast<std::size_t>(v)] += third;
+    for (const int v : t) area[v] += third;
   }
   const std::vector<Vec3> normal = vertex_normals(hand.skin.vertices, hand.skin.triangles);
   const double wrist = hand.skeleton.joint(JointId::kWrist).centre.y();
   for (const int vertex : vertex_) {
-    const auto v = static_cast<std::size_t>(vertex);
-    const bool is_proximal = hand.skin.vertices[v].y() < wrist;
+    const bool is_proximal = hand.skin.vertices[vertex].y() < wrist;
     constexpr double kFacesBack = -0.7;  // cosine to distal
     is_forearm_.push_back(is_proximal);
-    is_cut_.push_back(is_proximal && normal[v].y() < kFacesBack);
-    area_.push_back(area[v]);
+    is_cut_.push_back(is_proximal && normal[vertex].y() < kFacesBack);
+    area_.push_back(area[vertex]);
   }
 }
 
@@ -194,9 +194,8 @@ PosedSkin SkinPoints::pose(const Pose& pose) const {
   posed.point.reserve(vertex_.size());
   posed.normal.reserve(vertex_.size());
   for (const int vertex : vertex_) {
-    const auto v = static_cast<std::size_t>(vertex);
-    posed.point.push_back(pose * skin[v]);
-    posed.normal.push_back(pose.mesh_from_hand.rotation * normal[v]);
+    posed.point.push_back(pose * skin[vertex]);
+    posed.normal.push_back(pose.mesh_from_hand.rotation * normal[vertex]);
   }
   return posed;
 }
@@ -289,9 +288,8 @@ class Stage {
       if (std::sqrt(std::max(0.0, covariance(first + d, first + d))) > kLargestSd) {
         result.not_observed.push_back(dof.dof);
       }
-      if (found.at_bound[static_cast<std::size_t>(first + d)] &&
-          (pose.posture[dof.dof] <= dof.lower + 1e-9 ||
-           pose.posture[dof.dof] >= dof.upper - 1e-9)) {
+      if (found.at_bound[first + d] && (pose.posture[dof.dof] <= dof.lower + 1e-9 ||
+                                        pose.posture[dof.dof] >= dof.upper - 1e-9)) {
         result.at_limit.push_back(dof.dof);
       }
     }
@@ -495,7 +493,6 @@ bool try_other_fingers(const Hand& hand, const Stage& stage, Pose& pose, double 
                                            {10, 80, 55},
                                            {70, 10, 5},
                                            {30, 65, 40}}};
-  constexpr double kDegree = 0.017453292519943295;
   double least = stage.cost(pose, c);
   bool is_better = false;
   const auto consider = [&](const Posture& asked) {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
-Joint& joint_at(Skeleton& skeleton, JointId id) {
-  return skeleton.joints[static_cast<std::size_t>(id)];
-}
+Joint& joint_at(Skeleton& skeleton, JointId id) { return skeleton.joints[index_of(id)]; }
 
 void carry(Joint& joint, const Rigid3& before, const Rigid3& after) {
   joint.centre = before * joint.centre;
@@ -47,11 +47,11 @@ Skeleton skeleton_in_posture(const Skeleton& skeleton, const Posture& posture) {
     Rigid3 before = finger == Finger::kThumb ? pose.thumb_metacarpal : Rigid3{};
     for (const auto& segment : segments_of(finger)) {
       if (!segment) continue;
-      const Rigid3& after = pose.segment[static_cast<std::size_t>(*segment)];
+      const Rigid3& after = pose.segment[index_of(*segment)];
       carry(joint_at(result, joint_of(*segment)), before, after);
       before = after;
     }
-    Vec3& tip = result.fingertips[static_cast<std::size_t>(f)];
+    Vec3& tip = result.fingertips[f];
     tip = before * tip;
   }
   for (Joint& joint : result.joints) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/thumb_cmc.h"
 
 namespace palmar {
@@ -12,14 +13,14 @@ namespace {
 /// Index finger of three joints, the first with two axes that aren't square, and a thumb.
 Skeleton skeleton() {
   Skeleton s;
-  Joint& cmc = s.joints[static_cast<std::size_t>(JointId::kThumbCmc)];
+  Joint& cmc = s.joints[index_of(JointId::kThumbCmc)];
   cmc = make_cmc_joint({28, 36, 19}, {45, 59, 34});
   s.thumb_cmc = make_cmc_limits(cmc);
   const auto hinge = [](Dof dof, const Vec3& axis, const Vec3& centre, double reference) {
     return JointDof{dof, axis.normalized(), centre, reference, -0.6, 1.6, ""};
   };
   const auto joint = [&](JointId id, const Vec3& centre) -> Joint& {
-    Joint& j = s.joints[static_cast<std::size_t>(id)];
+    Joint& j = s.joints[index_of(id)];
     j.id = id;
     j.centre = centre;
     return j;
@@ -58,10 +59,10 @@ TEST(SkeletonInPosture, MovesOnAsBeforeFromThere) {
   const PosedSkeleton old_further = pose_skeleton(before, further);
   const PosedSkeleton now = pose_skeleton(after, further);
   for (const Segment s : {Segment::kIndexProximal, Segment::kIndexMiddle, Segment::kIndexDistal}) {
-    const auto k = static_cast<std::size_t>(s);
-    expect_same(now.segment[k], old_further.segment[k] * old_there.segment[k].inverse());
+    expect_same(now.segment[index_of(s)],
+                old_further.segment[index_of(s)] * old_there.segment[index_of(s)].inverse());
   }
-  const auto distal = static_cast<std::size_t>(Segment::kIndexDistal);
+  const std::size_t distal = index_of(Segment::kIndexDistal);
   EXPECT_LT((after.fingertips[1] - old_there.segment[distal] * before.fingertips[1]).norm(), 1e-9);
   EXPECT_EQ(reference_posture(after)[Dof::kIndexPipFlexion], there[Dof::kIndexPipFlexion]);
 }

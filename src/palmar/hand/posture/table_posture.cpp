@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/hand/posture/table_posture.h"
 
-#include <numbers>
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 
@@ -20,7 +20,7 @@ Posture laid_on_table(Posture posture, const FingertipHeights& height) {
       posture[kMcp[f]] += (table - z) / ((height(bent)[f + 1] - z) / kStep);
     }
   }
-  constexpr double kStep = std::numbers::pi / 180.0;
+  constexpr double kStep = kDegree;
   for (int step = 0; step < 40 && height(posture)[0] > table; ++step) {
     posture[Dof::kThumbCmcAbduction] -= kStep;
   }

@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -29,7 +30,7 @@ TEST(LaidOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
     EXPECT_NEAR(laid[kMcp[f]], std::asin(rise / 80.0), 1e-6) << f;
   }
   // asin((7.5 - 20) / 50) is -14.5 degrees; it turns by whole ones.
-  EXPECT_NEAR(laid[Dof::kThumbCmcAbduction], -15.0 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_NEAR(laid[Dof::kThumbCmcAbduction], -15.0 * kDegree, 1e-12);
   EXPECT_EQ(laid[Dof::kIndexPipFlexion], 0.1);
 }
 
@@ -39,8 +40,7 @@ TEST(LaidOnTable, AdductsAThumbThatStaysLowByNoMoreThanFortyDegrees) {
         30.0, std::sin(p[Dof::kIndexMcpFlexion]), std::sin(p[Dof::kMiddleMcpFlexion]),
         std::sin(p[Dof::kRingMcpFlexion]), std::sin(p[Dof::kLittleMcpFlexion])};
   };
-  EXPECT_NEAR(laid_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * std::numbers::pi / 180.0,
-              1e-12);
+  EXPECT_NEAR(laid_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * kDegree, 1e-12);
 }
 
 }  // namespace

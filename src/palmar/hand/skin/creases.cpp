@@ -43,8 +43,6 @@ constexpr std::array<std::array<Dof, 3>, kFingerCount> kFlexion{{
     {Dof::kLittleMcpFlexion, Dof::kLittlePipFlexion, Dof::kLittleDipFlexion},
 }};
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
@@ -55,8 +53,8 @@ PlaneCurve::PlaneCurve(const std::vector<Vec2>& through) {
   const int n = static_cast<int>(through.size());
   const auto point = [&](int i) -> Vec2 {
     if (i < 0) return 2.0 * through.front() - through[1];
-    if (i >= n) return 2.0 * through.back() - through[at(n - 2)];
-    return through[at(i)];
+    if (i >= n) return 2.0 * through.back() - through[n - 2];
+    return through[i];
   };
   for (int i = 0; i + 1 < n; ++i) {
     const Vec2 a = point(i - 1), b = point(i), c = point(i + 1), d = point(i + 2);
@@ -101,9 +99,9 @@ class HandCreases::RayDistances {
   }
 
   double of(int ray, std::size_t vertex) {
-    double& result = distance_[at(ray)][vertex];
+    double& result = distance_[ray][vertex];
     if (result >= 0.0) return result;
-    const auto& node = creases_.ray_[at(ray)].node;
+    const auto& node = creases_.ray_[ray].node;
     double best = std::numeric_limits<double>::max();
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 along = node[k + 1] - node[k];
@@ -127,24 +125,24 @@ HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
           ? 1.0
           : -1.0;
   for (int f = 0; f < kFingerCount; ++f) {
-    Ray& ray = ray_[at(f)];
+    Ray& ray = ray_[f];
     ray.node[0] = wrist;
-    for (int k = 0; k < 3; ++k) ray.node[at(k + 1)] = skeleton.joint(kJoints[at(f)][at(k)]).centre;
-    ray.node[4] = skeleton.fingertips[at(f)];
+    for (int k = 0; k < 3; ++k) ray.node[k + 1] = skeleton.joint(kJoints[f][k]).centre;
+    ray.node[4] = skeleton.fingertips[f];
     ray.palmar[0] = Vec3::UnitZ();
     for (int k = 1; k <= 4; ++k) {
       // Thumb nodes 1 to 3 are CMC, MP, IP; the tip turns with the last joint.
-      const Vec3 axis = skeleton.dof(kFlexion[at(f)][at(std::min(k, 3) - 1)]).axis;
-      const Vec3 before = (ray.node[at(k)] - ray.node[at(k - 1)]).normalized();
-      const Vec3 after = k < 4 ? (ray.node[at(k + 1)] - ray.node[at(k)]).normalized() : before;
-      ray.palmar[at(k)] = axis.cross(before + after).normalized();
+      const Vec3 axis = skeleton.dof(kFlexion[f][std::min(k, 3) - 1]).axis;
+      const Vec3 before = (ray.node[k] - ray.node[k - 1]).normalized();
+      const Vec3 after = k < 4 ? (ray.node[k + 1] - ray.node[k]).normalized() : before;
+      ray.palmar[k] = axis.cross(before + after).normalized();
     }
   }
-  const Vec3 to_mcp = ray_[at(static_cast<int>(Finger::kMiddle))].node[1] - wrist;
+  const Vec3 to_mcp = ray_[static_cast<int>(Finger::kMiddle)].node[1] - wrist;
   scale_ = to_mcp.norm() / kTypicalWristToMcp;
   wrist_ = {wrist + kWristShare * to_mcp, Vec3::UnitY()};
   RayDistances distance(skin, *this);
-  for (int k = 0; k + 1 < kFingerCount; ++k) web_[at(k)] = find_web(skin, k, distance);
+  for (int k = 0; k + 1 < kFingerCount; ++k) web_[k] = find_web(skin, k, distance);
   lay_web();
   lay_finger_creases();
   lay_palm_creases();
@@ -167,13 +165,13 @@ HandCreases::OnRay HandCreases::project(const Ray& ray, const Vec3& point) const
   OnRay result;
   double best = std::numeric_limits<double>::max();
   for (int k = 0; k < 4; ++k) {
-    const Vec3 along = ray.node[at(k + 1)] - ray.node[at(k)];
-    const double free = (point - ray.node[at(k)]).dot(along) / along.squaredNorm();
+    const Vec3 along = ray.node[k + 1] - ray.node[k];
+    const double free = (point - ray.node[k]).dot(along) / along.squaredNorm();
     const double t = std::clamp(free, 0.0, 1.0);
-    const Vec3 offset = point - ray.node[at(k)] - t * along;
+    const Vec3 offset = point - ray.node[k] - t * along;
     if (offset.squaredNorm() >= best) continue;
     best = offset.squaredNorm();
-    const Vec3 palmar = ((1.0 - t) * ray.palmar[at(k)] + t * ray.palmar[at(k + 1)]).normalized();
+    const Vec3 palmar = ((1.0 - t) * ray.palmar[k] + t * ray.palmar[k + 1]).normalized();
     result.height = offset.dot(palmar);
     result.to_tip = k == 3 ? (free - 1.0) * along.norm() : -std::numeric_limits<double>::max();
   }
@@ -185,7 +183,7 @@ int HandCreases::nearest_ray(const Vec3& point) const {
   int nearest = 0;
   double best = std::numeric_limits<double>::max();
   for (int f = 0; f < kFingerCount; ++f) {
-    const double d = project(ray_[at(f)], point).distance;
+    const double d = project(ray_[f], point).distance;
     if (d < best) {
       best = d;
       nearest = f;
@@ -218,8 +216,8 @@ double HandCreases::palmar_height(const Vec3& point) const {
 }
 
 Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distance) const {
-  const Ray& a = ray_[at(k)];
-  const Ray& b = ray_[at(k + 1)];
+  const Ray& a = ray_[k];
+  const Ray& b = ray_[k + 1];
   const Vec3 distal =
       ((a.node[3] - a.node[2]).normalized() + (b.node[3] - b.node[2]).normalized()).normalized();
   const Vec3 foot = 0.5 * (a.node[1] + b.node[1]);
@@ -237,10 +235,11 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
   for (const double least : {0.0, best}) {
     if (best > 0.0) break;
     for (const Triangle& t : skin.triangles) {
-      const double highest = std::max({level[at(t[0])], level[at(t[1])], level[at(t[2])]});
+      const double highest = std::max({level[t[0]], level[t[1]], level[t[2]]});
       if (highest < std::max(best, least)) continue;
       for (int e = 0; e < 3; ++e) {
-        const std::size_t i = at(t[at(e)]), j = at(t[at((e + 1) % 3)]);
+        const std::size_t i = static_cast<std::size_t>(t[e]),
+                          j = static_cast<std::size_t>(t[(e + 1) % 3]);
         if (std::max(level[i], level[j]) < std::max(best, least)) continue;
         const double a_nearer = nearer(i), b_nearer = nearer(j);
         if ((a_nearer < 0.0) == (b_nearer < 0.0)) continue;
@@ -264,15 +263,15 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
 
 void HandCreases::lay_finger_creases() {
   for (int f = 0; f < kFingerCount; ++f) {
-    const Ray& ray = ray_[at(f)];
+    const Ray& ray = ray_[f];
     const bool is_thumb = f == 0;
     const int base = is_thumb ? 2 : 1;  // node of MP or MCP
-    const Vec3 along = (ray.node[at(base + 1)] - ray.node[at(base)]).normalized();
-    const Vec3 palmar = ray.palmar[at(base)];
+    const Vec3 along = (ray.node[base + 1] - ray.node[base]).normalized();
+    const Vec3 palmar = ray.palmar[base];
     const Vec3 radial =
         sign_ * along.cross(palmar).normalized();  // of a right hand: distal x palmar
-    const auto level = [&](const Vec3& p) { return along.dot(p - ray.node[at(base)]); };
-    const auto aside = [&](const Vec3& p) { return radial.dot(p - ray.node[at(base)]); };
+    const auto level = [&](const Vec3& p) { return along.dot(p - ray.node[base]); };
+    const auto aside = [&](const Vec3& p) { return radial.dot(p - ray.node[base]); };
     // Slope of the crease across the finger, distal per radial.
     double slope = 0.0, at_axis = 0.0;
     if (is_thumb) {
@@ -280,29 +279,29 @@ void HandCreases::lay_finger_creases() {
       slope = std::clamp((level(web) + kAboveWeb) / aside(web), -0.8, 0.8);
       at_axis = level(web) + kAboveWeb - slope * aside(web);
     } else if (f == 1 || f == 4) {
-      const Vec3& web = web_[at(f == 1 ? 1 : 3)];
+      const Vec3& web = web_[f == 1 ? 1 : 3];
       slope = f == 1 ? -0.12 : 0.35;  // the free side lies more proximal
       at_axis = level(web) + kAboveWeb - slope * aside(web);
     } else {
-      const Vec3& a = web_[at(f - 1)];
-      const Vec3& b = web_[at(f)];
+      const Vec3& a = web_[f - 1];
+      const Vec3& b = web_[f];
       slope = std::clamp((level(a) - level(b)) / (aside(a) - aside(b)), -0.5, 0.5);
       at_axis = std::max(level(a) - slope * aside(a), level(b) - slope * aside(b)) + kAboveWeb;
     }
-    const Vec3 point = ray.node[at(base)] + at_axis * along;
-    crease_[at(f)][0] = {point, (along - slope * radial).normalized()};
+    const Vec3 point = ray.node[base] + at_axis * along;
+    crease_[f][0] = {point, (along - slope * radial).normalized()};
     for (int k = base + 1; k <= 3; ++k) {
-      const Vec3 before = ray.node[at(k)] - ray.node[at(k - 1)];
-      const Vec3 after = ray.node[at(k + 1)] - ray.node[at(k)];
+      const Vec3 before = ray.node[k] - ray.node[k - 1];
+      const Vec3 after = ray.node[k + 1] - ray.node[k];
       const double share = is_thumb ? kThumbIpShare : (k == 2 ? kPipShare : kDipShare);
       const Vec3 normal = (before.normalized() + share * after.normalized()).normalized();
-      crease_[at(f)][at(k - base)] = {ray.node[at(k)] - share * before, normal};
+      crease_[f][k - base] = {ray.node[k] - share * before, normal};
     }
   }
 }
 
 void HandCreases::lay_palm_creases() {
-  const auto mcp = [&](int f) { return in_palm(ray_[at(f)].node[1]); };
+  const auto mcp = [&](int f) { return in_palm(ray_[f].node[1]); };
   const Vec2 m2 = mcp(1), m3 = mcp(2), m4 = mcp(3), m5 = mcp(4);
   const Vec2 wrist = in_palm(wrist_.point);
   const Vec2 down(0.0, -kTransverse * scale_);
@@ -350,19 +349,19 @@ void HandCreases::set_proximal_crease(Segment phalanx, const CreasePlane& crease
 }
 
 const Vec3& HandCreases::palmar_direction(Finger finger, int node) const {
-  return ray_[at(static_cast<int>(finger))].palmar[at(node)];
+  return ray_[static_cast<int>(finger)].palmar[node];
 }
 
 SkinLabel HandCreases::label(const Vec3& point) const {
   const bool is_palmar = palmar_height(point) > 0.0;
   const int f = nearest_ray(point);
-  const auto& crease = crease_[at(f)];
+  const auto& crease = crease_[f];
   if (crease[0].value(point) > 0.0) {
     const auto chain = segments_of(static_cast<Finger>(f));
     const int last = chain[2] ? 2 : 1;
     int k = 0;
-    while (k < last && crease[at(k + 1)].value(point) > 0.0) ++k;
-    const Segment segment = *chain[at(k)];
+    while (k < last && crease[k + 1].value(point) > 0.0) ++k;
+    const Segment segment = *chain[k];
     return {segment, is_palmar ? *region_of(segment) : Region::kDorsum};
   }
   if (!is_palmar || wrist_.value(point) <= 0.0) return {Segment::kPalm, Region::kDorsum};

@@ -74,7 +74,7 @@ class HandCreases {
   void set_proximal_crease(Segment phalanx, const CreasePlane& crease);
   void set_wrist(const CreasePlane& crease) { wrist_ = crease; }
   /// Deepest point of the web between finger k and k + 1 (0: thumb and index).
-  const Vec3& web(int k) const { return web_[static_cast<std::size_t>(k)]; }
+  const Vec3& web(int k) const { return web_[k]; }
   /// Height above the joint axes towards the palm, mm; 0 where palmar skin ends.
   double palmar_height(const Vec3& point) const;
   /// Palmar direction of a finger at a node of its ray (0: wrist or CMC, 1: MCP, 2: PIP, 3: DIP,

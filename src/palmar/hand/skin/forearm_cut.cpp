@@ -12,11 +12,8 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 bool faces_the_forearm(const TriangleMesh& skin, const Triangle& t) {
-  const Vec3 &a = skin.vertices[at(t[0])], &b = skin.vertices[at(t[1])],
-             &c = skin.vertices[at(t[2])];
+  const Vec3 &a = skin.vertices[t[0]], &b = skin.vertices[t[1]], &c = skin.vertices[t[2]];
   const Vec3 normal = (b - a).cross(c - a).normalized();
   return normal.y() < -0.6 && (a.y() + b.y() + c.y()) / 3 < 0;
 }
@@ -46,13 +43,13 @@ void flatten(TriangleMesh& skin, const std::vector<int>& rim) {
   Eigen::MatrixX3d place(rim.size(), 3);
   Eigen::VectorXd y(rim.size());
   for (std::size_t i = 0; i < rim.size(); ++i) {
-    const Vec3& v = skin.vertices[at(rim[i])];
+    const Vec3& v = skin.vertices[rim[i]];
     place.row(static_cast<Eigen::Index>(i)) << v.x(), v.z(), 1.0;
     y[static_cast<Eigen::Index>(i)] = v.y();
   }
   const Vec3 plane = place.colPivHouseholderQr().solve(y);
   for (const int v : rim) {
-    Vec3& p = skin.vertices[at(v)];
+    Vec3& p = skin.vertices[v];
     p.y() = plane.x() * p.x() + plane.y() * p.z() + plane.z();
   }
 }
@@ -74,13 +71,13 @@ TriangleMesh with_even_cut(const TriangleMesh& skin_in_hand) {
 
   flatten(skin, rim);
   Vec3 middle = Vec3::Zero();
-  for (const int v : rim) middle += skin.vertices[at(v)] / static_cast<double>(rim.size());
+  for (const int v : rim) middle += skin.vertices[v] / static_cast<double>(rim.size());
   std::vector<int> outer = rim;
   for (const double share : kRings) {
     std::vector<int> inner;
     for (const int v : rim) {
       inner.push_back(static_cast<int>(skin.vertices.size()));
-      skin.vertices.push_back(middle + share * (skin.vertices[at(v)] - middle));
+      skin.vertices.push_back(middle + share * (skin.vertices[v] - middle));
     }
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::size_t j = (i + 1) % rim.size();

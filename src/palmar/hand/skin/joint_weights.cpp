@@ -9,16 +9,12 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/geometry/smooth_step.h"
 
 namespace palmar {
 namespace {
 
 using Field = std::vector<double>;  ///< one number per vertex
-
-double smooth_step(double t) {
-  const double s = std::clamp(t, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
-}
 
 /// Where the skin of a joint turns from steady to moving, mm.
 struct Band {
@@ -77,10 +73,9 @@ std::array<Chain, kFingerCount> make_chains(const Skeleton& skeleton) {
     const Vec3 head = centre(static_cast<JointId>(mcp));
     // Metacarpal bases stand in the same order as the heads, at a third of the way from the wrist.
     const Vec3 base(0.45 * head.x(), 0.33 * head.y(), 0.8 * head.z());
-    chains[static_cast<std::size_t>(f)].node = {base, head, centre(static_cast<JointId>(mcp + 1)),
-                                                centre(static_cast<JointId>(mcp + 2)),
-                                                skeleton.fingertips[static_cast<std::size_t>(f)]};
-    chains[static_cast<std::size_t>(f)].radius = {11, 10.5, 8.5, 7.5, 6.5};
+    chains[f].node = {base, head, centre(static_cast<JointId>(mcp + 1)),
+                      centre(static_cast<JointId>(mcp + 2)), skeleton.fingertips[f]};
+    chains[f].radius = {11, 10.5, 8.5, 7.5, 6.5};
   }
   return chains;
 }
@@ -93,7 +88,7 @@ void diffuse(Field& field, const std::vector<std::vector<int>>& neighbours,
     for (std::size_t v = 0; v < field.size(); ++v) {
       if (!free[v]) continue;
       double sum = 0;
-      for (const int n : neighbours[v]) sum += field[static_cast<std::size_t>(n)];
+      for (const int n : neighbours[v]) sum += field[n];
       next[v] = 0.5 * field[v] + 0.5 * sum / static_cast<double>(neighbours[v].size());
     }
     std::swap(field, next);
@@ -218,7 +213,7 @@ class WeightMaker {
     TriangleMesh bent = skin_;
     const double turn = dof.upper - dof.reference;
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-      Vec3& v = bent.vertices[static_cast<std::size_t>(weights.vertex[k])];
+      Vec3& v = bent.vertices[weights.vertex[k]];
       v += amplitude * turn * weights.bulge[k];
       v = Rigid3::about_axis(dof.axis, dof.centre, weights.w1[k] * weights.w2[k] * turn) * v;
     }
@@ -232,7 +227,7 @@ class WeightMaker {
                  JointWeights& weights) const {
     const double half = std::max(band.palmar_half, band.dorsal_half);
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(weights.vertex[k]);
+      const int v = weights.vertex[k];
       const Vec3 arm = skin_.vertices[v] - axes.centre;
       const double t = arm.dot(axes.along) / half;
       const double bump = t * t < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
@@ -248,17 +243,16 @@ class WeightMaker {
   }
 
   void add_finger(int f, std::vector<JointWeights>& result) const {
-    const auto field = static_cast<std::size_t>(f);
     const int j = static_cast<int>(JointId::kIndexMcp) + 3 * (f - 1);
     const int d = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
     const auto joint = [&](int k) { return static_cast<JointId>(j + k); };
-    const Chain& chain = chains_[field];
-    result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[field],
+    const Chain& chain = chains_[f];
+    result.push_back(hinge(joint(0), static_cast<Dof>(d), chain.node[0], chain.node[2], own_[f],
                            1.1, {.dorsal_half = 1.25, .palmar_shift = 4.0, .most_bulge = 3.0}));
-    result.push_back(hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3],
-                           hard_[field], 1.2, {}));
-    result.push_back(hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4],
-                           hard_[field], 1.2, {}));
+    result.push_back(
+        hinge(joint(1), static_cast<Dof>(d + 2), chain.node[1], chain.node[3], hard_[f], 1.2, {}));
+    result.push_back(
+        hinge(joint(2), static_cast<Dof>(d + 3), chain.node[2], chain.node[4], hard_[f], 1.2, {}));
   }
 
   JointWeights thumb_cmc() const {

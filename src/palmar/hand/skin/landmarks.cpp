@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
@@ -59,18 +60,18 @@ std::map<std::string, Meaning> make_meanings() {
     const auto finger = static_cast<Finger>(f);
     const std::string name = text(name_of(finger)) + "_";
     for (int j = 0; j < 3; ++j) {
-      const std::string joint = name + joints_of(finger)[static_cast<std::size_t>(j)] + "_";
+      const std::string joint = name + joints_of(finger)[j] + "_";
       for (const auto& [way, value] : ways_of(finger, j == 0 ? 0 : 2)) {
         all[joint + way] = {Kind::kJoint, finger, j, value};
       }
       all[joint + "centre"] = {Kind::kJoint, finger, j, Way::kCentre};
-      all[text(kOrdinal[static_cast<std::size_t>(f)]) + "_metacarpal_" +
-          kMetacarpal[static_cast<std::size_t>(j)]] = {Kind::kMetacarpal, finger, j, Way::kDorsal};
+      all[text(kOrdinal[f]) + "_metacarpal_" + kMetacarpal[j]] = {Kind::kMetacarpal, finger, j,
+                                                                  Way::kDorsal};
     }
     const auto segments = segments_of(finger);
     for (int k = 0; k < 3; ++k) {
-      if (!segments[static_cast<std::size_t>(k)]) continue;
-      const std::string phalanx = text(name_of(*segments[static_cast<std::size_t>(k)])) + "_";
+      if (!segments[k]) continue;
+      const std::string phalanx = text(name_of(*segments[k])) + "_";
       for (const auto& [way, value] : ways_of(finger, k + 1)) {
         all[phalanx + way] = {Kind::kPhalanx, finger, k, value};
       }
@@ -106,7 +107,7 @@ Ray ray_of(const Hand& hand, Finger finger) {
       if (name_of(dof.dof).ends_with("flexion")) ray.axis[j] = dof.axis;
     }
   }
-  ray.node[3] = hand.skeleton.fingertips[static_cast<std::size_t>(finger)];
+  ray.node[3] = hand.skeleton.fingertips[index_of(finger)];
   // The saddle joint's flexion carries the thumb across the palm; the thumb's own palmar side is
   // that of its next joint.
   if (finger == Finger::kThumb) ray.axis[0] = ray.axis[1];

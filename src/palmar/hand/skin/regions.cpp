@@ -10,7 +10,9 @@
 #include <string>
 #include <tuple>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -19,8 +21,6 @@
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Standing of a label where several meet; the smallest wins.
 auto standing(const SkinLabel& label) {
@@ -45,8 +45,8 @@ class Surface {
     last_ = nearest.triangle;
     if (normal != nullptr) {
       *normal = Vec3::Zero();
-      const Triangle& t = mesh_.triangles[at(nearest.triangle)];
-      for (std::size_t k = 0; k < 3; ++k) *normal += nearest.weights[k] * normals_[at(t[k])];
+      const Triangle& t = mesh_.triangles[nearest.triangle];
+      for (std::size_t k = 0; k < 3; ++k) *normal += nearest.weights[k] * normals_[t[k]];
       normal->normalize();
     }
     return nearest.point;
@@ -67,21 +67,21 @@ void remove_islands(const std::vector<std::vector<int>>& neighbours,
   const int n = static_cast<int>(label.size());
   constexpr int kPasses = 10;  // an island may touch only other islands
   for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<int> component(at(n), -1);
+    std::vector<int> component(n, -1);
     std::vector<std::vector<int>> members;
     for (int seed = 0; seed < n; ++seed) {
-      if (component[at(seed)] >= 0) continue;
+      if (component[seed] >= 0) continue;
       const int id = static_cast<int>(members.size());
       std::vector<int> stack{seed};
-      component[at(seed)] = id;
+      component[seed] = id;
       members.emplace_back();
       while (!stack.empty()) {
         const int i = stack.back();
         stack.pop_back();
         members.back().push_back(i);
-        for (const int j : neighbours[at(i)]) {
-          if (component[at(j)] >= 0 || !(label[at(j)] == label[at(i)])) continue;
-          component[at(j)] = id;
+        for (const int j : neighbours[i]) {
+          if (component[j] >= 0 || !(label[j] == label[i])) continue;
+          component[j] = id;
           stack.push_back(j);
         }
       }
@@ -92,18 +92,18 @@ void remove_islands(const std::vector<std::vector<int>>& neighbours,
     // Of each label the largest component stays, of equal ones the first.
     std::map<SkinLabel, std::size_t, decltype(by_standing)> stays(by_standing);
     for (std::size_t c = 0; c < members.size(); ++c) {
-      const auto [entry, is_new] = stays.try_emplace(label[at(members[c].front())], c);
+      const auto [entry, is_new] = stays.try_emplace(label[members[c].front()], c);
       if (!is_new && members[c].size() > members[entry->second].size()) entry->second = c;
     }
     bool has_changed = false;
     for (std::size_t c = 0; c < members.size(); ++c) {
       const std::vector<int>& m = members[c];
-      const auto kept = stays.find(label[at(m.front())]);
+      const auto kept = stays.find(label[m.front()]);
       if (kept != stays.end() && kept->second == c) continue;
       std::map<SkinLabel, int, decltype(by_standing)> around(by_standing);
       for (const int i : m) {
-        for (const int j : neighbours[at(i)]) {
-          if (!(label[at(j)] == label[at(i)])) ++around[label[at(j)]];
+        for (const int j : neighbours[i]) {
+          if (!(label[j] == label[i])) ++around[label[j]];
         }
       }
       if (around.empty()) continue;
@@ -111,7 +111,7 @@ void remove_islands(const std::vector<std::vector<int>>& neighbours,
           std::max_element(around.begin(), around.end(),
                            [](const auto& a, const auto& b) { return a.second < b.second; });
       const SkinLabel winner = most->first;
-      for (const int i : m) label[at(i)] = winner;
+      for (const int i : m) label[i] = winner;
       has_changed = true;
     }
     if (!has_changed) return;
@@ -144,11 +144,11 @@ std::vector<Offer> offers(const TriangleMesh& skin, const MeshTopology& topology
                           const HandCreases& creases, const std::vector<SkinLabel>& label) {
   std::vector<Offer> offer(label.size());
   for (const auto& [i, j] : topology.edge) {
-    if (label[at(i)] == label[at(j)]) continue;
-    const Vec3& a = skin.vertices[at(i)];
-    const Vec3& b = skin.vertices[at(j)];
-    const double share = crossing(creases, a, b, label[at(i)], label[at(j)]);
-    Offer& nearer = offer[at(share < 0.5 ? i : j)];
+    if (label[i] == label[j]) continue;
+    const Vec3& a = skin.vertices[i];
+    const Vec3& b = skin.vertices[j];
+    const double share = crossing(creases, a, b, label[i], label[j]);
+    Offer& nearer = offer[static_cast<std::size_t>(share < 0.5 ? i : j)];
     const double distance = std::min(share, 1.0 - share) * (b - a).norm();
     nearer.is_made = true;
     if (distance >= nearer.distance) continue;
@@ -164,19 +164,19 @@ void withdraw_needless(const MeshTopology& topology, const std::vector<SkinLabel
                        std::vector<Offer>& offer) {
   std::vector<std::vector<int>> across(label.size());
   for (const auto& [i, j] : topology.edge) {
-    if (label[at(i)] == label[at(j)]) continue;
-    across[at(i)].push_back(j);
-    across[at(j)].push_back(i);
+    if (label[i] == label[j]) continue;
+    across[i].push_back(j);
+    across[j].push_back(i);
   }
   std::vector<int> order;
   for (int i = 0; i < static_cast<int>(offer.size()); ++i) {
-    if (offer[at(i)].is_made) order.push_back(i);
+    if (offer[i].is_made) order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return offer[at(a)].distance > offer[at(b)].distance; });
+                   [&](int a, int b) { return offer[a].distance > offer[b].distance; });
   for (const int i : order) {
-    offer[at(i)].is_made = !std::all_of(across[at(i)].begin(), across[at(i)].end(),
-                                        [&](int j) { return offer[at(j)].is_made; });
+    offer[i].is_made =
+        !std::all_of(across[i].begin(), across[i].end(), [&](int j) { return offer[j].is_made; });
   }
 }
 
@@ -195,7 +195,7 @@ Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3
     Eigen::MatrixXd slope(static_cast<int>(pairs.size()), 2);
     Eigen::VectorXd value(static_cast<int>(pairs.size()));
     for (int k = 0; k < value.size(); ++k) {
-      const auto& [a, b] = pairs[at(k)];
+      const auto& [a, b] = pairs[k];
       const auto phi = [&](const Vec3& p) { return creases.boundary_value(p, a, b); };
       value[k] = phi(point);
       slope(k, 0) = (phi(point + kStep * u) - phi(point - kStep * u)) / (2.0 * kStep);
@@ -214,60 +214,58 @@ Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3
 double smallest_angle(const TriangleMesh& mesh, const Triangle& t) {
   double smallest = std::numbers::pi;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& a = mesh.vertices[at(t[k])];
-    const Vec3 u = mesh.vertices[at(t[(k + 1) % 3])] - a;
-    const Vec3 v = mesh.vertices[at(t[(k + 2) % 3])] - a;
+    const Vec3& a = mesh.vertices[t[k]];
+    const Vec3 u = mesh.vertices[t[(k + 1) % 3]] - a;
+    const Vec3 v = mesh.vertices[t[(k + 2) % 3]] - a;
     smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)));
   }
   return smallest;
 }
 
 Vec3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
-  const Vec3& a = mesh.vertices[at(t[0])];
-  return (mesh.vertices[at(t[1])] - a).cross(mesh.vertices[at(t[2])] - a);
+  const Vec3& a = mesh.vertices[t[0]];
+  return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
 }
 
 // Three vertices moved onto one crease make a sliver: its longest edge is turned, if both triangles
 // gain by that. `is_fixed` tells edges that must stay.
 template <typename IsFixed>
 void turn_slivers(TriangleMesh& skin, const IsFixed& is_fixed) {
-  constexpr double kSliver = 25.0 * std::numbers::pi / 180.0;
+  constexpr double kSliver = 25.0 * kDegree;
   for (int pass = 0; pass < 3; ++pass) {
     const MeshTopology topology = build_topology(skin);
     const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
     std::vector<bool> is_touched(skin.vertices.size());
     bool has_changed = false;
     for (int t = 0; t < skin.triangle_count(); ++t) {
-      const Triangle mine = skin.triangles[at(t)];
+      const Triangle mine = skin.triangles[t];
       if (smallest_angle(skin, mine) >= kSliver) continue;
       int longest = 0;
       double length = 0.0;
       for (int k = 0; k < 3; ++k) {
-        const double l = (skin.vertices[at(mine[at(k)])] - skin.vertices[at(mine[at((k + 1) % 3)])])
-                             .squaredNorm();
+        const double l = (skin.vertices[mine[k]] - skin.vertices[mine[(k + 1) % 3]]).squaredNorm();
         if (l > length) {
           length = l;
           longest = k;
         }
       }
-      const int twin = topology.twin[at(3 * t + longest)];
-      const int a = mine[at(longest)], b = mine[at((longest + 1) % 3)];
-      const int c = mine[at((longest + 2) % 3)];
-      const Triangle theirs = skin.triangles[at(twin / 3)];
-      const int d = theirs[at((twin % 3 + 2) % 3)];
-      if (is_touched[at(a)] || is_touched[at(b)] || is_touched[at(c)] || is_touched[at(d)])
-        continue;
+      const int twin = topology.twin[3 * t + longest];
+      const int a = mine[longest], b = mine[(longest + 1) % 3];
+      const int c = mine[(longest + 2) % 3];
+      const Triangle theirs = skin.triangles[twin / 3];
+      const int d = theirs[(twin % 3 + 2) % 3];
+      if (is_touched[a] || is_touched[b] || is_touched[c] || is_touched[d]) continue;
       if (is_fixed(a, b)) continue;
-      const auto& round_c = neighbours[at(c)];
+      const auto& round_c = neighbours[c];
       if (std::binary_search(round_c.begin(), round_c.end(), d)) continue;
       const Triangle first{a, d, c}, second{d, b, c};
       const double before = std::min(smallest_angle(skin, mine), smallest_angle(skin, theirs));
       const double after = std::min(smallest_angle(skin, first), smallest_angle(skin, second));
       const bool is_folded = area_normal(skin, first).dot(area_normal(skin, second)) <= 0.0;
       if (after <= before || is_folded) continue;
-      skin.triangles[at(t)] = first;
-      skin.triangles[at(twin / 3)] = second;
-      for (const int i : {a, b, c, d}) is_touched[at(i)] = true;
+      skin.triangles[t] = first;
+      skin.triangles[twin / 3] = second;
+      for (const int i : {a, b, c, d}) is_touched[i] = true;
       has_changed = true;
     }
     if (!has_changed) return;
@@ -289,27 +287,26 @@ CreaseGraph build_graph(const TriangleMesh& skin, const MeshTopology& topology,
   for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
     const Triangle& corner = skin.triangles[t];
     const auto inner =
-        std::find_if(corner.begin(), corner.end(), [&](int i) { return !is_snapped[at(i)]; });
-    graph.triangle[t] =
-        inner != corner.end()
-            ? label[at(*inner)]
-            : creases.label((skin.vertices[at(corner[0])] + skin.vertices[at(corner[1])] +
-                             skin.vertices[at(corner[2])]) /
-                            3.0);
+        std::find_if(corner.begin(), corner.end(), [&](int i) { return !is_snapped[i]; });
+    graph.triangle[t] = inner != corner.end()
+                            ? label[*inner]
+                            : creases.label((skin.vertices[corner[0]] + skin.vertices[corner[1]] +
+                                             skin.vertices[corner[2]]) /
+                                            3.0);
   }
   graph.neighbours.resize(skin.vertices.size());
   graph.labels.resize(skin.vertices.size());
   for (int h = 0; h < static_cast<int>(topology.twin.size()); ++h) {
-    const int other = topology.twin[at(h)];
-    if (graph.triangle[at(h / 3)] == graph.triangle[at(other / 3)]) continue;
-    const int i = skin.triangles[at(h / 3)][at(h % 3)];
-    const int j = skin.triangles[at(h / 3)][at(MeshTopology::next(h) % 3)];
-    graph.neighbours[at(i)].push_back(j);  // the twin adds the other direction
+    const int other = topology.twin[h];
+    if (graph.triangle[h / 3] == graph.triangle[other / 3]) continue;
+    const int i = skin.triangles[h / 3][h % 3];
+    const int j = skin.triangles[h / 3][MeshTopology::next(h) % 3];
+    graph.neighbours[i].push_back(j);  // the twin adds the other direction
     for (const int end : {i, j}) {
       for (const int t : {h / 3, other / 3}) {
-        auto& labels = graph.labels[at(end)];
-        if (std::find(labels.begin(), labels.end(), graph.triangle[at(t)]) == labels.end()) {
-          labels.push_back(graph.triangle[at(t)]);
+        auto& labels = graph.labels[end];
+        if (std::find(labels.begin(), labels.end(), graph.triangle[t]) == labels.end()) {
+          labels.push_back(graph.triangle[t]);
         }
       }
     }
@@ -327,7 +324,7 @@ std::vector<int> near_creases(const CreaseGraph& graph,
     std::vector<bool> grown = is_near;
     for (std::size_t i = 0; i < is_near.size(); ++i) {
       if (!is_near[i]) continue;
-      for (const int j : neighbours[i]) grown[at(j)] = true;
+      for (const int j : neighbours[i]) grown[j] = true;
     }
     is_near = std::move(grown);
   }
@@ -343,7 +340,7 @@ double worst_angle(const TriangleMesh& skin, const MeshTopology& topology, int v
                    const Vec3& normal) {
   double worst = std::numbers::pi;
   for (const int h : topology.outgoing(vertex)) {
-    const Triangle& t = skin.triangles[at(h / 3)];
+    const Triangle& t = skin.triangles[h / 3];
     const double angle = smallest_angle(skin, t);
     worst = std::min(worst, area_normal(skin, t).dot(normal) > 0.0 ? angle : -angle);
   }
@@ -357,17 +354,17 @@ std::vector<std::pair<SkinLabel, SkinLabel>> holding_pairs(const CreaseGraph& gr
                                                            const HandCreases& creases, int vertex,
                                                            const Vec3& place) {
   std::vector<std::pair<SkinLabel, SkinLabel>> pairs;
-  const auto& labels = graph.labels[at(vertex)];
+  const auto& labels = graph.labels[vertex];
   for (std::size_t a = 0; a < labels.size(); ++a) {
     for (std::size_t b = a + 1; b < labels.size(); ++b) pairs.emplace_back(labels[a], labels[b]);
   }
-  const auto& along = graph.neighbours[at(vertex)];
+  const auto& along = graph.neighbours[vertex];
   const auto goes_first = [&](int i, int j) {
-    const std::size_t a = graph.labels[at(i)].size(), b = graph.labels[at(j)].size();
+    const std::size_t a = graph.labels[i].size(), b = graph.labels[j].size();
     return a != b ? a > b : i < j;
   };
   const bool yields = labels.size() > 2 && std::any_of(along.begin(), along.end(), [&](int j) {
-                        return graph.labels[at(j)].size() > 2 && goes_first(j, vertex);
+                        return graph.labels[j].size() > 2 && goes_first(j, vertex);
                       });
   if (!yields) return pairs;
   const auto distance = [&](const std::pair<SkinLabel, SkinLabel>& pair) {
@@ -383,19 +380,19 @@ void relax(TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& crea
            const Surface& surface) {
   constexpr int kRounds = 8;
   constexpr int kRings = 4;
-  constexpr double kGoodAngle = 25.0 * std::numbers::pi / 180.0;
+  constexpr double kGoodAngle = 25.0 * kDegree;
   const MeshTopology topology = build_topology(skin);
   const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
   const std::vector<int> moving = near_creases(graph, neighbours, kRings);
   for (int round = 0; round < kRounds; ++round) {
     for (const int i : moving) {
-      const auto& along = graph.neighbours[at(i)];
+      const auto& along = graph.neighbours[i];
       // A vertex on a crease follows its neighbours on the crease, others all theirs.
-      const auto& followed = along.empty() ? neighbours[at(i)] : along;
+      const auto& followed = along.empty() ? neighbours[i] : along;
       Vec3 mean = Vec3::Zero();
-      for (const int j : followed) mean += skin.vertices[at(j)];
+      for (const int j : followed) mean += skin.vertices[j];
       mean /= static_cast<double>(followed.size());
-      const Vec3 before = skin.vertices[at(i)];
+      const Vec3 before = skin.vertices[i];
       const Vec3 target = before + 0.5 * (mean - before);
       Vec3 after = target;
       if (!along.empty()) {
@@ -404,9 +401,9 @@ void relax(TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& crea
       Vec3 normal;
       after = surface.project(after, &normal);
       const double was = worst_angle(skin, topology, i, normal);
-      skin.vertices[at(i)] = after;
+      skin.vertices[i] = after;
       const double is = worst_angle(skin, topology, i, normal);
-      if (is < kGoodAngle && is < was) skin.vertices[at(i)] = before;
+      if (is < kGoodAngle && is < was) skin.vertices[i] = before;
     }
   }
 }
@@ -414,15 +411,15 @@ void relax(TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& crea
 void require_all_labels(const SkinPartition& partition) {
   std::array<int, kSegmentCount> in_segment{};
   std::array<int, kRegionCount> in_region{};
-  for (const Segment s : partition.segment) ++in_segment[static_cast<std::size_t>(s)];
-  for (const Region r : partition.region) ++in_region[static_cast<std::size_t>(r)];
+  for (const Segment s : partition.segment) ++in_segment[index_of(s)];
+  for (const Region r : partition.region) ++in_region[index_of(r)];
   for (int s = 0; s < kSegmentCount; ++s) {
-    if (in_segment[at(s)] > 0) continue;
+    if (in_segment[s] > 0) continue;
     throw InputError("skin: segment \"" + std::string(name_of(static_cast<Segment>(s))) +
                      "\" has 0 vertices; its creases do not meet the skin");
   }
   for (int r = 0; r < kRegionCount; ++r) {
-    if (in_region[at(r)] > 0) continue;
+    if (in_region[r] > 0) continue;
     throw InputError("skin: region \"" + std::string(name_of(static_cast<Region>(r))) +
                      "\" has 0 vertices; its creases do not meet the skin");
   }
@@ -457,7 +454,7 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
   for (int pass = 0; pass < 2; ++pass) {
     relax(result.skin, graph, creases, surface);
     turn_slivers(result.skin, [&](int i, int j) {
-      const auto& along = graph.neighbours[at(i)];
+      const auto& along = graph.neighbours[i];
       return std::find(along.begin(), along.end(), j) != along.end();
     });
   }
@@ -483,8 +480,7 @@ std::vector<Region> triangle_regions(const std::vector<Triangle>& triangles,
   std::vector<Region> result;
   result.reserve(triangles.size());
   for (const Triangle& t : triangles) {
-    result.push_back(
-        std::max({region[at(t[0])], region[at(t[1])], region[at(t[2])]}, stands_lower));
+    result.push_back(std::max({region[t[0]], region[t[1]], region[t[2]]}, stands_lower));
   }
   return result;
 }

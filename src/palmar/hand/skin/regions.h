@@ -30,8 +30,8 @@ struct SkinPartition {
 /// The stub of the forearm counts as segment palm, region dorsum.
 ///
 /// `skin` must be closed and 2-manifold, its edges at most about a quarter of the shortest phalanx
-/// (the template has 2.5 mm). Throws InputError if it is not, or if a segment or region stays empty.
-/// A mirrored hand gives the mirrored partition. Deterministic.
+/// (the template has 2.5 mm). Throws InputError if it is not, or if a segment or region stays
+/// empty. A mirrored hand gives the mirrored partition. Deterministic.
 SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton);
 
 /// Region of each triangle of a partitioned skin: that of its corner of lowest standing, because a

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/thumb_ball.h"
 
 namespace palmar {
@@ -124,7 +125,7 @@ std::vector<Vec3> pose_skin(const Hand& hand, const Posture& posture) {
   move_skin(hand, posture, nullptr, skin);
   const CmcShare share = cmc_share(hand.skeleton, posture);
   for (std::size_t k = 0; k < hand.thumb_ball.vertex.size(); ++k) {
-    const auto v = static_cast<std::size_t>(hand.thumb_ball.vertex[k]);
+    const int v = hand.thumb_ball.vertex[k];
     skin[v] += thumb_ball_offset(hand.thumb_ball, hand.skin.vertices[v], share);
   }
   return skin;
@@ -137,24 +138,21 @@ std::vector<Vec3> pose_skin_vertices(const Hand& hand, const Posture& posture,
   std::vector<Vec3> skin;
   skin.reserve(vertices.size());
   for (const int vertex : vertices) {
-    const auto v = static_cast<std::size_t>(vertex);
-    if (slot.at(v) >= 0) continue;
-    slot[v] = static_cast<int>(skin.size());
-    skin.push_back(hand.skin.vertices[v]);
+    if (slot.at(vertex) >= 0) continue;
+    slot[vertex] = static_cast<int>(skin.size());
+    skin.push_back(hand.skin.vertices[vertex]);
   }
   move_skin(hand, posture, &slot, skin);
   const CmcShare share = cmc_share(hand.skeleton, posture);
   for (const int vertex : hand.thumb_ball.vertex) {
-    const auto v = static_cast<std::size_t>(vertex);
-    if (slot[v] < 0) continue;
-    skin[static_cast<std::size_t>(slot[v])] +=
-        thumb_ball_offset(hand.thumb_ball, hand.skin.vertices[v], share);
+    if (slot[vertex] < 0) continue;
+    skin[slot[vertex]] += thumb_ball_offset(hand.thumb_ball, hand.skin.vertices[vertex], share);
   }
   if (skin.size() == vertices.size()) return skin;
   std::vector<Vec3> posed;
   posed.reserve(vertices.size());
   for (const int vertex : vertices) {
-    posed.push_back(skin[static_cast<std::size_t>(slot[static_cast<std::size_t>(vertex)])]);
+    posed.push_back(skin[slot[vertex]]);
   }
   return posed;
 }
@@ -169,7 +167,7 @@ std::vector<TriangleMesh> pose_bones(const Hand& hand, const Posture& posture) {
     if (bone.is_thumb_metacarpal) {
       displacement = posed.thumb_metacarpal;
     } else if (bone.segment) {
-      displacement = posed.segment[static_cast<std::size_t>(*bone.segment)];
+      displacement = posed.segment[index_of(*bone.segment)];
     }
     for (Vec3& v : mesh.vertices) v = displacement * v;
     bones.push_back(std::move(mesh));

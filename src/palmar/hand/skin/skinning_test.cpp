@@ -11,6 +11,8 @@
 #include <numbers>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -30,11 +32,9 @@ JointDof turn_about_x(Dof dof, double lower, double upper) {
 Hand straight_finger() {
   Hand hand;
   for (int j = 0; j < kJointCount; ++j) {
-    hand.skeleton.joints[static_cast<std::size_t>(j)].id = static_cast<JointId>(j);
+    hand.skeleton.joints[j].id = static_cast<JointId>(j);
   }
-  const auto joint = [&](JointId id) -> Joint& {
-    return hand.skeleton.joints[static_cast<std::size_t>(id)];
-  };
+  const auto joint = [&](JointId id) -> Joint& { return hand.skeleton.joints[index_of(id)]; };
   joint(JointId::kThumbCmc).dofs = {turn_about_x(Dof::kThumbCmcAbduction, -1, 1),
                                     turn_about_x(Dof::kThumbCmcFlexion, -1, 1)};
   joint(JointId::kIndexPip).dofs = {turn_about_x(Dof::kIndexPipFlexion, 0, 2)};
@@ -132,9 +132,8 @@ TEST(Skinning, BulgeComesOutOnlyInFlexion) {
     const std::vector<Vec3> with = pose_skin(hand, bent(angle));
     const std::vector<Vec3> without = pose_skin(plain, bent(angle));
     for (const int v : weights.vertex) {
-      const auto i = static_cast<std::size_t>(v);
       // Along the axis, which the turn leaves alone.
-      EXPECT_NEAR((with[i] - without[i] - std::max(angle, 0.0) * out).norm(), 0, 1e-12);
+      EXPECT_NEAR((with[v] - without[v] - std::max(angle, 0.0) * out).norm(), 0, 1e-12);
     }
   }
 }
@@ -146,7 +145,7 @@ TEST(Skinning, SomeVerticesInAnyOrderGoWhereAllGo) {
   const std::vector<Vec3> alone = pose_skin_vertices(hand, bent(0.9), some);
   ASSERT_EQ(alone.size(), some.size());
   for (std::size_t k = 0; k < some.size(); ++k) {
-    EXPECT_EQ(alone[k], all[static_cast<std::size_t>(some[k])]);
+    EXPECT_EQ(alone[k], all[some[k]]);
   }
   EXPECT_TRUE(pose_skin_vertices(hand, bent(0.9), {}).empty());
 }

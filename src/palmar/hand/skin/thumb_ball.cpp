@@ -44,8 +44,7 @@ ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMark
   Eigen::MatrixXd phi(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index k = 0; k < n; ++k) {
-      const Vec3 gap = markers.reference[static_cast<std::size_t>(i)] -
-                       markers.reference[static_cast<std::size_t>(k)];
+      const Vec3 gap = markers.reference[i] - markers.reference[k];
       phi(i, k) = kernel(options.beta, gap.squaredNorm());
     }
   }
@@ -59,7 +58,7 @@ ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMark
   for (std::size_t limit = 0; limit < 4; ++limit) {
     Eigen::MatrixXd missing(n, 3);
     for (Eigen::Index i = 0; i < n; ++i) {
-      missing.row(i) = markers.missing[limit][static_cast<std::size_t>(i)].transpose();
+      missing.row(i) = markers.missing[limit][i].transpose();
     }
     const Eigen::MatrixXd d = factor.solve(missing);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -68,7 +67,7 @@ ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMark
   }
   for (int v = 0; v < skin.vertex_count(); ++v) {
     for (const Vec3& marker : correction.marker) {
-      const Vec3 gap = skin.vertices[static_cast<std::size_t>(v)] - marker;
+      const Vec3 gap = skin.vertices[v] - marker;
       if (gap.squaredNorm() > options.reach * options.reach) continue;
       correction.vertex.push_back(v);
       break;

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 // Active flexion-extension arc 53 degrees (Cooney et al. 1981), shared between the two senses as
 // the passive ranges 21.7 and 19.5 degrees are (normative passive range, PMID 28478845).
@@ -43,8 +42,8 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes) {
   // serves.
   const Vec3 along = metacarpal - metacarpal.dot(abduction.axis) * abduction.axis;
   abduction.reference = std::asin(std::clamp(along.normalized().z(), -1.0, 1.0));
-  abduction.lower = std::min(kAdductionDeg * kDeg, abduction.reference);
-  abduction.upper = std::max(kAbductionDeg * kDeg, abduction.reference);
+  abduction.lower = std::min(kAdductionDeg * kDegree, abduction.reference);
+  abduction.upper = std::max(kAbductionDeg * kDegree, abduction.reference);
   abduction.source =
       "axis: Mirakhorlo et al. 2016, table 3; range: plane of the palm to anteposition 61.2 deg "
       "(Barakat et al., active, 100 healthy adults)";
@@ -54,8 +53,8 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes) {
   flexion.axis = axes.flexion_axis.normalized();
   flexion.centre = centre;
   flexion.reference = 0.0;
-  flexion.lower = -kExtensionDeg * kDeg;
-  flexion.upper = kFlexionDeg * kDeg;
+  flexion.lower = -kExtensionDeg * kDegree;
+  flexion.upper = kFlexionDeg * kDegree;
   flexion.source =
       "axis: Mirakhorlo et al. 2016, table 3; range: active arc 53 deg (Cooney et al. 1981), "
       "shared "

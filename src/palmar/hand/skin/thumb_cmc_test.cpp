@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
 Skeleton skeleton_with_thumb() {
   Skeleton skeleton;
-  Joint& cmc = skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)];
+  Joint& cmc = skeleton.joints[index_of(JointId::kThumbCmc)];
   cmc = make_cmc_joint({28, 36, 19}, {45, 59, 34});
   skeleton.thumb_cmc = make_cmc_limits(cmc);
   return skeleton;

@@ -15,8 +15,6 @@ constexpr double kHalfWidth = 36.0;            // mm
 constexpr double kBegin = -82.0, kEnd = 12.0;  // mm along y from the wrist joint
 constexpr double kThickness = 12.0;            // below the deepest point, mm
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
@@ -28,7 +26,7 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
   };
   const auto node = [&](int column, int row) { return row * columns + column; };
   // Relief: the palmar skin; beside it walls as high as the middle of the forearm.
-  std::vector<double> palmar(at(columns * rows)), relief(at(columns * rows));
+  std::vector<double> palmar(columns * rows), relief(columns * rows);
   double deepest = wrist.z();
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -37,7 +35,7 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
       const std::vector<RayHit> hits = rays.all_hits(from, Vec3::UnitZ());
       double z = wrist.z() - 2.0;
       if (!hits.empty()) z = std::max(z, from.z() + hits.back().distance);
-      palmar[at(node(column, row))] = z;
+      palmar[node(column, row)] = z;
       deepest = std::max(deepest, z);
     }
   }
@@ -46,9 +44,9 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
     const std::vector<double> before = relief;
     for (int row = 1; row + 1 < rows; ++row) {
       for (int column = 1; column + 1 < columns; ++column) {
-        relief[at(node(column, row))] =
-            0.25 * (before[at(node(column - 1, row))] + before[at(node(column + 1, row))] +
-                    before[at(node(column, row - 1))] + before[at(node(column, row + 1))]);
+        relief[node(column, row)] =
+            0.25 * (before[node(column - 1, row)] + before[node(column + 1, row)] +
+                    before[node(column, row - 1)] + before[node(column, row + 1)]);
       }
     }
   }
@@ -59,14 +57,14 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
       // Pressed in, let go a little, and uneven.
       const double stands_off =
           1.6 + 1.9 * std::sin(0.19 * v.y() + 0.6) * std::cos(0.13 * v.x() + 0.4);
-      v.z() = std::max(relief[at(node(column, row))], palmar[at(node(column, row))]) +
+      v.z() = std::max(relief[node(column, row)], palmar[node(column, row)]) +
               std::max(stands_off, -0.1);
       mesh.vertices.push_back(v);
     }
   }
   const int below = mesh.vertex_count();
   for (int n = 0; n < below; ++n) {
-    Vec3 v = mesh.vertices[at(n)];
+    Vec3 v = mesh.vertices[n];
     v.z() = deepest + kThickness;
     mesh.vertices.push_back(v);
   }

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/template_hand.h"
@@ -24,9 +24,6 @@ namespace palmar {
 namespace {
 
 constexpr std::uint64_t kPlacementStream = 40;
-constexpr double kDeg = std::numbers::pi / 180.0;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // From the hand frame of a right hand (or of the mirror image of a left one) to the patient's.
 struct ToPatient {
@@ -62,7 +59,7 @@ Rigid3 placement(RandomStream& random, double degrees, double shift) {
   };
   const Vec3 turn(some(degrees), some(degrees), some(degrees));
   const Vec3 by(some(shift), some(shift), some(shift));
-  const double angle = turn.norm() * kDeg;
+  const double angle = turn.norm() * kDegree;
   return {angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, turn.normalized())) : Quat::Identity(), by};
 }
 
@@ -81,7 +78,7 @@ std::vector<MriSubject::TrueAxis> true_axes(const SubjectPerson& person, const T
   add(kThumbMetacarpalBody, Dof::kThumbCmcFlexion);
   add(kThumbMetacarpalBody, Dof::kThumbCmcAbduction);
   for (int body = 1; body < kSegmentCount; ++body) {
-    const RollingJoint& joint = person.joints.phalanx[at(body)];
+    const RollingJoint& joint = person.joints.phalanx[body];
     add(body, joint.flexion);
     if (joint.abduction) add(body, *joint.abduction);
   }
@@ -135,7 +132,7 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
   subject.axes = true_axes(person, reference);
 
   parallel_for(static_cast<int>(scans.size()), [&](int s) {
-    const auto& [name, to] = scans[at(s)];
+    const auto& [name, to] = scans[s];
     const Posture& posture = person.postures.at(name);
     const auto motion = body_motions(person.joints, posture);
     PosedTissue posed = tissue.pose(posture);
@@ -149,12 +146,12 @@ MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) 
     std::vector<Vec3> markers;
     if (shows_markers(name)) {
       const std::vector<Vec3> normal = vertex_normals(skin, person.skin.triangles);
-      for (const int v : marked) markers.push_back(skin[at(v)] + kMarkerRadius * normal[at(v)]);
+      for (const int v : marked) markers.push_back(skin[v] + kMarkerRadius * normal[v]);
     }
     result.skin = to.mesh({skin, person.skin.triangles});
     for (const SubjectBone& b : bones) {
-      result.bone[b.bone.name] = to.patient_from_hand * to.motion(motion[at(b.body)]) *
-                                 reference.patient_from_hand.inverse();
+      result.bone[b.bone.name] =
+          to.patient_from_hand * to.motion(motion[b.body]) * reference.patient_from_hand.inverse();
     }
     result.parts = tissue_parts({.person = &person,
                                  .bones = &bones,

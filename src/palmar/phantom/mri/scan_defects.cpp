@@ -26,8 +26,6 @@ namespace {
 
 enum Stream : std::uint64_t { kRough = 70, kColour, kPlace, kWaves };
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Directions spread evenly over the sphere (Fibonacci lattice).
 std::vector<Vec3> directions(int count) {
   std::vector<Vec3> all;
@@ -46,16 +44,15 @@ std::vector<double> openness(const TriangleMesh& mesh) {
   const std::vector<Vec3> ways = directions(64);
   std::vector<double> share(mesh.triangles.size());
   parallel_for(mesh.triangle_count(), [&](int t) {
-    const Triangle& c = mesh.triangles[at(t)];
-    const Vec3 &a = mesh.vertices[at(c[0])], &b = mesh.vertices[at(c[1])],
-               &d = mesh.vertices[at(c[2])];
+    const Triangle& c = mesh.triangles[t];
+    const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
     const Vec3 normal = (b - a).cross(d - a).normalized();
     const Vec3 from = (a + b + d) / 3.0 + 0.02 * normal;
     int open = 0;
     for (const Vec3& way : ways) {
       if (way.dot(normal) > 0.05 && !rays.first_hit(from, way)) ++open;
     }
-    share[at(t)] = static_cast<double>(open) / static_cast<double>(ways.size());
+    share[t] = static_cast<double>(open) / static_cast<double>(ways.size());
   });
   return share;
 }
@@ -70,7 +67,7 @@ ColouredMesh kept(const ColouredMesh& surface, const std::vector<char>& keep) {
   options.drops_duplicates = false;
   const WeldResult welded = weld(mesh, options);
   ColouredMesh result{welded.mesh, {}};
-  for (const int old : welded.old_of_new) result.colour.push_back(surface.colour[at(old)]);
+  for (const int old : welded.old_of_new) result.colour.push_back(surface.colour[old]);
   return result;
 }
 
@@ -97,7 +94,7 @@ ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
   for (std::size_t t = 0; t < keep.size(); ++t) {
     double lowest = 1e9;
     for (const int v : hand.mesh.triangles[t]) {
-      lowest = std::min(lowest, hand.mesh.vertices[at(v)].y());
+      lowest = std::min(lowest, hand.mesh.vertices[v].y());
     }
     keep[t] = lowest > wrist_y - defects.forearm && open[t] >= defects.hidden ? 1 : 0;
   }
@@ -137,7 +134,8 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
                                  coarse.triangle_count(), side, side));
   }
   TexturedSurface result{coarse, {}};
-  RgbImage image{side, side, std::vector<std::uint8_t>(std::size_t{3} * at(side) * at(side))};
+  RgbImage image{side, side,
+                 std::vector<std::uint8_t>(std::size_t{3} * static_cast<std::size_t>(side) * side)};
   // The lower left half of a square shows one triangle, the upper right half the other, each with a
   // border of a pixel that goes on beyond it.
   const auto corner_of = [&](int t) {
@@ -155,7 +153,7 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
   const ClosestPointQuery query(fine.mesh);
   parallel_for(coarse.triangle_count(), [&](int t) {
     const auto p = corner_of(t);
-    const Triangle& c = coarse.triangles[at(t)];
+    const Triangle& c = coarse.triangles[t];
     Eigen::Matrix2d base;
     base << p[1] - p[0], p[2] - p[0];
     const Eigen::Matrix2d inverse = base.inverse();
@@ -167,18 +165,18 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
         const bool is_upper = x - x0 > y - y0;
         if (is_upper != (t % 2 == 1)) continue;
         const Eigen::Vector2d w = inverse * (Eigen::Vector2d(x + 0.5, y + 0.5) - p[0]);
-        const Vec3 q = (1.0 - w[0] - w[1]) * coarse.vertices[at(c[0])] +
-                       w[0] * coarse.vertices[at(c[1])] + w[1] * coarse.vertices[at(c[2])];
+        const Vec3 q = (1.0 - w[0] - w[1]) * coarse.vertices[c[0]] + w[0] * coarse.vertices[c[1]] +
+                       w[1] * coarse.vertices[c[2]];
         const auto near = query.closest(q, std::numeric_limits<double>::infinity(), hint);
         hint = near->triangle;
         Srgb colour = Srgb::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
           colour += static_cast<float>(near->weights[k]) *
-                    fine.colour[at(fine.mesh.triangles[at(near->triangle)][k])];
+                    fine.colour[fine.mesh.triangles[near->triangle][k]];
         }
-        const std::size_t pixel = 3 * (at(y) * at(side) + at(x));
+        const std::size_t pixel = 3 * (static_cast<std::size_t>(y) * side + x);
         for (int k = 0; k < 3; ++k) {
-          image.rgb[pixel + at(k)] =
+          image.rgb[pixel + static_cast<std::size_t>(k)] =
               static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(colour[k], 0.0F, 1.0F)));
         }
       }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
@@ -18,8 +19,6 @@ namespace {
 constexpr double kFat = 200.0, kMarrow = 185.0, kMuscle = 78.0, kSkin = 95.0, kCartilage = 100.0,
                  kLigament = 60.0, kTendon = 16.0, kCortex = 12.0, kClay = 62.0, kMarker = 225.0;
 constexpr double kSkinThickness = 1.7;  // mm
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 TriangleMesh moved(const TriangleMesh& mesh, const Rigid3& by) {
   TriangleMesh result = mesh;
@@ -41,13 +40,13 @@ TriangleMesh muscle(const PosedSubject& subject, const TriangleMesh& skin) {
   const std::vector<Vec3> normal = vertex_normals(skin);
   const std::vector<Vec3> facing = vertex_normals(subject.person->skin);
   for (int i = 0; i < skin.vertex_count(); ++i) {
-    const Vec3 &v = skin.vertices[at(i)], &core = subject.posed.core[at(i)];
+    const Vec3 &v = skin.vertices[i], &core = subject.posed.core[i];
     // Pads of the palm are thicker than the back of the hand.
-    const double fat = 3.3 + 1.2 * facing[at(i)].z();
+    const double fat = 3.3 + 1.2 * facing[i].z();
     const double depth = std::min(fat, 0.7 * (v - core).norm());
     const double finger = std::clamp(1.6 * subject.tissue->finger_share(i), 0.0, 1.0);
-    result.vertices[at(i)] =
-        (1.0 - finger) * (v - depth * normal[at(i)]) + finger * (core + 0.08 * (v - core));
+    result.vertices[i] =
+        (1.0 - finger) * (v - depth * normal[i]) + finger * (core + 0.08 * (v - core));
   }
   return result;
 }
@@ -64,16 +63,14 @@ class Tendons {
     for (int f = 0; f < kFingerCount; ++f) {
       const auto segments = segments_of(static_cast<Finger>(f));
       const int count = f == 0 ? 2 : 3;
-      const double w = person.finger_width[at(f)];
+      const double w = person.finger_width[f];
       std::array<const RollingJoint*, 3> joint{};
       for (int k = 0; k < count; ++k) {
-        joint[at(k)] = &person.joints.phalanx[static_cast<std::size_t>(*segments[at(k)])];
+        joint[k] = &person.joints.phalanx[index_of(*segments[k])];
       }
       const int metacarpal = f == 0 ? kThumbMetacarpalBody : 0;
       const Vec3 mcp = joint[0]->centre;
-      const auto palmar = [&](int k) -> Vec3 {
-        return joint[at(k)]->axis.cross(joint[at(k)]->along);
-      };
+      const auto palmar = [&](int k) -> Vec3 { return joint[k]->axis.cross(joint[k]->along); };
       // Flexor: forearm, carpal tunnel, palm, then along the phalanges.
       const double aside = (f - 2.3) * -2.9 * size, layer = f % 2 == 0 ? 1.6 : -1.6;
       std::vector<Vec3> in_palm{wrist + Vec3(1.4 * aside, -40.0, (9.0 + layer) * size),
@@ -86,15 +83,15 @@ class Tendons {
           at_body(metacarpal, mcp - 13.0 * size * back + (joint[0]->radius + 3.6) * palmar(0)));
       std::vector<Vec3> sheath(flexor.begin() + 2, flexor.end());
       for (int k = 0; k < count; ++k) {
-        const int body = static_cast<int>(*segments[at(k)]);
+        const int body = static_cast<int>(*segments[k]);
         const bool is_last = k + 1 == count;
-        const Vec3 end = is_last ? person.skeleton.fingertips[at(f)] : joint[at(k + 1)]->centre;
-        const double length = (end - joint[at(k)]->centre).norm();
+        const Vec3 end = is_last ? person.skeleton.fingertips[f] : joint[k + 1]->centre;
+        const double length = (end - joint[k]->centre).norm();
         for (const double share : {0.4, 0.68}) {
           if (is_last && share > 0.5) continue;
           const double off = 0.19 * w + (is_last ? 1.2 : 2.7);
-          flexor.push_back(at_body(
-              body, joint[at(k)]->centre + share * length * joint[at(k)]->along + off * palmar(k)));
+          flexor.push_back(
+              at_body(body, joint[k]->centre + share * length * joint[k]->along + off * palmar(k)));
         }
       }
       tendons.push_back({tube_mesh(below_skin(flexor, 0.115 * w), 0.115 * w), kTendon});
@@ -109,10 +106,10 @@ class Tendons {
           at_body(metacarpal, mcp - 20.0 * size * back - (0.26 * w + 2.6) * palmar(0)));
       extensor.push_back(at_body(metacarpal, mcp - (joint[0]->radius + 1.5) * palmar(0)));
       for (int k = 0; k + 1 < count; ++k) {
-        const int body = static_cast<int>(*segments[at(k)]);
-        const Vec3 here = joint[at(k)]->centre, next = joint[at(k + 1)]->centre;
+        const int body = static_cast<int>(*segments[k]);
+        const Vec3 here = joint[k]->centre, next = joint[k + 1]->centre;
         extensor.push_back(at_body(body, 0.5 * (here + next) - (0.19 * w + 1.9) * palmar(k)));
-        extensor.push_back(at_body(body, next - (joint[at(k + 1)]->radius + 1.0) * palmar(k)));
+        extensor.push_back(at_body(body, next - (joint[k + 1]->radius + 1.0) * palmar(k)));
       }
       tendons.push_back({tube_mesh(below_skin(extensor, 0.9), 0.9), kTendon});
     }
@@ -139,9 +136,7 @@ class Tendons {
     }
     return path;
   }
-  Vec3 at_body(int body, const Vec3& reference) const {
-    return subject_.motion[at(body)] * reference;
-  }
+  Vec3 at_body(int body, const Vec3& reference) const { return subject_.motion[body] * reference; }
   const PosedSubject& subject_;
   MeshDistance skin_;
 };
@@ -163,12 +158,12 @@ TriangleMesh joint_filling(const Vec3& centre, const Vec3& along, const Vec3& la
 std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& tissue, int count) {
   const std::vector<Vec3>& skin = person.skin.vertices;
   const std::vector<Vec3> normal = vertex_normals(person.skin);
-  const Vec3 ball = skin[at(tissue.thumb_ball_vertex())];
-  const Vec3 facing = normal[at(tissue.thumb_ball_vertex())];
+  const Vec3 ball = skin[tissue.thumb_ball_vertex()];
+  const Vec3 facing = normal[tissue.thumb_ball_vertex()];
   const double size = person.skeleton.joint(JointId::kMiddleMcp).centre.norm() / 92.5;
   std::vector<int> candidates;
   for (int i = 0; i < person.skin.vertex_count(); ++i) {
-    if ((skin[at(i)] - ball).norm() < 27.0 * size && normal[at(i)].dot(facing) > 0.1) {
+    if ((skin[i] - ball).norm() < 27.0 * size && normal[i].dot(facing) > 0.1) {
       candidates.push_back(i);
     }
   }
@@ -178,7 +173,7 @@ std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& 
     double farthest = -1.0;
     for (const int i : candidates) {
       double nearest = std::numeric_limits<double>::max();
-      for (const int c : chosen) nearest = std::min(nearest, (skin[at(i)] - skin[at(c)]).norm());
+      for (const int c : chosen) nearest = std::min(nearest, (skin[i] - skin[c]).norm());
       if (nearest > farthest) {
         farthest = nearest;
         best = i;
@@ -187,7 +182,7 @@ std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& 
     if (best < 0) break;
     chosen.push_back(best);
   }
-  chosen.resize(std::min(chosen.size(), at(count)));
+  chosen.resize(std::min(chosen.size(), static_cast<std::size_t>(count)));
   return chosen;
 }
 
@@ -211,18 +206,18 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
       {joint_filling(cmc.centre, cmc.along, cmc.abduction_axis, Vec3(6.5, 4.5, 6.5) * size),
        kCartilage});
   for (int body = 1; body < kSegmentCount; ++body) {
-    const RollingJoint& joint = person.joints.phalanx[at(body)];
+    const RollingJoint& joint = person.joints.phalanx[body];
     const double r = joint.radius;
     const TriangleMesh filling = joint_filling(joint.centre + 0.7 * r * joint.along, joint.along,
                                                joint.axis, Vec3(1.15 * r, 0.9 * r, 0.95 * r));
-    parts.push_back({moved(filling, subject.motion[at(body)]), kCartilage});
+    parts.push_back({moved(filling, subject.motion[body]), kCartilage});
   }
   parts.insert(parts.end(), tendons.begin(), tendons.end());
   for (const SubjectBone& bone : *subject.bones) {
-    parts.push_back({moved(bone.bone.mesh, subject.motion[at(bone.body)]), kCortex});
+    parts.push_back({moved(bone.bone.mesh, subject.motion[bone.body]), kCortex});
   }
   for (const SubjectBone& bone : *subject.bones) {
-    parts.push_back({moved(bone.marrow, subject.motion[at(bone.body)]), kMarrow});
+    parts.push_back({moved(bone.marrow, subject.motion[bone.body]), kMarrow});
   }
   for (const Vec3& centre : subject.markers) {
     TriangleMesh ball = make_icosphere(kMarkerRadius, 3);

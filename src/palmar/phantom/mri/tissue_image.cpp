@@ -21,8 +21,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Rays are shifted by these shares of a sub-sample, so that none meets a corner of a mesh whose
 // corners lie on the grid.
 constexpr double kShiftJ = 1.0e-6, kShiftK = 0.6180339887e-6;
@@ -58,8 +56,8 @@ struct SliceRays {
 // Computed alike by both triangles at the edge and never 0, so that a closed surface has no gap.
 double side(const std::vector<Vec3>& v, int a, int b, double j, double k) {
   const bool is_turned = a > b;
-  const Vec3& p = v[at(is_turned ? b : a)];
-  const Vec3& q = v[at(is_turned ? a : b)];
+  const Vec3& p = v[is_turned ? b : a];
+  const Vec3& q = v[is_turned ? a : b];
   double value = (q.y() - p.y()) * (k - p.z()) - (q.z() - p.z()) * (j - p.y());
   if (value == 0.0) value = std::numeric_limits<double>::min();
   return is_turned ? -value : value;
@@ -67,7 +65,7 @@ double side(const std::vector<Vec3>& v, int a, int b, double j, double k) {
 
 void cross_triangle(const PartTriangles& part, int part_index, const Triangle& t,
                     const SliceRays& rays, double handedness, std::vector<Crossing>& found) {
-  const Vec3 &a = part.vertex[at(t[0])], &b = part.vertex[at(t[1])], &c = part.vertex[at(t[2])];
+  const Vec3 &a = part.vertex[t[0]], &b = part.vertex[t[1]], &c = part.vertex[t[2]];
   const double j_low = std::min({a.y(), b.y(), c.y()}), j_high = std::max({a.y(), b.y(), c.y()});
   const double k_low = std::min({a.z(), b.z(), c.z()}), k_high = std::max({a.z(), b.z(), c.z()});
   const int first = rays.first_row(j_low), last = rays.last_row(j_high);
@@ -98,7 +96,7 @@ void add_interval(double from, double to, double signal, std::size_t row_begin, 
   const int first = static_cast<int>(begin), last = std::min(static_cast<int>(end), count - 1);
   for (int i = first; i <= last; ++i) {
     const double covered = std::min(end, i + 1.0) - std::max(begin, double(i));
-    if (covered > 0.0) sum[row_begin + at(i)] += signal * covered;
+    if (covered > 0.0) sum[row_begin + static_cast<std::size_t>(i)] += signal * covered;
   }
 }
 
@@ -110,25 +108,26 @@ std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const Vol
     if (p.i != q.i) return p.i < q.i;
     return p.part != q.part ? p.part < q.part : p.step < q.step;
   });
-  std::vector<double> sum(at(grid.size[0]) * at(grid.size[1]), 0.0);
+  std::vector<double> sum(static_cast<std::size_t>(grid.size[0]) * grid.size[1], 0.0);
   const double share = 1.0 / (rays.subsamples * rays.subsamples);
   std::vector<int> inside(parts.size(), 0);  // winding number of the part
   for (auto begin = crossings.cbegin(); begin != crossings.cend();) {
     const auto end = std::find_if(begin, crossings.cend(),
                                   [&](const Crossing& c) { return c.row != begin->row; });
     std::fill(inside.begin(), inside.end(), 0);
-    const std::size_t row_begin = at(begin->row % rays.rows / rays.subsamples) * at(grid.size[0]);
+    const std::size_t row_begin =
+        static_cast<std::size_t>(begin->row % rays.rows / rays.subsamples) * grid.size[0];
     int top = -1;  // the last part that the ray is in
     for (; begin != end; ++begin) {
       if (top >= 0) {
-        add_interval(std::prev(begin)->i, begin->i, share * parts[at(top)].signal, row_begin,
+        add_interval(std::prev(begin)->i, begin->i, share * parts[top].signal, row_begin,
                      grid.size[0], sum);
       }
-      inside[at(begin->part)] += begin->step;
-      if (inside[at(begin->part)] > 0) {
+      inside[begin->part] += begin->step;
+      if (inside[begin->part] > 0) {
         top = std::max(top, begin->part);
       } else if (top == begin->part) {
-        while (top >= 0 && inside[at(top)] <= 0) --top;
+        while (top >= 0 && inside[top] <= 0) --top;
       }
     }
   }
@@ -145,7 +144,7 @@ class ReceiveField {
       for (int d = 0; d < 3; ++d) (*direction)[d] = random.normal();
       *direction /= direction->lpNorm<1>();  // from -1 to 1 between opposite corners
     }
-    for (int d = 0; d < 3; ++d) half_[d] = std::max(0.5 * (grid.size[at(d)] - 1), 0.5);
+    for (int d = 0; d < 3; ++d) half_[d] = std::max(0.5 * (grid.size[d] - 1), 0.5);
   }
 
   double at_voxel(int i, int j, int k) const {
@@ -183,7 +182,7 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
   double brightest = 0.0;
   std::vector<PartTriangles> placed(parts.size());
   // Triangles that each slice meets, part by part.
-  std::vector<std::vector<std::array<int, 2>>> in_slice(at(slices));
+  std::vector<std::vector<std::array<int, 2>>> in_slice(slices);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const TriangleMesh& mesh = parts[p].mesh;
     const std::string name = fmt::format("part {} of {} of the image", p + 1, parts.size());
@@ -199,13 +198,13 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
     for (const Vec3& v : mesh.vertices) placed[p].vertex.push_back(grid.to_voxel(v));
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       double low = std::numeric_limits<double>::max(), high = -low;
-      for (const int v : mesh.triangles[at(t)]) {
-        low = std::min(low, placed[p].vertex[at(v)].z());
-        high = std::max(high, placed[p].vertex[at(v)].z());
+      for (const int v : mesh.triangles[t]) {
+        low = std::min(low, placed[p].vertex[v].z());
+        high = std::max(high, placed[p].vertex[v].z());
       }
       const int first = static_cast<int>(std::floor(std::clamp(low + 0.5, 0.0, double(slices))));
       const int last = static_cast<int>(std::floor(std::clamp(high + 0.5, -1.0, slices - 1.0)));
-      for (int k = first; k <= last; ++k) in_slice[at(k)].push_back({static_cast<int>(p), t});
+      for (int k = first; k <= last; ++k) in_slice[k].push_back({static_cast<int>(p), t});
     }
     progress.throw_if_cancelled();
   }
@@ -219,15 +218,16 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
     progress.throw_if_cancelled();
     const SliceRays rays{k, grid.size[1] * options.subsamples, options.subsamples};
     std::vector<Crossing> crossings;
-    for (const auto& [p, t] : in_slice[at(k)]) {
-      const PartTriangles& part = placed[at(p)];
-      cross_triangle(part, p, (*part.triangle)[at(t)], rays, handedness, crossings);
+    for (const auto& [p, t] : in_slice[k]) {
+      const PartTriangles& part = placed[p];
+      cross_triangle(part, p, (*part.triangle)[t], rays, handedness, crossings);
     }
     const std::vector<double> signal = slice_signal(parts, grid, rays, crossings);
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t voxel = grid.at(i, j, k);
-        double value = signal[at(j) * at(grid.size[0]) + at(i)] * field.at_voxel(i, j, k);
+        double value =
+            signal[static_cast<std::size_t>(j) * grid.size[0] + i] * field.at_voxel(i, j, k);
         if (noise > 0.0) {
           // Normal deviates of both channels (Box, Muller 1958); the phase of the signal is 0.
           RandomStream random(options.seed, voxel);

@@ -120,7 +120,7 @@ TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
   std::vector<Vec3> vertices{place(begin, 0.0, 0.0)};
   for (std::size_t ring = 0; ring < sections.front().size(); ++ring) {
     for (int k = 0; k < kAround; ++k) {
-      const Eigen::Vector2d& p = sections[static_cast<std::size_t>(k)][ring];
+      const Eigen::Vector2d& p = sections[k][ring];
       vertices.push_back(place(p.x(), p.y(), 2.0 * std::numbers::pi * k / kAround));
     }
   }

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
@@ -22,8 +23,6 @@ constexpr double kBand = 10.0;        // mm, between bands of constant volume
 constexpr double kLeastShare = 0.01;  // smaller shares of a part are dropped
 constexpr int kChains = kFingerCount + 1;
 constexpr int kPalmChain = kFingerCount;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Link {
   int body;
@@ -70,13 +69,13 @@ double prism_volume(const std::vector<Vec3>& skin, const std::vector<Vec3>& core
   double sign = 1.0;
   for (const std::array<int, 2>& pair : {std::array{0, 1}, std::array{1, 2}, std::array{0, 1}}) {
     const int a = pair[0], b = pair[1];
-    if (v[at(a)] > v[at(b)]) {
-      std::swap(v[at(a)], v[at(b)]);
+    if (v[a] > v[b]) {
+      std::swap(v[a], v[b]);
       sign = -sign;
     }
   }
-  const Vec3 &s0 = skin[at(v[0])], &s1 = skin[at(v[1])], &s2 = skin[at(v[2])];
-  const Vec3 &c0 = core[at(v[0])], &c1 = core[at(v[1])], &c2 = core[at(v[2])];
+  const Vec3 &s0 = skin[v[0]], &s1 = skin[v[1]], &s2 = skin[v[2]];
+  const Vec3 &c0 = core[v[0]], &c1 = core[v[1]], &c2 = core[v[2]];
   const auto det = [](const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c) {
     return (a - o).cross(b - o).dot(c - o);
   };
@@ -129,18 +128,18 @@ struct SoftTissue::Impl {
     const SubjectJoints& joints = person->joints;
     const Vec3 wrist = person->skeleton.joint(JointId::kWrist).centre;
     links.push_back({kThumbMetacarpalBody, joints.cmc.centre,
-                     joints.phalanx[at(static_cast<int>(Segment::kThumbProximal))].centre});
+                     joints.phalanx[static_cast<int>(Segment::kThumbProximal)].centre});
     for (int f = 0; f < kFingerCount; ++f) {
       const auto segments = segments_of(static_cast<Finger>(f));
       const int count = f == 0 ? 2 : 3;
       const auto centre = [&](int k) -> Vec3 {
-        return k < count ? joints.phalanx[static_cast<std::size_t>(*segments[at(k)])].centre
-                         : person->skeleton.fingertips[at(f)];
+        return k < count ? joints.phalanx[index_of(*segments[k])].centre
+                         : person->skeleton.fingertips[f];
       };
       for (int k = 0; k < count; ++k) {
         Vec3 to = centre(k + 1);
         if (k + 1 == count) to -= 6.0 * (to - centre(k)).normalized();
-        links.push_back({static_cast<int>(*segments[at(k)]), centre(k), to});
+        links.push_back({static_cast<int>(*segments[k]), centre(k), to});
       }
       if (f > 0) {
         const Vec3 base = wrist + 0.3 * (centre(0) - wrist);
@@ -178,8 +177,7 @@ struct SoftTissue::Impl {
     for (const Triangle& t : skin.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-        const Vec3 p = skin.vertices[at(a)] - skin.vertices[at(c)],
-                   q = skin.vertices[at(b)] - skin.vertices[at(c)];
+        const Vec3 p = skin.vertices[a] - skin.vertices[c], q = skin.vertices[b] - skin.vertices[c];
         const double cotangent =
             0.5 * std::clamp(p.dot(q) / std::max(p.cross(q).norm(), 1e-9), 0.02, 10.0);
         entries.emplace_back(a, b, -cotangent);
@@ -191,9 +189,9 @@ struct SoftTissue::Impl {
     const std::vector<double> area = vertex_areas(skin);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, kBodyCount);
     for (int i = 0; i < n; ++i) {
-      const double heat = area[at(i)] / (depth[at(i)] * depth[at(i)]);
+      const double heat = area[i] / (depth[i] * depth[i]);
       entries.emplace_back(i, i, heat);
-      right(i, nearest[at(i)]) = heat;
+      right(i, nearest[i]) = heat;
     }
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -202,13 +200,13 @@ struct SoftTissue::Impl {
       throw NumericalError("subject: the shares of the bones in the skin can't be found");
     }
     const Eigen::MatrixXd weight = solver.solve(right);
-    share.resize(at(n));
+    share.resize(n);
     for (int i = 0; i < n; ++i) {
       double sum = 0.0;
       for (int b = 0; b < kBodyCount; ++b) sum += std::max(0.0, weight(i, b) - kLeastShare);
       for (int b = 0; b < kBodyCount; ++b) {
         const double w = weight(i, b) - kLeastShare;
-        if (w > 0.0) share[at(i)].push_back({b, w / sum});
+        if (w > 0.0) share[i].push_back({b, w / sum});
       }
     }
   }
@@ -225,7 +223,7 @@ struct SoftTissue::Impl {
     const std::vector<Vec3>& skin = person->skin.vertices;
     std::array<std::vector<Link>, kChains> chain;
     for (const Link& link : links) {
-      if (link.body != 0) chain[at(chain_of(link.body))].push_back(link);
+      if (link.body != 0) chain[chain_of(link.body)].push_back(link);
     }
     std::vector<std::array<double, kChains>> station(skin.size());
     std::array<double, kChains> low, high;
@@ -234,50 +232,49 @@ struct SoftTissue::Impl {
     for (std::size_t i = 0; i < skin.size(); ++i) {
       for (int c = 0; c < kFingerCount; ++c) {
         double along = 0.0, best = std::numeric_limits<double>::max();
-        for (const Link& link : chain[at(c)]) {
+        for (const Link& link : chain[c]) {
           const Near here = near_link(link, skin[i]);
           if (here.distance < best) {
             best = here.distance;
-            station[i][at(c)] = along + (here.point - link.from).norm();
+            station[i][c] = along + (here.point - link.from).norm();
           }
           along += (link.to - link.from).norm();
         }
       }
-      station[i][at(kPalmChain)] = skin[i].y();
+      station[i][kPalmChain] = skin[i].y();
       for (const Share& s : share[i]) {
         const int c = chain_of(s.body);
-        low[at(c)] = std::min(low[at(c)], station[i][at(c)]);
-        high[at(c)] = std::max(high[at(c)], station[i][at(c)]);
+        low[c] = std::min(low[c], station[i][c]);
+        high[c] = std::max(high[c], station[i][c]);
       }
     }
     std::array<int, kChains> first{}, bands{};
     int count = 0;
     for (int c = 0; c < kChains; ++c) {
-      first[at(c)] = count;
-      bands[at(c)] = std::max(2, 1 + static_cast<int>((high[at(c)] - low[at(c)]) / kBand));
-      for (int k = count; k + 1 < count + bands[at(c)]; ++k) neighbour_band.push_back({k, k + 1});
-      count += bands[at(c)];
+      first[c] = count;
+      bands[c] = std::max(2, 1 + static_cast<int>((high[c] - low[c]) / kBand));
+      for (int k = count; k + 1 < count + bands[c]; ++k) neighbour_band.push_back({k, k + 1});
+      count += bands[c];
     }
-    band_volume.assign(at(count), 0.0);
+    band_volume.assign(count, 0.0);
     hat.resize(skin.size());
     for (std::size_t i = 0; i < skin.size(); ++i) {
       std::array<double, kChains> part{};
-      for (const Share& s : share[i]) part[at(chain_of(s.body))] += s.weight;
+      for (const Share& s : share[i]) part[chain_of(s.body)] += s.weight;
       for (int c = 0; c < kChains; ++c) {
-        if (part[at(c)] <= 0.0) continue;
-        const double x =
-            (station[i][at(c)] - low[at(c)]) / (high[at(c)] - low[at(c)]) * (bands[at(c)] - 1);
-        const int k = std::clamp(static_cast<int>(x), 0, bands[at(c)] - 2);
+        if (part[c] <= 0.0) continue;
+        const double x = (station[i][c] - low[c]) / (high[c] - low[c]) * (bands[c] - 1);
+        const int k = std::clamp(static_cast<int>(x), 0, bands[c] - 2);
         const double t = std::clamp(x - k, 0.0, 1.0);
-        if (t < 1.0) hat[i].push_back({first[at(c)] + k, part[at(c)] * (1.0 - t)});
-        if (t > 0.0) hat[i].push_back({first[at(c)] + k + 1, part[at(c)] * t});
+        if (t < 1.0) hat[i].push_back({first[c] + k, part[c] * (1.0 - t)});
+        if (t > 0.0) hat[i].push_back({first[c] + k + 1, part[c] * t});
       }
     }
   }
 
   void find_thumb_ball() {
     const SubjectJoints& joints = person->joints;
-    const RollingJoint& mp = joints.phalanx[at(static_cast<int>(Segment::kThumbProximal))];
+    const RollingJoint& mp = joints.phalanx[static_cast<int>(Segment::kThumbProximal)];
     const Vec3 palmar = mp.axis.cross(mp.along);
     const Vec3 middle = joints.cmc.centre + 0.45 * (mp.centre - joints.cmc.centre);
     const std::vector<Vec3>& skin = person->skin.vertices;
@@ -285,16 +282,17 @@ struct SoftTissue::Impl {
     const auto nearest_to = [&](const Vec3& p) {
       int best = 0;
       for (int i = 0; i < static_cast<int>(skin.size()); ++i) {
-        if ((skin[at(i)] - p).squaredNorm() < (skin[at(best)] - p).squaredNorm()) best = i;
+        if ((skin[i] - p).squaredNorm() < (skin[best] - p).squaredNorm()) best = i;
       }
       return best;
     };
     ball_vertex = nearest_to(middle + 18.0 * size * (palmar + Vec3::UnitZ()).normalized());
-    ball = skin[at(ball_vertex)];
-    ball_radial =
-        skin[at(nearest_to(middle + 18.0 * size * (palmar + 0.8 * Vec3::UnitX()).normalized()))];
-    const Vec3 index = joints.phalanx[at(static_cast<int>(Segment::kIndexProximal))].centre;
-    web = skin[at(nearest_to(0.5 * (mp.centre + index) + 8.0 * size * Vec3::UnitZ()))];
+    ball = skin[ball_vertex];
+    ball_radial = skin[static_cast<std::size_t>(
+        nearest_to(middle + 18.0 * size * (palmar + 0.8 * Vec3::UnitX()).normalized()))];
+    const Vec3 index = joints.phalanx[static_cast<int>(Segment::kIndexProximal)].centre;
+    web = skin[static_cast<std::size_t>(
+        nearest_to(0.5 * (mp.centre + index) + 8.0 * size * Vec3::UnitZ()))];
     towards_wrist = -joints.cmc.along;
   }
 
@@ -303,7 +301,7 @@ struct SoftTissue::Impl {
     for (const Triangle& t : person->skin.triangles) {
       const double v = prism_volume(skin, core, t) / 3.0;
       for (const int corner : t) {
-        for (const Hat& h : hat[at(corner)]) volume[at(h.band)] += h.weight * v;
+        for (const Hat& h : hat[corner]) volume[h.band] += h.weight * v;
       }
     }
     return volume;
@@ -318,8 +316,8 @@ struct SoftTissue::Impl {
     for (std::size_t i = 0; i < skin.size(); ++i) {
       DualQuaternion sum;
       for (const Share& s : share[i]) {
-        sum.real += s.weight * dual[at(s.body)].real;
-        sum.dual += s.weight * dual[at(s.body)].dual;
+        sum.real += s.weight * dual[s.body].real;
+        sum.dual += s.weight * dual[s.body].dual;
       }
       const Rigid3 turn = rigid(sum);
       skin[i] = turn * skin[i];
@@ -329,7 +327,7 @@ struct SoftTissue::Impl {
 
   // Muscle that shortens swells: out along the skin's normal, and a little towards the wrist.
   void swell(const Posture& posture, const Rigid3& metacarpal, std::vector<Vec3>& skin) const {
-    constexpr double kFull = 22.0 * std::numbers::pi / 180.0;
+    constexpr double kFull = 22.0 * kDegree;
     const SaddleJoint& cmc = person->joints.cmc;
     const double f = (posture[Dof::kThumbCmcFlexion] - cmc.flexion_reference) / kFull;
     const double a = (posture[Dof::kThumbCmcAbduction] - cmc.abduction_reference) / kFull;
@@ -381,7 +379,7 @@ struct SoftTissue::Impl {
         matrix(c, b) -= stiff;
       }
       for (Eigen::Index b = 0; b < bands; ++b) {
-        missing[b] = band_volume[static_cast<std::size_t>(b)] - volume[static_cast<std::size_t>(b)];
+        missing[b] = band_volume[b] - volume[b];
         matrix(b, b) += 1e-3 * matrix(b, b) + 1e-6;
       }
       const Eigen::VectorXd offset = matrix.ldlt().solve(missing).cwiseMax(-kMost).cwiseMin(kMost);
@@ -409,7 +407,7 @@ struct SoftTissue::Impl {
       if (crossing.vertex.empty()) return;
       std::vector<double> in(skin.size(), 0.0);
       for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
-        in[at(crossing.vertex[k])] = 0.5 * std::min(crossing.depth[k], kMost) + 0.1;
+        in[crossing.vertex[k]] = 0.5 * std::min(crossing.depth[k], kMost) + 0.1;
       }
       in = widened(std::move(in), 2);
       const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
@@ -423,7 +421,7 @@ struct SoftTissue::Impl {
       std::vector<double> wider = height;
       for (std::size_t i = 0; i < height.size(); ++i) {
         double mean = 0.0;
-        for (const int j : neighbour[i]) mean += height[at(j)];
+        for (const int j : neighbour[i]) mean += height[j];
         wider[i] = std::max(height[i], 0.8 * mean / static_cast<double>(neighbour[i].size()));
       }
       height = std::move(wider);
@@ -436,11 +434,11 @@ struct SoftTissue::Impl {
       std::vector<double> lift(skin.size(), 0.0);
       parallel_for(static_cast<int>(skin.size()), [&](int i) {
         for (std::size_t b = 0; b < bones->size(); ++b) {
-          const Vec3 p = motion[at((*bones)[b].body)].inverse() * skin[at(i)];
+          const Vec3 p = motion[(*bones)[b].body].inverse() * skin[i];
           if (bone_distance[b]->bounding_box().exteriorDistance(p) > kLeastPosedCover) continue;
           DistanceSample sample;
           bone_distance[b]->sample({&p, 1}, 4.0, {&sample, 1});
-          lift[at(i)] = std::max(lift[at(i)], kLeastPosedCover - sample.distance);
+          lift[i] = std::max(lift[i], kLeastPosedCover - sample.distance);
         }
       });
       bool is_free = true;
@@ -461,7 +459,7 @@ int SoftTissue::thumb_ball_vertex() const { return impl_->ball_vertex; }
 
 double SoftTissue::finger_share(int vertex) const {
   double sum = 0.0;
-  for (const Impl::Share& s : impl_->share[at(vertex)]) {
+  for (const Impl::Share& s : impl_->share[vertex]) {
     if (s.body != 0 && s.body != kThumbMetacarpalBody) sum += s.weight;
   }
   return sum;
@@ -471,7 +469,7 @@ PosedTissue SoftTissue::pose(const Posture& posture) const {
   const std::array<Rigid3, kBodyCount> motion = body_motions(impl_->person->joints, posture);
   PosedTissue posed;
   impl_->blend(motion, posed.skin, posed.core);
-  impl_->swell(posture, motion[at(kThumbMetacarpalBody)], posed.skin);
+  impl_->swell(posture, motion[kThumbMetacarpalBody], posed.skin);
   impl_->keep_volume(posed.core, posed.skin);
   impl_->part_touching_skin(posed.skin);
   impl_->lift_off_bones(motion, posed.skin);

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/remesh/subdivide.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/dimensions/hand_sections.h"
@@ -24,7 +23,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kSpreadDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kHandStream = 77, kPersonStream = 79;
 
 double about_zero(RandomStream& random, double most) {
@@ -44,16 +42,16 @@ Posture straightened(const SubjectPerson& person, RandomStream& random) {
   for (int f = 0; f < 4; ++f) {
     const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
     const auto set = [&](int k, double degrees, double most) {
-      posture[static_cast<Dof>(first + k)] = kSpreadDegree * (degrees + about_zero(random, most));
+      posture[static_cast<Dof>(first + k)] = kDegree * (degrees + about_zero(random, most));
     };
     set(0, 2.0, 3.0);
     set(2, 3.0, 3.0);
     set(3, 2.0, 2.0);
   }
-  posture[Dof::kThumbCmcFlexion] += kSpreadDegree * (-12.0 + about_zero(random, 5.0));
-  posture[Dof::kThumbCmcAbduction] += kSpreadDegree * about_zero(random, 4.0);
-  posture[Dof::kThumbMpFlexion] = kSpreadDegree * about_zero(random, 4.0);
-  posture[Dof::kThumbIpFlexion] = kSpreadDegree * about_zero(random, 5.0);
+  posture[Dof::kThumbCmcFlexion] += kDegree * (-12.0 + about_zero(random, 5.0));
+  posture[Dof::kThumbCmcAbduction] += kDegree * about_zero(random, 4.0);
+  posture[Dof::kThumbMpFlexion] = kDegree * about_zero(random, 4.0);
+  posture[Dof::kThumbIpFlexion] = kDegree * about_zero(random, 5.0);
   return laid_on_table(posture,
                        [&](const Posture& p) { return tip_heights(subject_skeleton(person, p)); });
 }
@@ -63,9 +61,8 @@ void fan_out(Posture& posture, double share, RandomStream& random) {
   constexpr std::array<double, 4> kFan{13.0, 1.0, -9.0, -20.0};  // degrees
   for (int f = 0; f < 4; ++f) {
     const auto abduction = static_cast<Dof>(static_cast<int>(Dof::kIndexMcpAbduction) + 4 * f);
-    posture[abduction] += share * kSpreadDegree *
-                          ((0.8 + 0.3 * random.uniform()) * kFan[static_cast<std::size_t>(f)] +
-                           about_zero(random, 1.5));
+    posture[abduction] +=
+        share * kDegree * ((0.8 + 0.3 * random.uniform()) * kFan[f] + about_zero(random, 1.5));
   }
 }
 
@@ -85,7 +82,7 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options) {
                               Dof::kRingMcpAbduction, Dof::kLittleMcpAbduction}) {
     posture[abduction] =
         (1.0 - options.together) * posture[abduction] * (0.75 + 0.2 * random.uniform()) +
-        about_zero(random, 1.5) * kSpreadDegree * (1.0 - options.together);
+        about_zero(random, 1.5) * kDegree * (1.0 - options.together);
   }
   posture[Dof::kThumbCmcFlexion] *= 0.3;
   posture = laid_on_table(posture, [&](const Posture& p) {
@@ -126,8 +123,7 @@ SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& optio
     const std::vector<Vec3> vertices(
         skin.vertices.begin(), skin.vertices.begin() + static_cast<std::ptrdiff_t>(segment.size()));
     for (int f = 0; f < kFingerCount; ++f) {
-      skeleton.fingertips[static_cast<std::size_t>(f)] =
-          fingertip_of(vertices, segment, skeleton, static_cast<Finger>(f));
+      skeleton.fingertips[f] = fingertip_of(vertices, segment, skeleton, static_cast<Finger>(f));
     }
     return skeleton;
   };

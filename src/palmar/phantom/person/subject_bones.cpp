@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/distance/mesh_distance.h"
@@ -27,9 +28,6 @@ constexpr std::uint64_t kStream = 20;
 constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
 constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
 constexpr double kTypicalWristToMcp = 92.5;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-std::size_t at(Segment s) { return static_cast<std::size_t>(s); }
 
 struct Draft {
   SubjectBone bone;
@@ -64,8 +62,8 @@ class BoneMaker {
     make_forearm();
     std::vector<SubjectBone> bones(placed_.size());
     parallel_for(static_cast<int>(placed_.size()), [&](int i) {
-      placed_[at(i)].bone.marrow = marrow_of(placed_[at(i)]);
-      bones[at(i)] = std::move(placed_[at(i)].bone);
+      placed_[i].bone.marrow = marrow_of(placed_[i]);
+      bones[i] = std::move(placed_[i].bone);
     });
     return bones;
   }
@@ -98,30 +96,30 @@ class BoneMaker {
 void BoneMaker::draw_in(Draft& draft, const std::function<bool(const Vec3&)>& is_free) const {
   TriangleMesh& mesh = draft.bone.bone.mesh;
   const int count = mesh.vertex_count();
-  std::vector<double> share(at(count), 1.0);
+  std::vector<double> share(count, 1.0);
   parallel_for(count, [&](int i) {
-    const Vec3 &core = draft.core[at(i)], &v = mesh.vertices[at(i)];
+    const Vec3 &core = draft.core[i], &v = mesh.vertices[i];
     if (is_free(v)) return;
     double inside = 0.05, outside = 1.0;
     for (int k = 0; k < 9; ++k) {
       const double middle = 0.5 * (inside + outside);
       (is_free(core + middle * (v - core)) ? inside : outside) = middle;
     }
-    share[at(i)] = inside;
+    share[i] = inside;
   });
   constexpr double kRelief = 0.05;  // per edge of 0.8 mm
   for (int pass = 0; pass < 8; ++pass) {
     for (const Triangle& t : mesh.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        double& mine = share[at(t[k])];
-        mine = std::min(mine, share[at(t[(k + 1) % 3])] + kRelief);
-        mine = std::min(mine, share[at(t[(k + 2) % 3])] + kRelief);
+        double& mine = share[t[k]];
+        mine = std::min(mine, share[t[(k + 1) % 3]] + kRelief);
+        mine = std::min(mine, share[t[(k + 2) % 3]] + kRelief);
       }
     }
   }
   for (int i = 0; i < count; ++i) {
-    Vec3& v = mesh.vertices[at(i)];
-    v = draft.core[at(i)] + share[at(i)] * (v - draft.core[at(i)]);
+    Vec3& v = mesh.vertices[i];
+    v = draft.core[i] + share[i] * (v - draft.core[i]);
   }
 }
 
@@ -136,7 +134,7 @@ void BoneMaker::place(Draft draft) {
     const int mine = draft.bone.body, other = placed_[i].bone.body;
     std::vector<Rigid3> relative{Rigid3{}};
     if (mine != other) {
-      for (const auto& m : motions_) relative.push_back(m[at(other)].inverse() * m[at(mine)]);
+      for (const auto& m : motions_) relative.push_back(m[other].inverse() * m[mine]);
     }
     const Box3 placed_box = distance_[i]->bounding_box();
     std::vector<Rigid3> near;
@@ -192,9 +190,9 @@ std::vector<Vec3> core_on_chord(const TriangleMesh& mesh, const Vec3& from, cons
 
 Vec3 BoneMaker::metacarpal_base(int f, double head_radius) const {
   const auto finger = static_cast<Finger>(f);
-  const Vec3 head = person_.joints.phalanx[at(*segments_of(finger)[0])].centre;
+  const Vec3 head = person_.joints.phalanx[index_of(*segments_of(finger)[0])].centre;
   // Bases stand closer together than heads, and more dorsal.
-  const double length = kMetacarpal[at(f)] * scale_ - head_radius;
+  const double length = kMetacarpal[f] * scale_ - head_radius;
   Vec3 base(wrist_.x() + 0.58 * (head.x() - wrist_.x()), 0.0,
             wrist_.z() + 0.5 * (head.z() - wrist_.z()) - 0.5);
   const double aside = (head - base).x(), deep = (head - base).z();
@@ -208,20 +206,20 @@ void BoneMaker::make_ray(int f) {
   const auto segments = segments_of(finger);
   const int count = is_thumb ? 2 : 3;
   const std::string name(name_of(finger));
-  const double w = person_.finger_width[at(f)];
+  const double w = person_.finger_width[f];
   const double build = varied(0.05);  // of this ray's bones
   std::array<JointSurface, 3> head;   // that the joint of each phalanx turns on
   std::array<Vec3, 4> node;
   for (int k = 0; k < count; ++k) {
-    const RollingJoint& joint = person_.joints.phalanx[at(*segments[at(k)])];
-    node[at(k)] = joint.centre;
+    const RollingJoint& joint = person_.joints.phalanx[index_of(*segments[k])];
+    node[k] = joint.centre;
     const double size = w * build * varied(0.03);
-    head[at(k)] = k == 0 ? JointSurface{0.38 * size, 0.41 * size, 0.0}
-                         : JointSurface{(k == 1 ? 0.25 : 0.22) * size,
-                                        (k == 1 ? 0.33 : 0.29) * size, 0.055 * size * varied(0.2)};
+    head[k] = k == 0 ? JointSurface{0.38 * size, 0.41 * size, 0.0}
+                     : JointSurface{(k == 1 ? 0.25 : 0.22) * size, (k == 1 ? 0.33 : 0.29) * size,
+                                    0.055 * size * varied(0.2)};
   }
-  const Vec3 tip = person_.skeleton.fingertips[at(f)];
-  node[at(count)] = tip;
+  const Vec3 tip = person_.skeleton.fingertips[f];
+  node[count] = tip;
 
   const auto add = [&](const std::string& bone_name, std::optional<Segment> segment, int body,
                        const LongBoneShape& shape, double thickness) {
@@ -242,10 +240,10 @@ void BoneMaker::make_ray(int f) {
   };
 
   LongBoneShape metacarpal;
-  base_[at(f)] = is_thumb ? person_.joints.cmc.centre : metacarpal_base(f, head[0].radius);
-  metacarpal.base = base_[at(f)];
+  base_[f] = is_thumb ? person_.joints.cmc.centre : metacarpal_base(f, head[0].radius);
+  metacarpal.base = base_[f];
   metacarpal.head = node[0];
-  metacarpal.lateral = person_.joints.phalanx[at(*segments[0])].axis;
+  metacarpal.lateral = person_.joints.phalanx[index_of(*segments[0])].axis;
   metacarpal.gap = is_thumb ? 1.5 : 0.0;
   metacarpal.condyles = head[0];
   metacarpal.base_half_width = (is_thumb ? 0.40 : 0.42) * w * build * varied(0.05);
@@ -260,30 +258,30 @@ void BoneMaker::make_ray(int f) {
 
   for (int k = 0; k < count; ++k) {
     const bool is_last = k + 1 == count;
-    const Segment segment = *segments[at(k)];
+    const Segment segment = *segments[k];
     LongBoneShape shape;
-    shape.base = node[at(k)];
-    shape.socket = head[at(k)];
+    shape.base = node[k];
+    shape.socket = head[k];
     shape.gap = 1.5 * varied(0.08);
-    shape.lateral = person_.joints.phalanx[at(segment)].axis;
-    const JointSurface& on = head[at(k)];
+    shape.lateral = person_.joints.phalanx[index_of(segment)].axis;
+    const JointSurface& on = head[k];
     shape.base_half_width = (k == 0 ? 1.0 : 1.08) * on.half_width * varied(0.03);
     shape.base_half_depth = (k == 0 ? 0.92 : 1.12) * on.radius * varied(0.03);
     shape.ripple = 0.04;
     shape.twist = varied(0.4);
     if (is_last) {
-      const Vec3 along = (tip - node[at(k)]).normalized();
+      const Vec3 along = (tip - node[k]).normalized();
       const double tuft = 0.15 * w * build * varied(0.05);
       // The tuft lies close under the nail, where the finger is thick enough for it.
-      shape.head = sunk(skin_, tip - (kTipTissue[at(f)] * scale_ + tuft) * along,
+      shape.head = sunk(skin_, tip - (kTipTissue[f] * scale_ + tuft) * along,
                         shape.lateral.cross(along), kLeastSkinCover + tuft, 3.0);
       shape.condyles = {tuft, 0.25 * w * build * varied(0.05), 0.0};
       shape.waist_half_width = 0.19 * w * build * varied(0.05);
       shape.waist_half_depth = 0.15 * w * build * varied(0.05);
       shape.bow = 0.3 * scale_;
     } else {
-      shape.head = node[at(k + 1)];
-      shape.condyles = head[at(k + 1)];
+      shape.head = node[k + 1];
+      shape.condyles = head[k + 1];
       shape.waist_half_width = 0.235 * w * build * varied(0.05);
       shape.waist_half_depth = 0.19 * w * build * varied(0.05);
       shape.bow = 1.0 * scale_ * varied(0.25);
@@ -298,14 +296,14 @@ void BoneMaker::make_ray(int f) {
 // neighbour less half of the joint space.
 void BoneMaker::make_carpals() {
   const Vec3 away =
-      (person_.joints.cmc.centre - person_.joints.phalanx[at(Segment::kThumbProximal)].centre)
+      (person_.joints.cmc.centre - person_.joints.phalanx[index_of(Segment::kThumbProximal)].centre)
           .normalized();
   struct Carpal {
     const char* name;
     Vec3 centre, half;
   };
   const auto below = [&](int f, double aside, double proximal) -> Vec3 {
-    return base_[at(f)] + scale_ * Vec3(aside, -proximal, 0.0);
+    return base_[f] + scale_ * Vec3(aside, -proximal, 0.0);
   };
   const double carpus = base_[2].y() - wrist_.y();
   const auto row = [&](double aside, double share, double palmar) -> Vec3 {

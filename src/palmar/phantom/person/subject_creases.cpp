@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/random.h"
 
 namespace palmar {
@@ -40,9 +41,9 @@ Skeleton subject_skeleton(const SubjectPerson& person, const Posture& posture) {
     for (const auto& segment : segments_of(static_cast<Finger>(f))) {
       if (!segment) continue;
       const int body = static_cast<int>(*segment);
-      const Rigid3& after = motion[static_cast<std::size_t>(body)];
-      const Rigid3& before = motion[static_cast<std::size_t>(*parent_of(body))];
-      Joint& joint = skeleton.joints[static_cast<std::size_t>(joint_of(*segment))];
+      const Rigid3& after = motion[body];
+      const Rigid3& before = motion[*parent_of(body)];
+      Joint& joint = skeleton.joints[index_of(joint_of(*segment))];
       joint.centre = before * joint.centre;
       for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
         // Of two axes the first is fixed to the distal part.
@@ -53,8 +54,8 @@ Skeleton subject_skeleton(const SubjectPerson& person, const Posture& posture) {
     }
     const auto chain = segments_of(static_cast<Finger>(f));
     const Segment last = *chain[chain[2] ? 2 : 1];
-    Vec3& tip = skeleton.fingertips[static_cast<std::size_t>(f)];
-    tip = motion[static_cast<std::size_t>(last)] * tip;
+    Vec3& tip = skeleton.fingertips[f];
+    tip = motion[index_of(last)] * tip;
   }
   for (Joint& joint : skeleton.joints) {
     for (JointDof& dof : joint.dofs) dof.reference = posture[dof.dof];

@@ -7,8 +7,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 Rigid3 about(const Vec3& axis, const Vec3& point, double angle) {
   return Rigid3::about_axis(axis, point, angle);
 }
@@ -55,11 +53,10 @@ std::optional<int> parent_of(int body) {
 
 std::array<Rigid3, kBodyCount> body_motions(const SubjectJoints& joints, const Posture& posture) {
   std::array<Rigid3, kBodyCount> motion;
-  motion[at(kThumbMetacarpalBody)] = joint_motion(joints.cmc, posture);
+  motion[kThumbMetacarpalBody] = joint_motion(joints.cmc, posture);
   // Segments stand from proximal to distal, so a parent comes first.
   for (int body = 1; body < kSegmentCount; ++body) {
-    motion[at(body)] =
-        motion[at(*parent_of(body))] * joint_motion(joints.phalanx[at(body)], posture);
+    motion[body] = motion[*parent_of(body)] * joint_motion(joints.phalanx[body], posture);
   }
   return motion;
 }
@@ -70,10 +67,9 @@ InstantAxis instant_axis(const SubjectJoints& joints, const Posture& reference, 
   const auto motion = [&](double step) {
     Posture posture = reference;
     posture[dof] += step;
-    return is_cmc ? joint_motion(joints.cmc, posture)
-                  : joint_motion(joints.phalanx[at(body)], posture);
+    return is_cmc ? joint_motion(joints.cmc, posture) : joint_motion(joints.phalanx[body], posture);
   };
-  const Vec3& centre = is_cmc ? joints.cmc.centre : joints.phalanx[at(body)].centre;
+  const Vec3& centre = is_cmc ? joints.cmc.centre : joints.phalanx[body].centre;
   const Rigid3 step = motion(kStep) * motion(-kStep).inverse();
   const Vec3 turn = 2.0 * step.rotation.vec() / (2.0 * kStep);     // per rad
   const Vec3 velocity = (step * centre - centre) / (2.0 * kStep);  // mm per rad

@@ -9,18 +9,19 @@
 #include <numbers>
 #include <vector>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
+
 namespace palmar {
 namespace {
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 // A PIP joint at the origin: phalanx along y, flexion about x, towards z.
 SubjectJoints one_finger() {
   SubjectJoints joints;
   for (int body = 1; body < kSegmentCount; ++body) {
-    joints.phalanx[static_cast<std::size_t>(body)].flexion = Dof::kRingPipFlexion;
+    joints.phalanx[body].flexion = Dof::kRingPipFlexion;
   }
-  RollingJoint& pip = joints.phalanx[static_cast<std::size_t>(Segment::kIndexMiddle)];
+  RollingJoint& pip = joints.phalanx[index_of(Segment::kIndexMiddle)];
   pip.flexion = Dof::kIndexPipFlexion;
   pip.radius = 4.0;
   pip.ellipse = 0.1;
@@ -32,7 +33,7 @@ constexpr int kPip = static_cast<int>(Segment::kIndexMiddle);
 
 Posture bent(double degrees) {
   Posture posture;
-  posture[Dof::kIndexPipFlexion] = degrees * kDeg;
+  posture[Dof::kIndexPipFlexion] = degrees * kDegree;
   return posture;
 }
 
@@ -86,8 +87,8 @@ TEST(SubjectJoints, NoFixedAxisReproducesTheSaddleJoint) {
   std::vector<Quat> limit;
   for (const auto& [f, a] : {std::pair{22.0, 0.0}, {-22.0, 0.0}, {0.0, 22.0}, {0.0, -22.0}}) {
     Posture posture;
-    posture[Dof::kThumbCmcFlexion] = f * kDeg;
-    posture[Dof::kThumbCmcAbduction] = a * kDeg;
+    posture[Dof::kThumbCmcFlexion] = f * kDegree;
+    posture[Dof::kThumbCmcAbduction] = a * kDegree;
     limit.push_back(joint_motion(cmc, posture).rotation);
   }
   // Whatever the axis: after the best turn about it a swing square to it is left, which moves the
@@ -117,20 +118,20 @@ TEST(SubjectJoints, QuaternionsAlongAFingerDontJump) {
   Posture posture;
   const std::array<Dof, 3> dof{Dof::kIndexMcpFlexion, Dof::kIndexPipFlexion, Dof::kIndexDipFlexion};
   for (int body = 1; body < kSegmentCount; ++body) {
-    joints.phalanx[static_cast<std::size_t>(body)].flexion = Dof::kWristFlexion;
+    joints.phalanx[body].flexion = Dof::kWristFlexion;
   }
   const int first = static_cast<int>(Segment::kIndexProximal);
   for (int k = 0; k < 3; ++k) {
-    RollingJoint& joint = joints.phalanx[static_cast<std::size_t>(first + k)];
-    joint.flexion = dof[static_cast<std::size_t>(k)];
+    RollingJoint& joint = joints.phalanx[first + k];
+    joint.flexion = dof[k];
     joint.centre = Vec3(0.0, 30.0 * k, 0.0);
-    posture[joint.flexion] = 80.0 * kDeg;
+    posture[joint.flexion] = 80.0 * kDegree;
   }
   const auto motion = body_motions(joints, posture);
   for (int k = 0; k < 2; ++k) {
-    const Quat& a = motion[static_cast<std::size_t>(first + k)].rotation;
-    const Quat& b = motion[static_cast<std::size_t>(first + k + 1)].rotation;
-    EXPECT_NEAR(a.dot(b), std::cos(40.0 * kDeg), 1e-12);
+    const Quat& a = motion[first + k].rotation;
+    const Quat& b = motion[first + k + 1].rotation;
+    EXPECT_NEAR(a.dot(b), std::cos(40.0 * kDegree), 1e-12);
   }
 }
 

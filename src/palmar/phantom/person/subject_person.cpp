@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "palmar/capture/skin_registration.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/instance/hand_instance.h"
@@ -20,10 +21,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 enum Stream : std::uint64_t { kSize = 1, kOutline, kJoints, kPostures };
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Normal, held to two and a half deviations.
 double spread(RandomStream& random, double deviation) {
@@ -58,7 +56,7 @@ Hand sized_hand(const Hand& base, std::uint64_t seed) {
     const double own = 1.0 + spread(random, 0.03);
     if (finger_of(segment) == Finger::kMiddle) continue;
     targets.push_back({{DimensionKind::kSegmentLength, segment},
-                       base.dimensions.segment[at(k)].length * larger * own});
+                       base.dimensions.segment[k].length * larger * own});
   }
   return make_hand_instance(base, targets).hand;
 }
@@ -70,13 +68,13 @@ Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
       {{16, 22, 9}, {18, 24, 9}, {20, 24, 9}, {20, 22, 9}}};  // deg, MCP, PIP, DIP
   for (int f = 0; f < 4; ++f) {
     const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
-    posture[static_cast<Dof>(first)] = kDeg * (kFlexion[at(f)][0] + spread(random, 2.0));
-    posture[static_cast<Dof>(first + 2)] = kDeg * (kFlexion[at(f)][1] + spread(random, 2.0));
-    posture[static_cast<Dof>(first + 3)] = kDeg * (kFlexion[at(f)][2] + spread(random, 1.5));
+    posture[static_cast<Dof>(first)] = kDegree * (kFlexion[f][0] + spread(random, 2.0));
+    posture[static_cast<Dof>(first + 2)] = kDegree * (kFlexion[f][1] + spread(random, 2.0));
+    posture[static_cast<Dof>(first + 3)] = kDegree * (kFlexion[f][2] + spread(random, 1.5));
   }
-  posture[Dof::kThumbMpFlexion] = kDeg * (8.0 + spread(random, 2.0));
-  posture[Dof::kThumbIpFlexion] = kDeg * (10.0 + spread(random, 2.0));
-  posture[Dof::kThumbCmcAbduction] += kDeg * (2.0 + spread(random, 1.5));
+  posture[Dof::kThumbMpFlexion] = kDegree * (8.0 + spread(random, 2.0));
+  posture[Dof::kThumbIpFlexion] = kDegree * (10.0 + spread(random, 2.0));
+  posture[Dof::kThumbCmcAbduction] += kDegree * (2.0 + spread(random, 1.5));
   return posture;
 }
 
@@ -162,34 +160,33 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
     const auto segments = segments_of(static_cast<Finger>(f));
     const int count = f == 0 ? 2 : 3;
     std::array<Vec3, 4> node;
-    for (int k = 0; k < count; ++k) node[at(k)] = skeleton.joint(joint_of(*segments[at(k)])).centre;
-    node[at(count)] = skeleton.fingertips[at(f)];
+    for (int k = 0; k < count; ++k) node[k] = skeleton.joint(joint_of(*segments[k])).centre;
+    node[count] = skeleton.fingertips[f];
     const Joint& second = skeleton.joint(joint_of(*segments[1]));
     const Vec3 finger = (node[2] - node[0]).normalized();
-    person.finger_width[at(f)] =
-        finger_width(person.skin, node[1], second.dofs.back().axis, finger);
+    person.finger_width[f] = finger_width(person.skin, node[1], second.dofs.back().axis, finger);
     // Joints of bones lie up to 1 mm dorsal of those of the base, or elsewhere by half a
     // millimetre, but so deep that there's room for the bones between them and the skin.
-    const double least = 0.25 * person.finger_width[at(f)] + kLeastSkinCover;
+    const double least = 0.25 * person.finger_width[f] + kLeastSkinCover;
     for (int k = 0; k < count; ++k) {
-      const Joint& joint = skeleton.joint(joint_of(*segments[at(k)]));
-      const Vec3 along = (node[at(k + 1)] - node[at(k)]).normalized();
+      const Joint& joint = skeleton.joint(joint_of(*segments[k]));
+      const Vec3 along = (node[k + 1] - node[k]).normalized();
       const Vec3 palmar = joint.dofs.back().axis.cross(along);
       const double dorsal = 0.5 + spread(random, 0.25), distal = spread(random, 0.5);
-      node[at(k)] += distal * along - dorsal * palmar;
-      if (k > 0) node[at(k)] = sunk(skin, node[at(k)], palmar, least, 3.0);
+      node[k] += distal * along - dorsal * palmar;
+      if (k > 0) node[k] = sunk(skin, node[k], palmar, least, 3.0);
     }
     for (int k = 0; k < count; ++k) {
-      const Segment segment = *segments[at(k)];
-      Joint& model = skeleton.joints[static_cast<std::size_t>(joint_of(segment))];
+      const Segment segment = *segments[k];
+      Joint& model = skeleton.joints[index_of(joint_of(segment))];
       RollingJoint joint;
       joint.flexion = model.dofs.back().dof;
-      joint.centre = node[at(k)];
-      joint.along = (node[at(k + 1)] - node[at(k)]).normalized();
+      joint.centre = node[k];
+      joint.along = (node[k + 1] - node[k]).normalized();
       const Vec3 axis = tilted(model.dofs.back().axis, random, 0.02);
       joint.axis = (axis - axis.dot(joint.along) * joint.along).normalized();
       joint.axis = (joint.axis + spread(random, 0.015) * joint.along).normalized();
-      joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[at(f)];
+      joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[f];
       joint.ellipse = 0.09 + spread(random, 0.02);
       joint.creep = 0.3 + spread(random, 0.08);
       joint.twist = spread(random, 0.012);
@@ -206,17 +203,16 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       }
       model.dofs.back().axis = joint.axis;
       model.dofs.back().centre = joint.centre;
-      person.joints.phalanx[static_cast<std::size_t>(segment)] = joint;
+      person.joints.phalanx[index_of(segment)] = joint;
     }
   }
   // Saddle joint: axes of Mirakhorlo et al. 2016, table 3 (as in hand/thumb_cmc.h), tilted; 4 to 6
   // mm apart (Chang & Pollard 2008: 4.6 mm).
-  Joint& model = skeleton.joints[static_cast<std::size_t>(JointId::kThumbCmc)];
+  Joint& model = skeleton.joints[index_of(JointId::kThumbCmc)];
   SaddleJoint& cmc = person.joints.cmc;
   cmc.centre = model.centre + Vec3(spread(random, 0.6), spread(random, 0.6), spread(random, 0.6));
   cmc.along =
-      (person.joints.phalanx[static_cast<std::size_t>(Segment::kThumbProximal)].centre - cmc.centre)
-          .normalized();
+      (person.joints.phalanx[index_of(Segment::kThumbProximal)].centre - cmc.centre).normalized();
   cmc.flexion_axis = tilted(model.dofs.at(1).axis, random, 0.06);
   cmc.abduction_axis = tilted(model.dofs.at(0).axis, random, 0.06);
   const Vec3 apart = cmc.flexion_axis.cross(cmc.abduction_axis).normalized();
@@ -244,10 +240,10 @@ std::vector<Vec3> chain(const SubjectPerson& person, int f, const Posture& postu
   const int count = f == 0 ? 2 : 3;
   std::vector<Vec3> point;
   for (int k = 0; k < count; ++k) {
-    const auto body = static_cast<std::size_t>(*segments[at(k)]);
+    const std::size_t body = index_of(*segments[k]);
     const RollingJoint& joint = person.joints.phalanx[body];
     const Vec3 end = k + 1 < count ? person.joints.phalanx[body + 1].centre
-                                   : Vec3(person.skeleton.fingertips[at(f)] - 6.0 * joint.along);
+                                   : Vec3(person.skeleton.fingertips[f] - 6.0 * joint.along);
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
       point.push_back(motion[body] * (joint.centre + share * (end - joint.centre)));
     }
@@ -262,7 +258,7 @@ double nearness(const SubjectPerson& person, int f, int g, const Posture& postur
   for (const Vec3& p : mine) {
     for (const Vec3& q : other) nearest = std::min(nearest, (p - q).norm());
   }
-  return nearest / (0.5 * (person.finger_width[at(f)] + person.finger_width[at(g)]));
+  return nearest / (0.5 * (person.finger_width[f] + person.finger_width[g]));
 }
 
 // Whether the thumb touches no finger and isn't pressed hard on the bar.
@@ -288,7 +284,7 @@ void make_room(const SubjectPerson& person, Posture& posture) {
       is_free = false;
       // The outer of the two gives way.
       (f == 1 ? posture[abduction(1)] : posture[abduction(f + 1)]) +=
-          (f == 1 ? 1.0 : -1.0) * 0.6 * kDeg;
+          (f == 1 ? 1.0 : -1.0) * 0.6 * kDegree;
     }
     if (is_free) return;
   }
@@ -297,7 +293,7 @@ void make_room(const SubjectPerson& person, Posture& posture) {
 // A bar across the palm below the knuckles, a little into the skin.
 HeldBar laid_in_palm(const SubjectPerson& person, double radius) {
   const auto mcp = [&](Segment s) -> const Vec3& {
-    return person.joints.phalanx[static_cast<std::size_t>(s)].centre;
+    return person.joints.phalanx[index_of(s)].centre;
   };
   const Vec3 &index = mcp(Segment::kIndexProximal), &little = mcp(Segment::kLittleProximal);
   HeldBar bar;
@@ -319,18 +315,18 @@ HeldBar laid_in_palm(const SubjectPerson& person, double radius) {
 
 // Bends a finger joint by joint until each phalanx lies on the bar.
 void close_on(const SubjectPerson& person, int f, Posture& posture) {
-  constexpr double kStep = 0.5 * kDeg;
+  constexpr double kStep = 0.5 * kDegree;
   const auto segments = segments_of(static_cast<Finger>(f));
   const int count = f == 0 ? 2 : 3;
-  const std::array<double, 3> most{f == 0 ? 40.0 * kDeg : 80.0 * kDeg,
-                                   f == 0 ? 50.0 * kDeg : 95.0 * kDeg, 55.0 * kDeg};
+  const std::array<double, 3> most{f == 0 ? 40.0 * kDegree : 80.0 * kDegree,
+                                   f == 0 ? 50.0 * kDegree : 95.0 * kDegree, 55.0 * kDegree};
   for (int k = 0; k < count; ++k) {
-    const auto body = static_cast<std::size_t>(*segments[at(k)]);
+    const std::size_t body = index_of(*segments[k]);
     const RollingJoint& joint = person.joints.phalanx[body];
     const Vec3 end =
-        k + 1 < count ? person.joints.phalanx[body + 1].centre : person.skeleton.fingertips[at(f)];
+        k + 1 < count ? person.joints.phalanx[body + 1].centre : person.skeleton.fingertips[f];
     // From the axis of the bone to its palmar skin; the last phalanx is thinner.
-    const double flesh = (k + 1 < count ? 0.50 : 0.46) * person.finger_width[at(f)] - 0.6;
+    const double flesh = (k + 1 < count ? 0.50 : 0.46) * person.finger_width[f] - 0.6;
     const auto is_free = [&] {
       const Rigid3 motion = body_motions(person.joints, posture)[body];
       for (const double share : {0.5, 0.7, 0.9}) {
@@ -340,7 +336,7 @@ void close_on(const SubjectPerson& person, int f, Posture& posture) {
       return true;
     };
     double& angle = posture[joint.flexion];
-    while (angle < most[at(k)] && is_free() && (f > 0 || is_clear(person, posture))) {
+    while (angle < most[k] && is_free() && (f > 0 || is_clear(person, posture))) {
       angle += kStep;
     }
   }
@@ -350,7 +346,7 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   RandomStream random(seed, kPostures);
   const Posture& reference = person.reference;
   const auto turned = [&](Posture& p, Dof dof, double degrees, double deviation) {
-    p[dof] += kDeg * (degrees + spread(random, deviation));
+    p[dof] += kDegree * (degrees + spread(random, deviation));
   };
   const auto thumb = [&](double flexion, double abduction, double mp, double ip) {
     Posture p = reference;
@@ -366,14 +362,14 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
       constexpr std::array<double, 4> kDeviation{3.0, 1.5, 3.0, 2.0};
       const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
       for (int k = 0; k < 4; ++k) {
-        turned(p, static_cast<Dof>(first + k), 0.0, kDeviation[at(k)]);
+        turned(p, static_cast<Dof>(first + k), 0.0, kDeviation[k]);
       }
     }
     return p;
   };
   const auto finger = [&](Posture& p, int f, const std::array<double, 4>& degrees) {
     const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
-    for (int k = 0; k < 4; ++k) turned(p, static_cast<Dof>(first + k), degrees[at(k)], 1.0);
+    for (int k = 0; k < 4; ++k) turned(p, static_cast<Dof>(first + k), degrees[k], 1.0);
   };
   auto& all = person.postures;
   all[ScanPosture::kReference] = reference;
@@ -402,9 +398,9 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   for (int f = 1; f < kFingerCount; ++f) close_on(person, f, grasp);
   make_room(person, grasp);
   // The thumb gives way to the fingers, then closes.
-  const double least = grasp[Dof::kThumbCmcFlexion] - 30.0 * kDeg;
+  const double least = grasp[Dof::kThumbCmcFlexion] - 30.0 * kDegree;
   while (!is_clear(person, grasp) && grasp[Dof::kThumbCmcFlexion] > least) {
-    grasp[Dof::kThumbCmcFlexion] -= kDeg;
+    grasp[Dof::kThumbCmcFlexion] -= kDegree;
   }
   close_on(person, 0, grasp);
   all[ScanPosture::kGrasp] = grasp;
@@ -423,7 +419,7 @@ SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
   reshape(person.skin, person.skeleton, seed);
   lengthen_forearm(person.skin, person.skeleton.joint(JointId::kWrist).centre);
   for (int f = 0; f < kFingerCount; ++f) {
-    person.skeleton.fingertips[at(f)] =
+    person.skeleton.fingertips[f] =
         fingertip_of(person.skin.vertices, hand.segment, person.skeleton, static_cast<Finger>(f));
   }
   make_joints(person, seed);

@@ -30,8 +30,6 @@ namespace {
 
 enum Stream : std::uint64_t { kPattern = 61, kDots };
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double some(RandomStream& random, double deviation) {
   return deviation * std::clamp(random.normal(), -2.5, 2.5);
 }
@@ -43,7 +41,7 @@ struct SkinPlace {
   Vec3 in(const std::vector<Vec3>& skin, const std::vector<Triangle>& triangles) const {
     Vec3 p = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      p += weights[k] * skin[at(triangles[at(triangle)][k])];
+      p += weights[k] * skin[triangles[triangle][k]];
     }
     return p;
   }
@@ -84,9 +82,9 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
     const int count = chain[2] ? 3 : 2;
     const int first_node = f == 0 ? 2 : 1;
     for (int k = 0; k < count; ++k) {
-      const Joint& joint = person.skeleton.joint(joint_of(*chain[at(k)]));
-      const Vec3 end = k + 1 < count ? person.skeleton.joint(joint_of(*chain[at(k + 1)])).centre
-                                     : person.skeleton.fingertips[at(f)];
+      const Joint& joint = person.skeleton.joint(joint_of(*chain[k]));
+      const Vec3 end = k + 1 < count ? person.skeleton.joint(joint_of(*chain[k + 1])).centre
+                                     : person.skeleton.fingertips[f];
       const Vec3 along = end - joint.centre;
       const Vec3 palmar = creases.palmar_direction(finger, first_node + k);
       const Vec3 aside = along.cross(palmar).normalized();
@@ -97,7 +95,7 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
                                                        {is_last ? 0.42 : 0.62, 0.6}}};
       for (const auto& [share, side] : spot) {
         const Vec3 from = joint.centre + (share + some(random, 0.02)) * along;
-        add(*chain[at(k)], from, -palmar + (side + some(random, 0.04)) * aside);
+        add(*chain[k], from, -palmar + (side + some(random, 0.04)) * aside);
       }
     }
   }
@@ -116,7 +114,7 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
 /// How far a crease reaches from the finger's axis, mm: round the palmar half of the finger; at the
 /// thumb's base, which widens into the ball, farther.
 double crease_reach(const SubjectPerson& person, Segment segment) {
-  const double width = person.finger_width[at(static_cast<int>(*finger_of(segment)))];
+  const double width = person.finger_width[static_cast<int>(*finger_of(segment))];
   return segment == Segment::kThumbProximal ? width + 6.0 : 0.75 * width + 3.0;
 }
 
@@ -129,12 +127,12 @@ template <typename IsOnIt>
 void add_crossings(const TriangleMesh& skin, const CreasePlane& plane, const IsOnIt& is_on_it,
                    std::vector<SkinPlace>& line) {
   for (int t = 0; t < skin.triangle_count(); ++t) {
-    const Triangle& corner = skin.triangles[at(t)];
+    const Triangle& corner = skin.triangles[t];
     for (std::size_t e = 0; e < 3; ++e) {
       const std::size_t next = (e + 1) % 3;
       const int a = corner[e], b = corner[next];
       if (a > b) continue;  // every edge once
-      const Vec3 &pa = skin.vertices[at(a)], &pb = skin.vertices[at(b)];
+      const Vec3 &pa = skin.vertices[a], &pb = skin.vertices[b];
       const double va = plane.value(pa), vb = plane.value(pb);
       if ((va < 0.0) == (vb < 0.0)) continue;
       const double s = va / (va - vb);
@@ -160,7 +158,7 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
       fine(options.seed + 2, kPattern, 1.2);
   result.colour.resize(skin.vertices.size());
   parallel_for(static_cast<int>(skin.vertices.size()), [&](int v) {
-    const Vec3& p = skin.vertices[at(v)];
+    const Vec3& p = skin.vertices[v];
     const double height = creases.palmar_height(p);
     // The palm is paler and redder than the back.
     const double palm = std::clamp(0.5 + height / 8.0, 0.0, 1.0);
@@ -196,7 +194,7 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
       const double distance = (p - d).norm();
       if (distance < paint.dot_diameter) ink(paint.dot, 0.5 * paint.dot_diameter - distance);
     }
-    result.colour[at(v)] = colour.cwiseMax(0.0F).cwiseMin(1.0F);
+    result.colour[v] = colour.cwiseMax(0.0F).cwiseMin(1.0F);
   });
   if (!paint.has_creases) return result;
   add_crossings(
@@ -228,7 +226,7 @@ std::vector<double> ring_heights(const SubjectPerson& person, const TriangleMesh
   const Vec3& next = creases.proximal_crease(*chain[1]).point;
   const Vec3 along = (next - base).normalized();
   const Vec3 middle = base + kPlace * (next - base);
-  const double reach = person.finger_width[at(static_cast<int>(finger))];
+  const double reach = person.finger_width[static_cast<int>(finger)];
   std::vector<double> height(skin.vertices.size(), 0.0);
   for (std::size_t v = 0; v < height.size(); ++v) {
     const Vec3& p = skin.vertices[v];
@@ -299,7 +297,7 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
   for (int f = 0; f < kFingerCount; ++f) {
     const auto chain = segments_of(static_cast<Finger>(f));
     const auto nearer = [&](const Vec3& a, const Vec3& b) {
-      const Vec3& tip = person.skeleton.fingertips[at(f)];
+      const Vec3& tip = person.skeleton.fingertips[f];
       return (a - tip).squaredNorm() < (b - tip).squaredNorm();
     };
     const auto& v = reference.vertices;
@@ -322,13 +320,13 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
       }
     }
     for (const auto& [segment, vertex] : tips) {
-      result.fingertip[segment] = side(skin.vertices[at(vertex)]);
+      result.fingertip[segment] = side(skin.vertices[vertex]);
     }
     const auto motion = body_motions(person.joints, posture);
     for (int body = 1; body < kSegmentCount; ++body) {
-      const auto& joint = person.joints.phalanx[at(body)];
+      const auto& joint = person.joints.phalanx[body];
       const InstantAxis axis = instant_axis(person.joints, posture, body, joint.flexion);
-      const Rigid3& before = motion[at(*parent_of(body))];
+      const Rigid3& before = motion[*parent_of(body)];
       // A rotation mirrored turns the other way round; axes tell the same motion.
       const Vec3 direction = side(before.rotation * axis.axis);
       result.joint[static_cast<Segment>(body)] = {is_left ? Vec3(-direction) : direction,

@@ -48,9 +48,9 @@ float swell(const Vec3f& at, std::uint32_t seed) {
   std::array<float, 3> f{};
   for (int a = 0; a < 3; ++a) {
     const float floor = std::floor(at[a]);
-    low[static_cast<std::size_t>(a)] = static_cast<int>(floor);
+    low[a] = static_cast<int>(floor);
     const float t = at[a] - floor;
-    f[static_cast<std::size_t>(a)] = t * t * (3.0F - 2.0F * t);
+    f[a] = t * t * (3.0F - 2.0F * t);
   }
   float sum = 0.0F;
   for (std::uint32_t n = 0; n < 8; ++n) {
@@ -126,10 +126,7 @@ struct PhotographsStage::Impl {
     const int i = std::clamp(static_cast<int>(u), 0, board.pixels - 1);
     const int j = std::clamp(static_cast<int>(v), 0, board.pixels - 1);
     return 1.0F -
-           static_cast<float>(
-               board.grey[static_cast<std::size_t>(j) * static_cast<std::size_t>(board.pixels) +
-                          static_cast<std::size_t>(i)]) /
-               255.0F;
+           static_cast<float>(board.grey[static_cast<std::size_t>(j) * board.pixels + i]) / 255.0F;
   }
 
   /// Whether a point of its plane lies on the sheet, whose corners may be round.
@@ -168,21 +165,19 @@ class Shutter {
     const PhotoLens& lens = shot_.pose.lens;
     // Directions at the corners of the pixels; between them they are as good as linear.
     const int columns = lens.width + 1;
-    corners_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lens.height + 1));
+    corners_.resize(static_cast<std::size_t>(columns) * (lens.height + 1));
     parallel_for(lens.height + 1, [&](int y) {
       for (int x = 0; x < columns; ++x) {
-        corners_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-                 static_cast<std::size_t>(x)] = lens.direction_of({x - 0.5, y - 0.5});
+        corners_[static_cast<std::size_t>(y) * columns + x] = lens.direction_of({x - 0.5, y - 0.5});
       }
     });
-    std::vector<Vec3f> light(static_cast<std::size_t>(lens.width) *
-                             static_cast<std::size_t>(lens.height));
+    std::vector<Vec3f> light(static_cast<std::size_t>(lens.width) * lens.height);
     parallel_for(lens.height, [&](int y) {
       for (int x = 0; x < lens.width; ++x) {
         Vec3f sum = Vec3f::Zero();
         for (int s = 0; s < kSide * kSide; ++s) sum += sample(x, y, s);
-        light[static_cast<std::size_t>(y) * static_cast<std::size_t>(lens.width) +
-              static_cast<std::size_t>(x)] = sum / static_cast<float>(kSide * kSide);
+        light[static_cast<std::size_t>(y) * lens.width + x] =
+            sum / static_cast<float>(kSide * kSide);
       }
     });
     blur(light, lens.width, lens.height);
@@ -202,8 +197,7 @@ class Shutter {
     const double v = (static_cast<double>(s / kSide) + random()) / kSide;
     // Through a point of the lens to where the pixel is in focus.
     const auto columns = static_cast<std::size_t>(shot_.pose.lens.width + 1);
-    const Eigen::Vector2d* const corner =
-        &corners_[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+    const Eigen::Vector2d* const corner = &corners_[static_cast<std::size_t>(y) * columns + x];
     const Eigen::Vector2d plane = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
                                   v * ((1 - u) * corner[columns] + u * corner[columns + 1]);
     const Vec3 towards = plane.homogeneous();
@@ -279,10 +273,8 @@ class Shutter {
 
   template <typename Random>
   Vec3f skin(const Vec3& at, const Vec3& direction, int triangle, Random& random) const {
-    const Triangle& t = stage_.mesh.triangles[static_cast<std::size_t>(triangle)];
-    const auto corner = [&](std::size_t c) -> const Vec3& {
-      return stage_.mesh.vertices[static_cast<std::size_t>(t[c])];
-    };
+    const Triangle& t = stage_.mesh.triangles[triangle];
+    const auto corner = [&](std::size_t c) -> const Vec3& { return stage_.mesh.vertices[t[c]]; };
     const Vec3 cross = (corner(1) - corner(0)).cross(corner(2) - corner(0));
     const double area = cross.squaredNorm();
     std::array<float, 3> share{};
@@ -292,8 +284,8 @@ class Shutter {
     }
     Vec3f albedo = Vec3f::Zero(), normal = Vec3f::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
-      albedo += share[c] * stage_.albedo[static_cast<std::size_t>(t[c])];
-      normal += share[c] * stage_.normals[static_cast<std::size_t>(t[c])];
+      albedo += share[c] * stage_.albedo[t[c]];
+      normal += share[c] * stage_.normals[t[c]];
     }
     const auto texture = static_cast<float>(stage_.options.texture);
     if (texture > 0.0F) {
@@ -348,13 +340,11 @@ class Shutter {
           for (int i = -reach; i <= reach; ++i) {
             const int u = std::clamp(x + i * dx, 0, width - 1);
             const int v = std::clamp(y + i * dy, 0, height - 1);
-            const float w = weight[static_cast<std::size_t>(i + reach)];
-            sum += w * from[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                            static_cast<std::size_t>(u)];
+            const float w = weight[i + reach];
+            sum += w * from[static_cast<std::size_t>(v) * width + u];
             whole += w;
           }
-          to[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(x)] = sum / whole;
+          to[static_cast<std::size_t>(y) * width + x] = sum / whole;
         }
       });
     };

@@ -8,12 +8,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/phantom/photo/photographs.h"
 
 namespace palmar {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Streams of the seed.
 constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts = 4000;

@@ -48,7 +48,7 @@ std::vector<Photograph> take_all(const ColouredMesh& object, const PhotographsOp
   std::vector<Photograph> photographs;
   for (std::size_t n = 0; n < shoot.shots.size(); ++n) {
     const PhotoShot& shot = shoot.shots[n];
-    const Rigid3& moved = shoot.board_from_hand[static_cast<std::size_t>(shot.position)];
+    const Rigid3& moved = shoot.board_from_hand[shot.position];
     photographs.push_back({std::to_string(n), stage.take(shot, moved, static_cast<int>(n)),
                            shot.pose, shot.position});
   }

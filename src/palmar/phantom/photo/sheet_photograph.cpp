@@ -11,11 +11,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kCardGap = 9.0;  // mm, between the hand and the card
 
 double spread(RandomStream& random, double most) { return most * (2.0 * random.uniform() - 1.0); }
@@ -26,8 +26,7 @@ Vec3 palm_down(const Vec3& p) { return {-p.x(), p.y(), -p.z()}; }
 /// What is printed on a card: a chip, a band and lines of writing. 0 to 255, square about its
 /// middle.
 std::vector<std::uint8_t> card_print(int pixels) {
-  std::vector<std::uint8_t> grey(static_cast<std::size_t>(pixels) *
-                                 static_cast<std::size_t>(pixels));
+  std::vector<std::uint8_t> grey(static_cast<std::size_t>(pixels) * pixels);
   for (int y = 0; y < pixels; ++y) {
     for (int x = 0; x < pixels; ++x) {
       const double u = (x + 0.5) / pixels - 0.5, v = 0.5 - (y + 0.5) / pixels;
@@ -37,8 +36,8 @@ std::vector<std::uint8_t> card_print(int pixels) {
       if (std::abs(v + 0.12) < 0.012 || std::abs(v + 0.19) < 0.012) {
         ink = std::sin(160.0 * u) > 0.0 ? 0.85 : ink;
       }
-      grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels) +
-           static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(255.0 * (1.0 - ink));
+      grey[static_cast<std::size_t>(y) * pixels + x] =
+          static_cast<std::uint8_t>(255.0 * (1.0 - ink));
     }
   }
   return grey;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/geometry/degrees.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/records/json_values.h"
 
@@ -31,9 +32,9 @@ Json scan_joints(const HandFromScan& made) {
                       {"centre_mm", vector3(dof.centre)},
                       {"axis_in_scan", vector3(scan.rotation * dof.axis)},
                       {"centre_in_scan_mm", vector3(scan * dof.centre)},
-                      {"lower_deg", dof.lower * kDegrees},
-                      {"upper_deg", dof.upper * kDegrees},
-                      {"reference_deg", dof.reference * kDegrees},
+                      {"lower_deg", dof.lower * kDegreesPerRadian},
+                      {"upper_deg", dof.upper * kDegreesPerRadian},
+                      {"reference_deg", dof.reference * kDegreesPerRadian},
                       {"source", dof.source}});
     }
   }
@@ -55,7 +56,8 @@ std::string hand_from_scan_json(const HandFromScan& made) {
     Json one = Json::object();
     Json angles = Json::object();
     for (int d = 0; d < kDofCount; ++d) {
-      angles[text(name_of(static_cast<Dof>(d))) + "_deg"] = posture[static_cast<Dof>(d)] * kDegrees;
+      angles[text(name_of(static_cast<Dof>(d))) + "_deg"] =
+          posture[static_cast<Dof>(d)] * kDegreesPerRadian;
     }
     one["angles"] = std::move(angles);
     if (const auto fit = made.fits.find(name); fit != made.fits.end()) {
@@ -72,7 +74,7 @@ std::string hand_from_scan_json(const HandFromScan& made) {
     one["flexion_axes"] = std::move(axes);
     if (const auto limit = made.thumb.find(name); limit != made.thumb.end()) {
       const Eigen::AngleAxisd turn(limit->second.metacarpal.rotation);
-      one["thumb_metacarpal"] = {{"turn_deg", turn.angle() * kDegrees},
+      one["thumb_metacarpal"] = {{"turn_deg", turn.angle() * kDegreesPerRadian},
                                  {"axis", vector3(turn.axis())},
                                  {"residual_mm", limit->second.residual},
                                  {"dots", limit->second.dots}};
@@ -93,9 +95,9 @@ std::string hand_from_scan_json(const HandFromScan& made) {
   for (const DottedJoint& joint : made.joints) {
     told.push_back({{"segment", text(name_of(joint.segment))},
                     {"posture", text(name_of(joint.posture))},
-                    {"turn_deg", joint.turn * kDegrees},
+                    {"turn_deg", joint.turn * kDegreesPerRadian},
                     {"residual_mm", joint.residual},
-                    {"axis_change_deg", joint.axis_change * kDegrees},
+                    {"axis_change_deg", joint.axis_change * kDegreesPerRadian},
                     {"centre_change_mm", joint.centre_change},
                     {"dots", joint.dots}});
   }
@@ -132,9 +134,9 @@ CsvTable dotted_joint_csv(const HandFromScan& made) {
                  {}};
   for (const DottedJoint& joint : made.joints) {
     table.rows.push_back({text(name_of(joint.segment)), text(name_of(joint.posture)),
-                          fmt::format("{:.2f}", joint.turn * kDegrees),
+                          fmt::format("{:.2f}", joint.turn * kDegreesPerRadian),
                           fmt::format("{:.3f}", joint.residual),
-                          fmt::format("{:.2f}", joint.axis_change * kDegrees),
+                          fmt::format("{:.2f}", joint.axis_change * kDegreesPerRadian),
                           fmt::format("{:.3f}", joint.centre_change), std::to_string(joint.dots)});
   }
   return table;
@@ -149,7 +151,7 @@ CsvTable truth_error_csv(const ScanErrors& errors) {
   for (const PlaceError& e : errors.places) {
     table.rows.push_back({e.axis ? "joint" : "fingertip", text(name_of(e.posture)),
                           text(name_of(e.segment)), fmt::format("{:.3f}", e.place),
-                          e.axis ? fmt::format("{:.2f}", *e.axis * kDegrees) : ""});
+                          e.axis ? fmt::format("{:.2f}", *e.axis * kDegreesPerRadian) : ""});
   }
   return table;
 }

@@ -16,50 +16,50 @@ namespace palmar {
 
 void write_painted_hand(const std::string& folder, const PaintedHand& hand, std::uint64_t seed,
                         const std::map<ScanPosture, PaintedHandPlace>& places) {
-  using Json = nlohmann::ordered_json;
+  using PlainJson = nlohmann::ordered_json;
   const std::filesystem::path root(folder);
   create_folder(root);
-  Json json = {{"name", hand.name},
-               {"seed", seed},
-               {"side", std::string(name_of(hand.side))},
-               {"frame", "of each scan; mm"}};
-  Json dimensions = Json::object();
+  PlainJson json = {{"name", hand.name},
+                    {"seed", seed},
+                    {"side", std::string(name_of(hand.side))},
+                    {"frame", "of each scan; mm"}};
+  PlainJson dimensions = PlainJson::object();
   for (const HandDimension& dimension : all_hand_dimensions()) {
     dimensions[std::string(name_of(dimension)) + "_mm"] = value_of(hand.dimensions, dimension);
   }
   json["dimensions"] = std::move(dimensions);
-  Json postures = Json::object();
+  PlainJson postures = PlainJson::object();
   for (const auto& [name, place] : places) {
     const PaintedPosture& posture = hand.postures.at(name);
     const Rigid3& to = place.scan_from_hand;
-    Json one = {{"scan", place.file}};
-    Json angles = Json::object();
+    PlainJson one = {{"scan", place.file}};
+    PlainJson angles = PlainJson::object();
     for (std::size_t d = 0; d < posture.angles.size(); ++d) {
       angles[std::string(name_of(static_cast<Dof>(d))) + "_deg"] =
           posture.angles[d] * 180.0 / std::numbers::pi;
     }
     one["angles"] = std::move(angles);
-    Json joints = Json::array();
+    PlainJson joints = PlainJson::array();
     for (const auto& [segment, joint] : posture.joint) {
       joints.push_back({{"segment", std::string(name_of(segment))},
                         {"axis", vector3(to.rotation * joint.axis)},
                         {"centre_mm", vector3(to * joint.centre)}});
     }
     one["flexion_axes"] = std::move(joints);
-    Json tips = Json::object();
+    PlainJson tips = PlainJson::object();
     for (const auto& [segment, tip] : posture.fingertip) {
       tips[std::string(name_of(segment))] = vector3(to * tip);
     }
     one["fingertips_mm"] = std::move(tips);
-    Json dots = Json::array();
+    PlainJson dots = PlainJson::array();
     for (const PaintedDot& dot : posture.dots) {
       dots.push_back(
           {{"segment", std::string(name_of(dot.segment))}, {"point_mm", vector3(to * dot.point)}});
     }
     one["dots"] = std::move(dots);
-    Json creases = Json::object();
+    PlainJson creases = PlainJson::object();
     for (const auto& [segment, line] : posture.crease) {
-      Json points = Json::array();
+      PlainJson points = PlainJson::array();
       for (const Vec3& p : line) points.push_back(vector3(to * p));
       creases[std::string(name_of(segment))] = std::move(points);
     }
@@ -74,8 +74,8 @@ void write_painted_hand(const std::string& folder, const PaintedHand& hand, std:
 }
 
 ScanTruth read_scan_truth(const std::string& path) {
-  using Json = nlohmann::json;
-  const auto vector = [](const Json& v) {
+  using PlainJson = nlohmann::json;
+  const auto vector = [](const PlainJson& v) {
     return Vec3(v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>());
   };
   const auto segment = [&](const std::string& name) {
@@ -85,7 +85,7 @@ ScanTruth read_scan_truth(const std::string& path) {
   };
   ScanTruth truth;
   try {
-    const Json json = Json::parse(read_file(path));
+    const PlainJson json = PlainJson::parse(read_file(path));
     for (const HandDimension& dimension : all_hand_dimensions()) {
       set_value(truth.dimensions, dimension,
                 json.at("dimensions").at(std::string(name_of(dimension)) + "_mm").get<double>());
@@ -94,7 +94,7 @@ ScanTruth read_scan_truth(const std::string& path) {
       const auto posture = scan_posture_in(name);
       if (!posture) throw InputError(path + ": \"" + name + "\" is no posture");
       PlacedJoints& placed = truth.postures[*posture];
-      for (const Json& joint : one.at("flexion_axes")) {
+      for (const PlainJson& joint : one.at("flexion_axes")) {
         placed.joint[segment(joint.at("segment").get<std::string>())] = {
             vector(joint.at("axis")), vector(joint.at("centre_mm"))};
       }
@@ -103,7 +103,7 @@ ScanTruth read_scan_truth(const std::string& path) {
         placed.fingertip[segment(tip)] = vector(point);
       }
     }
-  } catch (const Json::exception& error) {
+  } catch (const PlainJson::exception& error) {
     throw InputError(path + ": isn't the truth of a synthetic person's scans: " + error.what());
   }
   const auto skin = std::filesystem::path(path).parent_path() / "reference.ply";

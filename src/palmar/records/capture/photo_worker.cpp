@@ -29,8 +29,9 @@ Json run_photo(const std::string& verb, Json request, const WorkerFolder& folder
   }
   request["threads"] = thread_count();
   constexpr double kSeconds = 3600.0, kMegabytes = 8192.0;
-  const std::string reply = run_worker(kPhoto, verb, request.dump(), folder, object,
-                                       {.seconds = kSeconds, .memory_mb = kMegabytes}, progress);
+  const std::string reply =
+      run_worker(kPhoto, verb, request.dump(), folder, object,
+                 {.seconds = kSeconds, .memory_mb = kMegabytes, .is_fixed = true}, progress);
   return Json::parse(reply);
 }
 
@@ -62,8 +63,8 @@ BoardPicture draw_board(const BoardPattern& pattern, int pixels_per_square) {
     picture.pixels = reply.at("pixels").get<int>();
     const std::string bytes = read_file(folder.path() / "board.bin");
     picture.grey.assign(bytes.begin(), bytes.end());
-    if (picture.pixels < 1 || picture.grey.size() != static_cast<std::size_t>(picture.pixels) *
-                                                         static_cast<std::size_t>(picture.pixels)) {
+    if (picture.pixels < 1 ||
+        picture.grey.size() != static_cast<std::size_t>(picture.pixels) * picture.pixels) {
       throw InputError("the photograph program's board is damaged");
     }
     return picture;
@@ -122,7 +123,7 @@ PointMatches match_points(const std::vector<MatchPicture>& pictures,
     for (std::size_t n = 0; is_good && n < pairs.size(); ++n) {
       for (const auto& match : matches.match[n]) {
         for (std::size_t side = 0; side < 2; ++side) {
-          const auto& points = matches.point[static_cast<std::size_t>(pairs[n][side])];
+          const auto& points = matches.point[pairs[n][side]];
           is_good =
               is_good && match[side] >= 0 && static_cast<std::size_t>(match[side]) < points.size();
         }

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/hand/hand_json.h"
 #include "palmar/records/json_values.h"
 
@@ -49,14 +51,14 @@ Json joints_json(const ScanRecord& record) {
     for (const JointDof& dof : joint.dofs) {
       list.push_back({{"joint", name_json(name_of(joint.id))},
                       {"dof", name_json(name_of(dof.dof))},
-                      {"is_measured", record.joints.is_measured[static_cast<std::size_t>(dof.dof)]},
+                      {"is_measured", record.joints.is_measured[index_of(dof.dof)]},
                       {"axis", vector3(dof.axis)},
                       {"centre_mm", vector3(dof.centre)},
                       {"axis_patient", vector3(patient.rotation * dof.axis)},
                       {"centre_patient_mm", vector3(patient * dof.centre)},
-                      {"lower_deg", dof.lower * kDegrees},
-                      {"upper_deg", dof.upper * kDegrees},
-                      {"reference_deg", dof.reference * kDegrees}});
+                      {"lower_deg", dof.lower * kDegreesPerRadian},
+                      {"upper_deg", dof.upper * kDegreesPerRadian},
+                      {"reference_deg", dof.reference * kDegreesPerRadian}});
     }
   }
   return list;
@@ -79,7 +81,7 @@ Json postures_json(const ScanRecord& record) {
     Json one = Json::object();
     for (int d = 0; d < kDofCount; ++d) {
       one[std::string(name_of(static_cast<Dof>(d))) + "_deg"] =
-          angles[static_cast<Dof>(d)] * kDegrees;
+          angles[static_cast<Dof>(d)] * kDegreesPerRadian;
     }
     all[std::string(name_of(posture))] = std::move(one);
   }
@@ -153,7 +155,7 @@ Json motion_list(const std::vector<BoneMotion>& motions) {
     if (motion.image) {
       one["image"] = {{"correlation", motion.image->correlation},
                       {"overlap", motion.image->overlap},
-                      {"turn_error_deg", motion.image->turn_error * kDegrees},
+                      {"turn_error_deg", motion.image->turn_error * kDegreesPerRadian},
                       {"shift_error_mm", motion.image->shift_error}};
     }
     list.push_back(std::move(one));

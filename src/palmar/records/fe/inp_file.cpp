@@ -138,8 +138,7 @@ std::string inp_deck(const PressDeck& deck) {
   text += "*NODE, NSET=INDENTER\n";
   for (int layer = 0; layer < 2; ++layer) {
     for (int v = 0; v < tool_vertices; ++v) {
-      const Vec3 p = deck.indenter.vertices[static_cast<std::size_t>(v)] -
-                     layer * kIndenterThickness * deck.direction;
+      const Vec3 p = deck.indenter.vertices[v] - layer * kIndenterThickness * deck.direction;
       text += fmt::format("{},{:.9g},{:.9g},{:.9g}\n", tool_nodes + layer * tool_vertices + v + 1,
                           p.x(), p.y(), p.z());
     }

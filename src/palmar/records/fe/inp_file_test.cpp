@@ -60,9 +60,9 @@ TEST(TetMesh, MiddlesStandOnTheEdgesInTheOrderOfC3D10) {
   const auto& t = mesh.tets[0];
   constexpr std::array<std::array<int, 2>, 6> kEnds = {
       {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}}};
-  const auto at = [&](int k) { return mesh.nodes[static_cast<std::size_t>(t[k - 1])]; };
+  const auto at = [&](int k) { return mesh.nodes[t[k - 1]]; };
   for (int k = 0; k < 6; ++k) {
-    const auto [a, b] = kEnds[static_cast<std::size_t>(k)];
+    const auto [a, b] = kEnds[k];
     EXPECT_LT((at(5 + k) - 0.5 * (at(a) + at(b))).norm(), 1e-12) << "node " << 5 + k;
   }
   EXPECT_NEAR(smallest_jacobian(mesh), 8.0, 1e-12);  // 6 V, V = 8 / 6 mm^3
@@ -127,7 +127,7 @@ TEST(InpDeck, IndenterMovesByTheDepthInEachStep) {
 TEST(InpDeck, WedgesOfTheIndenterHavePositiveVolumeBehindTheirFace) {
   const PressDeck deck = one_tet_deck();
   const Triangle& c = deck.indenter.triangles.front();
-  const auto at = [&](int k) { return deck.indenter.vertices[static_cast<std::size_t>(c[k])]; };
+  const auto at = [&](int k) { return deck.indenter.vertices[c[k]]; };
   // Towards the skin, i.e. along the press.
   EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).dot(deck.direction), 0.0);
   // C3D6: corners 1-2-3 turn towards 4-5-6, which lie a millimetre back.
@@ -138,8 +138,7 @@ TEST(InpDeck, WedgesOfTheIndenterHavePositiveVolumeBehindTheirFace) {
   std::ostringstream expected;
   expected << 2;
   for (const int shift : {0, layer}) {
-    for (const int k : {0, 2, 1})
-      expected << ',' << nodes + shift + c[static_cast<std::size_t>(k)] + 1;
+    for (const int k : {0, 2, 1}) expected << ',' << nodes + shift + c[k] + 1;
   }
   EXPECT_EQ(first, expected.str());
 }

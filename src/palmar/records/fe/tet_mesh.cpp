@@ -21,7 +21,7 @@ constexpr std::array<std::array<int, 2>, 6> kEdge = {
 constexpr std::array<Triangle, 4> kSide = {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
 
 double jacobian(const std::vector<Vec3>& nodes, int a, int b, int c, int d) {
-  const auto at = [&](int n) -> const Vec3& { return nodes[static_cast<std::size_t>(n)]; };
+  const auto at = [&](int n) -> const Vec3& { return nodes[n]; };
   return (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a));
 }
 
@@ -111,20 +111,17 @@ BlockMesh make_block_mesh(const std::vector<Vec3>& nodes,
     std::array<int, 10>& tet = mesh.tets.emplace_back();
     std::copy(corner.begin(), corner.end(), tet.begin());
     for (std::size_t k = 0; k < kEdge.size(); ++k) {
-      const auto [a, b] = std::minmax(corner[static_cast<std::size_t>(kEdge[k][0])],
-                                      corner[static_cast<std::size_t>(kEdge[k][1])]);
+      const auto [a, b] = std::minmax(corner[kEdge[k][0]], corner[kEdge[k][1]]);
       const auto [entry, is_new] = middle.try_emplace({a, b}, static_cast<int>(mesh.nodes.size()));
       if (is_new) {
-        mesh.nodes.emplace_back(
-            0.5 * (nodes[static_cast<std::size_t>(a)] + nodes[static_cast<std::size_t>(b)]));
+        mesh.nodes.emplace_back(0.5 * (nodes[a] + nodes[b]));
       }
       tet[4 + k] = entry->second;
     }
     for (int s = 0; s < 4; ++s) {
-      const Triangle& local = kSide[static_cast<std::size_t>(s)];
-      side_of[sorted({corner[static_cast<std::size_t>(local[0])],
-                      corner[static_cast<std::size_t>(local[1])],
-                      corner[static_cast<std::size_t>(local[2])]})] = {static_cast<int>(e), s + 1};
+      const Triangle& local = kSide[s];
+      side_of[sorted({corner[local[0]], corner[local[1]], corner[local[2]]})] = {
+          static_cast<int>(e), s + 1};
     }
   }
 
@@ -146,8 +143,7 @@ BlockMesh make_block_mesh(const std::vector<Vec3>& nodes,
     std::set<int>& held = is_bone ? bone : cut;
     held.insert(key.begin(), key.end());
     for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}}) {
-      const auto found =
-          middle.find({key[static_cast<std::size_t>(a)], key[static_cast<std::size_t>(b)]});
+      const auto found = middle.find({key[a], key[b]});
       if (found != middle.end()) held.insert(found->second);
     }
   }

@@ -61,8 +61,8 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
   const auto scene_from_node = [&](std::size_t start) {
     Rigid3 transform;
     std::size_t steps = 0;
-    for (int at = static_cast<int>(start); at >= 0; at = parent[static_cast<std::size_t>(at)]) {
-      const nlohmann::json& node = nodes[static_cast<std::size_t>(at)];
+    for (int at = static_cast<int>(start); at >= 0; at = parent[at]) {
+      const nlohmann::json& node = nodes[at];
       transform =
           local_transform(node, path + ": node \"" + node.value("name", "?") + "\"") * transform;
       if (++steps > nodes.size()) throw InputError(path + ": the nodes form a cycle");

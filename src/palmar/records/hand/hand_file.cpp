@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 std::vector<double> flat(const std::vector<Vec3>& points) {
   std::vector<double> value;
@@ -23,15 +23,15 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
   return value;
 }
 
-Json write_points(Glb& glb, const std::vector<Vec3>& points) {
+PlainJson write_points(Glb& glb, const std::vector<Vec3>& points) {
   return {{"count", points.size()}, {"buffer_view", add_doubles(glb, flat(points))}};
 }
 
-Json write_numbers(Glb& glb, const std::vector<double>& value) {
+PlainJson write_numbers(Glb& glb, const std::vector<double>& value) {
   return {{"count", value.size()}, {"buffer_view", add_doubles(glb, value)}};
 }
 
-Json write_whole(Glb& glb, const std::vector<int>& value) {
+PlainJson write_whole(Glb& glb, const std::vector<int>& value) {
   return write_numbers(glb, {value.begin(), value.end()});
 }
 
@@ -43,7 +43,7 @@ std::vector<double> codes(const std::vector<Name>& names) {
   return value;
 }
 
-Json write_mesh(Glb& glb, const TriangleMesh& mesh) {
+PlainJson write_mesh(Glb& glb, const TriangleMesh& mesh) {
   std::vector<double> corner;
   corner.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
@@ -62,7 +62,7 @@ class Reader {
     throw InputError(path_ + ": broken Palmar hand: " + why);
   }
 
-  std::vector<double> numbers(const Json& json) const {
+  std::vector<double> numbers(const PlainJson& json) const {
     const auto count = json.at("count").get<std::size_t>();
     std::vector<double> value = read_doubles(glb_, json.at("buffer_view").get<int>(), count, path_);
     for (const double number : value) {
@@ -71,7 +71,7 @@ class Reader {
     return value;
   }
 
-  std::vector<Vec3> points(const Json& json) const {
+  std::vector<Vec3> points(const PlainJson& json) const {
     const auto count = json.at("count").get<std::size_t>();
     if (count > glb_.buffer.size()) fail("it promises more points than the file has bytes");
     const std::vector<double> value =
@@ -86,7 +86,7 @@ class Reader {
   }
 
   /// Whole numbers in [0, end).
-  std::vector<int> whole(const Json& json, int end, const std::string& what) const {
+  std::vector<int> whole(const PlainJson& json, int end, const std::string& what) const {
     std::vector<int> result;
     for (const double number : numbers(json)) {
       if (number < 0 || number >= end || number != std::floor(number)) {
@@ -98,13 +98,13 @@ class Reader {
   }
 
   template <class Name>
-  std::vector<Name> names(const Json& json, int count, const std::string& what) const {
+  std::vector<Name> names(const PlainJson& json, int count, const std::string& what) const {
     std::vector<Name> result;
     for (const int code : whole(json, count, what)) result.push_back(static_cast<Name>(code));
     return result;
   }
 
-  TriangleMesh mesh(const Json& json) const {
+  TriangleMesh mesh(const PlainJson& json) const {
     TriangleMesh result;
     result.vertices = points(json.at("vertices_mm"));
     const std::vector<int> corner =
@@ -116,7 +116,7 @@ class Reader {
     return result;
   }
 
-  JointWeights weights(const Json& json, int vertex_count) const {
+  JointWeights weights(const PlainJson& json, int vertex_count) const {
     JointWeights result;
     const auto id = joint_named(json.at("joint").get<std::string>());
     if (!id) fail("joint \"" + json.at("joint").get<std::string>() + "\" is unknown");
@@ -146,8 +146,8 @@ class Reader {
   std::string path_;
 };
 
-Json write_exact(Glb& glb, const Hand& hand) {
-  Json json;
+PlainJson write_exact(Glb& glb, const Hand& hand) {
+  PlainJson json;
   json["name"] = hand.name;
   json["side"] = name_of(hand.side);
   json["provenance"] = hand.provenance;
@@ -155,27 +155,27 @@ Json write_exact(Glb& glb, const Hand& hand) {
   json["segment"] = write_numbers(glb, codes(hand.segment));
   json["region"] = write_numbers(glb, codes(hand.region));
   json["skeleton"] = skeleton_to_json(hand.skeleton);
-  json["weights"] = Json::array();
+  json["weights"] = PlainJson::array();
   for (const JointWeights& weights : hand.weights) {
-    Json entry = {{"joint", name_of(weights.joint)},
-                  {"vertex", write_whole(glb, weights.vertex)},
-                  {"w1", write_numbers(glb, weights.w1)},
-                  {"w2", write_numbers(glb, weights.w2)}};
+    PlainJson entry = {{"joint", name_of(weights.joint)},
+                       {"vertex", write_whole(glb, weights.vertex)},
+                       {"w1", write_numbers(glb, weights.w1)},
+                       {"w2", write_numbers(glb, weights.w2)}};
     if (!weights.bulge.empty()) entry["bulge_mm_per_rad"] = write_points(glb, weights.bulge);
     json["weights"].push_back(std::move(entry));
   }
   json["thumb_ball"] = {{"beta_per_mm2", hand.thumb_ball.beta},
                         {"marker_mm", write_points(glb, hand.thumb_ball.marker)},
                         {"vertex", write_whole(glb, hand.thumb_ball.vertex)},
-                        {"coefficient_mm", Json::array()}};
+                        {"coefficient_mm", PlainJson::array()}};
   for (const std::vector<Vec3>& coefficient : hand.thumb_ball.coefficient) {
     json["thumb_ball"]["coefficient_mm"].push_back(write_points(glb, coefficient));
   }
-  json["bones"] = Json::array();
+  json["bones"] = PlainJson::array();
   for (const Bone& bone : hand.bones) {
-    Json entry = {{"name", bone.name},
-                  {"is_thumb_metacarpal", bone.is_thumb_metacarpal},
-                  {"mesh", write_mesh(glb, bone.mesh)}};
+    PlainJson entry = {{"name", bone.name},
+                       {"is_thumb_metacarpal", bone.is_thumb_metacarpal},
+                       {"mesh", write_mesh(glb, bone.mesh)}};
     if (bone.segment) entry["segment"] = name_of(*bone.segment);
     json["bones"].push_back(std::move(entry));
   }
@@ -184,7 +184,7 @@ Json write_exact(Glb& glb, const Hand& hand) {
   return json;
 }
 
-Hand read_exact(const Reader& reader, const Json& json) {
+Hand read_exact(const Reader& reader, const PlainJson& json) {
   Hand hand;
   hand.name = json.at("name").get<std::string>();
   const auto side = json.at("side").get<std::string>();
@@ -202,10 +202,10 @@ Hand read_exact(const Reader& reader, const Json& json) {
                 " vertices of the skin");
   }
   hand.skeleton = skeleton_from_json(json.at("skeleton"));
-  for (const Json& entry : json.at("weights")) {
+  for (const PlainJson& entry : json.at("weights")) {
     hand.weights.push_back(reader.weights(entry, hand.skin.vertex_count()));
   }
-  const Json& ball = json.at("thumb_ball");
+  const PlainJson& ball = json.at("thumb_ball");
   hand.thumb_ball.beta = ball.at("beta_per_mm2").get<double>();
   hand.thumb_ball.marker = reader.points(ball.at("marker_mm"));
   hand.thumb_ball.vertex =
@@ -216,7 +216,7 @@ Hand read_exact(const Reader& reader, const Json& json) {
       reader.fail("the thumb ball's coefficients don't match its markers");
     }
   }
-  for (const Json& entry : json.at("bones")) {
+  for (const PlainJson& entry : json.at("bones")) {
     Bone bone;
     bone.name = entry.at("name").get<std::string>();
     bone.is_thumb_metacarpal = entry.at("is_thumb_metacarpal").get<bool>();
@@ -232,8 +232,8 @@ Hand read_exact(const Reader& reader, const Json& json) {
   return hand;
 }
 
-Json creases_to_json(const DrawnCreases& creases) {
-  Json json = Json::object();
+PlainJson creases_to_json(const DrawnCreases& creases) {
+  PlainJson json = PlainJson::object();
   for (const auto& [segment, plane] : creases) {
     const Vec3 &p = plane.point, &n = plane.normal;
     json[std::string(name_of(segment))] = {{"point_mm", {p.x(), p.y(), p.z()}},
@@ -242,9 +242,9 @@ Json creases_to_json(const DrawnCreases& creases) {
   return json;
 }
 
-DrawnCreases creases_from_json(const Reader& reader, const Json& json) {
+DrawnCreases creases_from_json(const Reader& reader, const PlainJson& json) {
   DrawnCreases creases;
-  const auto vector = [&](const Json& numbers) {
+  const auto vector = [&](const PlainJson& numbers) {
     const Vec3 v(numbers.at(0).get<double>(), numbers.at(1).get<double>(),
                  numbers.at(2).get<double>());
     if (!v.allFinite()) reader.fail("a drawn crease is not finite");
@@ -265,7 +265,7 @@ DrawnCreases creases_from_json(const Reader& reader, const Json& json) {
 Glb make_glb(const Hand& hand, const DrawnCreases& creases = {}) {
   Glb glb = make_hand_scene(hand);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion;
-  Json exact = write_exact(glb, hand);
+  PlainJson exact = write_exact(glb, hand);
   if (!creases.empty()) exact["drawn_creases"] = creases_to_json(creases);
   glb.json["extras"]["palmar_hand"] = std::move(exact);
   return glb;
@@ -291,7 +291,7 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
   const Reader reader(glb, path);
   try {
     return read(reader, extras->at("palmar_hand"));
-  } catch (const Json::exception& e) {
+  } catch (const PlainJson::exception& e) {
     reader.fail(e.what());
   } catch (const InputError& e) {
     if (std::string(e.what()).rfind(path, 0) == 0) throw;
@@ -308,7 +308,7 @@ void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& c
 }
 
 DrawnCreases read_drawn_creases(const std::string& path) {
-  return read_extras(read_glb(path), path, [](const Reader& reader, const Json& json) {
+  return read_extras(read_glb(path), path, [](const Reader& reader, const PlainJson& json) {
     const auto drawn = json.find("drawn_creases");
     return drawn == json.end() ? DrawnCreases() : creases_from_json(reader, *drawn);
   });

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/glb.h"
@@ -31,7 +32,7 @@ Hand small_hand() {
   hand.segment = {Segment::kPalm, Segment::kThumbDistal, Segment::kLittleDistal, Segment::kPalm};
   hand.region = {Region::kThenar, Region::kThumbDistal, Region::kDorsum, Region::kUlnarPalm};
   for (int j = 0; j < kJointCount; ++j) {
-    Joint& joint = hand.skeleton.joints[static_cast<std::size_t>(j)];
+    Joint& joint = hand.skeleton.joints[j];
     joint = {static_cast<JointId>(j), Vec3(j / 3.0, 1, 2), {}};
   }
   for (int d = 0; d < kDofCount; ++d) {
@@ -43,7 +44,7 @@ Hand small_hand() {
     dof.lower = -1;
     dof.upper = 3;
     dof.source = "somebody 1999";
-    hand.skeleton.joints[static_cast<std::size_t>(d % kJointCount)].dofs.push_back(dof);
+    hand.skeleton.joints[d % kJointCount].dofs.push_back(dof);
   }
   hand.skeleton.thumb_cmc = make_cmc_limits(make_cmc_joint({28, 36, 19}, {45, 59, 34}));
   hand.skeleton.fingertips = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(1, 1, 1.1),
@@ -172,9 +173,7 @@ TEST(HandFile, Version1HasTheStiffnessOfTheHalfSpaceAloneTheRestIsTheDefault) {
 
   const Tissue tissue = read_hand(path).tissue;
   const Tissue standard = default_tissue();
-  const auto of = [](const Tissue& one, Region region) {
-    return one.region[static_cast<std::size_t>(region)];
-  };
+  const auto of = [](const Tissue& one, Region region) { return one.region[index_of(region)]; };
   const RegionTissue index = of(tissue, Region::kIndexDistal);
   EXPECT_EQ(index.half_space.nominal, (StiffeningLaw{0.006, 0.100, 3.5}));
   EXPECT_EQ(index.half_space.high.g_limit,

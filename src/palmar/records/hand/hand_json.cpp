@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/hand/hand_json.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/hand/skeleton_json.h"
 #include "palmar/records/json_values.h"
 
@@ -15,9 +16,9 @@ Json dof_json(const JointDof& dof) {
   return {{"dof", name_of(dof.dof)},
           {"axis", vector3(dof.axis)},
           {"centre_mm", vector3(dof.centre)},
-          {"lower_deg", dof.lower * kDegrees},
-          {"upper_deg", dof.upper * kDegrees},
-          {"reference_deg", dof.reference * kDegrees},
+          {"lower_deg", dof.lower * kDegreesPerRadian},
+          {"upper_deg", dof.upper * kDegreesPerRadian},
+          {"reference_deg", dof.reference * kDegreesPerRadian},
           {"source", dof.source}};
 }
 
@@ -25,7 +26,7 @@ Json info_of(const Hand& hand) {
   const HandDimensions& d = hand.dimensions;
   Json segments = Json::object();
   for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions& size = d.segment[static_cast<std::size_t>(s)];
+    const SegmentDimensions& size = d.segment[s];
     segments[std::string(name_of(static_cast<Segment>(s)))] = {
         {"length_mm", size.length}, {"width_mm", size.width}, {"thickness_mm", size.thickness}};
   }

@@ -10,7 +10,7 @@
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr double kMPerMm = 0.001;
 // Node 0 is the palm, node 1 + j belongs to joint j (that of the wrist carries the forearm).
@@ -28,7 +28,7 @@ std::optional<JointId> parent_of(JointId joint) {
   return std::nullopt;
 }
 
-Json to_json(const Vec3& metres) { return {metres.x(), metres.y(), metres.z()}; }
+PlainJson scene_json(const Vec3& metres) { return {metres.x(), metres.y(), metres.z()}; }
 
 std::vector<float> metres(const std::vector<Vec3>& points, const Vec3& origin = Vec3::Zero()) {
   std::vector<float> value;
@@ -42,10 +42,10 @@ std::vector<float> metres(const std::vector<Vec3>& points, const Vec3& origin = 
 std::vector<float> smooth_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normal(mesh.vertices.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    for (const int v : t) normal[static_cast<std::size_t>(v)] += (b - a).cross(c - a);
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3& b = mesh.vertices[t[1]];
+    const Vec3& c = mesh.vertices[t[2]];
+    for (const int v : t) normal[v] += (b - a).cross(c - a);
   }
   std::vector<float> value;
   value.reserve(3 * normal.size());
@@ -83,10 +83,10 @@ BlendWeights blend_weights(const Hand& hand) {
   std::vector<std::array<double, kNodeCount>> share(n, std::array<double, kNodeCount>{});
   for (const JointWeights& weights : hand.weights) {
     const std::optional<JointId> parent = parent_of(weights.joint);
-    const auto node = static_cast<std::size_t>(node_of(weights.joint));
-    const auto parent_node = static_cast<std::size_t>(parent ? node_of(*parent) : kPalmNode);
+    const auto node = node_of(weights.joint);
+    const auto parent_node = parent ? node_of(*parent) : kPalmNode;
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
-      const auto v = static_cast<std::size_t>(weights.vertex[k]);
+      const int v = weights.vertex[k];
       const double p = weights.w1[k] * weights.w2[k];
       share[v][node] += p;
       share[v][parent_node] -= p;
@@ -97,7 +97,7 @@ BlendWeights blend_weights(const Hand& hand) {
     row[kPalmNode] += 1.0;
     std::array<std::pair<double, int>, kNodeCount> sorted;
     for (int i = 0; i < kNodeCount; ++i) {
-      sorted[static_cast<std::size_t>(i)] = {-std::max(row[static_cast<std::size_t>(i)], 0.0), i};
+      sorted[i] = {-std::max(row[i], 0.0), i};
     }
     std::sort(sorted.begin(), sorted.end());
     double sum = 0;
@@ -112,8 +112,8 @@ BlendWeights blend_weights(const Hand& hand) {
 }
 
 void add_joint_nodes(Glb& glb, const Hand& hand) {
-  Json& nodes = glb.json["nodes"];
-  nodes.push_back({{"name", "palm"}, {"children", Json::array()}});
+  PlainJson& nodes = glb.json["nodes"];
+  nodes.push_back({{"name", "palm"}, {"children", PlainJson::array()}});
   std::vector<float> inverse_bind;
   const auto add_inverse = [&](const Vec3& centre) {
     for (int c = 0; c < 3; ++c) {
@@ -126,16 +126,15 @@ void add_joint_nodes(Glb& glb, const Hand& hand) {
   for (const Joint& joint : hand.skeleton.joints) {
     const std::optional<JointId> parent = parent_of(joint.id);
     const Vec3 origin = parent ? hand.skeleton.joint(*parent).centre : Vec3::Zero();
-    nodes.push_back(
-        {{"name", name_of(joint.id)}, {"translation", to_json(kMPerMm * (joint.centre - origin))}});
-    nodes[static_cast<std::size_t>(parent ? node_of(*parent) : kPalmNode)]["children"].push_back(
-        node_of(joint.id));
+    nodes.push_back({{"name", name_of(joint.id)},
+                     {"translation", scene_json(kMPerMm * (joint.centre - origin))}});
+    nodes[parent ? node_of(*parent) : kPalmNode]["children"].push_back(node_of(joint.id));
     add_inverse(joint.centre);
   }
-  Json joints = Json::array();
+  PlainJson joints = PlainJson::array();
   for (int i = 0; i < kNodeCount; ++i) joints.push_back(i);
   const int matrices = add_floats(glb, inverse_bind, 16);
-  glb.json["skins"] = Json::array();
+  glb.json["skins"] = PlainJson::array();
   glb.json["skins"].push_back({{"name", "hand"},
                                {"joints", joints},
                                {"skeleton", kPalmNode},
@@ -144,7 +143,7 @@ void add_joint_nodes(Glb& glb, const Hand& hand) {
 
 void add_skin(Glb& glb, const Hand& hand) {
   const BlendWeights blend = blend_weights(hand);
-  Json attributes;
+  PlainJson attributes;
   attributes["POSITION"] = add_floats(glb, metres(hand.skin.vertices), 3, true);
   attributes["NORMAL"] = add_floats(glb, smooth_normals(hand.skin), 3);
   attributes["JOINTS_0"] = add_bytes(glb, blend.joint, 4);
@@ -156,8 +155,8 @@ void add_skin(Glb& glb, const Hand& hand) {
     attributes["_REGION"] = add_floats(glb, codes(hand.region), 1);
   }
   const int indices = add_indices(glb, corners(hand.skin));
-  Json primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 0}};
-  glb.json["meshes"].push_back({{"name", "skin"}, {"primitives", Json::array({primitive})}});
+  PlainJson primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 0}};
+  glb.json["meshes"].push_back({{"name", "skin"}, {"primitives", PlainJson::array({primitive})}});
   const int node = static_cast<int>(glb.json["nodes"].size());
   glb.json["nodes"].push_back(
       {{"name", "skin"}, {"mesh", static_cast<int>(glb.json["meshes"].size()) - 1}, {"skin", 0}});
@@ -179,20 +178,21 @@ void add_bones(Glb& glb, const Hand& hand) {
       parent = node_of(joint_of(*bone.segment));
       origin = hand.skeleton.joint(joint_of(*bone.segment)).centre;
     }
-    Json attributes;
+    PlainJson attributes;
     attributes["POSITION"] = add_floats(glb, metres(bone.mesh.vertices, origin), 3, true);
     attributes["NORMAL"] = add_floats(glb, smooth_normals(bone.mesh), 3);
     const int indices = add_indices(glb, corners(bone.mesh));
-    Json primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 1}};
-    glb.json["meshes"].push_back({{"name", bone.name}, {"primitives", Json::array({primitive})}});
+    PlainJson primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 1}};
+    glb.json["meshes"].push_back(
+        {{"name", bone.name}, {"primitives", PlainJson::array({primitive})}});
     const int node = static_cast<int>(glb.json["nodes"].size());
     glb.json["nodes"].push_back(
         {{"name", bone.name}, {"mesh", static_cast<int>(glb.json["meshes"].size()) - 1}});
-    glb.json["nodes"][static_cast<std::size_t>(parent)]["children"].push_back(node);
+    glb.json["nodes"][parent]["children"].push_back(node);
   }
 }
 
-Json material(const char* name, double r, double g, double b, double roughness) {
+PlainJson material(const char* name, double r, double g, double b, double roughness) {
   return {{"name", name},
           {"pbrMetallicRoughness",
            {{"baseColorFactor", {r, g, b, 1.0}},
@@ -206,10 +206,10 @@ Glb make_hand_scene(const Hand& hand) {
   Glb glb;
   glb.json["asset"] = {{"version", "2.0"}, {"generator", "Palmar"}, {"copyright", hand.provenance}};
   glb.json["scene"] = 0;
-  glb.json["scenes"] = Json::array({{{"name", hand.name}, {"nodes", {kPalmNode}}}});
-  glb.json["nodes"] = Json::array();
-  glb.json["meshes"] = Json::array();
-  glb.json["materials"] = Json::array(
+  glb.json["scenes"] = PlainJson::array({{{"name", hand.name}, {"nodes", {kPalmNode}}}});
+  glb.json["nodes"] = PlainJson::array();
+  glb.json["meshes"] = PlainJson::array();
+  glb.json["materials"] = PlainJson::array(
       {material("skin", 0.73, 0.48, 0.35, 0.7), material("bone", 0.85, 0.82, 0.72, 0.6)});
   add_joint_nodes(glb, hand);
   add_skin(glb, hand);

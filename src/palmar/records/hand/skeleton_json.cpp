@@ -7,34 +7,35 @@
 #include <cmath>
 #include <string>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
-Json to_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+PlainJson to_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-double finite(const Json& json) {
+double finite(const PlainJson& json) {
   const double value = json.get<double>();
   if (!std::isfinite(value)) throw InputError("a number is not finite");
   return value;
 }
 
-Vec3 vec3_from(const Json& json) {
+Vec3 vec3_from(const PlainJson& json) {
   if (!json.is_array() || json.size() != 3) throw InputError("a point needs 3 numbers");
   return {finite(json[0]), finite(json[1]), finite(json[2])};
 }
 
-Json to_json(const CmcLimit& limit) {
+PlainJson to_json(const CmcLimit& limit) {
   return {{"q_xyzw", {limit.q.x(), limit.q.y(), limit.q.z(), limit.q.w()}},
           {"t_mm", to_json(limit.t)}};
 }
 
-CmcLimit limit_from(const Json& json) {
-  const Json& q = json.at("q_xyzw");
+CmcLimit limit_from(const PlainJson& json) {
+  const PlainJson& q = json.at("q_xyzw");
   if (!q.is_array() || q.size() != 4) throw InputError("a quaternion needs 4 numbers");
   CmcLimit limit;
   limit.q = Quat(finite(q[3]), finite(q[0]), finite(q[1]), finite(q[2]));
@@ -66,27 +67,27 @@ constexpr std::array<TissueName, 5> kTissue = {
      {"swelling_width_mm", &RegionTissue::swelling_width},
      {"neighbourhood_mm", &RegionTissue::neighbourhood}}};
 
-Json to_json(const StiffeningLaw& law) {
+PlainJson to_json(const StiffeningLaw& law) {
   return {{"g0_mpa", law.g0}, {"g_limit_mpa", law.g_limit}, {"limit_depth_mm", law.limit_depth}};
 }
 
-StiffeningLaw law_from(const Json& json) {
+StiffeningLaw law_from(const PlainJson& json) {
   return {finite(json.at("g0_mpa")), finite(json.at("g_limit_mpa")),
           finite(json.at("limit_depth_mm"))};
 }
 
-Json to_json(const TissueStiffness& stiffness) {
+PlainJson to_json(const TissueStiffness& stiffness) {
   return {{"nominal", to_json(stiffness.nominal)},
           {"low", to_json(stiffness.low)},
           {"high", to_json(stiffness.high)}};
 }
 
-TissueStiffness stiffness_from(const Json& json) {
+TissueStiffness stiffness_from(const PlainJson& json) {
   return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
 }
 
 /// Version 1 of the file has one law per region, that of the half-space.
-RegionTissue region_tissue_version_1(const Json& json, const RegionTissue& standard) {
+RegionTissue region_tissue_version_1(const PlainJson& json, const RegionTissue& standard) {
   RegionTissue region = standard;
   TissueStiffness& stiffness = region.half_space;
   stiffness.nominal = law_from(json);
@@ -98,7 +99,7 @@ RegionTissue region_tissue_version_1(const Json& json, const RegionTissue& stand
   return region;
 }
 
-JointDof dof_from(const Json& json) {
+JointDof dof_from(const PlainJson& json) {
   JointDof dof;
   const auto name = json.at("dof").get<std::string>();
   const auto known = dof_named(name);
@@ -123,12 +124,12 @@ JointDof dof_from(const Json& json) {
 
 }  // namespace
 
-Json skeleton_to_json(const Skeleton& skeleton) {
-  Json json;
-  json["joints"] = Json::array();
+PlainJson skeleton_to_json(const Skeleton& skeleton) {
+  PlainJson json;
+  json["joints"] = PlainJson::array();
   for (const Joint& joint : skeleton.joints) {
-    Json entry = {{"joint", name_of(joint.id)}, {"centre_mm", to_json(joint.centre)}};
-    entry["dofs"] = Json::array();
+    PlainJson entry = {{"joint", name_of(joint.id)}, {"centre_mm", to_json(joint.centre)}};
+    entry["dofs"] = PlainJson::array();
     for (const JointDof& dof : joint.dofs) {
       entry["dofs"].push_back({{"dof", name_of(dof.dof)},
                                {"axis", to_json(dof.axis)},
@@ -143,14 +144,14 @@ Json skeleton_to_json(const Skeleton& skeleton) {
   for (const LimitName& limit : kLimits) {
     json["thumb_cmc"][limit.name] = to_json(skeleton.thumb_cmc.*limit.limit);
   }
-  json["fingertips_mm"] = Json::array();
+  json["fingertips_mm"] = PlainJson::array();
   for (const Vec3& tip : skeleton.fingertips) json["fingertips_mm"].push_back(to_json(tip));
   return json;
 }
 
-Skeleton skeleton_from_json(const Json& json) {
+Skeleton skeleton_from_json(const PlainJson& json) {
   Skeleton skeleton;
-  const Json& joints = json.at("joints");
+  const PlainJson& joints = json.at("joints");
   if (joints.size() != kJointCount) {
     throw InputError(std::to_string(joints.size()) + " joints; " + std::to_string(kJointCount) +
                      " are needed");
@@ -165,9 +166,9 @@ Skeleton skeleton_from_json(const Json& json) {
     Joint& joint = skeleton.joints[j];
     joint.id = static_cast<JointId>(j);
     joint.centre = vec3_from(joints[j].at("centre_mm"));
-    for (const Json& entry : joints[j].at("dofs")) {
+    for (const PlainJson& entry : joints[j].at("dofs")) {
       joint.dofs.push_back(dof_from(entry));
-      has_dof[static_cast<std::size_t>(joint.dofs.back().dof)] = true;
+      has_dof[index_of(joint.dofs.back().dof)] = true;
     }
   }
   for (std::size_t d = 0; d < has_dof.size(); ++d) {
@@ -185,38 +186,38 @@ Skeleton skeleton_from_json(const Json& json) {
   return skeleton;
 }
 
-Json dimensions_to_json(const HandDimensions& dimensions) {
-  Json json = {{"hand_length_mm", dimensions.hand_length},
-               {"hand_circumference_mm", dimensions.hand_circumference},
-               {"hand_width_mm", dimensions.hand_width},
-               {"hand_thickness_mm", dimensions.hand_thickness}};
+PlainJson dimensions_to_json(const HandDimensions& dimensions) {
+  PlainJson json = {{"hand_length_mm", dimensions.hand_length},
+                    {"hand_circumference_mm", dimensions.hand_circumference},
+                    {"hand_width_mm", dimensions.hand_width},
+                    {"hand_thickness_mm", dimensions.hand_thickness}};
   for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions& one = dimensions.segment[static_cast<std::size_t>(s)];
+    const SegmentDimensions& one = dimensions.segment[s];
     json["segments"][std::string(name_of(static_cast<Segment>(s)))] = {
         {"length_mm", one.length}, {"width_mm", one.width}, {"thickness_mm", one.thickness}};
   }
   return json;
 }
 
-HandDimensions dimensions_from_json(const Json& json) {
+HandDimensions dimensions_from_json(const PlainJson& json) {
   HandDimensions dimensions;
   dimensions.hand_length = finite(json.at("hand_length_mm"));
   dimensions.hand_circumference = finite(json.at("hand_circumference_mm"));
   dimensions.hand_width = finite(json.at("hand_width_mm"));
   dimensions.hand_thickness = finite(json.at("hand_thickness_mm"));
   for (int s = 0; s < kSegmentCount; ++s) {
-    const Json& one = json.at("segments").at(std::string(name_of(static_cast<Segment>(s))));
-    dimensions.segment[static_cast<std::size_t>(s)] = {
-        finite(one.at("length_mm")), finite(one.at("width_mm")), finite(one.at("thickness_mm"))};
+    const PlainJson& one = json.at("segments").at(std::string(name_of(static_cast<Segment>(s))));
+    dimensions.segment[s] = {finite(one.at("length_mm")), finite(one.at("width_mm")),
+                             finite(one.at("thickness_mm"))};
   }
   return dimensions;
 }
 
-Json tissue_to_json(const Tissue& tissue) {
-  Json json = {{"source", tissue.source}};
+PlainJson tissue_to_json(const Tissue& tissue) {
+  PlainJson json = {{"source", tissue.source}};
   for (int r = 0; r < kRegionCount; ++r) {
-    Json& entry = json["regions"][std::string(name_of(static_cast<Region>(r)))];
-    const RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    PlainJson& entry = json["regions"][std::string(name_of(static_cast<Region>(r)))];
+    const RegionTissue& region = tissue.region[r];
     entry["half_space"] = to_json(region.half_space);
     entry["layered"] = to_json(region.layered);
     for (const TissueName& item : kTissue) entry[item.name] = region.*item.value;
@@ -225,17 +226,17 @@ Json tissue_to_json(const Tissue& tissue) {
   return json;
 }
 
-Tissue tissue_from_json(const Json& json) {
+Tissue tissue_from_json(const PlainJson& json) {
   const Tissue standard = default_tissue();
   Tissue tissue;
   tissue.source = json.at("source").get<std::string>();
   for (int r = 0; r < kRegionCount; ++r) {
     const std::string name(name_of(static_cast<Region>(r)));
-    const Json& entry = json.at("regions").at(name);
-    RegionTissue& region = tissue.region[static_cast<std::size_t>(r)];
+    const PlainJson& entry = json.at("regions").at(name);
+    RegionTissue& region = tissue.region[r];
     const bool is_version_1 = entry.contains("g0_mpa");
     if (is_version_1) {
-      region = region_tissue_version_1(entry, standard.region[static_cast<std::size_t>(r)]);
+      region = region_tissue_version_1(entry, standard.region[r]);
     } else {
       region.half_space = stiffness_from(entry.at("half_space"));
       region.layered = stiffness_from(entry.at("layered"));

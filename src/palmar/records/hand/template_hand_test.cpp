@@ -10,9 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
@@ -25,8 +26,6 @@ namespace palmar {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDeg = std::numbers::pi / 180.0;
 
 std::string asset_path() {
   return std::string(PALMAR_SOURCE_DIR) +
@@ -94,16 +93,16 @@ TEST_F(TemplateHand, EveryAngleHasASourceAndARangeAboutTheReference) {
 TEST_F(TemplateHand, FlexionBendsTowardsThePalmAndAbductionTowardsTheThumb) {
   const Skeleton& s = hand().skeleton;
   for (int f = 1; f < kFingerCount; ++f) {
-    const Vec3 tip = s.fingertips[static_cast<std::size_t>(f)];
-    const auto distal = static_cast<std::size_t>(*segments_of(static_cast<Finger>(f))[2]);
+    const Vec3 tip = s.fingertips[f];
+    const std::size_t distal = index_of(*segments_of(static_cast<Finger>(f))[2]);
     const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
     for (const int k : {0, 2, 3}) {
       Posture posture = reference_posture(s);
-      posture[static_cast<Dof>(first + k)] += 30 * kDeg;
+      posture[static_cast<Dof>(first + k)] += 30 * kDegree;
       EXPECT_GT((pose_skeleton(s, posture).segment[distal] * tip).z(), tip.z() + 3);
     }
     Posture posture = reference_posture(s);
-    posture[static_cast<Dof>(first + 1)] += 10 * kDeg;
+    posture[static_cast<Dof>(first + 1)] += 10 * kDegree;
     EXPECT_GT((pose_skeleton(s, posture).segment[distal] * tip).x(), tip.x() + 5);
   }
 }
@@ -113,8 +112,7 @@ TEST_F(TemplateHand, FlexedFingersConvergeOnTheScaphoid) {
   const Skeleton& s = hand().skeleton;
   const PosedSkeleton fist = pose_skeleton(s, full_fist(s));
   const auto tip = [&](Finger finger) {
-    return Vec3(fist.segment[static_cast<std::size_t>(*segments_of(finger)[2])] *
-                s.fingertips[static_cast<std::size_t>(finger)]);
+    return Vec3(fist.segment[index_of(*segments_of(finger)[2])] * s.fingertips[index_of(finger)]);
   };
   const double tips = (tip(Finger::kIndex) - tip(Finger::kLittle)).norm();
   const double knuckles =
@@ -123,7 +121,7 @@ TEST_F(TemplateHand, FlexedFingersConvergeOnTheScaphoid) {
 }
 
 TEST_F(TemplateHand, WeightsAreSharesAndListedInOrder) {
-  ASSERT_EQ(hand().weights.size(), static_cast<std::size_t>(kJointCount));
+  ASSERT_EQ(std::ssize(hand().weights), kJointCount);
   for (std::size_t j = 0; j < hand().weights.size(); ++j) {
     const JointWeights& weights = hand().weights[j];
     EXPECT_EQ(weights.joint, static_cast<JointId>(j));
@@ -139,15 +137,14 @@ TEST_F(TemplateHand, WeightsAreSharesAndListedInOrder) {
 TEST_F(TemplateHand, FingertipsMoveRigidlyAndNoFingerDragsItsNeighbour) {
   const Skeleton& s = hand().skeleton;
   Posture posture = reference_posture(s);
-  posture[Dof::kMiddleMcpFlexion] += 50 * kDeg;
-  posture[Dof::kMiddlePipFlexion] += 40 * kDeg;
+  posture[Dof::kMiddleMcpFlexion] += 50 * kDegree;
+  posture[Dof::kMiddlePipFlexion] += 40 * kDegree;
   const PosedSkeleton bones = pose_skeleton(s, posture);
   const std::vector<Vec3> skin = pose_skin(hand(), posture);
   for (std::size_t v = 0; v < skin.size(); ++v) {
     const auto finger = finger_of(hand().segment[v]);
     if (hand().segment[v] == Segment::kMiddleDistal) {
-      const Vec3 rigid =
-          bones.segment[static_cast<std::size_t>(Segment::kMiddleDistal)] * hand().skin.vertices[v];
+      const Vec3 rigid = bones.segment[index_of(Segment::kMiddleDistal)] * hand().skin.vertices[v];
       ASSERT_NEAR((skin[v] - rigid).norm(), 0, 1e-9) << "vertex " << v;  // mm, rounding
     } else if (finger && hand().segment[v] != *segments_of(*finger)[0] &&
                *finger != Finger::kMiddle) {
@@ -163,7 +160,7 @@ TEST_F(TemplateHand, SomeVerticesAloneGoWhereAllGo) {
   const std::vector<Vec3> alone = pose_skin_vertices(hand(), posture, some);
   ASSERT_EQ(alone.size(), some.size());
   for (std::size_t k = 0; k < some.size(); ++k) {
-    EXPECT_EQ(alone[k], all[static_cast<std::size_t>(some[k])]);
+    EXPECT_EQ(alone[k], all[some[k]]);
   }
 }
 
@@ -222,7 +219,7 @@ TEST_F(TemplateHand, MirroredHandTakesTheMirroredPosture) {
 TEST_F(TemplateHand, ThumbReachesTheLittleFingertipWithinTheRangeOfMotion) {
   std::vector<int> thumb, little;
   for (int v = 0; v < hand().skin.vertex_count(); ++v) {
-    const Region region = hand().region[static_cast<std::size_t>(v)];
+    const Region region = hand().region[v];
     if (region == Region::kThumbDistal) thumb.push_back(v);
     if (region == Region::kLittleDistal) little.push_back(v);
   }
@@ -240,7 +237,7 @@ TEST_F(TemplateHand, ThumbReachesTheLittleFingertipWithinTheRangeOfMotion) {
                       Dof::kLittleDipFlexion};
   Posture best = reference_posture(hand().skeleton);
   double least = gap(best);
-  for (double step = 16 * kDeg; step > kDeg && least > 2.0; step /= 2) {
+  for (double step = 16 * kDegree; step > kDegree && least > 2.0; step /= 2) {
     for (bool improves = true; improves && least > 2.0;) {
       improves = false;
       for (const Dof dof : free) {
@@ -262,12 +259,12 @@ TEST_F(TemplateHand, ThumbReachesTheLittleFingertipWithinTheRangeOfMotion) {
 
 TEST_F(TemplateHand, ClampingNamesTheAngleAndKeepsTheRest) {
   Posture posture = reference_posture(hand().skeleton);
-  posture[Dof::kIndexPipFlexion] = 130 * kDeg;
+  posture[Dof::kIndexPipFlexion] = 130 * kDegree;
   const ClampedPosture held = clamp_to_range(hand().skeleton, posture);
   ASSERT_EQ(held.clamped.size(), 1U);
   EXPECT_EQ(held.clamped[0].dof, Dof::kIndexPipFlexion);
-  EXPECT_NEAR(held.clamped[0].used, 100 * kDeg, 1e-12);  // clinical norm
-  EXPECT_NEAR(held.clamped[0].asked, 130 * kDeg, 1e-12);
+  EXPECT_NEAR(held.clamped[0].used, 100 * kDegree, 1e-12);  // clinical norm
+  EXPECT_NEAR(held.clamped[0].asked, 130 * kDegree, 1e-12);
 }
 
 TEST_F(TemplateHand, ALeftOrIncompleteAssetIsRefusedByName) {

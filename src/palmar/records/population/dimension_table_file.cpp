@@ -3,12 +3,12 @@
 #include "palmar/records/population/dimension_table_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
@@ -20,12 +20,6 @@ namespace {
 
 constexpr std::uint64_t kMaxTableBytes = std::uint64_t{64} << 20;
 constexpr double kLargestLength = 1e5;  // mm; stature and reach may stand beside hands
-
-std::string short_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 bool is_missing(const std::string& cell) {
   std::string text = cell;
@@ -156,7 +150,8 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   if (sizes.empty()) return;
   std::sort(sizes.begin(), sizes.end());
   const double median = quantile(sizes, 0.5);
-  const std::string allowed = short_text(range->low) + " to " + short_text(range->high) + " mm";
+  const std::string allowed =
+      significant(range->low, 4) + " to " + significant(range->high, 4) + " mm";
   if (median < range->low || median > range->high) {
     std::string fitting;
     for (const char* unit : {"mm", "cm", "in", "m"}) {
@@ -165,7 +160,8 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
     }
     table.fail(
         0, column,
-        "the median is " + short_text(median) + " mm; a hand's " + column.name + " is " + allowed +
+        "the median is " + significant(median, 4) + " mm; a hand's " + column.name + " is " +
+            allowed +
             (fitting.empty()
                  ? std::string(is_segment_length(column) ? " between creases of the palm side" : "")
                  : ", which these numbers are in " + fitting + ": is the unit right?"));
@@ -184,7 +180,7 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   }
   if (line > 0) {
     table.fail(line, column,
-               short_text(first) + " mm; a hand's " + column.name + " is " + allowed +
+               significant(first, 4) + " mm; a hand's " + column.name + " is " + allowed +
                    (more > 0 ? " (and " + std::to_string(more) + " more cells)" : ""));
   }
 }
@@ -227,13 +223,13 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     column.unit = "mm";
     column.is_number = true;
     const auto range = size_range(heading.name);
-    column.values =
-        cells.numbers(heading.factor, 0.0, kLargestLength,
-                      "a length above 0 and below " + short_text(kLargestLength / heading.factor) +
-                          " " + heading.unit + " is needed" +
-                          (range ? "; a hand's " + heading.name + " is " + short_text(range->low) +
-                                       " to " + short_text(range->high) + " mm"
-                                 : ""));
+    column.values = cells.numbers(
+        heading.factor, 0.0, kLargestLength,
+        "a length above 0 and below " + significant(kLargestLength / heading.factor, 4) + " " +
+            heading.unit + " is needed" +
+            (range ? "; a hand's " + heading.name + " is " + significant(range->low, 4) + " to " +
+                         significant(range->high, 4) + " mm"
+                   : ""));
     if (heading.unit != "mm") {
       table.notes.push_back(number + " (" + header + ") is turned from " + heading.unit +
                             " into mm");

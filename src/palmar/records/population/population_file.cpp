@@ -21,9 +21,9 @@ namespace palmar {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = 1 << 22;
-constexpr double kLargestLength = 400.0;  // mm; as fault_of() allows
-constexpr double kLargestNumber = 1e6;    // of intercepts and slopes
-constexpr double kSmallest = 1e-6;        // stands for "more than 0"
+constexpr double kLargestDimension = 400.0;  // mm; as fault_of() allows
+constexpr double kLargestNumber = 1e6;       // of intercepts and slopes
+constexpr double kSmallest = 1e-6;           // stands for "more than 0"
 
 std::string number_text(double value) {
   std::array<char, 32> text{};
@@ -87,7 +87,7 @@ DrivingDimension read_driving(const TomlSection& section) {
   section.allow({"dimension", "mean_mm", "sd_mm", "evidence", "source"});
   DrivingDimension driving;
   driving.dimension = dimension_of(section);
-  driving.mean = section.need_number("mean_mm", "mm", 1.0, kLargestLength);
+  driving.mean = section.need_number("mean_mm", "mm", 1.0, kLargestDimension);
   check_size(section, "mean_mm", driving.dimension, driving.mean);
   driving.sd = section.number("sd_mm", "mm", kSmallest, 0.2 * driving.mean).value_or(0.0);
   driving.evidence = evidence_of(section, Evidence::kMeasured);
@@ -109,7 +109,7 @@ DimensionRegression read_regression(const TomlSection& section) {
     }
   }
   regression.residual_sd =
-      section.number("residual_sd_mm", "mm", 0.0, kLargestLength).value_or(0.0);
+      section.number("residual_sd_mm", "mm", 0.0, kLargestDimension).value_or(0.0);
   regression.evidence = evidence_of(section, Evidence::kRegressed);
   regression.source = section.text("source").value_or("");
   return regression;
@@ -153,8 +153,8 @@ void read_correlations(const TomlSection& section, Stratum& stratum) {
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      const DrivingDimension& a = stratum.driving[static_cast<std::size_t>(j)];
-      const DrivingDimension& b = stratum.driving[static_cast<std::size_t>(i)];
+      const DrivingDimension& a = stratum.driving[j];
+      const DrivingDimension& b = stratum.driving[i];
       if (is_given(i, j) != 0 || a.sd == 0.0 || b.sd == 0.0) continue;
       section.fail("correlation of " + name_of(a.dimension) + " and " + name_of(b.dimension) +
                    " is missing; [[stratum.correlation]] is required for every pair of driving "
@@ -242,7 +242,7 @@ std::string stratum_toml(const Stratum& stratum) {
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = i + 1; j < n; ++j) {
       const auto name = [&](Eigen::Index k) {
-        return toml_string(name_of(stratum.driving[static_cast<std::size_t>(k)].dimension));
+        return toml_string(name_of(stratum.driving[k].dimension));
       };
       text += "\n[[stratum.correlation]]\nbetween = [" + name(i) + ", " + name(j) + "]\n";
       text += "r = " + toml_number(stratum.correlation(i, j)) + "\n";

@@ -7,10 +7,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// Joints with ranges alone.
-Skeleton plain_skeleton() {
+Skeleton bare_skeleton() {
   Skeleton skeleton;
   for (int d = 0; d < kDofCount; ++d) {
     JointDof dof;
@@ -59,7 +59,7 @@ std::string written(const std::string& text) {
 
 std::string coordination_message(const std::string& text) {
   try {
-    read_coordination(written(text), plain_skeleton());
+    read_coordination(written(text), bare_skeleton());
   } catch (const InputError& error) {
     return error.what();
   }
@@ -68,14 +68,13 @@ std::string coordination_message(const std::string& text) {
 
 TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
   const std::string path = written(header() + rows(400));
-  const CoordinationBasis basis = read_coordination(path, plain_skeleton());
+  const CoordinationBasis basis = read_coordination(path, bare_skeleton());
   EXPECT_EQ(basis.postures, 400);
   EXPECT_EQ(basis.source, path);
-  constexpr double kDeg = std::numbers::pi / 180.0;
-  EXPECT_NEAR(basis.mean[3] / kDeg, 20.0, 0.1);  // the sine's mean over 400 rad
+  EXPECT_NEAR(basis.mean[3] / kDegree, 20.0, 0.1);  // the sine's mean over 400 rad
   // sin(i + k) spans two dimensions, so two components carry all but what is regularised.
   EXPECT_EQ(basis.retained, 2);
-  EXPECT_NEAR(std::sqrt(basis.covariance(5, 5)) / kDeg, 10.0 / std::sqrt(2.0), 0.1);
+  EXPECT_NEAR(std::sqrt(basis.covariance(5, 5)) / kDegree, 10.0 / std::sqrt(2.0), 0.1);
 }
 
 TEST(CoordinationFile, TooFewRowsAreNamed) {

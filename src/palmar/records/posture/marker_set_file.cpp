@@ -22,7 +22,7 @@
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 26;
 constexpr double kFarFromSkin = 60.0;  // mm; wands stand off less
@@ -86,8 +86,7 @@ class Builder {
       return skin_point(*hand_, static_cast<int>(*entry.vertex), height);
     }
     const HandPoint near = skin_point_near(*hand_, *entry.point);
-    const double off =
-        (hand_->skin.vertices[static_cast<std::size_t>(*near.vertex)] - *entry.point).norm();
+    const double off = (hand_->skin.vertices[*near.vertex] - *entry.point).norm();
     if (off > kFarFromSkin) {
       throw UsageError(fmt::format(
           "the point is {:.0f} mm from the skin; at most {:g} mm is allowed (hand frame, reference "
@@ -125,7 +124,7 @@ MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
     entry.place = csv.path + ":" + std::to_string(row.line);
     const auto cell = [&](const char* name) {
       const int column = csv.column(name);
-      return column < 0 ? std::string() : row.cells[static_cast<std::size_t>(column)];
+      return column < 0 ? std::string() : row.cells[column];
     };
     const auto number = [&](const char* name) -> std::optional<double> {
       if (cell(name).empty()) return std::nullopt;
@@ -148,10 +147,10 @@ MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
 }
 
 MarkerSet from_json(const std::string& text, const std::string& path, const Hand& hand) {
-  Json json;
+  PlainJson json;
   try {
-    json = Json::parse(text);
-  } catch (const Json::exception& error) {
+    json = PlainJson::parse(text);
+  } catch (const PlainJson::exception& error) {
     throw InputError(path + ": no valid JSON: " + error.what());
   }
   if (!json.is_object() || !json.contains("markers") || !json["markers"].is_array()) {
@@ -159,7 +158,7 @@ MarkerSet from_json(const std::string& text, const std::string& path, const Hand
   }
   Builder builder(hand);
   int index = 0;
-  for (const Json& one : json["markers"]) {
+  for (const PlainJson& one : json["markers"]) {
     Entry entry;
     entry.place = path + ": marker " + std::to_string(++index);
     if (!one.is_object()) throw InputError(entry.place + ": an object is needed");

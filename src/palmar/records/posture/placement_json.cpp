@@ -12,28 +12,28 @@
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr double kRoundingOfFiles = 0.01;  // of a unit length: numbers in files are rounded
 
-double finite(const Json& json) {
+double finite(const PlainJson& json) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
     throw InputError(in_quotes(json.dump()) + " stands where a number is needed");
   }
   return json.get<double>();
 }
 
-const Json& list_of(const Json& json, const char* name, std::size_t size) {
+const PlainJson& list_of(const PlainJson& json, const char* name, std::size_t size) {
   if (!json.contains(name)) throw InputError(std::string("\"") + name + "\" is missing");
-  const Json& list = json[name];
+  const PlainJson& list = json[name];
   if (!list.is_array() || list.size() != size) {
     throw InputError(std::string("\"") + name + "\" needs " + std::to_string(size) + " entries");
   }
   return list;
 }
 
-Rigid3 from_matrix(const Json& json) {
-  const Json& rows = list_of(json, "matrix_rows_mm", 4);
+Rigid3 from_matrix(const PlainJson& json) {
+  const PlainJson& rows = list_of(json, "matrix_rows_mm", 4);
   Eigen::Matrix4d m;
   for (std::size_t r = 0; r < 4; ++r) {
     if (!rows[r].is_array() || rows[r].size() != 4) {
@@ -59,13 +59,13 @@ Rigid3 from_matrix(const Json& json) {
 
 }  // namespace
 
-Rigid3 placement_from_json(const Json& json) {
+Rigid3 placement_from_json(const PlainJson& json) {
   if (!json.is_object()) throw InputError("an object is needed");
   if (!json.contains("quaternion_wxyz") && json.contains("matrix_rows_mm")) {
     return from_matrix(json);
   }
-  const Json& q = list_of(json, "quaternion_wxyz", 4);
-  const Json& t = list_of(json, "translation_mm", 3);
+  const PlainJson& q = list_of(json, "quaternion_wxyz", 4);
+  const PlainJson& t = list_of(json, "translation_mm", 3);
   const Quat turn(finite(q[0]), finite(q[1]), finite(q[2]), finite(q[3]));
   if (!(std::abs(turn.norm() - 1.0) < kRoundingOfFiles)) {
     throw InputError("\"quaternion_wxyz\" has length " + shortest(turn.norm()) + "; 1 is needed");

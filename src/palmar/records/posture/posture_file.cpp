@@ -7,20 +7,21 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/placement_json.h"
 
 namespace palmar {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr std::uint64_t kMaxPostureBytes = std::uint64_t{1} << 30;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// What a name in a file means.
@@ -42,7 +43,7 @@ AngleName angle_named(const std::string& name) {
   const auto ends = [&](std::string_view end) { return name.size() > 4 && name.ends_with(end); };
   if (ends("_deg") || ends("_rad")) {
     if (const auto dof = dof_named(name.substr(0, name.size() - 4))) {
-      return {*dof, ends("_deg") ? kRadiansPerDegree : 1.0};
+      return {*dof, ends("_deg") ? kDegree : 1.0};
     }
   } else if (dof_named(name)) {
     throw InputError(in_quotes(name) + " has no unit; " + name + "_deg or " + name +
@@ -63,7 +64,7 @@ class AngleSet {
   /// Throws InputError without the place.
   void set(const std::string& name, double value) {
     const AngleName known = angle_named(name);
-    std::optional<double>& angle = angle_[static_cast<std::size_t>(known.dof)];
+    std::optional<double>& angle = angle_[index_of(known.dof)];
     if (angle) throw InputError(in_quotes(name) + " is given twice (in degrees and in radians?)");
     if (!std::isfinite(value)) throw InputError(in_quotes(name) + " is not finite");
     const double radians = value * known.factor;
@@ -80,7 +81,7 @@ class AngleSet {
   void give(const Skeleton& skeleton, PostureFrame& frame) const {
     Posture asked = reference_posture(skeleton);
     for (int d = 0; d < kDofCount; ++d) {
-      const std::optional<double>& angle = angle_[static_cast<std::size_t>(d)];
+      const std::optional<double>& angle = angle_[d];
       if (angle) {
         asked[static_cast<Dof>(d)] = *angle;
       } else {
@@ -108,10 +109,10 @@ class JsonPostures {
       : path_(path), skeleton_(&skeleton) {}
 
   PostureFile read(const std::string& text) {
-    Json json;
+    PlainJson json;
     try {
-      json = Json::parse(text);
-    } catch (const Json::exception& error) {
+      json = PlainJson::parse(text);
+    } catch (const PlainJson::exception& error) {
       throw InputError(path_ + ": no valid JSON: " + error.what());
     }
     if (json.is_array()) {
@@ -131,14 +132,14 @@ class JsonPostures {
     throw InputError(path_ + ": " + (place.empty() ? "" : place + ": ") + why);
   }
 
-  void read_list(const Json& list, const std::string& what) {
+  void read_list(const PlainJson& list, const std::string& what) {
     if (!list.is_array() || list.empty()) fail("", what + "s: a list with at least one is needed");
     for (std::size_t i = 0; i < list.size(); ++i) {
       read_frame(list[i], what + " " + std::to_string(i + 1));
     }
   }
 
-  void read_frame(const Json& json, const std::string& name) {
+  void read_frame(const PlainJson& json, const std::string& name) {
     if (!json.is_object()) fail(name, "an object with joint angles is needed");
     if (json.contains("grasp")) {
       read_frame(json["grasp"], name);
@@ -231,7 +232,7 @@ PostureFile read_csv_postures(const CsvFile& csv, const Skeleton& skeleton) {
     if (angles.is_empty()) {
       csv.fail(row.line, "it has no joint angle, such as index_pip_flexion_deg");
     }
-    if (time >= 0 && !row.cells[static_cast<std::size_t>(time)].empty()) {
+    if (time >= 0 && !row.cells[time].empty()) {
       frame.time = csv.number(row, static_cast<std::size_t>(time));
     }
     angles.give(skeleton, frame);
@@ -267,14 +268,14 @@ const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
     throw UsageError(path + ": posture " + std::to_string(wanted) + " is asked for; there " +
                      (count == 1 ? "is one" : "are " + std::to_string(count)));
   }
-  return file.frames[static_cast<std::size_t>(wanted - 1)];
+  return file.frames[wanted - 1];
 }
 
 std::string posture_json(const Posture& posture) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (int d = 0; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
-    json[std::string(name_of(dof)) + "_deg"] = posture[dof] / kRadiansPerDegree;
+    json[std::string(name_of(dof)) + "_deg"] = posture[dof] / kDegree;
   }
   return json.dump(2);
 }

@@ -9,10 +9,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/posture_report.h"
 
 namespace palmar {
@@ -20,13 +20,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 /// Every range -30 to 90 degrees, reference 5 degrees.
 Skeleton plain_skeleton() {
   Skeleton skeleton;
   for (int j = 0; j < kJointCount; ++j) {
-    skeleton.joints[static_cast<std::size_t>(j)].id = static_cast<JointId>(j);
+    skeleton.joints[j].id = static_cast<JointId>(j);
   }
   for (int d = 0; d < kDofCount; ++d) {
     JointDof dof;
@@ -34,7 +32,7 @@ Skeleton plain_skeleton() {
     dof.reference = 5 * kDegree;
     dof.lower = -30 * kDegree;
     dof.upper = 90 * kDegree;
-    skeleton.joints[static_cast<std::size_t>(d % kJointCount)].dofs.push_back(dof);
+    skeleton.joints[d % kJointCount].dofs.push_back(dof);
   }
   return skeleton;
 }
@@ -135,8 +133,7 @@ TEST_F(PostureFileTest, WhatIsWrittenReadsBack) {
     FoundPosture found;
     found.number = f + 1;
     found.frame.time = 0.1 * f;
-    for (int d = 0; d < kDofCount; ++d)
-      found.frame.posture.angle[static_cast<std::size_t>(d)] = 0.01 * d * (f + 1);
+    for (int d = 0; d < kDofCount; ++d) found.frame.posture.angle[d] = 0.01 * d * (f + 1);
     report.postures.push_back(found);
   }
   for (const std::string& text : {posture_report_json(report), posture_report_csv(report)}) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/formats/text_scan.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/csv.h"
 #include "palmar/records/json_values.h"
 
@@ -28,7 +29,7 @@ Json names_of(const std::vector<Dof>& dofs) {
 
 Json labels_of(const std::vector<int>& indices, const std::vector<std::string>& labels) {
   Json names = Json::array();
-  for (const int i : indices) names.push_back(labels.at(static_cast<std::size_t>(i)));
+  for (const int i : indices) names.push_back(labels.at(i));
   return names;
 }
 
@@ -51,7 +52,7 @@ void add_markers(const PostureFit& fit, const std::vector<std::string>& labels, 
   json["at_limit"] = names_of(fit.at_limit);
   Json sd = Json::object();
   for (int d = 0; d < kDofCount; ++d) {
-    sd[std::string(name_of(static_cast<Dof>(d)))] = fit.sd[static_cast<std::size_t>(d)] * kDegrees;
+    sd[std::string(name_of(static_cast<Dof>(d)))] = fit.sd[d] * kDegreesPerRadian;
   }
   json["sd_deg"] = std::move(sd);
 }
@@ -81,8 +82,8 @@ Json posture_object(const PostureReport& report, const FoundPosture& found, bool
   if (!found.frame.clamped.empty()) {
     Json clamped = Json::object();
     for (const ClampedAngle& one : found.frame.clamped) {
-      clamped[std::string(name_of(one.dof))] = {{"asked_deg", one.asked * kDegrees},
-                                                {"used_deg", one.used * kDegrees}};
+      clamped[std::string(name_of(one.dof))] = {{"asked_deg", one.asked * kDegreesPerRadian},
+                                                {"used_deg", one.used * kDegreesPerRadian}};
     }
     json["clamped"] = std::move(clamped);
   }
@@ -119,7 +120,8 @@ std::string posture_report_csv(const PostureReport& report) {
   for (const FoundPosture& one : report.postures) {
     std::vector<std::string> row = {std::to_string(one.number),
                                     one.frame.time ? shortest(*one.frame.time) : ""};
-    for (const double angle : one.frame.posture.angle) row.push_back(shortest(angle * kDegrees));
+    for (const double angle : one.frame.posture.angle)
+      row.push_back(shortest(angle * kDegreesPerRadian));
     if (has_rms) row.push_back(one.markers ? shortest(one.markers->rms) : "");
     table.rows.push_back(std::move(row));
   }

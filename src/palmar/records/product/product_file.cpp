@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/product/product_file.h"
 
-#include <array>
-#include <cstdio>
-
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/product/make_product.h"
 #include "palmar/product/unit_guard.h"
@@ -14,12 +12,6 @@
 
 namespace palmar {
 namespace {
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 /// The unit that the file tells, if it is one of Palmar's.
 std::optional<LengthUnit> told_unit(const ImportedCad& cad) {
@@ -82,7 +74,7 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   product.notes.push_back(
       cad.format + ", unit " +
       (options.unit ? name_of(*options.unit) + " as told (file: " + in_file + ")" : in_file) +
-      "; chordal error " + number(cad.chordal_error) + " mm (" + cad.chordal_reason + ")");
+      "; chordal error " + significant(cad.chordal_error, 4) + " mm (" + cad.chordal_reason + ")");
   product.notes.insert(product.notes.end(), cad.notes.begin(), cad.notes.end());
   return result;
 }

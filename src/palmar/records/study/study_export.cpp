@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <system_error>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/csv.h"
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/study/assessment/grasp_indices.h"
@@ -91,7 +91,7 @@ fs::path write_hands(const StudyPlan& plan, const fs::path& folder) {
     const HandSample& sample = hand.sample;
     std::vector<std::string> row = {
         std::to_string(h),
-        plan.populations[static_cast<std::size_t>(hand.population)].population.name,
+        plan.populations[hand.population].population.name,
         sample.label,
         sample.stratum,
         !sample.sex ? "" : (*sample.sex == Sex::kMale ? "male" : "female"),
@@ -161,9 +161,9 @@ std::vector<std::string> posture_header() {
 }
 
 std::vector<std::string> posture_row(const StudyRecord& record) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::vector<std::string> row = {std::to_string(record.number)};
-  for (const double angle : record.posture.angle) row.push_back(shortest(kDegrees * angle));
+  for (const double angle : record.posture.angle)
+    row.push_back(shortest(kDegreesPerRadian * angle));
   const Quat& q = record.product_from_hand.rotation;
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) row.push_back(shortest(value));
   for (int c = 0; c < 3; ++c) row.push_back(shortest(record.product_from_hand.translation[c]));
@@ -172,21 +172,20 @@ std::vector<std::string> posture_row(const StudyRecord& record) {
 
 std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& record) {
   const StudyTask task = task_at(plan, record.number);
-  const StudyHand& hand = plan.hands[static_cast<std::size_t>(task.hand)];
-  const auto& asked = plan.grips[static_cast<std::size_t>(task.grip)];
-  std::vector<std::string> row = {
-      std::to_string(record.number),
-      std::to_string(task.hand),
-      plan.populations[static_cast<std::size_t>(hand.population)].population.name,
-      hand.sample.label,
-      plan.profiles[static_cast<std::size_t>(task.profile)].name,
-      plan.settings[static_cast<std::size_t>(task.setting)].name,
-      plan.products[static_cast<std::size_t>(task.product)].name,
-      asked ? std::string(name_of(*asked)) : "auto",
-      name_of(record.outcome),
-      record.reason,
-      std::string(name_of(record.grip)),
-      record.is_balanced ? "1" : "0"};
+  const StudyHand& hand = plan.hands[task.hand];
+  const auto& asked = plan.grips[task.grip];
+  std::vector<std::string> row = {std::to_string(record.number),
+                                  std::to_string(task.hand),
+                                  plan.populations[hand.population].population.name,
+                                  hand.sample.label,
+                                  plan.profiles[task.profile].name,
+                                  plan.settings[task.setting].name,
+                                  plan.products[task.product].name,
+                                  asked ? std::string(name_of(*asked)) : "auto",
+                                  name_of(record.outcome),
+                                  record.reason,
+                                  std::string(name_of(record.grip)),
+                                  record.is_balanced ? "1" : "0"};
   for (const double value :
        {record.force, record.grip_force, record.area, record.peak_pressure,
         record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,

@@ -324,6 +324,20 @@ StudyLimit read_limit(const TomlSection& section) {
 
 }  // namespace
 
+PopulationRequest population_request(const std::string& words) {
+  PopulationRequest request;
+  const std::filesystem::path path = words;
+  const bool is_file = words.find('/') != words.npos || path.has_extension();
+  if (!is_file) {
+    request.preset = words;
+  } else if (path.extension() == ".toml") {
+    request.file = words;
+  } else {
+    request.table = words;
+  }
+  return request;
+}
+
 std::optional<SamplingDesign> design_named(const std::string& name) {
   if (name == "random") return SamplingDesign::kRandom;
   if (name == "latin_hypercube" || name == "lhs") return SamplingDesign::kLatinHypercube;

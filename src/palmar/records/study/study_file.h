@@ -16,13 +16,18 @@ namespace palmar {
 
 /// A population as asked for: by one of the three.
 struct PopulationRequest {
-  std::string preset;        ///< name of a built-in one
-  std::string file;          ///< population file (io/population_file.h)
-  std::string table;         ///< given hands: a table of subjects (io/dimension_table_file.h)
+  std::string preset;  ///< name of a built-in one
+  std::string file;    ///< population file (records/population/population_file.h)
+  std::string
+      table;  ///< given hands: a table of subjects (records/population/dimension_table_file.h)
   SamplingOptions sampling;  ///< of a table nothing: every subject is a hand
   bool has_seed = false;     ///< else sampling.seed follows the study's
   std::string where;         ///< "study.toml:7: ", put in front of messages; may be empty
 };
+
+/// A population in one word: "xie2014", "folder/people.toml" (a population file), "measured.csv"
+/// (given hands).
+PopulationRequest population_request(const std::string& words);
 
 /// One or more products as asked for: a file or a solid, in all its sizes.
 struct ProductRequest {

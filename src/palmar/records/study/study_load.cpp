@@ -38,27 +38,26 @@ std::vector<HandSample> given_hands(const std::string& path, std::vector<std::st
   for (const std::string& text : table.notes) notes.push_back(path + ": " + text);
   std::vector<HandSample> hands;
   for (int s = 0; s < table.subjects(); ++s) {
-    const auto row = static_cast<std::size_t>(s);
     HandSample hand;
     hand.label = std::to_string(s + 1);
     for (const TableColumn& column : table.columns) {
-      const bool has_text = !column.is_number && !column.texts[row].empty();
-      const bool has_value = column.is_number && column.values[row].has_value();
-      if (has_text && column.name == "sex") hand.sex = sex_of_text(column.texts[row]);
-      if (has_text && column.quantity == Quantity::kLabel) hand.label = column.texts[row];
+      const bool has_text = !column.is_number && !column.texts[s].empty();
+      const bool has_value = column.is_number && column.values[s].has_value();
+      if (has_text && column.name == "sex") hand.sex = sex_of_text(column.texts[s]);
+      if (has_text && column.quantity == Quantity::kLabel) hand.label = column.texts[s];
       if (has_value && column.quantity == Quantity::kLabel) {
-        hand.label = shortest(*column.values[row]);
+        hand.label = shortest(*column.values[s]);
       }
-      if (has_value && column.quantity == Quantity::kAge) hand.age = column.values[row];
+      if (has_value && column.quantity == Quantity::kAge) hand.age = column.values[s];
       if (has_value && column.name == "grip_strength" && column.unit == "n") {
-        hand.grip_strength = *column.values[row];  // N
+        hand.grip_strength = *column.values[s];  // N
       }
       if (has_value && column.dimension) {
-        hand.dimensions.push_back({*column.dimension, *column.values[row]});
+        hand.dimensions.push_back({*column.dimension, *column.values[s]});
       }
     }
     if (hand.dimensions.empty()) {
-      throw InputError(path + ":" + std::to_string(table.lines[row]) +
+      throw InputError(path + ":" + std::to_string(table.lines[s]) +
                        ": no dimension of the hand; hand_length_mm is one");
     }
     if (!(hand.grip_strength > 0.0) && hand.sex && hand.age) {

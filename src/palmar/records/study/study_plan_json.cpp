@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/population/population_file.h"
@@ -60,7 +61,7 @@ Json population_json(const StudyPopulation& one) {
           {"cautions", one.population.cautions},
           // Given hands have no distribution.
           {"toml", one.population.strata.empty() ? "" : population_toml(one.population)},
-          {"design", kDesigns[static_cast<std::size_t>(sampling.design)]},
+          {"design", kDesigns[index_of(sampling.design)]},
           {"hands", sampling.hands},
           {"seed", sampling.seed},
           {"residuals", sampling.residuals},
@@ -179,11 +180,11 @@ Json setting_json(const StudySetting& setting) {
           {"strength_share", optional_json(setting.strength_share)},
           {"friction", setting.friction},
           {"is_balanced", setting.is_balanced},
-          {"kernel", kKernels[static_cast<std::size_t>(model.kernel)]},
-          {"tissue_model", kTissues[static_cast<std::size_t>(model.tissue)]},
-          {"coupling", kCouplings[static_cast<std::size_t>(model.coupling)]},
-          {"skin_distance", kDistances[static_cast<std::size_t>(model.distance)]},
-          {"bulge", kBulges[static_cast<std::size_t>(model.bulge)]},
+          {"kernel", kKernels[index_of(model.kernel)]},
+          {"tissue_model", kTissues[index_of(model.tissue)]},
+          {"coupling", kCouplings[index_of(model.coupling)]},
+          {"skin_distance", kDistances[index_of(model.distance)]},
+          {"bulge", kBulges[index_of(model.bulge)]},
           {"indices", setting.indices},
           {"wrench_volume", setting.wrench_volume},
           {"place_per_hand", setting.is_place_per_hand}};

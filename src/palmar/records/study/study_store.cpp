@@ -261,7 +261,7 @@ struct StudyStore::Impl {
         if (number < 0 || number >= std::ssize(result.faces)) {
           throw InputError("its inputs are damaged");
         }
-        result.faces[static_cast<std::size_t>(number)] = rows.blob(1);
+        result.faces[number] = rows.blob(1);
       } else {
         result.products.push_back(rows.blob(1));
       }
@@ -496,9 +496,9 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
     }
   }
   const int count = stores.front().shard().n;
-  std::vector<const StudyStore*> by_number(static_cast<std::size_t>(count), nullptr);
+  std::vector<const StudyStore*> by_number(count, nullptr);
   for (const StudyStore& store : stores) {
-    const StudyStore*& place = by_number[static_cast<std::size_t>(store.shard().k - 1)];
+    const StudyStore*& place = by_number[store.shard().k - 1];
     if (place != nullptr) {
       throw UsageError(store.path().string() + " and " + place->path().string() +
                        " are both shard " + name_of(store.shard()));
@@ -507,7 +507,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
   }
   std::string absent;
   for (int k = 1; k <= count; ++k) {
-    if (by_number[static_cast<std::size_t>(k - 1)] != nullptr) continue;
+    if (by_number[k - 1] != nullptr) continue;
     absent += (absent.empty() ? "" : ", ") + name_of(StudyShard{k, count});
   }
   if (!absent.empty()) {

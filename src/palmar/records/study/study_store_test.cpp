@@ -43,8 +43,7 @@ Hand stored_hand() {
   hand.segment.assign(4, Segment::kPalm);
   hand.region.assign(4, Region::kThenar);
   for (int j = 0; j < kJointCount; ++j) {
-    hand.skeleton.joints[static_cast<std::size_t>(j)] = {
-        static_cast<JointId>(j), Vec3(j, 1, 2), {}};
+    hand.skeleton.joints[j] = {static_cast<JointId>(j), Vec3(j, 1, 2), {}};
   }
   for (int d = 0; d < kDofCount; ++d) {
     JointDof dof;
@@ -52,7 +51,7 @@ Hand stored_hand() {
     dof.axis = Vec3(1, d / 7.0, 0).normalized();
     dof.lower = -1;
     dof.upper = 3;
-    hand.skeleton.joints[static_cast<std::size_t>(d % kJointCount)].dofs.push_back(dof);
+    hand.skeleton.joints[d % kJointCount].dofs.push_back(dof);
   }
   hand.skeleton.fingertips.fill(Vec3(8, 180, 1.0 / 3));
   hand.skeleton.thumb_cmc = make_cmc_limits(make_cmc_joint({28, 36, 19}, {45, 59, 34}));
@@ -515,7 +514,7 @@ TEST(StudyStore, AFullDiskIsNamedAndLosesNothing) {
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   ASSERT_GE(WEXITSTATUS(status), 100) << "no named outcome";
-  EXPECT_EQ(StudyStore(path).done().size(), static_cast<std::size_t>(WEXITSTATUS(status) - 100));
+  EXPECT_EQ(std::ssize(StudyStore(path).done()), WEXITSTATUS(status) - 100);
 }
 
 TEST(StudyStore, ExportsEveryTableWithUnits) {

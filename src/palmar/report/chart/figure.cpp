@@ -80,7 +80,7 @@ void Figure::text(double x, double y, std::string text, const Lettering& look) {
 void Figure::image(double x, double y, double width, double height, Image picture) {
   check_finite({x, y}, width + height, "picture");
   if (picture.pixels.empty()) return;
-  shapes_.push_back(
+  shapes_.emplace_back(
       Picture{{x, y}, {width, height}, std::make_shared<const Image>(std::move(picture))});
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kWidth = 420.0;  // points, as all lengths here
-constexpr double kLeft = 54.0;
+constexpr double kScatterWidth = 420.0;  // points, as all lengths here
+constexpr double kScatterLeft = 54.0;
 constexpr double kRight = 16.0;
 constexpr double kTop = 34.0;
 constexpr double kPlotHeight = 250.0;
@@ -32,7 +32,7 @@ Rgb darker(Rgb c) {
 struct Plot {
   Axis x, y;
   Vector2d at(double px, double py) const {
-    return {kLeft + (kWidth - kLeft - kRight) * x.share(px),
+    return {kScatterLeft + (kScatterWidth - kScatterLeft - kRight) * x.share(px),
             kTop + kPlotHeight * (1.0 - y.share(py))};
   }
 };
@@ -67,13 +67,14 @@ void draw_axes(Figure& figure, const Plot& plot, const ScatterChart& chart) {
   }
   for (std::size_t i = 0; i < plot.y.ticks.size(); ++i) {
     const Vector2d p = plot.at(plot.x.low, plot.y.ticks[i]);
-    figure.line(p.x(), p.y(), kWidth - kRight, p.y(), {kGridColour, 0.5});
+    figure.line(p.x(), p.y(), kScatterWidth - kRight, p.y(), {kGridColour, 0.5});
     figure.text(p.x() - 6.0, p.y() + 3.2, plot.y.texts[i],
                 {.size = tick.size, .align = Align::kRight, .colour = tick.colour});
   }
   const double bottom = kTop + kPlotHeight;
-  figure.polyline({{kLeft, kTop}, {kLeft, bottom}, {kWidth - kRight, bottom}}, {kFaintColour, 0.8});
-  figure.text(0.5 * (kLeft + kWidth - kRight), bottom + 30.0, chart.x_label,
+  figure.polyline({{kScatterLeft, kTop}, {kScatterLeft, bottom}, {kScatterWidth - kRight, bottom}},
+                  {kFaintColour, 0.8});
+  figure.text(0.5 * (kScatterLeft + kScatterWidth - kRight), bottom + 30.0, chart.x_label,
               {.size = 10.0, .align = Align::kCentre});
   figure.text(14.0, kTop + 0.5 * kPlotHeight, chart.y_label,
               {.size = 10.0, .align = Align::kCentre, .turn = 90.0});
@@ -138,9 +139,9 @@ Figure scatter_chart(const ScatterChart& chart) {
   const bool has_legend = chart.series.size() > 1;
   const double below = kBelow + kLine * static_cast<double>(chart.notes.size()) + 6.0 +
                        (has_legend ? kLine + 2.0 : 0.0);
-  Figure figure(kWidth, kTop + kPlotHeight + below, chart.title);
+  Figure figure(kScatterWidth, kTop + kPlotHeight + below, chart.title);
   figure.rect(0.0, 0.0, figure.width(), figure.height(), Fill{kWhite});
-  figure.text(kLeft, 18.0, chart.title, {.size = 12.0, .is_bold = true});
+  figure.text(kScatterLeft, 18.0, chart.title, {.size = 12.0, .is_bold = true});
   std::vector<double> xs, ys;
   for (const ScatterSeries& series : chart.series) {
     for (const Vector2d& p : series.points) {
@@ -150,7 +151,7 @@ Figure scatter_chart(const ScatterChart& chart) {
     }
   }
   if (xs.empty()) {
-    figure.text(kLeft, kTop + 20.0, "No values.", {.colour = kFaintColour});
+    figure.text(kScatterLeft, kTop + 20.0, "No values.", {.colour = kFaintColour});
     return figure;
   }
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
@@ -169,7 +170,7 @@ Figure scatter_chart(const ScatterChart& chart) {
   for (const ScatterSeries& series : chart.series) draw_bands(figure, plot, series);
   double y = kTop + kPlotHeight + kBelow + 6.0;
   if (has_legend) {
-    double x = kLeft;
+    double x = kScatterLeft;
     for (const ScatterSeries& series : chart.series) {
       figure.circle(x + 3.0, y - 3.0, 3.0, Fill{series.colour});
       figure.text(x + 10.0, y, series.name, {.size = 9.0});
@@ -178,7 +179,7 @@ Figure scatter_chart(const ScatterChart& chart) {
     y += kLine + 2.0;
   }
   for (const std::string& text : chart.notes) {
-    figure.text(kLeft, y, text, {.size = 9.0, .colour = kFaintColour});
+    figure.text(kScatterLeft, y, text, {.size = 9.0, .colour = kFaintColour});
     y += kLine;
   }
   return figure;

@@ -13,14 +13,15 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/csv.h"
-#include "palmar/report/page/html_report.h"
+#include "palmar/report/page/assessment_page.h"
 #include "palmar/report/picture/assessment_pictures.h"
 
 namespace palmar {
 
 namespace {
 
-constexpr int kEmbeddedWidth = 720;  // pixels; the page shows pictures about 540 wide
+constexpr int kEmbeddedWidth = 720;   // pixels; the page shows pictures about 540 wide
+constexpr int kThumbnailWidth = 440;  // pixels; on the cards of products side by side
 
 // A folder name that every file system takes, different from those already used.
 std::string folder_name(const std::string& product, std::set<std::string>& used) {
@@ -114,10 +115,20 @@ void write_fields(const std::filesystem::path& folder, const Hand& hand, const A
   write("grasp.glb", [&] { return grasp_glb(hand, one, scale); });
 }
 
+std::string small_png(const Image& image, int width) {
+  return encode_png(narrowed(image, width), PngEffort::kSmall);
+}
+
+bool has_thumbnail(const Picture& picture, bool are_compared) {
+  return are_compared && (picture.name == "map_open_hand" || picture.name == "grasp_palm" ||
+                          picture.name == "grasp_back");
+}
+
 // Writes the pictures at full size and gives them back at the size in which report.html shows them.
 std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, const Hand& hand,
                                            const AssessedProduct& one, const ColourScale& scale,
-                                           const ReportOptions& options, const Progress& progress) {
+                                           const ReportOptions& options, bool are_compared,
+                                           const Progress& progress) {
   const std::vector<Picture> pictures = assessment_pictures(
       hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
       progress);
@@ -127,8 +138,13 @@ std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, 
     const auto i = static_cast<std::size_t>(k);
     const Picture& picture = pictures[i];
     full[i] = encode_png(picture.image);
-    embedded[i] = {picture.name, picture.title, picture.alt,
-                   encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall)};
+    embedded[i] = {.name = picture.name,
+                   .title = picture.title,
+                   .alt = picture.alt,
+                   .png = small_png(picture.image, kEmbeddedWidth),
+                   .thumbnail = has_thumbnail(picture, are_compared)
+                                    ? small_png(picture.image, kThumbnailWidth)
+                                    : ""};
   });
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     write_file(folder / (pictures[i].name + ".png"), full[i]);
@@ -206,11 +222,14 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
     const std::filesystem::path own = root / folder_name(one.product.name, used);
     create_folder(own);
     write_fields(own, hand, one, scale, progress);
-    if (options.pictures) embedded[i] = write_pictures(own, hand, one, scale, options, progress);
+    if (options.pictures) {
+      embedded[i] =
+          write_pictures(own, hand, one, scale, options, set.assessments.size() > 1, progress);
+    }
   }
   const bool is_cut_short = progress.is_cancelled();
   if (progress.report) progress.report(0.98, "report.html");
-  write_file(root / "report.html", html_report(set, embedded, scale, json, is_cut_short));
+  write_file(root / "report.html", assessment_page(set, embedded, scale, json, is_cut_short));
   if (is_cut_short)
     throw Cancelled("cancelled; " + folder + "/report.html holds what was finished");
 }

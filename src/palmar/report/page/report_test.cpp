@@ -12,11 +12,11 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "palmar/report/chart/svg_chart.h"
+#include "palmar/grasp/pressure_thresholds.h"
+#include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/page/assessment_report.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"
-#include "palmar/report/page/pressure_limits.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/stroke_text.h"
 
@@ -376,30 +376,22 @@ TEST(PressureLimits, FilmValuesOfTheStandardAreHeldAgainstPeaks) {
   EXPECT_DOUBLE_EQ(pain_onset_film(Region::kIndexDistal), 3.0);
   EXPECT_DOUBLE_EQ(pain_onset_film(Region::kUlnarPalm), 2.6);
   EXPECT_DOUBLE_EQ(pain_onset_film(Region::kThenar), 2.0);
-  ContactResult contact;
-  EXPECT_FALSE(nearest_to_pain(contact));
-  contact.regions = {
-      {.region = Region::kIndexDistal, .peak_pressure = 1.2, .peak_pressure_cells = 0.06},
-      {.region = Region::kThenar, .peak_pressure = 1.0, .peak_pressure_cells = 0.04}};
-  // 1.2 / 3.0 = 0.4 is farther from pain than 1.0 / 2.0 = 0.5, though the pressure is higher.
-  EXPECT_EQ(nearest_to_pain(contact)->region, Region::kThenar);
-  EXPECT_DOUBLE_EQ(nearest_to_pain(contact)->share, 0.5);
-  EXPECT_EQ(regions_without_blood_flow(contact), 1);
 }
 
-TEST(SvgChart, IsWellFormedAndBarsAreInProportion) {
-  const std::string svg = svg_chart({"Force, N", {{"a <b>", 10.0}, {"c", 5.0}}});
+TEST(BarChart, IsWellFormedAndBarsAreInProportion) {
+  // 254 wide at the scale's end, which is 10 N: 560 less 250 for labels and 56 for values.
+  const std::string svg = to_svg(bar_figure({"Force, N", {{"a <b>", 10.0}, {"c", 5.0}}}));
   EXPECT_EQ(badly_nested(svg), std::vector<std::string>{});
   EXPECT_THAT(svg, HasSubstr("a &lt;b&gt;"));
-  // 560 - 250 - 56 = 254 wide at 10 N.
-  EXPECT_THAT(svg, HasSubstr("width=\"254.0\""));
-  EXPECT_THAT(svg, HasSubstr("width=\"127.0\""));
-  EXPECT_THAT(svg_chart({"Force, N", {}}), HasSubstr("No contact."));
+  EXPECT_THAT(svg, HasSubstr("points=\"250,37 504,37 504,53 250,53\""));
+  EXPECT_THAT(svg, HasSubstr("points=\"250,61 377,61 377,77 250,77\""));
+  EXPECT_THAT(to_svg(bar_figure({"Force, N", {}})), HasSubstr("No contact."));
   // The range widens the scale: 20 N is the chart's whole width.
-  const std::string ranged = svg_chart({"Force, N", {{"a", 10.0, {}, BarRange{5.0, 20.0}}}});
+  const std::string ranged =
+      to_svg(bar_figure({"Force, N", {{"a", 10.0, {}, BarRange{5.0, 20.0}}}}));
   EXPECT_EQ(badly_nested(ranged), std::vector<std::string>{});
-  EXPECT_THAT(ranged, HasSubstr("width=\"127.0\""));
-  EXPECT_THAT(ranged, HasSubstr("M313.5 45.0H504.0"));  // 250 + 254 / 4 to 250 + 254
+  EXPECT_THAT(ranged, HasSubstr("points=\"250,37 377,37 377,53 250,53\""));
+  EXPECT_THAT(ranged, HasSubstr("points=\"313.5,45 504,45\""));  // 250 + 254 / 4 to 250 + 254
 }
 
 TEST(PlainWords, NumbersAreShortenedNotRoundedBeforeThePoint) {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/report/page/pressure_limits.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 
@@ -199,6 +198,12 @@ ColourScale friction_scale() {
           .quantity = "Friction",
           .unit = "1: slips",
           .neutral = kNeutralColour};
+}
+
+bool is_in_hand(const Assessment& assessment) {
+  const GraspStatus status = assessment.grasp.status;
+  return (status == GraspStatus::kHeld || status == GraspStatus::kPartlyHeld) &&
+         !assessment.contact.regions.empty();
 }
 
 ColourScale pressure_scale(const AssessmentSet& set) {

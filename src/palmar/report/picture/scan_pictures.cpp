@@ -11,11 +11,11 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/bones/bone_shape.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/scan/scan_report.h"
-#include "palmar/report/scan/scan_tables.h"
 
 namespace palmar {
 namespace {
@@ -24,12 +24,12 @@ namespace {
 constexpr Rgb kUnnamedColour{204, 121, 167};
 constexpr Rgb kMarkerColour{0, 114, 178};
 
-struct View {
+struct ScanView {
   const char* name;
   const char* words;
   Vec3 direction;  ///< hand frame
 };
-const std::array<View, 2> kViews = {
+const std::array<ScanView, 2> kViews = {
     {{"palm", "palm side", {0.0, 0.0, -1.0}}, {"thumb", "thumb side", {-1.0, 0.0, 0.0}}}};
 
 Image picture_of(const Scene& scene, const Vec3& direction, const Vec3& up,
@@ -144,7 +144,7 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
   for (const RecordedScan& scan : record.scans) {
     const auto posed = record.joints.postures.find(scan.posture);
     if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
-    const std::string words = words_of(scan.posture);
+    const std::string words = plain_words(scan.posture);
     all.push_back({"error_" + std::string(name_of(scan.posture)) + "_",
                    "Posed skin, distance to the scan: " + words + ", ",
                    "The hand in the posture " + words +
@@ -152,7 +152,7 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
                    error_scene(record, scan, posed->second), error_scale()});
   }
   for (const RecordedScan& scan : record.scans) {
-    const std::string words = words_of(scan.posture);
+    const std::string words = plain_words(scan.posture);
     all.push_back({"scan_" + std::string(name_of(scan.posture)) + "_",
                    "Scan of the posture " + words + ", ",
                    "What was found in the scan: skin, bones, markers; seen from the ",
@@ -163,7 +163,7 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
   const double step = 1.0 / static_cast<double>(kViews.size() * all.size());
   try {
     for (const Shown& shown : all) {
-      for (const View& view : kViews) {
+      for (const ScanView& view : kViews) {
         const double done = step * static_cast<double>(pictures.size());
         progress.update(done, "pictures");
         const Vec3 direction(sign * view.direction.x(), view.direction.y(), view.direction.z());

@@ -9,10 +9,11 @@
 
 namespace palmar {
 
-/// The meshes of one grasp as JSON for the report's 3-D view (SceneData in viewer/viewer.ts): skin
-/// deformed and undeformed, product with footprint, product frame, mm. For display only: positions
-/// and pressures are rounded to 1/65535 of their range (base64 of little-endian uint16), which is
-/// some 0.005 mm; hand.vtp and product.vtp hold them in full.
+/// The meshes of one grasp as JSON for the report's 3-D view (SceneData in
+/// apps/workbench/viewer/viewer.ts): skin deformed and undeformed, product with footprint, product
+/// frame, mm. For display only: positions and pressures are rounded to 1/65535 of their range
+/// (base64 of little-endian uint16), which is some 0.005 mm; hand.vtp and product.vtp hold them in
+/// full.
 std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
                             const ColourScale& scale);
 

@@ -11,10 +11,10 @@
 #include "palmar/core/parallel.h"
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/report/page/face_tables.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/display_mesh.h"
 #include "palmar/report/picture/packed_field.h"
+#include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
@@ -25,7 +25,7 @@ constexpr int kMostProductTriangles = 40000;
 constexpr double kReach = 30.0;     // mm; deeper inside nothing is brought to the surface
 constexpr double kThesisEnd = 0.7;  // MPa; colour scale of Xie 2014, fig. 5-12
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t place(int i) { return static_cast<std::size_t>(i); }
 
 std::string triple(const Vec3& v) {
   return "[" + exact_number(v.x()) + "," + exact_number(v.y()) + "," + exact_number(v.z()) + "]";
@@ -46,11 +46,11 @@ std::string quoted(const std::string& text) {
 std::vector<double> unpacked(const SparseField& field, std::size_t size) {
   std::vector<double> result(size, 0.0);
   for (std::size_t i = 0; i < field.vertex.size(); ++i) {
-    if (field.vertex[i] < 0 || at(field.vertex[i]) >= size) {
+    if (field.vertex[i] < 0 || place(field.vertex[i]) >= size) {
       throw UsageError("report: a pressure field names vertex " + std::to_string(field.vertex[i]) +
                        " of a mesh of " + std::to_string(size));
     }
-    result[at(field.vertex[i])] = field.value[i];
+    result[place(field.vertex[i])] = field.value[i];
   }
   return result;
 }
@@ -83,8 +83,8 @@ std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, 
                      ",\"product\":" + std::to_string(task.product) +
                      ",\"says\":" + quoted(grasp_words(record));
   if (is_in_hand(record)) {
-    const Product& product = input.inputs.products[at(task.product)];
-    const ShownProduct& shown = products[at(task.product)];
+    const Product& product = input.inputs.products[place(task.product)];
+    const ShownProduct& shown = products[place(task.product)];
     const double upper = input.scales.grasp.upper;
     json += ",\"skin\":" + packed_positions(displayed_skin(hand, record, product)) +
             ",\"pressure\":\"" +
@@ -100,16 +100,16 @@ std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, 
 
 /// What the view says and draws of a product's faces; "null" if it has none.
 std::string faces_json(const StudySceneInput& input, int product, const ShownProduct& shown) {
-  const Product& given = input.inputs.products[at(product)];
+  const Product& given = input.inputs.products[place(product)];
   if (given.faces == nullptr) return "null";
   std::vector<const FaceSummary*> summary(given.faces->face.size(), nullptr);
   for (const FaceStatistics& one : input.faces) {
     if (one.product != product || !is_same(one.condition, input.condition)) continue;
-    for (const FaceSummary& face : one.faces) summary[at(face.face)] = &face;
+    for (const FaceSummary& face : one.faces) summary[place(face.face)] = &face;
   }
   std::vector<Vec3> borders;
   for (const auto& edge : border_edges(given.mesh, given.faces->face_of_triangle)) {
-    for (const int v : edge) borders.push_back(given.mesh.vertices[at(v)]);
+    for (const int v : edge) borders.push_back(given.mesh.vertices[place(v)]);
   }
   std::string says;
   for (std::size_t f = 0; f < summary.size(); ++f) {
@@ -179,11 +179,11 @@ std::vector<int> shown_hands(const StudyPlan& plan, const StudyCondition& condit
                              int most_grasps) {
   std::vector<int> hands = hands_of(plan, condition);
   const auto products = std::max<std::size_t>(1, plan.products.size());
-  const std::size_t most = std::max<std::size_t>(1, at(std::max(0, most_grasps)) / products);
+  const std::size_t most = std::max<std::size_t>(1, place(std::max(0, most_grasps)) / products);
   if (hands.size() <= most) return hands;
   std::stable_sort(hands.begin(), hands.end(), [&](int a, int b) {
-    return size_of(plan.hands[at(a)], kHandLength).value_or(0.0) <
-           size_of(plan.hands[at(b)], kHandLength).value_or(0.0);
+    return size_of(plan.hands[place(a)], kHandLength).value_or(0.0) <
+           size_of(plan.hands[place(b)], kHandLength).value_or(0.0);
   });
   std::vector<int> chosen;
   for (std::size_t k = 0; k < most; ++k) {
@@ -201,7 +201,7 @@ int typical_hand(const StudyPlan& plan, const std::vector<int>& hands) {
   for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
     std::vector<double> sizes;
     for (const int h : hands) {
-      if (const auto size = size_of(plan.hands[at(h)], dimension)) sizes.push_back(*size);
+      if (const auto size = size_of(plan.hands[place(h)], dimension)) sizes.push_back(*size);
     }
     if (sizes.size() != hands.size()) continue;
     const Summary summary = summarise(sizes);
@@ -239,7 +239,7 @@ std::string study_scene_json(const StudySceneInput& input) {
   const Hand& base = *input.inputs.base;
   std::vector<ShownProduct> products(plan.products.size());
   parallel_for(static_cast<int>(products.size()),
-               [&](int p) { products[at(p)] = shown_product(input.inputs.products[at(p)]); });
+               [&](int p) { products[place(p)] = shown_product(input.inputs.products[place(p)]); });
 
   const std::vector<int> hands = shown_hands(plan, input.condition, input.most_grasps);
   std::vector<StudyRecord> records;
@@ -258,7 +258,7 @@ std::string study_scene_json(const StudySceneInput& input) {
     parts[static_cast<std::size_t>(place - hands.begin())].records.push_back(&record);
   }
   parallel_for(static_cast<int>(parts.size()), [&](int i) {
-    HandPart& part = parts[at(i)];
+    HandPart& part = parts[place(i)];
     std::optional<Hand> hand;
     for (const StudyRecord* record : part.records) {
       if (!hand && is_in_hand(*record)) hand = input.hand_of(task_at(plan, record->number));

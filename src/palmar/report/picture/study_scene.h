@@ -51,9 +51,9 @@ struct StudySceneInput {
   int most_grasps = 200;                     ///< some 35 kB each in the page
 };
 
-/// Data of the report's 3-D view (StudySceneData in viewer/study_view.ts) as JSON: the template's
-/// triangles once, every product once, then per grasp the skin and pressures, each packed by itself
-/// so that the browser unpacks only what is looked at.
+/// Data of the report's 3-D view (StudySceneData in apps/workbench/viewer/study_view.ts) as JSON:
+/// the template's triangles once, every product once, then per grasp the skin and pressures, each
+/// packed by itself so that the browser unpacks only what is looked at.
 std::string study_scene_json(const StudySceneInput& input);
 
 }  // namespace palmar

@@ -2,35 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/hand_scan_report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "palmar/formats/file.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/bones/bone_shape.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/records/capture/hand_from_scan_json.h"
 #include "palmar/records/capture/mark_label_file.h"
-#include "palmar/report/page/html_page.h"
-#include "palmar/report/page/html_text.h"
+#include "palmar/report/page/page_json.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
-#include "palmar/report/scan/scan_tables.h"
+#include "palmar/report/scan/scan_report.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr Rgb kDotColour{230, 30, 30};
 constexpr int kWidth = 700, kHeight = 620;
 
@@ -124,7 +120,7 @@ std::vector<Picture> pictures_of(const HandFromScan& made,
     const auto place = made.scan_from_hand.find(posture);
     if (place == made.scan_from_hand.end()) continue;
     all.push_back({"scan_" + std::string(name_of(posture)) + "_",
-                   "Scan of the posture " + words_of(posture) + ", ",
+                   "Scan of the posture " + plain_words(posture) + ", ",
                    "The scanned surface in its colours, found dots in red, seen from the ",
                    scan_scene(scan, place->second.inverse()),
                    {}});
@@ -146,108 +142,71 @@ std::vector<Picture> pictures_of(const HandFromScan& made,
   return pictures;
 }
 
-std::string dots_section(const HandFromScan& made) {
-  if (made.joints.empty()) return {};
-  std::string rows;
-  for (const DottedJoint& joint : made.joints) {
-    rows += "<tr>" + row_head(plain_words(joint.segment)) + "<td>" +
-            html_escaped(words_of(joint.posture)) + "</td>" +
-            number_cell(joint.turn * kDegrees, 1) + number_cell(joint.residual) +
-            number_cell(joint.axis_change * kDegrees, 1) + number_cell(joint.centre_change, 1) +
-            number_cell(joint.dots, 0) + "</tr>";
-  }
-  return "<h2>Joints by the dots</h2>\n<p>How far the joint before each segment turned between the "
-         "reference scan and another, and what the dots changed of the axis that the skin told. "
-         "Dots that a hinge leaves more than 1.5 mm off slid with the skin.</p>\n" +
-         html_table("Joints",
-                    {"Joint before", "Scan", "Turn, deg", "Dots off, mm", "Axis moved, deg",
-                     "Centre moved, mm", "Dots"},
-                    rows, 2);
+PageJson place_json(const std::optional<MeanPlaceError>& error) {
+  if (!error) return nullptr;
+  PageJson axis = nullptr;
+  if (error->axis) axis = *error->axis * kDegreesPerRadian;
+  return {{"place_mm", error->place}, {"axis_deg", std::move(axis)}};
 }
 
-std::string crease_section(const HandFromScan& made) {
-  if (made.creases.shift.empty()) return {};
-  std::string rows;
-  for (const auto& [segment, shift] : made.creases.shift) {
-    rows += "<tr>" +
-            row_head(segment == Segment::kPalm ? "wrist" : "before " + plain_words(segment)) +
-            number_cell(shift, 1) + "</tr>";
+PageJson truth_json(const std::optional<ScanErrors>& errors) {
+  if (!errors) return nullptr;
+  PageJson dimensions = PageJson::array();
+  for (const auto& [axis, error] :
+       {std::pair{"x", errors->x}, std::pair{"y", errors->y}, std::pair{"z", errors->z}}) {
+    dimensions.push_back({{"axis", axis}, {"mean_mm", error.mean}, {"largest_mm", error.largest}});
   }
-  return "<h2>Creases</h2>\n" +
-         html_table("Drawn creases against where the skin's shape suggests them",
-                    {"Crease", "Distal of it, mm"}, rows);
-}
-
-/// Xie 2014: 4.5 and tables 4-1, 4-2 of this hand.
-std::string truth_section(const ScanErrors& errors) {
-  const auto row = [](const std::string& head, std::initializer_list<std::optional<double>> values,
-                      int decimals) {
-    std::string cells;
-    for (const auto& value : values) cells += number_cell(value, decimals);
-    return "<tr>" + row_head(head) + cells + "</tr>";
-  };
-  const auto mm = [](const std::optional<MeanPlaceError>& e) {
-    return e ? std::optional(e->place) : std::nullopt;
-  };
-  const auto degrees = [](const std::optional<MeanPlaceError>& e) {
-    return e && e->axis ? std::optional(*e->axis * kDegrees) : std::nullopt;
-  };
-  std::string rows;
-  for (const auto& [posture, words] :
-       {std::pair{ScanPosture::kReference, "Natural extended posture"},
-        std::pair{ScanPosture::kFingerFlexion, "Limit bended posture, full flexion"},
-        std::pair{ScanPosture::kFingerAbduction, "Limit bended posture, full abduction"}}) {
-    const auto pip = mean_error(errors, posture, FingerPlace::kPip);
-    const auto dip = mean_error(errors, posture, FingerPlace::kDip);
-    const auto tip = mean_error(errors, posture, FingerPlace::kTip);
+  PageJson fingers = PageJson::array();
+  for (const ScanPosture posture :
+       {ScanPosture::kReference, ScanPosture::kFingerFlexion, ScanPosture::kFingerAbduction}) {
+    const auto pip = mean_error(*errors, posture, FingerPlace::kPip);
     if (!pip) continue;
-    rows += row(words, {mm(pip), degrees(pip), mm(dip), degrees(dip), mm(tip)}, 1);
+    fingers.push_back({{"posture", name_of(posture)},
+                       {"pip", place_json(pip)},
+                       {"dip", place_json(mean_error(*errors, posture, FingerPlace::kDip))},
+                       {"tip", place_json(mean_error(*errors, posture, FingerPlace::kTip))}});
   }
-  std::string limits;
-  for (const PlaceError& e : errors.places) {
+  PageJson limits = PageJson::array();
+  for (const PlaceError& e : errors->places) {
     if (!is_thumb_limit(e.posture) || e.segment != Segment::kThumbProximal) continue;
-    limits += row(words_of(e.posture), {e.place, *e.axis * kDegrees}, 1);
+    limits.push_back({{"posture", name_of(e.posture)},
+                      {"place_mm", e.place},
+                      {"axis_deg", *e.axis * kDegreesPerRadian}});
   }
-  return "<h2>Against the truth</h2>\n" +
-         html_table("Dimensions of the 15 segments: differences (Xie 2014: 1.2, 1.1, 1.0 mm)",
-                    {"", "Mean, mm", "Largest, mm"},
-                    row("x (breadth)", {errors.x.mean, errors.x.largest}, 2) +
-                        row("y (length)", {errors.y.mean, errors.y.largest}, 2) +
-                        row("z (thickness)", {errors.z.mean, errors.z.largest}, 2)) +
-         html_table("Fingers II to V in the mean (Xie 2014, tables 4-1 and 4-2)",
-                    {"", "PIP, mm", "PIP axis, deg", "DIP, mm", "DIP axis, deg", "Fingertip, mm"},
-                    rows) +
-         (limits.empty() ? std::string()
-                         : html_table("MP joint of the thumb where its metacarpal carries it",
-                                      {"", "Place, mm", "Axis, deg"}, limits)) +
-         (errors.skin_p95 > 0.0
-              ? fmt::format("<p>Skin: {:.2f} mm from the true one in the mean, 95 % within {:.2f} "
-                            "mm.</p>\n",
-                            errors.skin_mean, errors.skin_p95)
-              : std::string());
+  PageJson skin = nullptr;
+  if (errors->skin_p95 > 0.0) {
+    skin = {{"mean_mm", errors->skin_mean}, {"p95_mm", errors->skin_p95}};
+  }
+  return {{"dimensions", std::move(dimensions)},
+          {"fingers", std::move(fingers)},
+          {"thumb_limits", std::move(limits)},
+          {"skin", std::move(skin)}};
 }
 
-std::string found_section(const HandFromScan& made, const std::map<ScanPosture, ShownScan>& scans) {
-  std::string rows;
-  for (const auto& [posture, scan] : scans) {
-    const auto fit = made.fits.find(posture);
-    const bool is_reference = posture == ScanPosture::kReference;
-    std::optional<double> mean, share;
-    if (is_reference) mean = made.scanned.registration_mean;
-    if (fit != made.fits.end()) {
-      mean = fit->second.mean;
-      share = 100.0 * fit->second.partner_share;
-    }
-    rows += "<tr>" + row_head(words_of(posture)) + "<td>" + html_escaped(scan.file) + "</td>" +
-            number_cell(scan.surface.mesh.triangle_count(), 0) +
-            number_cell(static_cast<double>(scan.marks.dots.size()), 0) +
-            number_cell(static_cast<double>(scan.marks.lines.size()), 0) + number_cell(mean) +
-            number_cell(share, 0) + "</tr>";
+std::string page_of(const HandFromScan& made, const std::map<ScanPosture, ShownScan>& scans,
+                    const std::optional<ScanErrors>& errors, const std::vector<Picture>& pictures,
+                    const std::string& json) {
+  const Hand& hand = made.scanned.hand;
+  PageJson segments = PageJson::object();
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentDimensions& size = hand.dimensions.segment[static_cast<std::size_t>(s)];
+    segments[std::string(name_of(static_cast<Segment>(s)))] = {
+        {"length_mm", size.length}, {"width_mm", size.width}, {"thickness_mm", size.thickness}};
   }
-  return "<h2>Scans</h2>\n" + html_table("What was found in each scan",
-                                         {"Posture", "File", "Triangles", "Dots", "Pieces of lines",
-                                          "Skin to scan, mm", "Skin seen, %"},
-                                         rows, 2);
+  PageJson shown = PageJson::array();
+  for (const auto& [posture, scan] : scans) {
+    shown.push_back({{"posture", name_of(posture)},
+                     {"file", scan.file},
+                     {"triangles", scan.surface.mesh.triangle_count()},
+                     {"dots", scan.marks.dots.size()},
+                     {"lines", scan.marks.lines.size()}});
+  }
+  Attachments attachments;
+  const PageJson view = {
+      {"maker", maker_json()},           {"vocabulary", vocabulary_json(hand)},
+      {"segments", std::move(segments)}, {"scans", std::move(shown)},
+      {"truth", truth_json(errors)},     {"pictures", pictures_json(pictures, attachments)}};
+  return render_page("hand_from_scan", json, view, std::move(attachments));
 }
 
 }  // namespace
@@ -257,30 +216,15 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::optional<ScanErrors>& errors, const Progress& progress) {
   const std::filesystem::path base(folder);
   create_folder(base);
-  write_file(base / "scan.json", hand_from_scan_json(made) + "\n");
+  const std::string json = hand_from_scan_json(made);
+  write_file(base / "scan.json", json + "\n");
   write_file(base / "dimensions.csv",
              format_csv(dimension_csv(made.scanned.hand.dimensions, made.tape)));
   if (errors) write_file(base / "truth_errors.csv", format_csv(truth_error_csv(*errors)));
   write_file(base / "marks.csv", format_csv(mark_table(made.marks)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
-  const Hand& hand = made.scanned.hand;
-  const HandDimensions& d = hand.dimensions;
-  const std::string summary = fmt::format(
-      "<p>{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm, thickness {:.1f} "
-      "mm; "
-      "skin {:.2f} mm from the scan in the mean, 95 % within {:.2f} mm.</p>",
-      hand.side == Side::kLeft ? "Left" : "Right", d.hand_length, d.hand_circumference,
-      d.hand_width, d.hand_thickness, made.scanned.registration_mean,
-      made.scanned.registration_p95);
-  write_file(base / "report.html",
-             html_page("Hand from a scan: " + hand.name, summary,
-                       pictures_html(pictures, {"hand_", "distance_"}) +
-                           (errors ? truth_section(*errors) : std::string()) +
-                           notes_section("What to know about this hand", made.notes) +
-                           found_section(made, scans) + dimensions_section(hand, made.tape) +
-                           crease_section(made) + dots_section(made) +
-                           titled("Every scan", pictures_html(pictures, {"scan_"}))));
+  write_file(base / "report.html", page_of(made, scans, errors, pictures, json));
 }
 
 }  // namespace palmar

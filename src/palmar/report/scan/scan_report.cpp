@@ -2,44 +2,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/scan_report.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <filesystem>
 
 #include "palmar/core/progress_part.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/capture/scan_record_json.h"
-#include "palmar/report/page/html_page.h"
-#include "palmar/report/scan/scan_tables.h"
+#include "palmar/report/chart/bar_chart.h"
+#include "palmar/report/page/page_json.h"
+#include "palmar/report/page/plain_words.h"
 
 namespace palmar {
-namespace {
-
-std::string summary(const ScanRecord& record) {
-  const HandDimensions& d = record.made.hand.dimensions;
-  return fmt::format(
-      "<p>{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm, thickness {:.1f} "
-      "mm; from {}.</p>",
-      record.made.hand.side == Side::kLeft ? "Left" : "Right", d.hand_length, d.hand_circumference,
-      d.hand_width, d.hand_thickness,
-      record.scans.size() == 1 ? "1 scan" : fmt::format("{} scans", record.scans.size()));
+std::string plain_words(ScanPosture posture) {
+  std::string words(name_of(posture));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
-std::string page_of(const ScanRecord& record, const std::vector<Picture>& pictures) {
-  const std::string title = "Hand from MRI: " + record.made.hand.name;
-  const std::string errors = pictures_html(pictures, {"error_"});
-  return html_page(
-      title, summary(record),
-      pictures_html(pictures, {"hand_"}) +
-          notes_section("What to know about this hand", record.notes) + scans_section(record) +
-          bone_error_section(record) + skin_section(record) +
-          (errors.empty()
-               ? ""
-               : "<h3>Where the posed hand misses the scan</h3>\n<p>Grey: nothing to compare with "
-                 "(markers, skin that touches skin, the cut through the forearm).</p>\n" +
-                     errors) +
-          joint_range_section(record) + dimensions_section(record.made.hand) +
-          titled("Every scan", pictures_html(pictures, {"scan_"})));
+namespace {
+
+constexpr Rgb kIcpColour{150, 158, 166}, kAxisColour{213, 94, 0}, kCmcColour{0, 114, 178};
+
+/// Errors of one bone, or group of bones, in every posture.
+BarChart error_chart(const std::string& title, std::string_view bones,
+                     const std::vector<ErrorRow>& rows) {
+  BarChart chart{title, {}};
+  for (const ErrorRow& row : rows) {
+    if (row.bones != bones) continue;
+    const std::string words = plain_words(row.posture);
+    chart.bars.push_back({words + ": freely", row.icp, kIcpColour});
+    chart.bars.push_back({words + ": fixed axes", row.single_axis, kAxisColour});
+    if (row.interpolated_cmc) {
+      chart.bars.push_back({words + ": interpolated", *row.interpolated_cmc, kCmcColour});
+    }
+  }
+  return chart;
+}
+
+PageJson charts_json(const ScanRecord& record, Attachments& attachments) {
+  const std::vector<ErrorRow> rows = error_rows(record.joints.errors);
+  PageJson list = PageJson::array();
+  if (rows.empty()) return list;
+  for (const auto& [title, bones] :
+       {std::pair{"Thumb metacarpal: mean distance, mm", "thumb_metacarpal"},
+        std::pair{"Last phalanges II to V: mean distance, mm", "distal phalanges II-V"}}) {
+    list.push_back(attached(attachments, "chart-" + std::to_string(list.size()),
+                            to_svg(bar_figure(error_chart(title, bones, rows)))));
+  }
+  return list;
+}
+
+std::string page_of(const ScanRecord& record, const std::vector<Picture>& pictures,
+                    const std::string& json) {
+  Attachments attachments;
+  PageJson postures = PageJson::array();
+  for (int k = 0; k < kScanPostureCount; ++k) {
+    postures.push_back(name_of(static_cast<ScanPosture>(k)));
+  }
+  const PageJson view = {{"maker", maker_json()},
+                         {"vocabulary", vocabulary_json(record.made.hand)},
+                         {"postures", std::move(postures)},
+                         {"charts", charts_json(record, attachments)},
+                         {"pictures", pictures_json(pictures, attachments)}};
+  return render_page("hand_from_mri", json, view, std::move(attachments));
 }
 
 }  // namespace
@@ -48,7 +73,8 @@ void write_scan_report(const std::string& folder, const ScanRecord& record,
                        const Progress& progress) {
   const std::filesystem::path base(folder);
   create_folder(base);
-  write_file(base / "scan.json", scan_record_json(record) + "\n");
+  const std::string json = scan_record_json(record);
+  write_file(base / "scan.json", json + "\n");
   write_file(base / "bone_errors.csv", format_csv(bone_error_table(record)));
   write_file(base / "skin_errors.csv", format_csv(skin_error_table(record)));
   const std::filesystem::path contact = base / "grasp_contact.csv";
@@ -61,7 +87,7 @@ void write_scan_report(const std::string& folder, const ScanRecord& record,
   const std::vector<Picture> pictures =
       scan_pictures(record, {.width = 700, .height = 560}, part_of(progress, 0.0, 0.95));
   progress.throw_if_cancelled();
-  write_file(base / "report.html", page_of(record, pictures));
+  write_file(base / "report.html", page_of(record, pictures, json));
 }
 
 }  // namespace palmar

@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "palmar/capture/mri/scan_posture.h"
 #include "palmar/capture/scan/scan_record.h"
 #include "palmar/core/progress.h"
 #include "palmar/report/picture/assessment_pictures.h"
 
 namespace palmar {
+
+/// "thumb flexion"
+std::string plain_words(ScanPosture posture);
 
 /// Pictures of a person's hand made from scans, each from the palm and from the thumb's side:
 ///

@@ -5,66 +5,385 @@
 #include <algorithm>
 
 #include "palmar/core/error.h"
-#include "palmar/core/version.h"
-#include "palmar/formats/mesh/vtk.h"
-#include "palmar/report/page/face_tables.h"
-#include "palmar/report/page/html_style.h"
+#include "palmar/records/json_values.h"
+#include "palmar/report/chart/study_charts.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"
-#include "palmar/report/page/viewer_bundle.h"
-#include "palmar/report/study/study_sections.h"
+#include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_words.h"
 
 namespace palmar {
 namespace {
 
 constexpr std::size_t kMostDrawnConditions = 4;  // the page stays small; files hold all
+constexpr std::size_t kMostFaces = 12;           // in the page; faces.csv holds all
 
-constexpr std::string_view kStudyStyle =
-    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(420px,1fr));gap:18px}"
-    ".figures figure{padding:8px}.figures svg{width:100%;height:auto;display:block}"
-    ".controls select{font:inherit;max-width:100%;padding:.15rem .4rem;border:1px solid #8a949e;"
-    "border-radius:4px;background:#fff;color:var(--ink)}"
-    ".view-says{margin:0;padding:.5rem .9rem;border-top:1px solid var(--line);font-size:.9rem}"
-    "[data-bar][hidden]{display:none}"
-    "@media(max-width:720px){.figures{grid-template-columns:1fr}}";
+std::size_t page_index(int i) { return static_cast<std::size_t>(i); }
 
-std::string figures_of(const StudyPage& page, int condition) {
-  std::string html = "<div class=\"figures\">";
-  for (const StudyFigure& one : page.figures) {
-    if (one.condition != condition) continue;
-    html += "<figure>" + to_svg(one.figure) + "<figcaption>" + html_escaped(one.description) +
-            "</figcaption></figure>\n";
-  }
-  return html + "</div>\n";
+PageJson proportion_json(const Proportion& one) {
+  return {{"count", one.count},
+          {"n", one.n},
+          {"share", finite_or_null(one.share)},
+          {"low", finite_or_null(one.interval.low)},
+          {"high", finite_or_null(one.interval.high)}};
 }
 
-std::string pictures_of(const StudyPage& page) {
-  std::string html;
-  for (std::size_t p = 0; p < page.pictures.size(); ++p) {
-    if (page.pictures[p].empty()) continue;
-    html +=
-        "<h3>" + html_escaped(page.results.plan.products[p].name) + "</h3><div class=\"pictures\">";
-    for (const EncodedPicture& picture : page.pictures[p]) {
-      html += "<figure><img src=\"data:image/png;base64," + base64(picture.png) + "\" alt=\"" +
-              html_escaped(picture.alt) + "\"><figcaption>" + html_escaped(picture.title) +
-              "</figcaption></figure>";
-    }
-    html += "</div>\n";
+PageJson estimate_json(double value, const Interval& interval) {
+  return {{"value", finite_or_null(value)},
+          {"low", finite_or_null(interval.low)},
+          {"high", finite_or_null(interval.high)}};
+}
+
+PageJson quantity_json(const StudyQuantity& one) {
+  return {{"key", one.key}, {"name", one.name}, {"unit", one.unit}};
+}
+
+PageJson summaries_json(const ProductStatistics& one) {
+  PageJson all = PageJson::object();
+  for (const QuantitySummary& summary : one.quantities) {
+    const bool has_ends = has_percentiles(summary);
+    all[summary.quantity.key] = {
+        {"n", summary.summary.n},
+        {"mean", finite_or_null(summary.summary.mean)},
+        {"sd", finite_or_null(summary.summary.sd)},
+        {"median", finite_or_null(summary.summary.median)},
+        {"p5", has_ends ? finite_or_null(summary.p5) : PageJson(nullptr)},
+        {"p95", has_ends ? finite_or_null(summary.p95) : PageJson(nullptr)}};
   }
-  if (html.empty()) return {};
-  const StudyCondition& condition = page.analysis.conditions.front().condition;
-  const std::string which = condition_words(page.results.plan, condition);
-  return "<h2 id=\"maps\">Where all hands press" +
-         (which.empty() ? "" : html_escaped(": " + which)) +
-         "</h2>\n<p>Means over the hands that hold the "
-         "product, vertex by vertex of the template’s skin and of the product; hands that don’t "
-         "touch there count with 0. The threshold of " +
-         short_number(1000.0 * page.threshold) +
-         " kPa is of the family <em>blood flow</em>: at more, the skin’s blood flow stops if the "
-         "grip is held long (Chalmers thesis 2004, publication 208). It says nothing of "
-         "pain.</p>\n" +
-         html;
+  return all;
+}
+
+PageJson regions_json(const ProductStatistics& one) {
+  PageJson all = PageJson::object();
+  for (const RegionSummary& region : one.regions) {
+    all[std::string(name_of(region.region))] = {
+        {"force_n", region.force},
+        {"area_mm2", region.area},
+        {"peak_pressure_cells_mpa", region.peak_pressure_cells},
+        {"touching", region.touching}};
+  }
+  return all;
+}
+
+PageJson accommodation_json(const Accommodation& one) {
+  PageJson causes = PageJson::array();
+  for (const OutsideCause& cause : one.causes) {
+    causes.push_back({{"words", cause_words(cause.cause)}, {"hands", cause.hands}});
+  }
+  return {{"in_hand", proportion_json(one.in_hand)},
+          {"inside", proportion_json(one.inside)},
+          {"outside_because_of", std::move(causes)},
+          {"not_run", one.not_run},
+          {"shortest_outside_mm", or_null(one.shortest_outside)},
+          {"longest_outside_mm", or_null(one.longest_outside)}};
+}
+
+PageJson exclusion_json(const Exclusion& one) {
+  PageJson causes = PageJson::array();
+  for (const auto& [cause, share] : one.causes) {
+    if (cause == ExclusionCause::kNone || share.count == 0) continue;
+    causes.push_back({{"words", words_of(cause)}, {"hands", share.count}});
+  }
+  return {{"excluded", proportion_json(one.excluded)},
+          {"because_of", std::move(causes)},
+          {"unknown", one.unknown}};
+}
+
+PageJson products_json(const ConditionAnalysis& one) {
+  PageJson list = PageJson::array();
+  for (std::size_t p = 0; p < one.products.size(); ++p) {
+    const ProductStatistics& product = one.products[p];
+    list.push_back({{"hands", product.outcomes.hands()},
+                    {"hands_holding", product.outcomes.in_hand()},
+                    {"quantities", summaries_json(product)},
+                    {"regions", regions_json(product)},
+                    {"accommodation", accommodation_json(one.accommodation[p])},
+                    {"exclusion", exclusion_json(one.exclusion[p])}});
+  }
+  return list;
+}
+
+PageJson pair_json(const StudyPlan& plan, const ProductPair& pair) {
+  return {{"first", pair.first},
+          {"second", pair.second},
+          {"hands", pair.hands},
+          {"pairs", pair.pairs},
+          {"left_out_words", left_out_words(plan, pair)},
+          {"difference", estimate_json(pair.t_test.difference, pair.t_test.interval)},
+          {"effect_size", estimate_json(pair.t_test.effect_size, pair.t_test.effect_interval)},
+          {"t_p_holm", finite_or_null(pair.t_p_holm)},
+          {"wilcoxon_p_holm", finite_or_null(pair.wilcoxon_p_holm)},
+          {"verdict", name_of(pair.verdict)}};
+}
+
+PageJson comparisons_json(const StudyPlan& plan, const ConditionAnalysis& one) {
+  PageJson list = PageJson::array();
+  if (plan.products.size() < 2) return list;
+  for (const std::string& key : main_quantities()) {
+    const QuantityComparison* comparison = comparison_of(one, key);
+    if (comparison == nullptr) continue;
+    PageJson pairs = PageJson::array();
+    for (const ProductPair& pair : comparison->pairs) pairs.push_back(pair_json(plan, pair));
+    list.push_back(
+        {{"quantity", quantity_json(comparison->quantity)}, {"pairs", std::move(pairs)}});
+  }
+  return list;
+}
+
+PageJson sizes_json(const ConditionAnalysis& one) {
+  PageJson list = PageJson::array();
+  for (const ProductSizes& family : one.sizes) {
+    PageJson choices = PageJson::array();
+    for (const SizeChoice& choice : family.choices) {
+      PageJson sizes = PageJson::array();
+      for (const ServedBySize& size : choice.sizes) {
+        sizes.push_back({{"product", size.product},
+                         {"inside", size.inside},
+                         {"alone", size.alone},
+                         {"is_taken", size.is_taken},
+                         {"from_mm", or_null(size.from)},
+                         {"to_mm", or_null(size.to)}});
+      }
+      choices.push_back({{"sizes", std::move(sizes)},
+                         {"served", proportion_json(choice.served)},
+                         {"served_by_length", proportion_json(choice.served_by_length)}});
+    }
+    list.push_back(
+        {{"family", family.family}, {"hands", family.hands}, {"choices", std::move(choices)}});
+  }
+  return list;
+}
+
+PageJson dependence_json(const StudyPage& page, const ConditionAnalysis& one) {
+  PageJson list = PageJson::array();
+  for (const std::string& key : main_quantities()) {
+    const QuantityComparison* comparison = comparison_of(one, key);
+    if (comparison == nullptr) continue;
+    for (std::size_t p = 0; p < page.results.plan.products.size(); ++p) {
+      for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
+        const auto found =
+            size_dependence(page.results, one.condition, static_cast<int>(p), key, dimension);
+        if (!found) continue;
+        const Coefficient& slope = found->fit.slopes.front();
+        list.push_back({{"quantity", quantity_json(comparison->quantity)},
+                        {"product", p},
+                        {"size", dimension == kHandLength ? "length" : "circumference"},
+                        {"slope_per_mm", finite_or_null(slope.estimate)},
+                        {"r2", finite_or_null(found->fit.r2)},
+                        {"rank_correlation", finite_or_null(found->rank_correlation)},
+                        {"p_value", finite_or_null(slope.p_value)},
+                        {"hands", found->fit.n}});
+      }
+    }
+  }
+  return list;
+}
+
+/// Those with the product's peak in most hands first; among equals the higher peak.
+std::vector<FaceSummary> by_peak(std::vector<FaceSummary> faces) {
+  std::stable_sort(faces.begin(), faces.end(), [](const FaceSummary& a, const FaceSummary& b) {
+    if (a.has_peak.count != b.has_peak.count) return a.has_peak.count > b.has_peak.count;
+    return a.peak.mean > b.peak.mean;
+  });
+  return faces;
+}
+
+PageJson faces_json(const StudyPage& page, const StudyCondition& condition) {
+  PageJson list = PageJson::array();
+  for (const FaceStatistics& one : page.faces) {
+    if (!is_same(one.condition, condition) || one.faces.empty()) continue;
+    const Product& product = page.products[page_index(one.product)];
+    PageJson faces = PageJson::array();
+    for (const FaceSummary& summary : by_peak(one.faces)) {
+      if (faces.size() == kMostFaces) break;
+      const ProductFace& face = product.faces->face[page_index(summary.face)];
+      faces.push_back({{"title", title_of(face)},
+                       {"part", face.part},
+                       {"has_peak", proportion_json(summary.has_peak)},
+                       {"touched", proportion_json(summary.touched)},
+                       {"above", proportion_json(summary.above)},
+                       {"touching", summary.peak.n},
+                       {"peak_mean_mpa", finite_or_null(summary.peak.mean)},
+                       {"peak_sd_mpa", finite_or_null(summary.peak.sd)},
+                       {"peak_p95_mpa", finite_or_null(summary.peak_p95)},
+                       {"peak_max_mpa", finite_or_null(summary.peak.max)},
+                       {"force_share", finite_or_null(summary.force_share)}});
+    }
+    list.push_back({{"product", one.product},
+                    {"words", face_words(page.results.plan, product, one)},
+                    {"hands", one.hands},
+                    {"faces_touched", one.faces.size()},
+                    {"faces_in_all", product.faces->face.size()},
+                    {"faces", std::move(faces)}});
+  }
+  return list;
+}
+
+PageJson condition_json(const StudyPage& page, std::size_t index, Attachments& attachments) {
+  const StudyPlan& plan = page.results.plan;
+  const ConditionAnalysis& one = page.analysis.conditions[index];
+  PageJson figures = PageJson::array();
+  for (const StudyFigure& figure : page.figures) {
+    if (figure.condition != static_cast<int>(index) || index >= kMostDrawnConditions) continue;
+    figures.push_back(
+        {{"description", figure.description},
+         {"svg", attached(attachments,
+                          "figure-" + std::to_string(index) + "-" + std::to_string(figures.size()),
+                          to_svg(figure.figure))}});
+  }
+  return {{"title", title_of(plan, one.condition)},
+          {"words", condition_words(plan, one.condition)},
+          {"are_figures_shown", index < kMostDrawnConditions},
+          {"figures", std::move(figures)},
+          {"products", products_json(one)},
+          {"comparisons", comparisons_json(plan, one)},
+          {"sizes", sizes_json(one)},
+          {"dependence", dependence_json(page, one)},
+          {"faces", faces_json(page, one.condition)},
+          {"has_nails", plan.profiles[page_index(one.condition.profile)].nail_length > 0.0}};
+}
+
+PageJson scene_json(const StudyPage& page, Attachments& attachments) {
+  if (page.scene.empty()) return nullptr;
+  const StudyPlan& plan = page.results.plan;
+  const StudyCondition& first = page.analysis.conditions.front().condition;
+  PageJson hands = PageJson::array();
+  for (const int hand : page.shown_hands) hands.push_back(hand_words(plan, first, hand));
+  return {{"hands", std::move(hands)},
+          {"hands_in_all", hands_of(plan, first).size()},
+          {"has_faces", !page.faces.empty()},
+          {"scales",
+           {{"grasp", colour_bar_json(page.scales.grasp)},
+            {"mean", colour_bar_json(page.scales.mean)},
+            {"sd", colour_bar_json(page.scales.sd)},
+            {"above", colour_bar_json(page.scales.above)}}},
+          {"data", attached(attachments, "scene", script_escaped(page.scene))}};
+}
+
+std::string design_of(const SamplingOptions& sampling) {
+  switch (sampling.design) {
+    case SamplingDesign::kRandom:
+      return "random";
+    case SamplingDesign::kLatinHypercube:
+      return "latin_hypercube";
+    case SamplingDesign::kBoundary:
+      return "boundary";
+    case SamplingDesign::kPercentiles:
+      return "percentiles";
+  }
+  return "random";
+}
+
+PageJson populations_json(const StudyPlan& plan) {
+  PageJson list = PageJson::array();
+  for (std::size_t p = 0; p < plan.populations.size(); ++p) {
+    const StudyPopulation& one = plan.populations[p];
+    const auto hands = std::count_if(
+        plan.hands.begin(), plan.hands.end(),
+        [&](const StudyHand& hand) { return hand.population == static_cast<int>(p); });
+    list.push_back({{"name", one.population.name},
+                    {"title", one.population.title},
+                    {"hands", hands},
+                    {"design", design_of(one.sampling)},
+                    {"boundary_share", one.sampling.boundary},
+                    {"seed", one.sampling.seed},
+                    {"source", one.population.source},
+                    {"cautions", one.population.cautions}});
+  }
+  return list;
+}
+
+PageJson settings_json(const StudyPlan& plan) {
+  PageJson list = PageJson::array();
+  for (const StudySetting& one : plan.settings) {
+    list.push_back({{"name", one.name},
+                    {"palm_limit_depth_mm", one.palm_limit_depth},
+                    {"finger_limit_depth_mm", one.finger_limit_depth},
+                    {"grip_force_n", or_null(one.grip_force)},
+                    {"strength_share", or_null(one.strength_share)},
+                    {"is_balanced", one.is_balanced},
+                    {"friction", one.friction},
+                    {"is_place_per_hand", one.is_place_per_hand},
+                    {"contact_model", name_of(one.model)}});
+  }
+  return list;
+}
+
+PageJson profiles_json(const StudyPlan& plan) {
+  PageJson list = PageJson::array();
+  for (const HandProfile& one : plan.profiles) {
+    if (one.name == "none") continue;
+    list.push_back({{"name", one.name},
+                    {"range_share", one.range_share},
+                    {"strength_share", one.strength_share},
+                    {"glove_thickness_mm", one.glove_thickness},
+                    {"nail_length_mm", one.nail_length},
+                    {"size_factor", one.size_factor},
+                    {"source", one.source}});
+  }
+  return list;
+}
+
+PageJson provenance_json(const StudyPage& page) {
+  const StudyPlan& plan = page.results.plan;
+  PageJson products = PageJson::array();
+  for (const StudyProduct& one : plan.products) {
+    products.push_back({{"name", one.name},
+                        {"file", one.file},
+                        {"size", one.size},
+                        {"mass_kg", one.mass},
+                        {"posture_of", one.posture_of},
+                        {"sha256", one.content_hash}});
+  }
+  PageJson grips = PageJson::array();
+  for (const std::optional<Grip>& grip : plan.grips) {
+    grips.push_back(grip ? PageJson(name_of(*grip)) : PageJson(nullptr));
+  }
+  PageJson stiffness = PageJson::array();
+  for (const Region region : {Region::kIndexDistal, Region::kThenar}) {
+    const auto& nominal =
+        page.base.tissue.region[page_index(static_cast<int>(region))].half_space.nominal;
+    stiffness.push_back({{"region", plain_words(region)},
+                         {"at_touch_mpa", nominal.g0},
+                         {"at_limit_mpa", nominal.g_limit},
+                         {"limit_depth_mm", nominal.limit_depth}});
+  }
+  const Hand& hand = page.base;
+  return {{"study", plan.name},
+          {"seed", plan.seed},
+          {"sha256", page.digest},
+          {"program", page.program},
+          {"populations", populations_json(plan)},
+          {"products", std::move(products)},
+          {"grips", std::move(grips)},
+          {"settings", settings_json(plan)},
+          {"has_several_profiles", plan.profiles.size() > 1},
+          {"profiles", profiles_json(plan)},
+          {"hand",
+           {{"name", hand.name},
+            {"side", name_of(hand.side)},
+            {"hand_length_mm", hand.dimensions.hand_length},
+            {"hand_circumference_mm", hand.dimensions.hand_circumference},
+            {"sha256", plan.hand_hash},
+            {"provenance", hand.provenance}}},
+          {"stiffness", std::move(stiffness)}};
+}
+
+PageJson verdict_json(const StudyPage& page) {
+  PageJson sentences = study_verdict(page.results, page.analysis);
+  for (std::string& sentence : face_sentences(page.results.plan, page.products, page.faces,
+                                              page.analysis.conditions.front().condition)) {
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+PageJson warnings_json(const std::vector<StudyWarning>& warnings) {
+  PageJson list = PageJson::array();
+  for (const StudyWarning& one : warnings) {
+    list.push_back({{"is_outside", one.is_outside}, {"subject", one.subject}, {"text", one.text}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -74,41 +393,47 @@ std::string study_page(const StudyPage& page) {
   if (page.analysis.conditions.empty() || plan.products.empty()) {
     throw UsageError("study report: the plan has no condition or no product");
   }
-  const std::string title = plan.title.empty() ? plan.name : plan.title;
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src "
-      "'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n"
-      "<meta name=\"generator\" content=\"Palmar " +
-      html_escaped(version()) + "\">\n<title>" + html_escaped("Palmar study: " + title) +
-      "</title>\n<style>" + std::string(kReportStyle) + std::string(kStudyStyle) +
-      "</style>\n</head>\n<body>\n<header><h1>" + html_escaped("Palmar study: " + title) +
-      "</h1><p>" + counted(static_cast<int>(plan.hands.size()), "hand") + " × " +
-      counted(static_cast<int>(plan.products.size()), "product") + ", " +
-      std::to_string(page.results.records.size()) + " of " + std::to_string(task_count(plan)) +
-      " grasps.</p></header>\n<main>\n" + summary_section(page);
-  for (std::size_t c = 0; c < page.analysis.conditions.size(); ++c) {
-    const ConditionAnalysis& one = page.analysis.conditions[c];
-    html += "<h2 id=\"condition-" + std::to_string(c) + "\">" +
-            html_escaped(capitalised(title_of(plan, one.condition))) + "</h2>\n";
-    if (c == 0) {
-      html += figures_of(page, 0);
-    } else if (c < kMostDrawnConditions) {
-      html += "<details><summary>Figures</summary>" + figures_of(page, static_cast<int>(c)) +
-              "</details>\n";
-    } else {
-      html += "<p>Its figures stand beside this file in the folder figures.</p>\n";
-    }
-    html +=
-        face_statistics_section(plan, page.products, page.faces, one.condition, page.threshold) +
-        condition_tables(page, one);
+  Attachments attachments;
+  PageJson products = PageJson::array();
+  for (std::size_t p = 0; p < plan.products.size(); ++p) {
+    const std::string name = "product-" + std::to_string(p);
+    products.push_back(
+        {{"name", plan.products[p].name},
+         {"colour", hex_colour(product_colour(static_cast<int>(p)))},
+         {"pictures",
+          pictures_json(p < page.pictures.size() ? page.pictures[p] : std::vector<EncodedPicture>{},
+                        name, attachments)}});
   }
-  html += scene_section(page) + pictures_of(page) + method_section(page) + provenance_section(page);
-  return html + "</main>\n<footer><p>Made by Palmar " + html_escaped(version()) +
-         ". This file works without a network.</p></footer>\n" +
-         (page.scene.empty() ? "" : "<script>" + script_escaped(viewer_bundle()) + "</script>\n") +
-         "</body>\n</html>\n";
+  PageJson quantities = PageJson::array();
+  for (const StudyQuantity& one : page.analysis.quantities) {
+    quantities.push_back(quantity_json(one));
+  }
+  PageJson limits = PageJson::array();
+  for (const StudyLimit& limit : plan.limits) limits.push_back(words_of(page.results, limit));
+  PageJson conditions = PageJson::array();
+  for (std::size_t c = 0; c < page.analysis.conditions.size(); ++c) {
+    conditions.push_back(condition_json(page, c, attachments));
+  }
+  const PageJson json = {{"kind", "study"},
+                         {"maker", maker_json()},
+                         {"title", plan.title.empty() ? plan.name : plan.title},
+                         {"hands", plan.hands.size()},
+                         {"grasps", page.results.records.size()},
+                         {"grasps_planned", task_count(plan)},
+                         {"vocabulary", vocabulary_json(page.base)},
+                         {"products", std::move(products)},
+                         {"verdict", verdict_json(page)},
+                         {"warnings", warnings_json(page.warnings)},
+                         {"limits", std::move(limits)},
+                         {"threshold_mpa", page.threshold},
+                         {"main_quantities", main_quantities()},
+                         {"quantities", std::move(quantities)},
+                         {"conditions", std::move(conditions)},
+                         {"scene", scene_json(page, attachments)},
+                         {"provenance", provenance_json(page)}};
+  const std::string text = page_text(json);
+  attachments["data"] = script_escaped(text);
+  return render_page(text, std::move(attachments));
 }
 
 }  // namespace palmar

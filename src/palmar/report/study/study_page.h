@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "palmar/report/chart/study_figures.h"
-#include "palmar/report/page/html_report.h"
+#include "palmar/report/page/page_json.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/study/statistics/study_analysis.h"

@@ -12,8 +12,8 @@
 #include "palmar/formats/file.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/report/chart/study_figures.h"
-#include "palmar/report/page/face_tables.h"
 #include "palmar/report/picture/study_pictures.h"
+#include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_csv.h"
 #include "palmar/report/study/study_page.h"
 
@@ -87,8 +87,12 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
     parallel_for(static_cast<int>(pictures.size()), [&](int k) {
       const Picture& picture = pictures[at(k)];
       full[at(k)] = encode_png(picture.image);
-      embedded[p][at(k)] = {picture.name, picture.title, picture.alt,
-                            encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall)};
+      embedded[p][at(k)] = {
+          .name = picture.name,
+          .title = picture.title,
+          .alt = picture.alt,
+          .png = encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall),
+          .thumbnail = ""};
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) {
       write_file(folder / (name + "_" + pictures[k].name + ".png"), full[k]);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
+
 namespace palmar {
 namespace {
 
@@ -42,9 +44,7 @@ bool are_akin(const HandProfile& a, const HandProfile& b) {
          (a.glove_thickness == 0.0 || a.glove_shear_modulus == b.glove_shear_modulus);
 }
 
-const HandProfile& profile_at(const StudyPlan& plan, int profile) {
-  return plan.profiles[static_cast<std::size_t>(profile)];
-}
+const HandProfile& profile_at(const StudyPlan& plan, int profile) { return plan.profiles[profile]; }
 
 }  // namespace
 
@@ -52,14 +52,14 @@ std::string name_of(ExclusionCause cause) {
   constexpr std::array<const char*, kExclusionCauses> kNames = {
       "none",  "too_large", "too_small", "not_graspable", "slips_out",
       "range", "strength",  "nails",     "unknown"};
-  return kNames[static_cast<std::size_t>(cause)];
+  return kNames[index_of(cause)];
 }
 
 std::string words_of(ExclusionCause cause) {
   constexpr std::array<const char*, kExclusionCauses> kWords = {
       "not excluded",    "too large",     "too small", "not graspable", "slips out",
       "range of motion", "grip strength", "nails",     "no answer"};
-  return kWords[static_cast<std::size_t>(cause)];
+  return kWords[index_of(cause)];
 }
 
 Capability capability_of(const HandProfile& profile, const HandSample& person) {
@@ -108,22 +108,22 @@ Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condit
       const StudyRecord* record = record_of(results, other, product, hand);
       if (record != nullptr) ways.push_back(record);
     }
-    const HandSample& person = plan.hands[static_cast<std::size_t>(hand)].sample;
+    const HandSample& person = plan.hands[hand].sample;
     const ExclusionCause cause = exclusion_of(ways, record_of(results, condition, product, hand),
                                               capability_of(profile, person));
-    ++count[static_cast<std::size_t>(cause)];
+    ++count[index_of(cause)];
     if (cause != ExclusionCause::kUnknown && !(person.grip_strength > 0.0)) {
       ++exclusion.without_strength;
     }
   }
   int people = 0;
   for (const int n : count) people += n;
-  exclusion.unknown = count[static_cast<std::size_t>(ExclusionCause::kUnknown)];
+  exclusion.unknown = count[index_of(ExclusionCause::kUnknown)];
   people -= exclusion.unknown;
-  const int included = count[static_cast<std::size_t>(ExclusionCause::kNone)];
+  const int included = count[index_of(ExclusionCause::kNone)];
   exclusion.excluded = wilson_proportion(people - included, people, level);
   for (int c = 1; c < static_cast<int>(ExclusionCause::kUnknown); ++c) {
-    const int n = count[static_cast<std::size_t>(c)];
+    const int n = count[c];
     if (n == 0) continue;
     exclusion.causes.emplace_back(static_cast<ExclusionCause>(c),
                                   wilson_proportion(n, people, level));

@@ -8,11 +8,7 @@
 #include "palmar/core/error.h"
 
 namespace palmar {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 FaceAreas::FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_triangle)
     : start_(map.vertices.size() + 1, 0), triangle_(map.triangles), face_(face_of_triangle) {
@@ -25,16 +21,16 @@ FaceAreas::FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_tr
     faces_ = std::max(faces_, face + 1);
   }
   for (const Triangle& t : triangle_) {
-    for (const int v : t) ++start_[at(v) + 1];
-    area_.push_back(0.5 * (map.vertices[at(t[1])] - map.vertices[at(t[0])])
-                              .cross(map.vertices[at(t[2])] - map.vertices[at(t[0])])
+    for (const int v : t) ++start_[v + 1];
+    area_.push_back(0.5 * (map.vertices[t[1]] - map.vertices[t[0]])
+                              .cross(map.vertices[t[2]] - map.vertices[t[0]])
                               .norm());
   }
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   corner_.resize(3 * triangle_.size());
   for (std::size_t t = 0; t < triangle_.size(); ++t) {
-    for (const int v : triangle_[t]) corner_[next[at(v)]++] = static_cast<int>(t);
+    for (const int v : triangle_[t]) corner_[next[v]++] = static_cast<int>(t);
   }
 }
 
@@ -47,11 +43,11 @@ int FaceAreas::peak_face(const std::vector<double>& pressure, std::size_t vertex
   };
   std::vector<Around> around;
   for (std::size_t k = start_[vertex]; k < start_[vertex + 1]; ++k) {
-    const auto t = at(corner_[k]);
+    const int t = corner_[k];
     auto one = std::find_if(around.begin(), around.end(),
                             [&](const Around& other) { return other.face == face_[t]; });
     if (one == around.end()) one = around.insert(around.end(), {face_[t]});
-    for (const int v : triangle_[t]) one->force += area_[t] / 3.0 * pressure[at(v)];
+    for (const int v : triangle_[t]) one->force += area_[t] / 3.0 * pressure[v];
     one->area += area_[t];
   }
   int best = -1;
@@ -71,7 +67,7 @@ std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure
     throw UsageError("faces: " + std::to_string(pressure.size()) + " pressures for a map of " +
                      std::to_string(vertex_count()) + " vertices");
   }
-  std::vector<FaceContact> all(at(faces_));
+  std::vector<FaceContact> all(faces_);
   std::size_t peak_vertex = 0;
   double peak = 0.0;
   for (std::size_t vertex = 0; vertex < pressure.size(); ++vertex) {
@@ -82,8 +78,8 @@ std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure
       peak_vertex = vertex;
     }
     for (std::size_t k = start_[vertex]; k < start_[vertex + 1]; ++k) {
-      const auto t = at(corner_[k]);
-      FaceContact& one = all[at(face_[t])];
+      const int t = corner_[k];
+      FaceContact& one = all[face_[t]];
       one.force += area_[t] / 3.0 * p;
       one.area += area_[t] / 3.0;
       one.peak_pressure = std::max(one.peak_pressure, p);
@@ -91,11 +87,11 @@ std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure
   }
   if (peak > 0.0) {
     const int face = peak_face(pressure, peak_vertex);
-    if (face >= 0) all[at(face)].has_peak = true;
+    if (face >= 0) all[face].has_peak = true;
   }
   std::vector<FaceContact> touched;
   for (int f = 0; f < faces_; ++f) {
-    FaceContact one = all[at(f)];
+    FaceContact one = all[f];
     if (!(one.area > 0.0)) continue;
     one.face = f;
     one.mean_pressure = one.force / one.area;
@@ -109,7 +105,7 @@ std::vector<FaceContact> face_contacts(const ProductFootprint& footprint, const 
   std::vector<int> face_of_triangle;
   face_of_triangle.reserve(footprint.parent.size());
   for (const int parent : footprint.parent) {
-    face_of_triangle.push_back(product.faces->face_of_triangle[at(parent)]);
+    face_of_triangle.push_back(product.faces->face_of_triangle[parent]);
   }
   return FaceAreas(footprint.surface, face_of_triangle).contacts(footprint.pressure);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/grasp/indices/contact_reduction.h"
 #include "palmar/grasp/indices/stability.h"
 #include "palmar/grasp/joint_strength.h"
@@ -52,14 +53,13 @@ std::optional<double> meet(const NailLine& line, const Vec3& a, const Vec3& b, c
 double room_to_palm(const Hand& hand, const std::vector<Vec3>& skin, const NailLine& line,
                     double longest) {
   const auto is_palm_and_near = [&](int vertex) {
-    const auto v = static_cast<std::size_t>(vertex);
-    return hand.segment[v] == Segment::kPalm &&
-           (skin[v] - line.start).squaredNorm() < 4.0 * kLongestNail * kLongestNail;
+    return hand.segment[vertex] == Segment::kPalm &&
+           (skin[vertex] - line.start).squaredNorm() < 4.0 * kLongestNail * kLongestNail;
   };
   double room = longest;
   for (const Triangle& t : hand.skin.triangles) {
     if (!std::all_of(t.begin(), t.end(), is_palm_and_near)) continue;
-    const auto at = [&](std::size_t k) { return skin[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return skin[t[k]]; };
     if (const auto hit = meet(line, at(0), at(1), at(2))) room = std::min(room, *hit);
   }
   return room;
@@ -126,13 +126,13 @@ double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<
     const auto finger = static_cast<Finger>(f);
     const Segment distal = distal_of(finger);
     const Joint& joint = hand.skeleton.joint(joint_of(distal));
-    const Vec3& tip = hand.skeleton.fingertips[static_cast<std::size_t>(f)];
+    const Vec3& tip = hand.skeleton.fingertips[f];
     const Vec3 along = (tip - joint.centre).normalized();
     // Flexion moves the tip to the palm.
     const Vec3 palmar = joint.dofs.back().axis.cross(along).normalized();
     const Vec3 across = palmar.cross(along);
-    const SegmentDimensions& size = hand.dimensions.segment[static_cast<std::size_t>(distal)];
-    const Rigid3& moved = posed.segment[static_cast<std::size_t>(distal)];
+    const SegmentDimensions& size = hand.dimensions.segment[index_of(distal)];
+    const Rigid3& moved = posed.segment[index_of(distal)];
     for (const double side : kAcrossNail) {
       const Vec3 start = tip - kNailHeight * size.thickness * palmar + side * size.width * across;
       const NailLine line{moved * start, moved.rotation * along};

@@ -18,8 +18,7 @@ ProductMap product_map(const Product& product, double edge) {
   check_faces(*product.faces, product.mesh.triangle_count(), product.name);
   map.face_of_triangle.reserve(map.parent.size());
   for (const int parent : map.parent) {
-    map.face_of_triangle.push_back(
-        product.faces->face_of_triangle[static_cast<std::size_t>(parent)]);
+    map.face_of_triangle.push_back(product.faces->face_of_triangle[parent]);
   }
   return map;
 }

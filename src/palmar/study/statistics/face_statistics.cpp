@@ -15,8 +15,6 @@
 namespace palmar {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The maps of all products that have faces, bare and inside each glove.
 class FaceMaps {
  public:
@@ -113,11 +111,11 @@ std::vector<FaceStatistics> face_statistics(const StudyPlan& plan,
   records([&](const StudyRecord& record) {
     if (!is_in_hand(record)) return;
     const StudyTask task = task_at(plan, record.number);
-    const FaceAreas* areas = maps.of(task.product, plan.profiles[at(task.profile)].glove_thickness);
+    const FaceAreas* areas = maps.of(task.product, plan.profiles[task.profile].glove_thickness);
     if (areas == nullptr) return;
     const std::vector<FaceContact> contacts =
         areas->contacts(dense(record.product_pressure, areas->vertex_count()));
-    const int population = plan.hands[at(task.hand)].population;
+    const int population = plan.hands[task.hand].population;
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const StudyCondition& condition = conditions[c];
       if (condition.profile != task.profile || condition.setting != task.setting ||
@@ -125,7 +123,8 @@ std::vector<FaceStatistics> face_statistics(const StudyPlan& plan,
           (condition.population && *condition.population != population)) {
         continue;
       }
-      sums[c * products.size() + at(task.product)].add(contacts, options.threshold);
+      sums[c * products.size() + static_cast<std::size_t>(task.product)].add(contacts,
+                                                                             options.threshold);
     }
   });
   std::vector<FaceStatistics> all;

@@ -15,7 +15,7 @@ namespace {
 class FieldSums {
  public:
   explicit FieldSums(int vertices)
-      : count_(static_cast<std::size_t>(vertices), 0),
+      : count_(vertices, 0),
         above_(count_.size(), 0),
         mean_(count_.size(), 0.0),
         scatter_(count_.size(), 0.0) {}
@@ -27,13 +27,12 @@ class FieldSums {
         throw UsageError("pressure map: task " + std::to_string(task) + " names vertex " +
                          std::to_string(vertex) + " of a mesh of " + std::to_string(count_.size()));
       }
-      const auto v = static_cast<std::size_t>(vertex);
       const double value = field.value[i];
-      ++count_[v];
-      const double step = value - mean_[v];
-      mean_[v] += step / count_[v];
-      scatter_[v] += step * (value - mean_[v]);
-      above_[v] += value > threshold ? 1 : 0;
+      ++count_[vertex];
+      const double step = value - mean_[vertex];
+      mean_[vertex] += step / count_[vertex];
+      scatter_[vertex] += step * (value - mean_[vertex]);
+      above_[vertex] += value > threshold ? 1 : 0;
     }
   }
 
@@ -90,7 +89,7 @@ std::vector<StudyMaps> mean_maps(const StudyPlan& plan, const RecordSource& reco
   records([&](const StudyRecord& record) {
     if (!is_in_hand(record)) return;
     const StudyTask task = task_at(plan, record.number);
-    const int population = plan.hands[static_cast<std::size_t>(task.hand)].population;
+    const int population = plan.hands[task.hand].population;
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const StudyCondition& condition = conditions[c];
       if (condition.profile != task.profile || condition.setting != task.setting ||

@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Depths that the tissue was fitted to: d_lim of Xie 2014, section 3.3.
 constexpr double kFittedPalmDepth = 7.0;    // mm
@@ -69,9 +68,9 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
             std::min(forces->first, forces->second) / std::max(forces->first, forces->second);
         if (ratio >= worst) continue;
         worst = ratio;
-        words = fmt::format("{} with {:.0f} N, {} with {:.0f} N", plan.products[at(first)].name,
-                            forces->first, plan.products[at(second)].name, forces->second);
-        const StudySetting& setting = plan.settings[at(condition.setting)];
+        words = fmt::format("{} with {:.0f} N, {} with {:.0f} N", plan.products[first].name,
+                            forces->first, plan.products[second].name, forces->second);
+        const StudySetting& setting = plan.settings[condition.setting];
         is_told = setting.grip_force || setting.strength_share;
       }
     }
@@ -170,11 +169,11 @@ void warn_of_outcomes(const StudyResults& results, std::vector<StudyWarning>& wa
   std::vector<std::int64_t> run(plan.products.size(), 0);
   for (const StudyRecord& record : results.records) {
     const StudyTask task = task_at(plan, record.number);
-    const std::size_t p = at(task.product);
+    const int p = task.product;
     ++run[p];
-    ++counts[p].of[static_cast<std::size_t>(record.outcome)];
+    ++counts[p].of[index_of(record.outcome)];
     const bool wants_rest =
-        plan.settings[at(task.setting)].is_balanced && plan.products[p].posture_of.empty();
+        plan.settings[task.setting].is_balanced && plan.products[p].posture_of.empty();
     if (is_in_hand(record) && wants_rest && !record.is_balanced) ++unbalanced[p];
   }
   const std::int64_t of_product =
@@ -191,12 +190,11 @@ void warn_of_outcomes(const StudyResults& results, std::vector<StudyWarning>& wa
       }
     };
     const auto& of = counts[p].of;
-    tell(of[static_cast<std::size_t>(StudyOutcome::kSlipsOut)], "slip out of the hand");
-    tell(of[static_cast<std::size_t>(StudyOutcome::kTooLarge)] +
-             of[static_cast<std::size_t>(StudyOutcome::kTooSmall)] +
-             of[static_cast<std::size_t>(StudyOutcome::kNotGraspable)],
+    tell(of[index_of(StudyOutcome::kSlipsOut)], "slip out of the hand");
+    tell(of[index_of(StudyOutcome::kTooLarge)] + of[index_of(StudyOutcome::kTooSmall)] +
+             of[index_of(StudyOutcome::kNotGraspable)],
          "find no hold");
-    tell(of[static_cast<std::size_t>(StudyOutcome::kFailed)], "gave no answer");
+    tell(of[index_of(StudyOutcome::kFailed)], "gave no answer");
     if (unbalanced[p] > 0) {
       add(warnings, false, subject,
           fmt::format("{} of {} grasps are held without coming fully to rest; their figures count.",
@@ -229,8 +227,7 @@ StudyAnalysis analyse_study(const StudyResults& results, const ComparisonOptions
     one.sizes = product_sizes(results, condition);
     one.comparisons.resize(analysis.quantities.size());
     parallel_for(static_cast<int>(analysis.quantities.size()), [&](int q) {
-      one.comparisons[at(q)] =
-          compare_products(results, condition, analysis.quantities[at(q)], options);
+      one.comparisons[q] = compare_products(results, condition, analysis.quantities[q], options);
     });
     analysis.conditions.push_back(std::move(one));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
@@ -150,8 +151,7 @@ bool is_drawn_by_chance(const StudyPlan& plan) {
 int OutcomeCounts::hands() const { return std::accumulate(of.begin(), of.end(), not_run); }
 
 int OutcomeCounts::in_hand() const {
-  return of[static_cast<std::size_t>(StudyOutcome::kHeld)] +
-         of[static_cast<std::size_t>(StudyOutcome::kPartlyHeld)];
+  return of[index_of(StudyOutcome::kHeld)] + of[index_of(StudyOutcome::kPartlyHeld)];
 }
 
 OutcomeCounts outcomes_of(const StudyResults& results, const StudyCondition& condition,
@@ -162,7 +162,7 @@ OutcomeCounts outcomes_of(const StudyResults& results, const StudyCondition& con
     if (record == nullptr) {
       ++counts.not_run;
     } else {
-      ++counts.of[static_cast<std::size_t>(record->outcome)];
+      ++counts.of[index_of(record->outcome)];
     }
   }
   return counts;

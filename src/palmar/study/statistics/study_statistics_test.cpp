@@ -126,8 +126,8 @@ TEST(Accommodation, SharesAndCausesByHand) {
 StudyResults three_sizes() {
   StudyResults results = study_of(31, {"S", "M", "L"});  // 160 to 220 mm
   for (int p = 0; p < 3; ++p) {
-    results.plan.products[static_cast<std::size_t>(p)].family = "handle";
-    results.plan.products[static_cast<std::size_t>(p)].size = 0.9 + 0.1 * p;
+    results.plan.products[p].family = "handle";
+    results.plan.products[p].size = 0.9 + 0.1 * p;
   }
   results.plan.limits = {{"peak_pressure_cells_mpa", std::nullopt, 0.3}};
   for (int h = 0; h < 31; ++h) {

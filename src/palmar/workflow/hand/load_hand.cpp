@@ -31,10 +31,14 @@ std::shared_ptr<const Hand> load_hand(const std::string& name) {
 }
 
 std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file) {
-  auto hand = load_hand(name);
-  if (tissue_file.empty()) return hand;
+  return load_hand(HandChoice{.name = name, .tissue = tissue_file, .value = nullptr});
+}
+
+std::shared_ptr<const Hand> load_hand(const HandChoice& choice) {
+  const auto hand = choice.value ? choice.value : load_hand(choice.name);
+  if (choice.tissue.empty()) return hand;
   auto other = std::make_shared<Hand>(*hand);
-  other->tissue = read_tissue(tissue_file, hand->tissue);
+  other->tissue = read_tissue(choice.tissue, hand->tissue);
   return other;
 }
 

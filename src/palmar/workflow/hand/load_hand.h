@@ -17,4 +17,12 @@ std::shared_ptr<const Hand> load_hand(const std::string& name);
 /// The same with the tissue of a file (docs/using/tissue.md) over its own; "": as it is.
 std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file);
 
+/// Which hand a task is done with.
+struct HandChoice {
+  std::string name = "template";      ///< "template" or a *.hand.glb file
+  std::string tissue;                 ///< file with tissue (TOML) over the hand's own; "": as it is
+  std::shared_ptr<const Hand> value;  ///< a hand that is in memory already, in place of `name`
+};
+std::shared_ptr<const Hand> load_hand(const HandChoice& choice);  ///< throws InputError
+
 }  // namespace palmar

@@ -10,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/rotation.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -97,11 +98,6 @@ Rigid3 align_points_robustly(std::span<const Vec3> a, std::span<const Vec3> b, d
     std::vector<double> d;
     for (std::size_t i = 0; i < a.size(); ++i) d.push_back((motion * a[i] - b[i]).norm());
     return d;
-  };
-  const auto median = [](std::vector<double> d) {
-    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-    std::nth_element(d.begin(), middle, d.end());
-    return *middle;
   };
   if (a.size() > 3) {
     double least = median(distances(best));

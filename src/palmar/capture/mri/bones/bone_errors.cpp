@@ -89,7 +89,7 @@ std::vector<BoneError> bone_errors(const ReferenceHand& hand,
     }
   }
   parallel_for(static_cast<int>(tasks.size()), [&](int k) {
-    Task& task = tasks[static_cast<std::size_t>(k)];
+    Task& task = tasks[k];
     const ClosestPointQuery surface(*task.seen);
     const auto error = [&](const Rigid3& motion) {
       return mean_distance(task.bone->mesh, task.patient_from_hand * motion, surface);

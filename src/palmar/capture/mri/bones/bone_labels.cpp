@@ -67,17 +67,16 @@ void apply_bone_labels(ScanSurfaces& surfaces, const std::vector<BoneLabel>& lab
                                    labels[k].place, kReach, text_of(labels[k].point),
                                    labels[k].name));
     }
-    int& taken = label_of[static_cast<std::size_t>(best)];
+    int& taken = label_of[best];
     if (taken >= 0) {
-      throw InputError(labels[k].place + ": " + labels[k].name + " and " +
-                       labels[static_cast<std::size_t>(taken)].name + " (" +
-                       labels[static_cast<std::size_t>(taken)].place + ") are on the same bone");
+      throw InputError(labels[k].place + ": " + labels[k].name + " and " + labels[taken].name +
+                       " (" + labels[taken].place + ") are on the same bone");
     }
     taken = static_cast<int>(k);
   }
   for (std::size_t b = 0; b < surfaces.bones.size(); ++b) {
     if (label_of[b] >= 0) {
-      surfaces.bones[b].name = labels[static_cast<std::size_t>(label_of[b])].name;
+      surfaces.bones[b].name = labels[label_of[b]].name;
       continue;
     }
     const bool is_given_away =

@@ -20,8 +20,6 @@ constexpr double kLargestUnnamed = 5.0e3;  // mm^3
 // One size for the whole hand doesn't tell how long a slender one is.
 constexpr std::array<double, 4> kStretches = {1.0, 0.94, 1.06, 1.12};
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Where the model's bones are, laid into the skin.
 struct Expected {
   std::vector<BoneOutline> bones;
@@ -100,11 +98,11 @@ BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLeve
   for (std::size_t e = 0; e < best.found.size(); ++e) {
     const int f = best.found[e];
     if (f >= 0) {
-      const BoneOutline outline = outline_of(best.regions[at(f)]);
-      names.bones.push_back(best.regions[at(f)]);
+      const BoneOutline outline = outline_of(best.regions[f]);
+      names.bones.push_back(best.regions[f]);
       names.bones.back().is_leaky = outline.length > 1.25 * best.expected[e].length ||
                                     outline.width > 1.4 * best.expected[e].width;
-      level += best.regions[at(f)].level;
+      level += best.regions[f].level;
       names.name.push_back(model.bones[e].name);
     } else {
       missing.push_back(model.bones[e].name);

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kShell = 0.8;  // mm of cortical bone round marrow
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
                           const Eigen::Matrix3d& spread) {
   BoneOutline outline;
@@ -28,7 +26,7 @@ BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
       low = std::min(low, d);
       high = std::max(high, d);
     }
-    extents[at(a)] = high - low;
+    extents[a] = high - low;
     if (a == 2) {
       const Vec3 axis = axes.eigenvectors().col(a);
       outline.ends = {centre + (low - axis.dot(centre)) * axis,

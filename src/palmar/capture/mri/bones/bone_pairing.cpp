@@ -39,8 +39,6 @@ constexpr double kTipTissue = 4.6, kTipDeviation = 2.5;
 constexpr double kUsualGap = 4.0, kNarrower = 1.5, kWider = 2.5;  // between two bones' marrow, mm
 constexpr int kChoices = 10;                                      // of a bone in a finger
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 double square(double x) { return x * x; }
 
 /// Only shafts come in two parts.
@@ -75,8 +73,8 @@ double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_
 std::vector<std::array<int, 2>> chain_links(const Hand& model) {
   std::vector<std::array<int, 2>> links;
   for (int b = 0; b + 1 < static_cast<int>(model.bones.size()); ++b) {
-    const std::string& name = model.bones[at(b)].name;
-    const std::string& next = model.bones[at(b) + 1].name;
+    const std::string& name = model.bones[b].name;
+    const std::string& next = model.bones[b + 1].name;
     // Bones of a finger stand in a row, from the metacarpal outwards.
     if (name.substr(0, name.find('_')) == next.substr(0, next.find('_')) &&
         next.ends_with("_phalanx")) {
@@ -135,7 +133,7 @@ class LinkCosts {
  public:
   double operator()(const BoneHypotheses& all, int a, int b) {
     const auto [at_pair, is_new] = known_.try_emplace(std::minmax(a, b), 0.0);
-    if (is_new) at_pair->second = link_cost(all.regions[at(a)], all.regions[at(b)]);
+    if (is_new) at_pair->second = link_cost(all.regions[a], all.regions[b]);
     return at_pair->second;
   }
 
@@ -150,7 +148,7 @@ std::vector<int> exclusive_pairs(std::vector<std::vector<double>> cost,
   const auto total = [&](const std::vector<int>& pairs) {
     double sum = 0.0;
     for (std::size_t e = 0; e < pairs.size(); ++e) {
-      sum += pairs[e] < 0 ? kAlone : cost[e][at(pairs[e])];
+      sum += pairs[e] < 0 ? kAlone : cost[e][pairs[e]];
     }
     return sum;
   };
@@ -160,7 +158,7 @@ std::vector<int> exclusive_pairs(std::vector<std::vector<double>> cost,
     for (std::size_t e = 0; e < pairs.size() && a < 0; ++e) {
       for (std::size_t f = e + 1; f < pairs.size() && a < 0; ++f) {
         if (pairs[e] < 0 || pairs[f] < 0) continue;
-        if (!overlap(*regions[at(pairs[e])], *regions[at(pairs[f])])) continue;
+        if (!overlap(*regions[pairs[e]], *regions[pairs[f]])) continue;
         a = pairs[e];
         b = pairs[f];
       }
@@ -168,7 +166,7 @@ std::vector<int> exclusive_pairs(std::vector<std::vector<double>> cost,
     if (a < 0) return pairs;
     const auto without = [&](int column) {
       std::vector<std::vector<double>> fewer = cost;
-      for (std::vector<double>& row : fewer) row[at(column)] = kForbidden;
+      for (std::vector<double>& row : fewer) row[column] = kForbidden;
       return fewer;
     };
     const std::vector<int> first = least_cost_pairs(without(a), kAlone),
@@ -191,7 +189,7 @@ void choose_along(const std::vector<std::vector<int>>& rays,
         if (found[e] < 0 || std::find(ray.begin(), ray.end(), static_cast<int>(e)) != ray.end()) {
           continue;
         }
-        if (overlap(region, all.regions[at(found[e])])) return false;
+        if (overlap(region, all.regions[found[e]])) return false;
       }
       return true;
     };
@@ -203,15 +201,14 @@ void choose_along(const std::vector<std::vector<int>>& rays,
     for (const int e : ray) {
       std::vector<int> best;
       for (std::size_t f = 0; f < all.regions.size(); ++f) {
-        if (cost[at(e)][f] < kAlone) best.push_back(static_cast<int>(f));
+        if (cost[e][f] < kAlone) best.push_back(static_cast<int>(f));
       }
-      std::sort(best.begin(), best.end(), [&](int f, int g) {
-        return std::pair(cost[at(e)][at(f)], f) < std::pair(cost[at(e)][at(g)], g);
-      });
+      std::sort(best.begin(), best.end(),
+                [&](int f, int g) { return std::pair(cost[e][f], f) < std::pair(cost[e][g], g); });
       std::vector<Choice> step{{-1, -1, kAlone}};
       for (const int f : best) {
         if (static_cast<int>(step.size()) > kChoices) break;
-        if (is_free(all.regions[at(f)])) step.push_back({f, -1, cost[at(e)][at(f)]});
+        if (is_free(all.regions[f])) step.push_back({f, -1, cost[e][f]});
       }
       if (!steps.empty()) {
         for (Choice& choice : step) {
@@ -220,8 +217,8 @@ void choose_along(const std::vector<std::vector<int>>& rays,
             const Choice& previous = steps.back()[p];
             double total = previous.total;
             if (choice.hypothesis >= 0 && previous.hypothesis >= 0) {
-              const MarrowRegion &a = all.regions[at(previous.hypothesis)],
-                                 &b = all.regions[at(choice.hypothesis)];
+              const MarrowRegion &a = all.regions[previous.hypothesis],
+                                 &b = all.regions[choice.hypothesis];
               if (overlap(a, b)) continue;
               total += links(all, previous.hypothesis, choice.hypothesis);
             }
@@ -236,11 +233,11 @@ void choose_along(const std::vector<std::vector<int>>& rays,
     }
     int last = 0;
     for (std::size_t k = 0; k < steps.back().size(); ++k) {
-      if (steps.back()[k].total < steps.back()[at(last)].total) last = static_cast<int>(k);
+      if (steps.back()[k].total < steps.back()[last].total) last = static_cast<int>(k);
     }
     for (std::size_t k = steps.size(); k-- > 0;) {
-      found[at(ray[k])] = steps[k][at(last)].hypothesis;
-      last = steps[k][at(last)].before;
+      found[ray[k]] = steps[k][last].hypothesis;
+      last = steps[k][last].before;
     }
   }
 }
@@ -265,10 +262,10 @@ class Pairer {
     for (const auto& [a, b] : links_) {
       if (rays_.empty() || rays_.back().back() != a) rays_.push_back({a});
       rays_.back().push_back(b);
-      beside_[at(a)].push_back(b);
-      beside_[at(b)].push_back(a);
-      if (model.bones[at(b)].name.ends_with("_distal_phalanx")) {
-        ahead_[at(b)] = (expected_[at(b)].centre - expected_[at(a)].centre).normalized();
+      beside_[a].push_back(b);
+      beside_[b].push_back(a);
+      if (model.bones[b].name.ends_with("_distal_phalanx")) {
+        ahead_[b] = (expected_[b].centre - expected_[a].centre).normalized();
       }
     }
     for (std::size_t e = 0; e < expected_.size(); ++e) {
@@ -286,12 +283,12 @@ class Pairer {
     }
     double sum = 0.0;
     for (int e = 0; e < count_; ++e) {
-      const int f = found_[at(e)];
-      sum += f >= 0 ? cost_[at(e)][at(f)] : (is_forearm_[at(e)] != 0 ? kUnseen : kAlone);
+      const int f = found_[e];
+      sum += f >= 0 ? cost_[e][f] : (is_forearm_[e] != 0 ? kUnseen : kAlone);
     }
     for (const auto& [a, b] : links_) {
-      if (found_[at(a)] < 0 || found_[at(b)] < 0) continue;
-      sum += link_costs_(all_, found_[at(a)], found_[at(b)]);
+      if (found_[a] < 0 || found_[b] < 0) continue;
+      sum += link_costs_(all_, found_[a], found_[b]);
     }
     return sum / std::max(1, count_);
   }
@@ -328,26 +325,25 @@ class Pairer {
 
   void pair_once() {
     const int count = static_cast<int>(all_.outlines.size());
-    cost_.assign(expected_.size(), std::vector<double>(at(count), kForbidden));
+    cost_.assign(expected_.size(), std::vector<double>(count, kForbidden));
     std::vector<int> wanted;  // hypotheses that some bone may be
     for (int f = 0; f < count; ++f) {
       double least = kForbidden;
       for (std::size_t e = 0; e < expected_.size(); ++e) {
         if (f >= all_.single && may_be_parted_[e] == 0) continue;
-        cost_[e][at(f)] =
-            all_.cost[at(f)] + cost_of(e, all_.outlines[at(f)], all_.regions[at(f)].is_cut);
-        least = std::min(least, cost_[e][at(f)]);
+        cost_[e][f] = all_.cost[f] + cost_of(e, all_.outlines[f], all_.regions[f].is_cut);
+        least = std::min(least, cost_[e][f]);
       }
       if (least < kAlone) wanted.push_back(f);
     }
     std::vector<std::vector<double>> cost(expected_.size());
     std::vector<const MarrowRegion*> regions;
     for (const int f : wanted) {
-      regions.push_back(&all_.regions[at(f)]);
-      for (std::size_t e = 0; e < expected_.size(); ++e) cost[e].push_back(cost_[e][at(f)]);
+      regions.push_back(&all_.regions[f]);
+      for (std::size_t e = 0; e < expected_.size(); ++e) cost[e].push_back(cost_[e][f]);
     }
     found_ = exclusive_pairs(std::move(cost), regions);
-    for (int& f : found_) f = f < 0 ? -1 : wanted[at(f)];
+    for (int& f : found_) f = f < 0 ? -1 : wanted[f];
     choose_along(rays_, cost_, all_, link_costs_, found_);
   }
 
@@ -356,16 +352,16 @@ class Pairer {
     std::vector<Vec3> sum(expected_.size(), Vec3::Zero());
     std::vector<double> weight(expected_.size(), 0.5);
     const auto add = [&](int to, int from, double w) {
-      const int f = found_[at(from)];
+      const int f = found_[from];
       // Of one that is cut only a part is seen.
-      if (f < 0 || all_.regions[at(f)].is_cut) return;
-      sum[at(to)] += w * (all_.outlines[at(f)].centre - expected_[at(from)].centre);
-      weight[at(to)] += w;
+      if (f < 0 || all_.regions[f].is_cut) return;
+      sum[to] += w * (all_.outlines[f].centre - expected_[from].centre);
+      weight[to] += w;
     };
     for (int e = 0; e < count_; ++e) {
       add(e, e, 0.5);
       for (int f = 0; f < count_; ++f) {
-        const double away = (expected_[at(e)].centre - expected_[at(f)].centre).norm() / kNearby;
+        const double away = (expected_[e].centre - expected_[f].centre).norm() / kNearby;
         if (f != e && away < 2.0) add(e, f, 0.25 * std::exp(-away * away));
       }
     }
@@ -378,14 +374,14 @@ class Pairer {
 
   void take(const MarrowRegion& region) {
     for (int g = 0; g < all_.single; ++g) {
-      if (overlap(region, all_.regions[at(g)])) is_used_[at(g)] = 1;
+      if (overlap(region, all_.regions[g])) is_used_[g] = 1;
     }
   }
 
   void mark_used() {
-    is_used_.assign(at(all_.single), 0);
+    is_used_.assign(all_.single, 0);
     for (const int f : found_) {
-      if (f >= 0) take(all_.regions[at(f)]);
+      if (f >= 0) take(all_.regions[f]);
     }
   }
 
@@ -393,8 +389,8 @@ class Pairer {
   double in_place(std::size_t e, const BoneOutline& outline, const MarrowRegion& region) const {
     double sum = cost_of(e, outline, region.is_cut);
     for (const int other : beside_[e]) {
-      const int g = found_[at(other)];
-      if (g >= 0) sum += link_cost(region, all_.regions[at(g)]);
+      const int g = found_[other];
+      if (g >= 0) sum += link_cost(region, all_.regions[g]);
     }
     return sum;
   }
@@ -407,11 +403,11 @@ class Pairer {
         if (f < 0 || may_be_parted_[e] == 0) continue;
         const int part = best_part(e, f);
         if (part < 0) continue;
-        const MarrowRegion both = joined(all_.regions[at(f)], all_.regions[at(part)]);
+        const MarrowRegion both = joined(all_.regions[f], all_.regions[part]);
         take(both);
         // A hypothesis of its own: what was joined stays what it was.
         found_[e] = static_cast<int>(all_.regions.size());
-        for (auto& row : cost_) row.push_back(row[at(f)]);
+        for (auto& row : cost_) row.push_back(row[f]);
         all_.outlines.push_back(outline_of(both));
         all_.regions.push_back(both);
       }
@@ -419,18 +415,18 @@ class Pairer {
   }
 
   int best_part(std::size_t e, int f) const {
-    const BoneOutline& outline = all_.outlines[at(f)];
-    const MarrowRegion& own = all_.regions[at(f)];
+    const BoneOutline& outline = all_.outlines[f];
+    const MarrowRegion& own = all_.regions[f];
     double least = in_place(e, outline, own) - 1.0;
     int best = -1;
     for (int g = 0; g < all_.single; ++g) {
-      const MarrowRegion& part = all_.regions[at(g)];
-      if (is_used_[at(g)] != 0 || !is_alike(own, part, levels_)) continue;
-      if ((all_.outlines[at(g)].centre - outline.centre).norm() > expected_[e].length) continue;
+      const MarrowRegion& part = all_.regions[g];
+      if (is_used_[g] != 0 || !is_alike(own, part, levels_)) continue;
+      if ((all_.outlines[g].centre - outline.centre).norm() > expected_[e].length) continue;
       if (gap_between(own, part) > kWidestGap) continue;
       const MarrowRegion both = joined(own, part);
       const BoneOutline longer = outline_of(both);
-      if (!is_in_a_row(longer, outline, all_.outlines[at(g)])) continue;
+      if (!is_in_a_row(longer, outline, all_.outlines[g])) continue;
       const double then = in_place(e, longer, both);
       if (then > least) continue;
       least = then;
@@ -476,19 +472,19 @@ BoneHypotheses bone_hypotheses(const std::vector<MarrowRegion>& candidates,
   std::map<std::pair<int, int>, double> gaps;
   const auto gap_of = [&](int a, int b) {
     const auto [at_pair, is_new] = gaps.try_emplace({a, b}, 0.0);
-    if (is_new) at_pair->second = gap_between(all.regions[at(a)], all.regions[at(b)]);
+    if (is_new) at_pair->second = gap_between(all.regions[a], all.regions[b]);
     return at_pair->second;
   };
   // `b` is a single one.
   const auto add_joined = [&](int a, int b) {
-    const BoneOutline &first = all.outlines[at(a)], &second = all.outlines[at(b)];
-    const MarrowRegion &m = all.regions[at(a)], &n = all.regions[at(b)];
-    if (all.cost[at(a)] > kLikeMarrow || all.cost[at(b)] > kLikeMarrow) return;
+    const BoneOutline &first = all.outlines[a], &second = all.outlines[b];
+    const MarrowRegion &m = all.regions[a], &n = all.regions[b];
+    if (all.cost[a] > kLikeMarrow || all.cost[b] > kLikeMarrow) return;
     if (overlap(m, n) || !is_alike(m, n, levels) || !is_alike(n, m, levels)) return;
     const double apart = (first.centre - second.centre).norm();
     if (apart > longest || apart > 0.5 * (first.length + second.length) + kWidestGap) return;
     double gap = std::numeric_limits<double>::infinity();
-    for (const int part : parts[at(a)]) gap = std::min(gap, gap_of(part, b));
+    for (const int part : parts[a]) gap = std::min(gap, gap_of(part, b));
     if (gap > kWidestGap) return;
     MarrowRegion both = joined(m, n);
     const BoneOutline outline = outline_of(both);
@@ -496,7 +492,7 @@ BoneHypotheses bone_hypotheses(const std::vector<MarrowRegion>& candidates,
     std::vector<std::int32_t> regions = both.regions;
     std::sort(regions.begin(), regions.end());
     if (!known.insert(std::move(regions)).second) return;
-    parts.push_back(parts[at(a)]);
+    parts.push_back(parts[a]);
     parts.back().push_back(b);
     add(std::move(both));
   };
@@ -516,11 +512,11 @@ BonePairing pair_bones(const BoneHypotheses& hypotheses, const ScanLevels& level
   std::vector<std::optional<Pairer>> pairers(expected.size());
   std::vector<double> cost(expected.size(), 0.0);
   parallel_for(static_cast<int>(expected.size()), [&](int k) {
-    pairers[at(k)].emplace(hypotheses, levels, skin, model, expected[at(k)]);
-    cost[at(k)] = pairers[at(k)]->pair();
+    pairers[k].emplace(hypotheses, levels, skin, model, expected[k]);
+    cost[k] = pairers[k]->pair();
   });
   const auto best = std::min_element(cost.begin(), cost.end());
-  BonePairing pairing = pairers[static_cast<std::size_t>(best - cost.begin())]->finish();
+  BonePairing pairing = pairers[best - cost.begin()]->finish();
   pairing.cost = *best;
   return pairing;
 }

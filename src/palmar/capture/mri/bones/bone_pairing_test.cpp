@@ -71,7 +71,7 @@ class OneFinger : public ::testing::Test {
     std::vector<std::vector<std::int32_t>> found;
     for (const int f : pairing.found) {
       found.emplace_back();
-      if (f >= 0) found.back() = pairing.regions[static_cast<std::size_t>(f)].regions;
+      if (f >= 0) found.back() = pairing.regions[f].regions;
     }
     return found;
   }

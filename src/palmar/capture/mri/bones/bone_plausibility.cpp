@@ -11,6 +11,7 @@
 #include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/mri/bones/bone_outline.h"
 #include "palmar/geometry/distance/closest_point.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -41,9 +42,7 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
     ratios.push_back(sized.back().length / sized.back().expected);
   }
   if (ratios.empty()) return {};
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  const double scale = *middle;
+  const double scale = median(std::move(ratios));
 
   std::vector<std::string> doubts;
   for (const SizedBone& one : sized) {

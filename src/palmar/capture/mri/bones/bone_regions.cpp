@@ -34,8 +34,6 @@ constexpr double kMostShallow = 0.2;    // share of voxels nearer to it
 constexpr double kOpen = 0.8;           // the same, where nothing dark lies outside
 constexpr double kDarkestShell = 0.62;  // share of the way from dark to the region's own level
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
@@ -78,7 +76,8 @@ namespace {
 
 double convexity_of(const VolumeGrid& grid, const std::vector<std::size_t>& voxels) {
   constexpr int kPairs = 400;
-  const auto nx = at(grid.size[0]), ny = at(grid.size[1]);
+  const auto nx = static_cast<std::size_t>(grid.size[0]),
+             ny = static_cast<std::size_t>(grid.size[1]);
   const std::unordered_set<std::size_t> inside(voxels.begin(), voxels.end());
   RandomStream random(1, 0);
   int count = 0;
@@ -102,17 +101,17 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
            shallow = 0.0, core = 0.0;
     bool is_cut = false;
   };
-  std::vector<Sums> sums(at(regions.count()));
+  std::vector<Sums> sums(regions.count());
   const double dark = scan.levels.dark, contrast = scan.levels.bright - dark;
   for (std::size_t v = 0; v < regions.region.size(); ++v) {
     const std::int32_t r = regions.region[v];
     const auto value = static_cast<double>(scan.smooth.value[v]);
     if (r < 0 || value < dark + 0.5 * contrast) continue;
-    sums[at(r)].bright += value;
-    sums[at(r)].voxels += 1.0;
+    sums[r].bright += value;
+    sums[r].voxels += 1.0;
   }
   const auto limit_of = [&](std::int32_t r) {
-    const Sums& s = sums[at(r)];
+    const Sums& s = sums[r];
     return s.voxels > 0.0 ? dark + kCore * (s.bright / s.voxels - dark)
                           : std::numeric_limits<double>::infinity();
   };
@@ -120,14 +119,15 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
     return regions.region[v] == r && static_cast<double>(scan.smooth.value[v]) > limit_of(r);
   };
   const std::array<int, 3> size = grid.size;
-  const std::array<std::size_t, 3> stride = {1, at(size[0]), at(size[0]) * at(size[1])};
+  const std::array<std::size_t, 3> stride = {1, static_cast<std::size_t>(size[0]),
+                                             static_cast<std::size_t>(size[0]) * size[1]};
   for (int k = 0; k < size[2]; ++k) {
     for (int j = 0; j < size[1]; ++j) {
       for (int i = 0; i < size[0]; ++i) {
         const std::size_t v = grid.at(i, j, k);
         const std::int32_t r = regions.region[v];
         if (r < 0 || !is_core(v, r)) continue;
-        Sums& s = sums[at(r)];
+        Sums& s = sums[r];
         s.core += 1.0;
         if (static_cast<double>(scan.depth[v]) < kLeastDepth) s.shallow += 1.0;
         const std::array<int, 3> here = {i, j, k};
@@ -181,9 +181,9 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
       for (int i = 0; i < size[0]; ++i) {
         const std::size_t v = grid.at(i, j, k);
         const std::int32_t r = regions.region[v];
-        if (r < 0 || number[at(r)] < 0 || !is_core(v, r)) continue;
-        found[at(number[at(r)])].voxels.push_back(grid.to_patient(Vec3(i, j, k)));
-        found[at(number[at(r)])].index.push_back(v);
+        if (r < 0 || number[r] < 0 || !is_core(v, r)) continue;
+        found[number[r]].voxels.push_back(grid.to_patient(Vec3(i, j, k)));
+        found[number[r]].index.push_back(v);
       }
     }
   }
@@ -205,8 +205,8 @@ MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
   std::array<BrightRegions, kFilmDepths.size()> at_depth;
   std::array<std::vector<MarrowRegion>, kFilmDepths.size()> enclosed;
   parallel_for(static_cast<int>(at_depth.size()), [&](int d) {
-    at_depth[at(d)] = parted(kFilmDepths[at(d)]);
-    enclosed[at(d)] = enclosed_regions(scan, at_depth[at(d)]);
+    at_depth[d] = parted(kFilmDepths[d]);
+    enclosed[d] = enclosed_regions(scan, at_depth[d]);
   });
   MarrowRegions found;
   found.candidates = std::move(enclosed.front());
@@ -215,7 +215,7 @@ MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
     // Each fine region lies in a coarser one, but for some that merged with another neighbour.
     std::vector<std::map<std::int32_t, std::size_t>> share(fine.voxels.size());
     for (std::size_t v = 0; v < fine.region.size(); ++v) {
-      if (fine.region[v] >= 0) ++share[at(fine.region[v])][at_depth[d].region[v]];
+      if (fine.region[v] >= 0) ++share[fine.region[v]][at_depth[d].region[v]];
     }
     for (MarrowRegion& candidate : enclosed[d]) {
       const std::int32_t coarse = candidate.regions.front();
@@ -268,7 +268,8 @@ TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, d
   const VolumeGrid& grid = scan.image.grid;
   std::array<int, 3> low = grid.size, high = {-1, -1, -1};
   const auto voxel_of = [&](std::size_t v) {
-    const auto nx = at(grid.size[0]), ny = at(grid.size[1]);
+    const auto nx = static_cast<std::size_t>(grid.size[0]),
+               ny = static_cast<std::size_t>(grid.size[1]);
     return std::array<int, 3>{static_cast<int>(v % nx), static_cast<int>(v / nx % ny),
                               static_cast<int>(v / nx / ny)};
   };
@@ -321,11 +322,10 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
   const std::vector<int> piece = triangle_components(mesh, build_topology(mesh));
   const int pieces = piece.empty() ? 0 : 1 + *std::max_element(piece.begin(), piece.end());
   if (pieces <= 1) return mesh;
-  std::vector<double> volume(at(pieces), 0.0);
+  std::vector<double> volume(pieces, 0.0);
   for (std::size_t t = 0; t < piece.size(); ++t) {
     const Triangle& c = mesh.triangles[t];
-    volume[at(piece[t])] +=
-        mesh.vertices[at(c[0])].dot(mesh.vertices[at(c[1])].cross(mesh.vertices[at(c[2])]));
+    volume[piece[t]] += mesh.vertices[c[0]].dot(mesh.vertices[c[1]].cross(mesh.vertices[c[2]]));
   }
   const int largest =
       static_cast<int>(std::max_element(volume.begin(), volume.end()) - volume.begin());
@@ -335,10 +335,10 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
     if (piece[t] != largest) continue;
     Triangle corners = mesh.triangles[t];
     for (int& c : corners) {
-      int& n = number[at(c)];
+      int& n = number[c];
       if (n < 0) {
         n = kept.vertex_count();
-        kept.vertices.push_back(mesh.vertices[at(c)]);
+        kept.vertices.push_back(mesh.vertices[c]);
       }
       c = n;
     }

@@ -14,6 +14,7 @@
 #include "palmar/capture/mri/measured_joints.h"
 #include "palmar/capture/mri/reference_hand.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/smooth.h"
@@ -92,16 +93,12 @@ class BoneTracker {
       if (is_palm_bone(bone.name) || is_forearm_bone(bone.name)) palm.push_back(&bone);
     }
     std::vector<std::optional<Found>> in_palm(palm.size());
-    parallel_for(static_cast<int>(palm.size()), [&](int k) {
-      const auto i = static_cast<std::size_t>(k);
-      in_palm[i] = find_in_palm(*palm[i]);
-    });
+    parallel_for(static_cast<int>(palm.size()),
+                 [&](int k) { in_palm[k] = find_in_palm(*palm[k]); });
     for (std::size_t i = 0; i < palm.size(); ++i) keep(palm[i]->name, in_palm[i]);
     progress_.update(0.4, "fingers");
     std::array<std::vector<std::pair<std::string, std::optional<Found>>>, kFingerCount> rays;
-    parallel_for(kFingerCount, [&](int f) {
-      rays[static_cast<std::size_t>(f)] = find_ray(static_cast<Finger>(f));
-    });
+    parallel_for(kFingerCount, [&](int f) { rays[f] = find_ray(static_cast<Finger>(f)); });
     for (const auto& ray : rays) {
       for (const auto& [name, found] : ray) keep(name, found);
     }
@@ -225,8 +222,7 @@ std::optional<Found> BoneTracker::seen_in_image(
 /// Turns of a bone about its joint: to all directions within 110 degrees of where it would go with
 /// the proximal bone, turned a little about itself as well.
 std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rigid3& motion) {
-  constexpr double kDeg = std::numbers::pi / 180.0;
-  constexpr double kStep = 10.0 * kDeg, kTwist = 12.0 * kDeg;  // the strong blur bridges half
+  constexpr double kStep = 10.0 * kDegree, kTwist = 12.0 * kDegree;  // the strong blur bridges half
   constexpr int kRings = 11;
   std::vector<Rigid3> turns;
   const Vec3 seat = motion * joint;

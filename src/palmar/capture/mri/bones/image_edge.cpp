@@ -12,7 +12,7 @@ namespace {
 
 bool is_at_edge(const Vec3& voxel, const VolumeGrid& grid) {
   for (int a = 0; a < 3; ++a) {
-    const double last = grid.size[static_cast<std::size_t>(a)] - 1.0;
+    const double last = grid.size[a] - 1.0;
     if (voxel[a] < 1.0 || voxel[a] > last - 1.0) return true;
   }
   return false;

@@ -20,6 +20,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/statistics/correlation.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -37,14 +38,6 @@ constexpr double kCoarseBlur = 1.5;  // mm; half a bone's shell and marrow: a st
 constexpr double kSmallVolume = 150.0;  // mm^3
 constexpr double kSmallLayer = 2.0;     // mm
 constexpr double kPerVoxel = 0.6;       // of the voxels' mean edge, if that is more
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Weights of the four voxels about a place between the middle two (Keys 1981, a = -1/2), and
 /// their derivatives.
@@ -92,12 +85,12 @@ class CubicImage {
           line += w[0][i] * static_cast<double>(row[i]);
           line_i += d[0][i] * static_cast<double>(row[i]);
         }
-        plane += w[1][at(j)] * line;
-        plane_i += w[1][at(j)] * line_i;
-        plane_j += d[1][at(j)] * line;
+        plane += w[1][j] * line;
+        plane_i += w[1][j] * line_i;
+        plane_j += d[1][j] * line;
       }
-      result.value += w[2][at(k)] * plane;
-      slope += Vec3(w[2][at(k)] * plane_i, w[2][at(k)] * plane_j, d[2][at(k)] * plane);
+      result.value += w[2][k] * plane;
+      slope += Vec3(w[2][k] * plane_i, w[2][k] * plane_j, d[2][k] * plane);
     }
     result.gradient = voxel_from_patient_.transpose() * slope;
     return result;
@@ -215,7 +208,7 @@ BoneImage::BoneImage(const TriangleMesh& bone, const ImageLevels& image,
                                  samples_.size(), kLeast));
   }
   share_ = grid.spacing.prod();
-  if (const auto most = at(options.max_samples); samples_.size() > most) {
+  if (const auto most = static_cast<std::size_t>(options.max_samples); samples_.size() > most) {
     // Evenly thinned along the voxels' order.
     std::vector<Sample> kept;
     for (std::size_t n = 0; n < most; ++n) kept.push_back(samples_[n * samples_.size() / most]);
@@ -271,6 +264,8 @@ std::vector<BoneImage::Row> BoneImage::rows_at(const ImageLevels::Level& level, 
   return rows;
 }
 
+// A loop of its own, not solve_least_squares(): samples and their weights are other ones after each
+// step, so there is no sum of squares that steps could be held against.
 void BoneImage::refine(const ImageLevels::Level& level, bool is_fine, Place& place) const {
   // Noise is alike within the blur: of N samples so many times fewer count.
   const double alike =
@@ -397,14 +392,14 @@ BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& imag
                            const ImageFitOptions& options) {
   std::vector<std::optional<BoneImage>> made(surfaces.bones.size());
   parallel_for(static_cast<int>(made.size()), [&](int b) {
-    const ScannedBone& bone = surfaces.bones[at(b)];
+    const ScannedBone& bone = surfaces.bones[b];
     if (bone.name.empty()) return;
     try {
       ImageFitOptions fitting = options;
       if (signed_volume(bone.mesh) < kSmallVolume) {
         fitting.layer = std::max(fitting.layer, kSmallLayer);
       }
-      made[at(b)].emplace(bone.mesh, image, fitting);
+      made[b].emplace(bone.mesh, image, fitting);
     } catch (const InputError&) {
       // Too small to be compared; its surface counts.
     }

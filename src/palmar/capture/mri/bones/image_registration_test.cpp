@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
 // A bone drawn by a formula: an ellipsoid of marrow in a dark shell with a knob at one end, in
@@ -20,7 +20,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kMarrow = 200.0;
 
 struct Scanner {
@@ -56,7 +55,7 @@ class ImageRegistration : public ::testing::Test {
     grid.axes = scanner.turn.toRotationMatrix();
     const Vec3 field(52.0, 52.0, 52.0);
     for (int a = 0; a < 3; ++a) {
-      grid.size[static_cast<std::size_t>(a)] = static_cast<int>(field[a] / grid.spacing[a]);
+      grid.size[a] = static_cast<int>(field[a] / grid.spacing[a]);
     }
     const Vec3 middle(grid.size[0] - 1.0, grid.size[1] - 1.0, grid.size[2] - 1.0);
     grid.origin = place.translation - grid.axes * (0.5 * middle).cwiseProduct(grid.spacing);
@@ -86,7 +85,7 @@ class ImageRegistration : public ::testing::Test {
   }
 
   static Rigid3 truth() {
-    return {Quat(Eigen::AngleAxisd(40.0 * kRadians, Vec3(1.0, 2.0, -0.5).normalized())),
+    return {Quat(Eigen::AngleAxisd(40.0 * kDegree, Vec3(1.0, 2.0, -0.5).normalized())),
             Vec3(7.0, -3.0, 12.0)};
   }
 
@@ -115,13 +114,13 @@ TEST_F(ImageRegistration, MotionsAreFoundToAFractionOfAVoxelDespiteNoise) {
   for (const double noise : {0.0, 8.0, 20.0}) {
     const BoneImage bone = reference({.noise = noise, .seed = 3});
     const ImageLevels other = blurred_levels(image_of(truth(), {.noise = noise, .seed = 4}));
-    const ImageFit fit = bone.fit(other, near_truth(10.0 * kRadians, Vec3(1.5, -1.5, 1.0)));
+    const ImageFit fit = bone.fit(other, near_truth(10.0 * kDegree, Vec3(1.5, -1.5, 1.0)));
     EXPECT_TRUE(fit.has_converged) << noise;
     EXPECT_EQ(fit.overlap, 1.0);
     // Two images' noise of 4 % each: what the normal equations expect, and no more.
-    EXPECT_LT(turn_off(fit), std::max(0.3 * kRadians, 3.0 * fit.turn_error)) << noise;
+    EXPECT_LT(turn_off(fit), std::max(0.3 * kDegree, 3.0 * fit.turn_error)) << noise;
     EXPECT_LT(shift_off(fit), std::max(0.05, 3.0 * fit.shift_error)) << noise;
-    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * kRadians : 1.5 * kRadians) << noise;
+    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * kDegree : 1.5 * kDegree) << noise;
     EXPECT_GT(fit.correlation, noise > 10.0 ? 0.85 : 0.95) << noise;
   }
 }
@@ -130,20 +129,20 @@ TEST_F(ImageRegistration, GainFieldAndOffsetDontMatter) {
   const BoneImage bone = reference({.seed = 5});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.noise = 12.0, .gain = 1.6, .slope = 0.006, .offset = 25.0, .seed = 6}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kRadians, Vec3(1.0, 1.0, -1.0)));
-  EXPECT_LT(turn_off(fit), 1.0 * kRadians);
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDegree, Vec3(1.0, 1.0, -1.0)));
+  EXPECT_LT(turn_off(fit), 1.0 * kDegree);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_GT(fit.correlation, 0.95);
 }
 
 TEST_F(ImageRegistration, ObliqueThickSlicesOfBothImagesServe) {
-  const Quat oblique(Eigen::AngleAxisd(25.0 * kRadians, Vec3(1.0, 1.0, 0.3).normalized()));
+  const Quat oblique(Eigen::AngleAxisd(25.0 * kDegree, Vec3(1.0, 1.0, 0.3).normalized()));
   const BoneImage bone = reference({.spacing = Vec3(0.6, 0.6, 1.8), .seed = 7});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.spacing = Vec3(0.9, 0.7, 1.5), .turn = oblique, .seed = 8}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kRadians, Vec3(1.0, 1.0, -1.0)));
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDegree, Vec3(1.0, 1.0, -1.0)));
   // The blur of a slice lies otherwise in the bone then: a fifth of a voxel.
-  EXPECT_LT(turn_off(fit), 1.5 * kRadians);
+  EXPECT_LT(turn_off(fit), 1.5 * kDegree);
   EXPECT_LT(shift_off(fit), 0.2);
 }
 
@@ -154,8 +153,8 @@ TEST_F(ImageRegistration, ABoneFarFromItsStartIsFoundByTrying) {
   const Vec3 end(-16.0, 0.0, 0.0);  // stays: a joint
   for (int k = -9; k <= 9; ++k) {
     for (int n = -9; n <= 9; ++n) {
-      const Quat turn = Quat(Eigen::AngleAxisd(10.0 * k * kRadians + 0.08, Vec3::UnitZ())) *
-                        Quat(Eigen::AngleAxisd(10.0 * n * kRadians + 0.08, Vec3::UnitY()));
+      const Quat turn = Quat(Eigen::AngleAxisd(10.0 * k * kDegree + 0.08, Vec3::UnitZ())) *
+                        Quat(Eigen::AngleAxisd(10.0 * n * kDegree + 0.08, Vec3::UnitY()));
       Rigid3 start;
       start.rotation = truth().rotation * turn;
       start.translation = truth() * end - start.rotation * end + Vec3(0.5, -0.5, 0.5);
@@ -163,7 +162,7 @@ TEST_F(ImageRegistration, ABoneFarFromItsStartIsFoundByTrying) {
     }
   }
   const ImageFit fit = bone.find(other, starts);
-  EXPECT_LT(turn_off(fit), 1.0 * kRadians);
+  EXPECT_LT(turn_off(fit), 1.0 * kDegree);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_EQ(fit.fixed_from_moving.translation,
             bone.find(other, starts).fixed_from_moving.translation);
@@ -183,10 +182,10 @@ TEST_F(ImageRegistration, ATurnThatTheShapeDoesntHoldIsSaid) {
   const BoneImage bone = reference({.seed = 13});
   const ImageLevels other = blurred_levels(image_of(truth(), {.seed = 14}));
   const ImageFit fit = bone.fit(other, truth());
-  EXPECT_GT(fit.turn_error, 5.0 * kRadians);
+  EXPECT_GT(fit.turn_error, 5.0 * kDegree);
   const Vec3 along = fit.fixed_from_moving.rotation * Vec3::UnitX();
   const Vec3 wanted = truth().rotation * Vec3::UnitX();
-  EXPECT_LT(along.cross(wanted).norm(), 1.0 * kRadians);
+  EXPECT_LT(along.cross(wanted).norm(), 1.0 * kDegree);
   EXPECT_LT(shift_off(fit), 0.1);
 }
 
@@ -196,9 +195,9 @@ TEST_F(ImageRegistration, WhatLiesOutsideTheImageIsLeftOut) {
   image.grid.size[2] = image.grid.size[2] / 2 + 4;
   image.value.resize(image.grid.count());
   const ImageFit fit =
-      bone.fit(blurred_levels(image), near_truth(4.0 * kRadians, Vec3(1.0, 0.0, 0.0)));
+      bone.fit(blurred_levels(image), near_truth(4.0 * kDegree, Vec3(1.0, 0.0, 0.0)));
   EXPECT_LT(fit.overlap, 0.9);
-  EXPECT_LT(turn_off(fit), 2.0 * kRadians);
+  EXPECT_LT(turn_off(fit), 2.0 * kDegree);
   Rigid3 away = truth();
   away.translation.x() += 500.0;
   const ImageFit none = bone.fit(blurred_levels(image), away);

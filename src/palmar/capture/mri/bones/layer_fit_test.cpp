@@ -56,7 +56,7 @@ TEST(FitLayers, FindsBothSidesOfAShellThinnerThanAVoxel) {
     const TriangleMesh near = make_icosphere(10.0, 3);  // 0.4 mm inside of the outer side
     LayerSearch search;
     const LayerFit fit = fit_layers(near, search, [&](int v, const Vec3& normal) {
-      return ball.along(near.vertices[static_cast<std::size_t>(v)], normal);
+      return ball.along(near.vertices[v], normal);
     });
     const auto [least, most] = radii(fit.mesh);
     EXPECT_NEAR(least, 10.4, 0.15) << thickness;
@@ -71,9 +71,8 @@ TEST(FitLayers, SignalsOfInsideAndOutsideMayDifferFromTheExpectedOnes) {
   ball.inside = 0.8;
   ball.outside = 0.3;
   const TriangleMesh near = make_icosphere(10.0, 3);
-  const LayerFit fit = fit_layers(near, {}, [&](int v, const Vec3& normal) {
-    return ball.along(near.vertices[static_cast<std::size_t>(v)], normal);
-  });
+  const LayerFit fit = fit_layers(
+      near, {}, [&](int v, const Vec3& normal) { return ball.along(near.vertices[v], normal); });
   const auto [least, most] = radii(fit.mesh);
   EXPECT_NEAR(least, 10.4, 0.15);
   EXPECT_NEAR(most, 10.4, 0.15);
@@ -84,7 +83,7 @@ TEST(FitLayers, VerticesThatTellNothingFollowTheirNeighbours) {
   const TriangleMesh near = make_icosphere(10.0, 3);
   const LayerFit fit = fit_layers(near, {}, [&](int v, const Vec3& normal) {
     if (v % 5 == 0) return LayerProfile();
-    return ball.along(near.vertices[static_cast<std::size_t>(v)], normal);
+    return ball.along(near.vertices[v], normal);
   });
   const auto [least, most] = radii(fit.mesh);
   EXPECT_NEAR(least, 10.4, 0.2);

@@ -16,8 +16,6 @@ constexpr double kMarrowWithin = 0.9;  // mm outwards of the vertex at most
 constexpr double kMisfit = 0.05;       // share of the contrast that the model leaves out
 constexpr double kUsualOutside = 0.5;  // share of the contrast
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// One sample after the other, to where another bone, air or the border of the image begins.
 struct Samples {
   std::array<double, kSamples> value{};
@@ -37,8 +35,8 @@ Samples samples_at(const Vec3& vertex, const Vec3& normal, std::int32_t own,
       if (near[a] < 0 || near[a] >= grid.size[a]) return false;
     }
     const std::int32_t region = shell.region[grid.at(near[0], near[1], near[2])];
-    samples.value[at(s)] = static_cast<double>(value_at(shell.image, voxel));
-    samples.is_own[at(s)] = region == own;
+    samples.value[s] = static_cast<double>(value_at(shell.image, voxel));
+    samples.is_own[s] = region == own;
     return region == -1 || region == own;
   };
   const int middle = static_cast<int>(std::lround(-kFirst / kStep));
@@ -58,26 +56,26 @@ void keep_nearest_layers(Samples& samples, const ShellImage& shell) {
   int marrow = -1;
   for (int s = samples.last; s >= samples.first && marrow < 0; --s) {
     if (kFirst + kStep * s > kMarrowWithin) continue;
-    if (samples.is_own[at(s)] && samples.value[at(s)] > half) marrow = s;
+    if (samples.is_own[s] && samples.value[s] > half) marrow = s;
   }
   if (marrow < 0) return;
-  double top = samples.value[at(marrow)];
+  double top = samples.value[marrow];
   for (int s = marrow; s >= samples.first; --s) {
-    top = std::max(top, samples.value[at(s)]);
-    if (samples.value[at(s)] > top - clearly) continue;
+    top = std::max(top, samples.value[s]);
+    if (samples.value[s] > top - clearly) continue;
     samples.first = s + 1;
     break;
   }
-  double bottom = samples.value[at(marrow)];
+  double bottom = samples.value[marrow];
   int highest = -1;
   for (int s = marrow; s <= samples.last; ++s) {
-    const double value = samples.value[at(s)];
+    const double value = samples.value[s];
     if (highest < 0) {
       bottom = std::min(bottom, value);
       if (value > bottom + clearly) highest = s;
     } else {
-      if (value > samples.value[at(highest)]) highest = s;
-      if (value < samples.value[at(highest)] - clearly) {
+      if (value > samples.value[highest]) highest = s;
+      if (value < samples.value[highest] - clearly) {
         samples.last = highest;
         break;
       }
@@ -94,7 +92,7 @@ LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage&
   search.usual = shell.dark + kUsualOutside * contrast;
   search.scale = std::hypot(shell.noise, kMisfit * contrast);
   return fit_layers(near, search, [&](int v, const Vec3& normal) {
-    Samples samples = samples_at(near.vertices[at(v)], normal, own, shell);
+    Samples samples = samples_at(near.vertices[v], normal, own, shell);
     keep_nearest_layers(samples, shell);
     LayerProfile profile;
     profile.first = kFirst + kStep * samples.first;

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "palmar/capture/photo/pinhole.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -63,7 +63,6 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
                         const Vec3& middle, const DepthFusionOptions& options) {
   options.check();
   if (views.size() != maps.size()) throw UsageError("one depth map per view is required");
-  constexpr double kDegree = std::numbers::pi / 180.0;
   std::vector<PosedMap> posed;
   for (std::size_t v = 0; v < views.size(); ++v) posed.emplace_back(views[v], maps[v]);
   const auto least_cosine = static_cast<float>(std::cos(options.agree_angle * kDegree));

@@ -49,7 +49,7 @@ void for_row(const Level& level, const float* x, int j, int k, int first, int st
       sum += x[c + 1];
       ++count;
     }
-    body(static_cast<std::size_t>(c), sum, static_cast<float>(count));
+    body(c, sum, static_cast<float>(count));
   }
 }
 
@@ -81,7 +81,7 @@ void for_children(const Level& fine, int i, int j, int k, Body&& body) {
   for (int c = 2 * k; c < std::min(2 * k + 2, fine.size[2]); ++c) {
     for (int b = 2 * j; b < std::min(2 * j + 2, fine.size[1]); ++b) {
       for (int a = 2 * i; a < std::min(2 * i + 2, fine.size[0]); ++a) {
-        body(static_cast<std::size_t>(fine.row(b, c) + a));
+        body(fine.row(b, c) + a);
       }
     }
   }
@@ -92,7 +92,7 @@ void for_coarse(const Level& coarse, Body&& body) {
   parallel_for(coarse.size[2], [&](int k) {
     for (int j = 0; j < coarse.size[1]; ++j) {
       for (int i = 0; i < coarse.size[0]; ++i) {
-        body(i, j, k, static_cast<std::size_t>(coarse.row(j, k) + i));
+        body(i, j, k, coarse.row(j, k) + i);
       }
     }
   });
@@ -183,14 +183,14 @@ class Multigrid {
 
 /// Layer by layer, so that threads don't change it.
 double dot(const Level& level, const Field& a, const Field& b) {
-  std::vector<double> sums(static_cast<std::size_t>(level.size[2]));
+  std::vector<double> sums(level.size[2]);
   parallel_for(level.size[2], [&](int k) {
     double sum = 0.0;
     const auto end = static_cast<std::size_t>(level.row(0, k + 1));
     for (auto c = static_cast<std::size_t>(level.row(0, k)); c < end; ++c) {
       sum += static_cast<double>(a[c]) * static_cast<double>(b[c]);
     }
-    sums[static_cast<std::size_t>(k)] = sum;
+    sums[k] = sum;
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }

@@ -7,10 +7,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -60,22 +61,20 @@ class Epipolar {
 class Problem {
  public:
   Problem(const std::vector<PhotoCamera>& cameras, const std::vector<int>& position, int positions)
-      : motions(static_cast<std::size_t>(positions)), cameras_(cameras), position_(position) {}
+      : motions(positions), cameras_(cameras), position_(position) {}
 
   std::vector<Track> tracks;
   std::vector<Rigid3> motions;  ///< board_from_hand
 
   /// Point in the camera's frame.
   Vec3 local(const Observation& o, const Vec3& point) const {
-    const auto p = static_cast<std::size_t>(o.picture);
-    return cameras_[p].camera_from_world *
-           (motions[static_cast<std::size_t>(position_[p])] * point);
+    const int p = o.picture;
+    return cameras_[p].camera_from_world * (motions[position_[p]] * point);
   }
   Vec2 residual(const Observation& o, const Vec3& point) const {
     const Vec3 x = local(o, point);
     if (x.z() < 1.0) return Vec2::Constant(1e3);
-    return cameras_[static_cast<std::size_t>(o.picture)].lens.pixel_of(x.head<2>() / x.z()) -
-           o.pixel;
+    return cameras_[o.picture].lens.pixel_of(x.head<2>() / x.z()) - o.pixel;
   }
 
   /// The point nearest to its rays, then a few steps of Gauss and Newton.
@@ -83,8 +82,8 @@ class Problem {
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Vec3 b = Vec3::Zero();
     for (const Observation& o : track.seen) {
-      const auto p = static_cast<std::size_t>(o.picture);
-      const Rigid3 hand_from_board = motions[static_cast<std::size_t>(position_[p])].inverse();
+      const int p = o.picture;
+      const Rigid3 hand_from_board = motions[position_[p]].inverse();
       const Vec3 centre = hand_from_board * cameras_[p].centre();
       const Vec3 ray = hand_from_board.rotation * cameras_[p].ray(o.pixel);
       const Eigen::Matrix3d m = Eigen::Matrix3d::Identity() - ray * ray.transpose();
@@ -120,13 +119,14 @@ class Problem {
     tracks = std::move(kept);
   }
 
-  /// One damped step of all motions and points; false if it lowers nothing.
+  /// One damped step of all motions and points; false if it lowers nothing. A loop of its own, not
+  /// solve_least_squares(): points are eliminated one by one (Schur complement), which leaves six
+  /// unknowns a motion of thousands in all.
   bool step(double scale, const HandMotionOptions& options, bool moves, double& damping) {
     const std::size_t free = moves ? motions.size() - 1 : 0;
     const auto size = static_cast<long>(6 * free);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd g = Eigen::VectorXd::Zero(size);
-    constexpr double kDegree = std::numbers::pi / 180.0;
     Vec6 prior;
     prior << Vec3::Constant(1.0 / std::pow(options.turn_prior * kDegree, 2)),
         Vec3::Constant(1.0 / std::pow(options.shift_prior, 2));
@@ -146,7 +146,7 @@ class Problem {
       Reduced& own = reduced[t];
       own.gradient.setZero();
       for (const Observation& o : tracks[t].seen) {
-        const auto p = static_cast<std::size_t>(o.picture);
+        const int p = o.picture;
         const auto place = static_cast<std::size_t>(position_[p]);
         const PhotoCamera& camera = cameras_[p];
         const Vec3 moved = motions[place] * tracks[t].point;
@@ -230,7 +230,6 @@ class Problem {
   }
 
   double cost(double scale, const HandMotionOptions& options) const {
-    constexpr double kDegree = std::numbers::pi / 180.0;
     double sum = 0.0;
     for (const Track& track : tracks) {
       for (const Observation& o : track.seen) {
@@ -296,10 +295,6 @@ std::vector<Track> tracks_of(const std::vector<PhotoCamera>& cameras, const Poin
   return tracks;
 }
 
-double median(const std::vector<double>& sorted) {
-  return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
-}
-
 }  // namespace
 
 void HandMotionOptions::check() const {
@@ -323,7 +318,7 @@ HandMotion fit_hand_motion(const std::vector<PhotoCamera>& cameras,
   const int positions =
       position.empty() ? 0 : *std::max_element(position.begin(), position.end()) + 1;
   HandMotion motion;
-  motion.board_from_hand.resize(static_cast<std::size_t>(positions));
+  motion.board_from_hand.resize(positions);
   if (positions < 2) return motion;
 
   Problem problem(cameras, position, positions);

@@ -54,10 +54,10 @@ struct MotionScene {
       const Vec3 normal(std::cos(angle), std::sin(angle), 0.0);
       const Vec3 point = 20.0 * normal + Vec3(0, 0, 20 + 150 * random.uniform());
       for (std::size_t i = 0; i < cameras.size(); ++i) {
-        const Vec3 there = truth[static_cast<std::size_t>(position[i])] * point;
+        const Vec3 there = truth[position[i]] * point;
         if (normal.dot((cameras[i].centre() - there).normalized()) < 0.5) continue;
         const Eigen::Vector2d pixel = *cameras[i].project(there);
-        index[i][static_cast<std::size_t>(n)] = static_cast<int>(matches.point[i].size());
+        index[i][n] = static_cast<int>(matches.point[i].size());
         matches.point[i].push_back({static_cast<float>(pixel.x() + 0.2 * random.normal()),
                                     static_cast<float>(pixel.y() + 0.2 * random.normal())});
       }

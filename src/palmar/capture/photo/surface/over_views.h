@@ -17,7 +17,7 @@ void over_views(std::size_t count, const Progress& progress, const char* what, B
   progress.update(0.0, what);
   parallel_for(static_cast<int>(count), [&](int i) {
     progress.throw_if_cancelled();
-    body(static_cast<std::size_t>(i));
+    body(i);
     ++done;
     if (progress.report)
       progress.report(static_cast<double>(done) / static_cast<double>(count), what);

@@ -8,11 +8,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "palmar/capture/photo/pinhole.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
+#include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
@@ -56,24 +56,23 @@ class Matcher {
  public:
   Matcher(const std::vector<PhotoView>& views, const std::vector<PackedView>& packed, int view,
           const std::vector<int>& sources, const PatchMatchOptions& options)
-      : view_(views[static_cast<std::size_t>(view)]), options_(options), number_(view) {
+      : view_(views[view]), options_(options), number_(view) {
     const PhotoCamera& camera = view_.camera;
     const Eigen::Matrix3d k = Pinhole::matrix_of(camera.lens);
     const Eigen::Matrix3d inverse = k.inverse();
     k_inverse_ = inverse.cast<float>();
     for (const int s : sources) {
-      const PhotoView& other = views[static_cast<std::size_t>(s)];
+      const PhotoView& other = views[s];
       const Rigid3 move = other.camera.camera_from_world * camera.camera_from_world.inverse();
       const Eigen::Matrix3d k_s = Pinhole::matrix_of(other.camera.lens);
-      sources_.push_back({&packed[static_cast<std::size_t>(s)],
+      sources_.push_back({&packed[s],
                           (k_s * move.rotation.toRotationMatrix() * inverse).cast<float>(),
                           (k_s * move.translation).cast<float>()});
     }
     for (int l = 0; l < kRow; ++l) {
       const bool is_in = l <= 2 * options.radius;
-      steps_[static_cast<std::size_t>(l / kLanes)][l % kLanes] =
-          is_in ? static_cast<float>(l - options.radius) : 0.0F;
-      inside_[static_cast<std::size_t>(l / kLanes)][l % kLanes] = is_in ? 1.0F : 0.0F;
+      steps_[l / kLanes][l % kLanes] = is_in ? static_cast<float>(l - options.radius) : 0.0F;
+      inside_[l / kLanes][l % kLanes] = is_in ? 1.0F : 0.0F;
     }
     const std::size_t count = view_.grey.size();
     plane_.resize(count);
@@ -97,10 +96,8 @@ class Matcher {
         nearest_[at] = static_cast<float>(std::max(1.0, (hit->distance - options_.front) * z));
         farthest_[at] = static_cast<float>((hit->distance + options_.behind) * z);
         active_.push_back({x, y});
-        const Triangle& t = bound_mesh.triangles[static_cast<std::size_t>(hit->triangle)];
-        const auto corner = [&](int c) -> const Vec3& {
-          return bound_mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])];
-        };
+        const Triangle& t = bound_mesh.triangles[hit->triangle];
+        const auto corner = [&](int c) -> const Vec3& { return bound_mesh.vertices[t[c]]; };
         const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
         Plane plane;
         plane.normal = facing((rotation * normal).cast<float>(), x, y);
@@ -175,13 +172,13 @@ class Matcher {
     float sum = 0.0F;
     for (int j = 0; j < side; ++j) {
       const float* const row = &view_.grey[view_.at(x - r, y + j - r)];
-      float* const to = &patch.value[static_cast<std::size_t>(j * kRow)];
+      float* const to = &patch.value[j * kRow];
       for (int i = 0; i < side; ++i) sum += to[i] = row[i];
     }
     const float mean = sum / static_cast<float>(side * side);
     float squares = 0.0F;
     for (int j = 0; j < side; ++j) {
-      float* const to = &patch.value[static_cast<std::size_t>(j * kRow)];
+      float* const to = &patch.value[j * kRow];
       for (int i = 0; i < side; ++i) {
         to[i] -= mean;
         squares += to[i] * to[i];
@@ -190,7 +187,7 @@ class Matcher {
     patch.has_contrast = squares > kFlat * kFlat * static_cast<float>(side * side);
     const float scale = 1.0F / std::sqrt(std::max(squares, 1e-6F));
     for (int j = 0; j < side; ++j) {
-      float* const to = &patch.value[static_cast<std::size_t>(j * kRow)];
+      float* const to = &patch.value[j * kRow];
       for (int i = 0; i < side; ++i) to[i] *= scale;
       for (int i = side; i < kRow; ++i) to[i] = 0.0F;
     }
@@ -232,8 +229,8 @@ class Matcher {
     for (int j = 0; j < side; ++j) {
       const float dy = static_cast<float>(j) - r;
       for (int first = 0; first < side; first += kLanes) {
-        const Floats step = steps_[static_cast<std::size_t>(first / kLanes)];
-        const Floats in = inside_[static_cast<std::size_t>(first / kLanes)];
+        const Floats step = steps_[first / kLanes];
+        const Floats in = inside_[first / kLanes];
         // Lanes beyond the patch sample its middle, and don't count.
         const Floats su = (u + dy * uy) + step * ux;
         const Floats sv = (v + dy * vy) + step * vx;
@@ -253,8 +250,7 @@ class Matcher {
         const Floats bottom = c + fu * (d - c);
         const Floats value = (top + fv * (bottom - top)) * in;
         Floats reference;
-        std::memcpy(&reference, &patch.value[static_cast<std::size_t>(j * kRow + first)],
-                    sizeof reference);
+        std::memcpy(&reference, &patch.value[j * kRow + first], sizeof reference);
         sum += value;
         squares += value * value;
         products += reference * value;
@@ -400,7 +396,6 @@ PackedView packed(const PhotoView& view) {
 std::vector<std::vector<int>> choose_sources(const std::vector<PhotoView>& views, const Vec3& point,
                                              const PatchMatchOptions& options) {
   options.check();
-  constexpr double kDegree = std::numbers::pi / 180.0;
   std::vector<Vec3> axes;
   for (const PhotoView& view : views) axes.push_back((view.camera.centre() - point).normalized());
   std::vector<std::vector<int>> chosen(views.size());

@@ -102,9 +102,8 @@ PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Vo
   const double h = options.spacing;
   const auto pull = static_cast<float>(options.screening);
   constexpr float kLargestArea = 4.0F;  // mm^2; a lonely point is no more than that
-  const std::array<std::size_t, 3> next = {
-      1, static_cast<std::size_t>(grid.size[0]),
-      static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1])};
+  const std::array<std::size_t, 3> next = {1, static_cast<std::size_t>(grid.size[0]),
+                                           static_cast<std::size_t>(grid.size[0]) * grid.size[1]};
   for (const SurfacePoint& point : points) {
     const Vec3 position = point.position.cast<double>();
     const Vec3 at = grid.to_voxel(position);

@@ -26,7 +26,7 @@ VoxelMask silhouette(const TriangleMesh& body, const Vec3& eye, const SheetGrid&
     std::array<Vec2, 3> c;
     bool is_seen = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(triangle[k]);
+      const int v = triangle[k];
       is_seen = is_seen && is_below[v] != 0;
       c[k] = place[v];
     }

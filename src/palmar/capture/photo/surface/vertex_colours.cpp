@@ -147,7 +147,7 @@ SkinLight light_on(const Sightings& sightings, const TriangleMesh& mesh,
       if (one.cosine < kFrontal) continue;
       const std::size_t p = one.photograph;
       const double distance = (photographs[p].camera.centre() - mesh.vertices[v]).norm();
-      spots[static_cast<std::size_t>(i)].push_back(
+      spots[i].push_back(
           {p, spot_light(photographs[p], one, distance, gain[p],
                          outlines.empty() ? PhotoOutline{}.paper : outlines[p].paper)});
     }
@@ -172,7 +172,7 @@ bool PhotoOutline::holds(const Vec3& world) const {
   if (!pixel) return false;
   const auto x = std::lround(pixel->x()), y = std::lround(pixel->y());
   if (x < 0 || y < 0 || x >= camera.lens.width || y >= camera.lens.height) return false;
-  return inside[static_cast<std::size_t>(y * camera.lens.width + x)] != 0;
+  return inside[y * camera.lens.width + x] != 0;
 }
 
 VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,

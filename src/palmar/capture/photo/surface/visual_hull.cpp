@@ -76,8 +76,7 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
   grid.spacing = Vec3::Constant(options.spacing);
   grid.origin = box.min();
   for (int k = 0; k < 3; ++k) {
-    grid.size[static_cast<std::size_t>(k)] =
-        static_cast<int>(std::ceil(box.sizes()[k] / options.spacing)) + 1;
+    grid.size[k] = static_cast<int>(std::ceil(box.sizes()[k] / options.spacing)) + 1;
   }
   std::vector<Pinhole> cameras;
   for (const PhotoView& view : views) cameras.emplace_back(view.camera);
@@ -106,9 +105,7 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
   constexpr double kLeastVolume = 10000.0;  // mm^3: a child's hand has ten times as much
   const double voxel = std::pow(options.spacing, 3);
   const double volume =
-      parts.count() == 0
-          ? 0.0
-          : voxel * static_cast<double>(parts.voxels[static_cast<std::size_t>(parts.largest())]);
+      parts.count() == 0 ? 0.0 : voxel * static_cast<double>(parts.voxels[parts.largest()]);
   if (volume < kLeastVolume) {
     throw InputError(fmt::format(
         "the outlines of the hand in the photographs meet in {:.0f} mm3 only: the hand can't be "

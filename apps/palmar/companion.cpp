@@ -1,0 +1,39 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "companion.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "palmar/formats/process/program_missing.h"
+
+namespace palmar::cli {
+namespace {
+
+[[noreturn]] void take_over(const char* program, char** arguments, const std::string& command) {
+  std::error_code error;
+  const std::filesystem::path beside =
+      std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
+  execv(beside.c_str(), arguments);
+  throw ProgramMissing("`" + command + "` needs " + program + ", which can't be started: " +
+                       beside.string() + " (cmake --build --preset release makes it)");
+}
+
+std::string full_name(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name()
+                                     : full_name(*app.get_parent()) + " " + app.get_name();
+}
+
+}  // namespace
+
+void add_elsewhere(CLI::App& parent, Context& context, const char* program, const std::string& name,
+                   const std::string& description) {
+  CLI::App* command = parent.add_subcommand(name, description);
+  // Before its own options are looked at: they are the other program's.
+  command->preparse_callback([&context, program, command](std::size_t) {
+    take_over(program, context.arguments, full_name(*command));
+  });
+}
+
+}  // namespace palmar::cli

@@ -1,0 +1,40 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "photos/photo_mesh_arguments.h"
+
+#include <fmt/format.h>
+
+namespace palmar::cli {
+
+PhotoMeshArguments::PhotoMeshArguments() {
+  const Vec3 size = options_.model.box.sizes();
+  box_ = fmt::format("{:g},{:g},{:g}", size.x(), size.y(), size.z());
+}
+
+void PhotoMeshArguments::add_to(CLI::App& verb) {
+  verb.add_option("--lenses", options_.lenses,
+                  "Lenses: a file of palmar photos calibrate, or a folder of photographs of the "
+                  "tilted board; without, they are found from the photographs of the hand, which "
+                  "tell less");
+  verb.add_option("--box-mm", box_,
+                  "Width, depth, height of the space above the board's middle that holds the hand")
+      ->capture_default_str();
+  verb.add_option("--cut-mm", options_.model.cut, "The mesh ends so far above the board")
+      ->capture_default_str();
+  verb.add_option("--pixel-mm", options_.model.pixel, "What a pixel covers on the hand, for stereo")
+      ->capture_default_str();
+  verb.add_flag("--no-motion", no_motion_, "The hand surely did not move: don't look for it");
+}
+
+PhotoMeshOptions PhotoMeshArguments::options() const {
+  PhotoMeshOptions options = options_;
+  const Vec3 size = parse_vector("--box-mm", box_);
+  options.model.box = Box3(Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0),
+                           Vec3(0.5 * size.x(), 0.5 * size.y(), size.z()));
+  options.looks_for_motion = !no_motion_;
+  options.setting_names = option_named;
+  options.check();
+  return options;
+}
+
+}  // namespace palmar::cli

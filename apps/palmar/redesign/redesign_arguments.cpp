@@ -1,0 +1,82 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "redesign/redesign_arguments.h"
+
+#include <nlohmann/json.hpp>
+
+#include "study/study_comparison_text.h"
+
+namespace palmar::cli {
+
+void RedesignArguments::add_to(CLI::App& verb) {
+  verb.add_option("PRODUCT", request.product,
+                  "STEP, IGES or mesh file, or \"made: prism width_mm=35 fillet_mm=3\"")
+      ->required();
+  verb.add_option("--out", out, "Folder for what is made: new or empty, or of an earlier redesign")
+      ->required();
+  verb.add_option("--unit", unit, "Unit of a file that carries none: mm, cm, m, inch");
+  verb.add_option("--population", request.populations,
+                  "Whose hands hold it: a built-in population (`palmar population list`), a "
+                  "population file (.toml) or a table of given hands (.csv)")
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  verb.add_option("--hands", request.hands, "Hands to draw from each population")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  verb.add_option("--hand", request.hand, "Hand that is scaled: template or a *.hand.glb file");
+  verb.add_option("--grip", grips, "auto, medium_wrap, tripod ...")->expected(1);
+  verb.add_option("--at", at, "Where it is held, product frame: x,y,z mm");
+  verb.add_option("--axis", axis, "Direction of the handle there: x,y,z");
+  verb.add_option("--posture", posture,
+                  "kept: redesigns are held in the posture in which the same hand holds the "
+                  "original; new: grasped by themselves")
+      ->capture_default_str();
+  verb.add_option("--grip-force-n", request.grip_force,
+                  "Grip force with which all are held, N; 0: as closed. With --posture new")
+      ->capture_default_str();
+}
+
+RedesignRequest RedesignArguments::read(const Context& context) const {
+  RedesignRequest result = request;
+  result.posture = redesign_posture(posture);
+  result.unit = parse_unit(unit);
+  for (const std::string& name : grips) result.grips.push_back(asked_grip_named(name));
+  if (!at.empty()) result.at = parse_vector("--at", at);
+  if (!axis.empty()) result.axis = parse_vector("--axis", axis);
+  result.out = out;
+  result.seed = context.common.seed;
+  result.command = context.command_line;
+  result.on_note = [&context](const std::string& text) { note(context.common, text); };
+  return result;
+}
+
+OptionNames redesign_options(OptionNames names) {
+  for (const char* field : {"hands", "hand", "at", "axis", "posture", "out"}) {
+    names.emplace_back(field, std::string("--") + field);
+  }
+  names.insert(names.end(), {{"product", "PRODUCT"},
+                             {"populations", "--population"},
+                             {"grips", "--grip"},
+                             {"grip_force", "--grip-force-n"}});
+  return names;
+}
+
+void print_redesign(const std::string& json, const std::optional<RedesignComparison>& comparison,
+                    const Context& context) {
+  finish_progress();
+  if (context.common.json) {
+    nlohmann::ordered_json object = nlohmann::ordered_json::parse(json);
+    if (comparison) {
+      object["comparison"] =
+          comparison_object(compare_results(comparison->results, comparison->quantities, {}), {});
+    }
+    print(object.dump(2) + "\n");
+    return;
+  }
+  if (!comparison) return;
+  print(comparison_text(compare_results(comparison->results, comparison->quantities, {})));
+  note(context.common,
+       "report: " + comparison->report.string() + "; study: " + comparison->study.string());
+}
+
+}  // namespace palmar::cli

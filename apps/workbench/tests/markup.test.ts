@@ -1,0 +1,46 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { escaped, html, joined, trusted } from "../components/markup";
+import { counted, percent, shortNumber } from "../components/numbers";
+import { numberCell, numbers, table, words } from "../components/tables";
+
+test("nothing that is put in breaks out of text or attributes", () => {
+  assert.equal(html`<a title="${'"><script>'}">${"<b>&'"}</a>`.text,
+               '<a title="&quot;&gt;&lt;script&gt;">&lt;b&gt;&amp;&#39;</a>');
+  assert.equal(escaped("a\u0001b\nc"), "a\ufffdb\nc");
+  assert.equal(escaped("mm² 😀"), "mm² 😀");
+});
+
+test("markup is kept, lists are joined, nothing leaves nothing", () => {
+  assert.equal(html`${[html`<b>1</b>`, "<", 2]}${null}${undefined}${false}${trusted("<svg/>")}`.text, "<b>1</b>&lt;2<svg/>");
+  assert.equal(joined(["a", "b", "c"], html`<br>`).text, "a<br>b<br>c");
+});
+
+test("numbers are shortened, digits before the point stay", () => {
+  assert.equal(shortNumber(0.18234), "0.182");
+  assert.equal(shortNumber(1234.6), "1235");
+  assert.equal(shortNumber(0), "0");
+  assert.equal(shortNumber(-2.5), "-2.50");
+  assert.equal(shortNumber(0.0123456), "0.0123");
+  assert.equal(shortNumber(1000), "1000");
+  assert.equal(shortNumber(0.001), "0.00100");
+  assert.equal(shortNumber(1e-9), "0.00000");
+  assert.equal(shortNumber(null), "–");
+  assert.equal(shortNumber(NaN), "–");
+  assert.equal(percent(0.0731), "7.3 %");
+  assert.equal(counted(1, "hand") + ", " + counted(6, "hand"), "1 hand, 6 hands");
+});
+
+test("a cell holds its number in full", () => {
+  assert.equal(numberCell(0.123456789).text, '<td class="n" data-value="0.123456789">0.123</td>');
+  assert.equal(numberCell(null).text, '<td class="n">–</td>');
+});
+
+test("a table has a caption and heads of its columns", () => {
+  const text = table({ caption: "A < B", columns: [words("What"), numbers("Force, N")], rows: [] }).text;
+  assert.match(text, /<caption>A &lt; B<\/caption>/);
+  assert.match(text, /<th scope="col" class="n">Force, N<\/th>/);
+});

@@ -1,0 +1,16 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// The little of node that the tests use.
+declare module "node:test" {
+  export function test(name: string, run: () => void): void;
+}
+declare module "node:assert/strict" {
+  const assert: {
+    ok(value: unknown, message?: string): void;
+    equal(actual: unknown, expected: unknown, message?: string): void;
+    match(text: string, pattern: RegExp): void;
+    doesNotMatch(text: string, pattern: RegExp): void;
+  };
+  export default assert;
+}

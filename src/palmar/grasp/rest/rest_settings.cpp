@@ -1,0 +1,57 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/rest/rest_settings.h"
+
+#include <fmt/format.h>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/rest/friction_settings.h"
+
+namespace palmar {
+
+void RestSettings::check() const {
+  if (strength && person) {
+    throw UsageError("strength and person both say how strong the user is; one is allowed");
+  }
+  const bool has_strength = strength || person;
+  if (has_strength != strength_share.has_value()) {
+    throw UsageError(has_strength ? "strength and person say how strong the user is; "
+                                    "strength_share is required with them"
+                                  : "strength_share needs person or strength");
+  }
+  if (grip_force && strength_share) {
+    throw UsageError("grip_force and strength_share both say how firmly to grip; one is allowed");
+  }
+  if (!is_balanced && (grip_force || strength_share)) {
+    throw UsageError(
+        "is_balanced is false, which keeps the hand at its limit depths; a grip force can't be "
+        "given with it");
+  }
+  if (strength_share && !(*strength_share > 0.0 && *strength_share <= 1.0)) {
+    throw UsageError(fmt::format("strength_share is {}; more than 0 and at most 1 is required",
+                                 *strength_share));
+  }
+  if (person && !palmar::grip_strength(person->sex, person->age)) {
+    throw UsageError(
+        fmt::format("person: no grip strength is known for {:g} years; 17 to 90 is "
+                    "allowed, or give strength",
+                    person->age));
+  }
+}
+
+BalanceOptions RestSettings::options(std::optional<double> friction,
+                                     std::optional<Grip> grip) const {
+  check();
+  BalanceOptions result;
+  result.is_on = is_balanced;
+  result.grip_force = grip_force;
+  if (strength_share) {
+    const double largest = strength ? *strength : *palmar::grip_strength(person->sex, person->age);
+    result.grip_force = *strength_share * largest * (grip ? palmar::strength_share(*grip) : 1.0);
+  }
+  result.friction = friction.value_or(kUsualFriction);
+  result.check();
+  return result;
+}
+
+}  // namespace palmar

@@ -1,0 +1,107 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/rest/friction_settings.h"
+#include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/product/primitives.h"
+
+namespace palmar {
+namespace {
+
+using testing::HasSubstr;
+
+template <typename Settings>
+std::string refusal(const Settings& settings) {
+  try {
+    settings.check();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(FrictionSettings, KilogramWeighsWhatStandardGravitySays) {
+  FrictionSettings settings;
+  settings.mass = 2.0;
+  EXPECT_DOUBLE_EQ(settings.options().load.weight, 19.6133);  // N; CGPM 1901
+}
+
+TEST(FrictionSettings, DensityTimesVolumeIsTheWeight) {
+  FrictionSettings settings;
+  settings.density = 1.0;  // g/cm^3: water
+  CylinderProductOptions cylinder;
+  cylinder.diameter = 100.0;
+  cylinder.length = 100.0;
+  cylinder.fineness.chordal_error = 0.01;
+  const double litres = std::numbers::pi / 4.0;
+  EXPECT_NEAR(settings.options_for(make_cylinder_product(cylinder)).load.weight, litres * 9.80665,
+              0.005);  // N; the mesh lies inside the cylinder
+}
+
+TEST(FrictionSettings, LoadWithoutACoefficientGetsTheUsualOne) {
+  FrictionSettings settings;
+  EXPECT_EQ(settings.options().coefficient, 0.0);
+  settings.force = Vec3(1.0, 0.0, 0.0);
+  EXPECT_EQ(settings.options().coefficient, kUsualFriction);
+  settings.friction = 0.0;
+  EXPECT_EQ(settings.options().coefficient, 0.0);
+}
+
+TEST(FrictionSettings, CheckNamesFieldValueAndWhatIsAllowed) {
+  EXPECT_EQ(refusal(FrictionSettings{}), "accepted");
+  FrictionSettings settings;
+  settings.mass = -1.0;
+  EXPECT_EQ(refusal(settings), "mass is -1; more than 0 and at most 10000 kg is required");
+  settings.mass = 1.0;
+  settings.weight = 10.0;
+  EXPECT_THAT(refusal(settings), HasSubstr("mass, weight and density"));
+  settings = {};
+  settings.gravity = Vec3::Zero();
+  EXPECT_THAT(refusal(settings), HasSubstr("gravity is 0,0,0"));
+}
+
+TEST(RestSettings, ShareOfAStrengthIsTheGripForce) {
+  RestSettings settings;
+  settings.strength = 400.0;
+  settings.strength_share = 0.25;
+  EXPECT_DOUBLE_EQ(*settings.options(std::nullopt, std::nullopt).grip_force, 100.0);  // N
+  // Mathiowetz 1985: a key pinch reaches 117.4 of 541.8 N.
+  EXPECT_NEAR(*settings.options(std::nullopt, Grip::kLateral).grip_force, 100.0 * 117.4 / 541.8,
+              0.05);
+}
+
+TEST(RestSettings, CheckNamesFieldValueAndWhatIsAllowed) {
+  EXPECT_EQ(refusal(RestSettings{}), "accepted");
+  RestSettings settings;
+  settings.strength_share = 0.3;
+  EXPECT_THAT(refusal(settings), HasSubstr("strength_share needs person or strength"));
+  settings.strength = 300.0;
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.strength_share = 1.5;
+  EXPECT_THAT(refusal(settings), HasSubstr("strength_share is 1.5; more than 0 and at most 1"));
+  settings = {};
+  settings.strength_share = 0.3;
+  settings.person = PersonOfAge{Sex::kFemale, 12.0};
+  EXPECT_THAT(refusal(settings), HasSubstr("12 years; 17 to 90 is allowed"));
+  settings = {};
+  settings.is_balanced = false;
+  settings.grip_force = 20.0;
+  EXPECT_THAT(refusal(settings), HasSubstr("is_balanced is false"));
+}
+
+TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {
+  GraspSettings settings;
+  settings.placement.region = Box3(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0));
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.grip = Grip::kTripod;
+  EXPECT_THAT(refusal(settings), HasSubstr("region: grip tripod takes fingertips to points"));
+}
+
+}  // namespace
+}  // namespace palmar

@@ -1,0 +1,111 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/page/assessment_page.h"
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/report/chart/bar_chart.h"
+#include "palmar/report/page/friction_words.h"
+#include "palmar/report/page/html_text.h"
+#include "palmar/report/page/plain_words.h"
+#include "palmar/report/picture/colormap.h"
+#include "palmar/report/picture/scene_data.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kStiffer = 0.1;  // 10 %, the change in which sensitivities are given
+
+/// A value of each region as bars, with the range from soft to stiff tissue where both are known.
+BarChart region_chart(const ContactResult& contact, const std::string& title,
+                      double RegionContact::*value, double ContactBandRow::*low,
+                      double ContactBandRow::*high) {
+  const bool has_range = contact.band && contact.band->total.force_low > 0.0 &&
+                         contact.band->total.force_high > 0.0 &&
+                         contact.band->regions.size() == contact.regions.size();
+  BarChart chart{title + (has_range ? " (lines: soft to stiff tissue)" : ""), {}};
+  for (std::size_t i = 0; i < contact.regions.size(); ++i) {
+    const RegionContact& one = contact.regions[i];
+    Bar bar{plain_words(one.region), one.*value, region_colour(one.region)};
+    if (has_range) {
+      const ContactBandRow& band = contact.band->regions[i];
+      bar.range = BarRange{band.*low, band.*high};
+    }
+    chart.bars.push_back(std::move(bar));
+  }
+  return chart;
+}
+
+BarChart sensitivity_chart(const ContactBand& band) {
+  std::vector<ContactBandRow> rows = band.regions;
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.force_per_modulus > b.force_per_modulus;
+  });
+  BarChart chart{"Force that 10 % stiffer skin in one region adds, N", {}};
+  for (const ContactBandRow& one : rows) {
+    chart.bars.push_back({plain_words(one.region), kStiffer * std::max(one.force_per_modulus, 0.0),
+                          region_colour(one.region)});
+  }
+  return chart;
+}
+
+PageJson charts_json(const ContactResult& contact, const std::string& name,
+                     Attachments& attachments) {
+  PageJson list = PageJson::array();
+  for (const BarChart& chart :
+       {region_chart(contact, "Force, N", &RegionContact::force, &ContactBandRow::force_low,
+                     &ContactBandRow::force_high),
+        region_chart(contact, "Peak pressure, MPa", &RegionContact::peak_pressure,
+                     &ContactBandRow::peak_pressure_low, &ContactBandRow::peak_pressure_high)}) {
+    const std::string svg = to_svg(bar_figure(chart));
+    list.push_back(
+        {{"title", chart.title},
+         {"svg", attached(attachments, name + "-chart-" + std::to_string(list.size()), svg)}});
+  }
+  return list;
+}
+
+PageJson product_json(const Hand& hand, const AssessedProduct& one, const ColourScale& scale,
+                      const std::vector<EncodedPicture>& pictures, const std::string& name,
+                      Attachments& attachments) {
+  const ContactResult& contact = one.assessment.contact;
+  PageJson sensitivity = nullptr;
+  if (contact.band && !contact.band->regions.empty()) {
+    sensitivity = attached(attachments, name + "-sensitivity",
+                           to_svg(bar_figure(sensitivity_chart(*contact.band))));
+  }
+  return {{"charts", charts_json(contact, name, attachments)},
+          {"sensitivity_chart", std::move(sensitivity)},
+          {"friction_words", friction_verdict(hand, one.assessment)},
+          {"pictures", pictures_json(pictures, name, attachments)},
+          {"scene", attached(attachments, name + "-scene",
+                             script_escaped(scene_data_json(hand, one, scale)))}};
+}
+
+}  // namespace
+
+std::string assessment_page(const AssessmentSet& set,
+                            const std::vector<std::vector<EncodedPicture>>& pictures,
+                            const ColourScale& scale, const std::string& json, bool is_cut_short) {
+  if (!set.hand) throw UsageError("report: the set has no hand");
+  if (set.assessments.empty()) throw UsageError("report: the set has no assessment");
+  if (pictures.size() != set.assessments.size()) {
+    throw UsageError("report: pictures of " + std::to_string(pictures.size()) + " products for " +
+                     std::to_string(set.assessments.size()) + " assessments");
+  }
+  Attachments attachments;
+  PageJson products = PageJson::array();
+  for (std::size_t i = 0; i < set.assessments.size(); ++i) {
+    products.push_back(product_json(*set.hand, set.assessments[i], scale, pictures[i],
+                                    "product-" + std::to_string(i), attachments));
+  }
+  const PageJson view = {{"maker", maker_json()},
+                         {"is_cut_short", is_cut_short},
+                         {"vocabulary", vocabulary_json(*set.hand)},
+                         {"scale", colour_bar_json(scale)},
+                         {"products", std::move(products)}};
+  return render_page("assessment", json, view, std::move(attachments));
+}
+
+}  // namespace palmar

@@ -1,0 +1,152 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/page/page_json.h"
+
+#include "palmar/core/version.h"
+#include "palmar/formats/mesh/vtk.h"
+#include "palmar/geometry/degrees.h"
+#include "palmar/grasp/grip.h"
+#include "palmar/grasp/pressure_thresholds.h"
+#include "palmar/report/page/html_text.h"
+#include "palmar/report/page/page_parts.h"
+#include "palmar/report/page/plain_words.h"
+#include "palmar/report/picture/colormap.h"
+
+namespace palmar {
+namespace {
+
+PageJson motions_json(const Hand& hand) {
+  PageJson motions = PageJson::object();
+  for (int d = 0; d < kDofCount; ++d) {
+    const auto dof = static_cast<Dof>(d);
+    PageJson& one = motions[std::string(name_of(dof))];
+    one = {{"words", plain_words(dof)}, {"lower_deg", nullptr}, {"upper_deg", nullptr}};
+    for (const Joint& joint : hand.skeleton.joints) {
+      for (const JointDof& moved : joint.dofs) {
+        if (moved.dof != dof) continue;
+        one["lower_deg"] = moved.lower * kDegreesPerRadian;
+        one["upper_deg"] = moved.upper * kDegreesPerRadian;
+      }
+    }
+  }
+  return motions;
+}
+
+}  // namespace
+
+std::string page_text(const PageJson& json) {
+  return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
+}
+
+PageJson maker_json() {
+  return {
+      {"version", version()}, {"build", build_description()}, {"viewer_licence", viewer_licence()}};
+}
+
+PageJson vocabulary_json(const Hand& hand) {
+  PageJson regions = PageJson::object();
+  for (int r = 0; r < kRegionCount; ++r) {
+    const auto region = static_cast<Region>(r);
+    regions[std::string(name_of(region))] = {{"words", plain_words(region)},
+                                             {"colour", hex_colour(region_colour(region))},
+                                             {"pain_onset_mpa", pain_onset_film(region)}};
+  }
+  PageJson segments = PageJson::object();
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const auto segment = static_cast<Segment>(s);
+    segments[std::string(name_of(segment))] = plain_words(segment);
+  }
+  PageJson stops = PageJson::object();
+  for (const StopReason reason :
+       {StopReason::kLimitDepth, StopReason::kRangeOfMotion, StopReason::kProximalStop,
+        StopReason::kDistalStop, StopReason::kOtherFinger, StopReason::kNotReached,
+        StopReason::kGiven}) {
+    stops[std::string(name_of(reason))] = plain_words(reason);
+  }
+  PageJson statuses = PageJson::object();
+  for (const GraspStatus status :
+       {GraspStatus::kHeld, GraspStatus::kPartlyHeld, GraspStatus::kTooLarge,
+        GraspStatus::kTooSmall, GraspStatus::kNotGraspable}) {
+    statuses[std::string(name_of(status))] = plain_words(status);
+  }
+  PageJson grips = PageJson::object();
+  for (int g = 0; g < kGripCount; ++g) {
+    const auto grip = static_cast<Grip>(g);
+    grips[std::string(name_of(grip))] = {{"is_power", is_power(grip)}};
+  }
+  return {{"regions", std::move(regions)},        {"segments", std::move(segments)},
+          {"motions", motions_json(hand)},        {"stops", std::move(stops)},
+          {"statuses", std::move(statuses)},      {"grips", std::move(grips)},
+          {"blood_flow_stop_mpa", kBloodFlowStop}};
+}
+
+PageJson colour_bar_json(const ColourScale& scale) {
+  constexpr int kBands = 64;
+  PageJson colours = PageJson::array();
+  for (int i = 0; i < kBands; ++i) {
+    colours.push_back(hex_colour(map_colour(scale.map, (i + 0.5) / kBands)));
+  }
+  PageJson ticks = PageJson::array();
+  const Ticks all = ticks_of(scale);
+  for (std::size_t i = 0; i < all.value.size(); ++i) {
+    ticks.push_back({{"value", all.value[i]}, {"text", all.text[i]}});
+  }
+  return {{"quantity", scale.quantity},    {"unit", scale.unit},
+          {"upper", scale.upper},          {"is_open_ended", scale.is_open_ended},
+          {"colours", std::move(colours)}, {"neutral", hex_colour(scale.neutral)},
+          {"ticks", std::move(ticks)}};
+}
+
+std::string attached(Attachments& attachments, const std::string& name, std::string text) {
+  attachments[name] = std::move(text);
+  return "<attachment:" + name + ">";
+}
+
+std::string attached_png(Attachments& attachments, const std::string& name,
+                         const std::string& png) {
+  attachments[name] = "data:image/png;base64," + base64(png);
+  return "attachment:" + name;
+}
+
+PageJson pictures_json(const std::vector<EncodedPicture>& pictures, const std::string& prefix,
+                       Attachments& attachments) {
+  PageJson list = PageJson::array();
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const EncodedPicture& one = pictures[i];
+    const std::string name = prefix + "-picture-" + std::to_string(i);
+    PageJson thumbnail = nullptr;
+    if (!one.thumbnail.empty()) {
+      thumbnail = attached_png(attachments, name + "-small", one.thumbnail);
+    }
+    list.push_back({{"name", one.name},
+                    {"title", one.title},
+                    {"alt", one.alt},
+                    {"src", attached_png(attachments, name, one.png)},
+                    {"thumbnail", std::move(thumbnail)}});
+  }
+  return list;
+}
+
+PageJson pictures_json(const std::vector<Picture>& pictures, Attachments& attachments) {
+  std::vector<EncodedPicture> encoded;
+  for (const Picture& one : pictures) {
+    encoded.push_back({.name = one.name,
+                       .title = one.title,
+                       .alt = one.alt,
+                       .png = encode_png(one.image),
+                       .thumbnail = ""});
+  }
+  return pictures_json(encoded, "shown", attachments);
+}
+
+std::string render_page(const std::string& kind, const std::string& report, const PageJson& view,
+                        Attachments attachments) {
+  const std::string view_text = page_text(view);
+  attachments["report"] = script_escaped(report);
+  attachments["view"] = script_escaped(view_text);
+  return render_page(
+      R"({"kind":")" + kind + R"(","report":)" + report + R"(,"view":)" + view_text + "}",
+      std::move(attachments));
+}
+
+}  // namespace palmar

@@ -1,0 +1,125 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/assess.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/records/posture/coordination_file.h"
+#include "palmar/report/page/assessment_report.h"
+
+namespace palmar {
+namespace {
+
+// Shares of the whole: reading and preparing, assessing, writing the report.
+constexpr double kPrepared = 0.1;
+constexpr double kAssessed = 0.7;
+
+Cancelled cancelled_early() {
+  return Cancelled("cancelled before anything was finished; nothing written");
+}
+
+/// What depends on the product, read once: the same for every hand.
+struct ProductTask {
+  Product product;
+  GraspOptions grasp;
+  FrictionOptions friction;
+};
+
+std::vector<ProductTask> read_products(const AssessRequest& request, const Progress& progress) {
+  std::vector<ProductTask> tasks;
+  for (const ProductChoice& choice : request.products) {
+    if (progress.is_cancelled()) throw cancelled_early();
+    Product product = load_product(choice, progress);
+    if (progress.is_cancelled()) throw cancelled_early();
+    add_findings(product);
+    const FrictionOptions friction = request.friction.options_for(product);
+    for (const std::string& text : product.notes) {
+      note_to(request.note, choice.name() + ": " + text);
+    }
+    const GraspOptions grasp = options_for(request.grasp, product);
+    tasks.push_back({std::move(product), grasp, friction});
+  }
+  return tasks;
+}
+
+AssessOptions options_of(const AssessRequest& request, const Skeleton& skeleton) {
+  AssessOptions options;
+  options.contact = request.contact;
+  options.balance = request.rest.options(request.friction.friction, request.grasp.grip);
+  options.seed = request.seed;
+  if (!request.natural_postures.empty()) {
+    options.indices.coordination = read_coordination(request.natural_postures, skeleton);
+  }
+  return options;
+}
+
+}  // namespace
+
+void AssessRequest::check() const {
+  if (products.empty()) throw UsageError("products: none is given; at least one is required");
+  for (const ProductChoice& product : products) product.check();
+  grasp.check();
+  contact.check();
+  friction.options();
+  rest.options(friction.friction, grasp.grip);
+}
+
+AssessOutcome assess_products(const AssessRequest& request, const Progress& progress) {
+  request.check();
+  if (!request.out.empty()) check_report_folder(request.out);
+  std::vector<ProductTask> tasks = read_products(request, progress);
+
+  if (progress.report) progress.report(0.0, "preparing the hand");
+  const auto hand = load_hand(request.hand);
+  AssessOptions options = options_of(request, hand->skeleton);
+  const PreparedHand prepared(hand, request.model);
+
+  AssessOutcome outcome;
+  outcome.asked = tasks.size();
+  outcome.set = {.hand = hand, .assessments = {}, .command_line = request.command_line};
+  const double step = (kAssessed - kPrepared) / static_cast<double>(tasks.size());
+  for (std::size_t i = 0; i < tasks.size() && !outcome.is_cancelled; ++i) {
+    ProductTask& task = tasks[i];
+    const double start = kPrepared + step * static_cast<double>(i);
+    options.grasp = task.grasp;
+    options.friction = task.friction;
+    options.balance.load = task.friction.load;
+    try {
+      Assessment assessment = assess(prepared, task.product, options,
+                                     part_of(progress, start, start + step, task.product.name));
+      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment)});
+    } catch (const Cancelled&) {
+      outcome.is_cancelled = true;
+      break;
+    }
+    const AssessedProduct& done = outcome.set.assessments.back();
+    if (done.assessment.contact.status == ContactStatus::kNotConverged) {
+      note_to(request.note, done.product.name + ": " + done.assessment.contact.message);
+      outcome.has_converged = false;
+    }
+  }
+  if (outcome.set.assessments.empty()) throw cancelled_early();
+  if (request.out.empty()) return outcome;
+  // What is done is written even when the user has cancelled, but for pictures.
+  outcome.folder = request.out;
+  try {
+    write_report(request.out, outcome.set, {.pictures = request.pictures},
+                 part_of(progress, kAssessed, 1.0));
+  } catch (const Cancelled&) {
+    outcome.is_cancelled = true;
+  }
+  return outcome;
+}
+
+std::string free_report_folder() {
+  std::string folder = "palmar-report";
+  for (int i = 2; std::filesystem::exists(folder); ++i) {
+    folder = "palmar-report-" + std::to_string(i);
+  }
+  return folder;
+}
+
+}  // namespace palmar

@@ -1,0 +1,64 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/rest/friction_settings.h"
+#include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/contact_with_band.h"
+#include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/note.h"
+#include "palmar/workflow/product/product_choice.h"
+
+namespace palmar {
+
+/// How one hand holds one or more products, each by itself.
+struct AssessRequest {
+  std::vector<ProductChoice> products;  ///< files or values; at least one
+  HandChoice hand;
+  GraspSettings grasp;
+  ContactModel model;  ///< the equations of the skin
+  ContactOptions contact = contact_with_band();
+  FrictionSettings friction;
+  RestSettings rest;
+  /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
+  /// ease; "": the built-in one.
+  std::string natural_postures;
+  std::string out;           ///< folder of the report; "": none is written
+  bool pictures = true;      ///< PNG pictures in it
+  std::uint64_t seed = 0;    ///< written into the results
+  std::string command_line;  ///< for provenance
+  NoteSink note = {};        ///< early notes: what was found in a product, why one has no solution
+  void check() const;        ///< throws UsageError: field, value, what is allowed
+};
+
+struct AssessOutcome {
+  AssessmentSet set;          ///< of the products that were finished, in their order
+  std::size_t asked = 0;      ///< products that were asked for
+  bool is_cancelled = false;  ///< what was finished is here and, but for pictures, in the report
+  bool has_converged = true;  ///< of every contact
+  std::string folder;         ///< of the report; "": none was written
+};
+
+/// Reads all products, checks them, prepares the hand and assesses one product after the other;
+/// writes a report of those that are finished if one is asked for (write_report()). Every product
+/// is read before the first is grasped: a mistyped name costs no waiting.
+///
+/// When cancelled after the first product, the outcome holds what was finished; before, Cancelled
+/// is thrown. Throws UsageError, InputError naming the file, OutputError.
+AssessOutcome assess_products(const AssessRequest& request, const Progress& progress = {});
+
+/// "palmar-report" in the working folder, or the first free "palmar-report-2", ...: nothing that
+/// stands there is touched.
+std::string free_report_folder();
+
+}  // namespace palmar

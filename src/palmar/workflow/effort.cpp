@@ -1,0 +1,48 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/effort.h"
+
+#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/grasp.h"
+
+namespace palmar {
+
+void EffortRequest::check() const {
+  product.check();
+  grasp.check();
+  contact.check();
+  friction.options();
+  rest.options(friction.friction, grasp.grip);
+  effort.check();
+}
+
+EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progress) {
+  request.check();
+  const Product product = load_product(request.product);
+  for (const std::string& text : product.notes) note_to(request.note, text);
+  AssessOptions options;
+  options.grasp = options_for(request.grasp, product);
+  options.contact = request.contact;
+  options.contact.error_band = false;
+  options.friction = request.friction.options_for(product);
+  options.balance = request.rest.options(request.friction.friction, request.grasp.grip);
+  options.balance.load = options.friction.load;
+  options.indices.is_on = false;
+  const auto hand = load_hand(request.hand);
+  const PreparedHand prepared(hand, request.model);
+  Assessment held =
+      request.grasp_file.empty()
+          ? assess(prepared, product, options, progress)
+          : evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product), options,
+                     progress);
+  // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
+  if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
+    held.friction.force = held.balance.friction_force;
+  }
+  const bool has_friction =
+      !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
+  return assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
+                       *product.distance, request.effort, has_friction ? &held.friction : nullptr);
+}
+
+}  // namespace palmar

@@ -1,0 +1,126 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/fit_tissue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/hand/tissue.h"
+#include "palmar/records/measured_curves.h"
+#include "palmar/records/tissue_file.h"
+#include "palmar/records/tissue_fit_json.h"
+
+namespace palmar {
+namespace {
+
+/// Regions that the fit is for: a group's, or one.
+std::vector<Region> regions_of(const std::string& name) {
+  std::vector<Region> regions;
+  const auto group = tissue_class_named(name);
+  if (const auto region = region_named(name)) regions.push_back(*region);
+  if (!group && !regions.empty()) return regions;
+  regions.clear();
+  std::vector<std::string> known;
+  for (int c = 0; c < kTissueClassCount; ++c) {
+    known.emplace_back(name_of(static_cast<TissueClass>(c)));
+  }
+  for (int r = 0; r < kRegionCount; ++r) {
+    const auto region = static_cast<Region>(r);
+    known.emplace_back(name_of(region));
+    if (group && tissue_class_of(region) == *group) regions.push_back(region);
+  }
+  if (group) return regions;
+  const std::string nearest = nearest_name(name, known);
+  throw UsageError("group: \"" + name + "\" is not known; " +
+                   (nearest.empty() ? "finger, palm, dorsum or a region is allowed"
+                                    : "did you mean " + nearest + "?"));
+}
+
+/// The default set with the fitted law in it.
+Tissue fitted_set(const TissueFitRequest& request, const TissueFit& fit,
+                  const std::vector<Region>& regions) {
+  const std::string file = std::filesystem::path(request.curves).filename().string();
+  Tissue tissue = default_tissue();
+  tissue.source = "Palmar's own set with " +
+                  std::string(request.is_layered ? "layered" : "half-space") +
+                  " tissue fitted to " + file;
+  for (const Region region : regions) {
+    RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
+    (request.is_layered ? one.layered : one.half_space) = fit.stiffness;
+    if (const std::string fault = fault_of(one); !fault.empty()) {
+      throw NumericalError(file + ": the fit gives no tissue that skin can have: " + fault +
+                           ". Are the units of the columns right?");
+    }
+    if (request.is_layered)
+      one.poisson_layered = request.test.poisson.value_or(one.poisson_layered);
+    one.source = fmt::format("{}: fitted to {} ({} readings, {} subjects; {}), R2 {:.4f}; rest: {}",
+                             request.is_layered ? "layered" : "half-space", file, fit.points.size(),
+                             std::max<std::size_t>(1, fit.subjects.size()), request.description,
+                             fit.r_squared, one.source);
+  }
+  return tissue;
+}
+
+bool is_of_hand(const TissueFitRequest& request) {
+  return request.test.specimen.kind == PressSpecimen::Kind::kHandRegion;
+}
+
+std::string group_of(const TissueFitRequest& request) {
+  if (!request.group.empty()) return request.group;
+  if (!is_of_hand(request)) return "finger";
+  return std::string(name_of(tissue_class_of(request.test.specimen.region)));
+}
+
+}  // namespace
+
+void TissueFitRequest::check() const {
+  fit.check();
+  regions_of(group_of(*this));
+}
+
+TissueFitOutcome fit_tissue(const TissueFitRequest& request) {
+  request.check();
+  const std::string group = group_of(request);
+  const MeasuredCurves curves = read_measured_curves(request.curves);
+  PressOptions test = request.test;
+  test.depths.clear();
+  for (const MeasuredPoint& point : curves.points) test.depths.push_back(point.depth);
+  for (const std::string& column : curves.ignored) {
+    note_to(request.note, request.curves + ": column \"" + column + "\" is left out");
+  }
+  if (curves.zero_depths > 0) {
+    note_to(request.note,
+            fmt::format("{}: {} rows at depth 0 are left out", request.curves, curves.zero_depths));
+  }
+  std::optional<PreparedHand> hand;
+  if (is_of_hand(request)) {
+    ContactModel model;
+    if (request.is_layered) model.tissue = TissueModel::kLayered;
+    hand.emplace(load_hand(request.hand), model);
+  }
+  std::vector<double> thickness;
+  if (request.is_layer_fitted) {
+    thickness = thicknesses_to_try(*std::max_element(test.depths.begin(), test.depths.end()));
+  }
+  test.check();
+  const SpecimenResponse response =
+      specimen_response(test, test.depths, thickness, hand ? &*hand : nullptr);
+  TissueFitOutcome outcome{fit_tissue(curves.points, response, request.fit), group};
+  const TissueFit& fit = outcome.fit;
+  if (fit.status == LeastSquaresStatus::kIterationLimit ||
+      fit.status == LeastSquaresStatus::kBadStart) {
+    throw NumericalError(request.curves + ": the fit ended without converging (" +
+                         std::string(name_of(fit.status)) + "); nothing is written");
+  }
+  if (!request.out.empty()) {
+    write_tissue(request.out, fitted_set(request, fit, regions_of(group)));
+  }
+  return outcome;
+}
+
+}  // namespace palmar

@@ -1,0 +1,82 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/grasp/grasp_evaluate.h"
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/given_grasp.h"
+#include "palmar/records/posture/coordination_file.h"
+#include "palmar/records/posture/posture_file.h"
+#include "palmar/report/page/assessment_report.h"
+#include "palmar/workflow/hand/posture_notes.h"
+
+namespace palmar {
+namespace {
+
+Grasp given_in(const EvaluateRequest& request, const Hand& hand, const Product& product) {
+  const std::string& path = request.posture_file;
+  const PostureFile file = read_postures(path, hand.skeleton);
+  for (const std::string& text : file.notes) note_to(request.note, path + ": " + text);
+  const PostureFrame frame = frame_of(file, path, request.frame);
+  for (const std::string& text : frame_notes(frame)) note_to(request.note, text);
+  std::optional<Rigid3> product_from_hand =
+      request.product_from_hand ? request.product_from_hand : frame.product_from_hand;
+  if (request.measured_from_product) {
+    if (!frame.measured_from_hand) {
+      throw UsageError("measured_from_product: " + path +
+                       " doesn't say where the hand is (measured_from_hand)");
+    }
+    product_from_hand = request.measured_from_product->inverse() * *frame.measured_from_hand;
+  }
+  if (!product_from_hand) {
+    throw UsageError(path +
+                     " doesn't say where the product is (product_from_hand); product_from_hand or "
+                     "measured_from_product is needed");
+  }
+  Grasp grasp = given_grasp(hand, product, frame.posture, *product_from_hand);
+  if (frame.grip) grasp.grip = *frame.grip;
+  return grasp;
+}
+
+}  // namespace
+
+void EvaluateRequest::check() const {
+  product.check();
+  if (posture_file.empty()) throw UsageError("posture_file: is empty; a file is required");
+  if (product_from_hand && measured_from_product) {
+    throw UsageError("product_from_hand and measured_from_product exclude each other");
+  }
+  contact.check();
+  friction.check();
+}
+
+EvaluateOutcome evaluate_grasp(const EvaluateRequest& request, const Progress& progress) {
+  request.check();
+  if (!request.out.empty()) check_report_folder(request.out);
+  const Product product = load_product(request.product);
+  AssessOptions options;
+  options.contact = request.contact;
+  options.friction = request.friction.options_for(product);
+  options.seed = request.seed;
+  for (const std::string& text : product.notes) {
+    note_to(request.note, request.product.name() + ": " + text);
+  }
+  const auto hand = load_hand(request.hand);
+  const Grasp grasp = given_in(request, *hand, product);
+  if (!request.natural_postures.empty()) {
+    options.indices.coordination = read_coordination(request.natural_postures, hand->skeleton);
+  }
+  if (progress.report) progress.report(0.0, "preparing the hand");
+  const PreparedHand prepared(hand, request.model);
+  EvaluateOutcome outcome;
+  outcome.set = {.hand = hand, .assessments = {}, .command_line = request.command_line};
+  outcome.set.assessments.push_back(
+      {product, evaluate(prepared, product, grasp, options, progress)});
+  const ContactResult& contact = outcome.set.assessments.front().assessment.contact;
+  outcome.has_converged = contact.status != ContactStatus::kNotConverged;
+  if (!request.out.empty()) {
+    write_report(request.out, outcome.set, {.pictures = request.pictures}, progress);
+  }
+  return outcome;
+}
+
+}  // namespace palmar

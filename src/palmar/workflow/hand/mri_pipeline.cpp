@@ -1,0 +1,358 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/hand/mri_pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "palmar/capture/hand_plausibility.h"
+#include "palmar/capture/mri/bones/bone_plausibility.h"
+#include "palmar/capture/mri/bones/image_edge.h"
+#include "palmar/capture/mri/grasp_contact.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/core/version.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/image/dicom.h"
+#include "palmar/formats/sha256.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/records/capture/kept_scan_results.h"
+#include "palmar/records/capture/scan_surfaces_file.h"
+#include "palmar/records/hand/hand_file.h"
+
+namespace palmar {
+namespace {
+
+/// Digest of all that the surfaces of a scan depend on.
+std::string key_of(const SelectedScan& selected, const SurfaceOptions& options) {
+  Sha256 digest;
+  for (const std::string& file : selected.files) {
+    const std::string bytes = read_file(file);
+    digest.add(fmt::format("{}:", bytes.size()));
+    digest.add(bytes);
+  }
+  digest.add(fmt::format("{} {} {} {} {} {} {} {}", build_description(), options.air_threshold,
+                         options.bone_threshold, options.corrects_bias, options.edge_length,
+                         options.marker_diameter, selected.choice.number.value_or(-1),
+                         options.side ? name_of(*options.side) : "from the anatomy"));
+  return digest.hex();
+}
+
+std::string folder_of(ScanPosture posture, const std::string& work) {
+  return (std::filesystem::path(work) / name_of(posture)).string();
+}
+
+/// What the tag says about the side, held against the user's word or the anatomy.
+void check_laterality(RecordedScan& scan, const MriPipelineOptions& options) {
+  if (scan.laterality.empty()) return;
+  const bool says_left = scan.laterality == "L";
+  if (says_left == (scan.surfaces.side == Side::kLeft)) return;
+  const std::string_view side = name_of(scan.surfaces.side);
+  const std::string note = fmt::format(
+      "{}: its tag Laterality says {}, but {}", scan.title, scan.laterality,
+      options.surfaces.side
+          ? fmt::format("setting \"side\" {} counts", side)
+          : fmt::format("the hand is a {} one; the anatomy counts (setting \"side\" decides)",
+                        side));
+  scan.surfaces.notes.push_back(with_setting_names(note, options.setting_names));
+}
+
+/// What the user says about a scan counts over what was found.
+RecordedScan finished(RecordedScan scan, const Hand& model, const MriPipelineOptions& options) {
+  if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
+  if (scan.posture == ScanPosture::kReference) {
+    apply_bone_labels(scan.surfaces, options.labels, model);
+  }
+  return scan;
+}
+
+/// Surfaces that an earlier run left, or that the user gave, maybe mended.
+ScanSurfaces read_kept(const std::string& folder, bool is_users) {
+  try {
+    return read_scan_surfaces(folder);
+  } catch (const InputError& error) {
+    if (is_users) throw;
+    throw InputError(std::string(error.what()) + "; without the folder " + folder +
+                     " they are found in the image again");
+  }
+}
+
+/// A scan's image for comparing; nothing if there are only its surfaces.
+std::optional<ImageLevels> levels_of(const SelectedScan& selected) {
+  if (selected.has_surfaces) return {};
+  return blurred_levels(read_image(selected.path, selected.choice).image);
+}
+
+struct PlannedScan {
+  const SelectedScan* selected = nullptr;
+  std::string key;       ///< of the image and the options
+  bool is_kept = false;  ///< surfaces are there already
+};
+
+/// `reference`: the side of the reference scan, once it is known: another one must be clearly the
+/// other hand's to be taken for it.
+RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::optional<Side> reference,
+                         const MriPipelineOptions& options, const Progress& progress) {
+  const SelectedScan& selected = *plan.selected;
+  RecordedScan scan;
+  scan.posture = selected.posture;
+  scan.title = selected.title;
+  scan.was_kept = plan.is_kept;
+  const std::string folder = folder_of(selected.posture, options.work);
+  if (plan.is_kept) {
+    progress.update(0.0, "taking up what is there");
+    scan.surfaces =
+        read_kept(selected.has_surfaces ? selected.path : folder, selected.has_surfaces);
+    return finished(std::move(scan), model, options);
+  }
+  const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
+  scan.laterality = file.laterality;
+  SurfaceOptions how = options.surfaces;
+  if (!how.side && reference) {
+    how.side = reference;
+    how.doubted_below = 0.75;
+  }
+  scan.surfaces =
+      find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
+  scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
+  check_laterality(scan, options);
+  mark_cut_fingers(scan.surfaces, file.image.grid);
+  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+  if (!cut.empty()) {
+    scan.surfaces.notes.push_back(
+        fmt::format("the edge of the image cuts {}", fmt::join(cut, ", ")));
+  }
+  progress.throw_if_cancelled();
+  write_scan_surfaces(folder, scan.surfaces, plan.key);
+  return finished(std::move(scan), model, options);
+}
+
+/// A hand of which the image shows a part only would come out too short.
+void require_whole(const RecordedScan& scan) {
+  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+  if (cut.empty()) return;
+  throw InputError(
+      fmt::format("{}: the edge of the image cuts the hand at {}; the reference must show it whole",
+                  scan.title, fmt::join(cut, ", ")));
+}
+
+/// Refuses scans that no hand can be made of, before the long work on the others.
+void require_bones(const RecordedScan& scan, const Hand& model) {
+  constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring",
+                                                        "little"};
+  constexpr int kLeastPerFinger = 2;
+  constexpr std::size_t kMostMissing = 5;  // of the 19 of fingers and palm
+  std::vector<std::string> missing;
+  std::string poor;
+  for (const std::string_view finger : kFingers) {
+    int seen = 0;
+    for (const Bone& bone : model.bones) {
+      if (!bone.name.starts_with(finger)) continue;
+      const bool is_seen = std::any_of(scan.surfaces.bones.begin(), scan.surfaces.bones.end(),
+                                       [&](const auto& one) { return one.name == bone.name; });
+      seen += is_seen ? 1 : 0;
+      if (!is_seen) missing.push_back(bone.name);
+    }
+    if (seen < kLeastPerFinger) poor += (poor.empty() ? "" : ", ") + std::string(finger);
+  }
+  if (poor.empty() && missing.size() <= kMostMissing) return;
+  throw InputError(fmt::format(
+      "{}: too few bones were found to make a hand of: {} of the 19 of fingers and palm are "
+      "missing ({}); up to {} may be, and each finger needs {}. Look at skin.ply and bones/ of "
+      "this "
+      "scan: finer images with less noise (pixels of 0.8 mm, slices of 1 mm) help, so do "
+      "setting \"bone threshold\", or setting \"labels\" for bones that were found without a name",
+      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger));
+}
+
+void require_same_side(const RecordedScan& scan, Side reference) {
+  if (scan.surfaces.side == reference) return;
+  throw InputError(scan.title + ": shows a " + std::string(name_of(scan.surfaces.side)) +
+                   " hand, but the reference is a " + std::string(name_of(reference)) +
+                   " one; leave it out with setting \"skip\" " +
+                   std::string(name_of(scan.posture)) +
+                   ", or say setting \"side\" if one of them is wrong");
+}
+
+/// Looks at every image before the long work begins: a slice that is damaged in one of them would
+/// cost the time of all.
+void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_odd_slices,
+                          const Progress& progress,
+                          const std::function<void(const std::string&)>& tell) {
+  std::string damaged;
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    if (plans[k].is_kept) continue;
+    const SelectedScan& selected = *plans[k].selected;
+    const double size = static_cast<double>(plans.size());
+    const Progress part =
+        part_of(progress, static_cast<double>(k) / size, static_cast<double>(k + 1) / size);
+    for (const std::string& odd : read_image(selected.path, selected.choice, part).odd_slices) {
+      if (accepts_odd_slices) tell(std::string(name_of(selected.posture)) + ": " + odd);
+      damaged += odd + "\n";
+    }
+  }
+  if (damaged.empty() || accepts_odd_slices) return;
+  throw InputError(damaged +
+                   "restore them, leave the posture out with setting \"skip\", or go on with "
+                   "setting \"accept odd slices\" if they look right");
+}
+
+/// What goes wrong here comes from bones that were found wrongly.
+ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& surfaces,
+                      const ScanRecord& record, const Progress& progress) {
+  try {
+    ScannedHand made = make_scanned_hand(model, surfaces, record.joints, progress);
+    const std::vector<std::string> impossible =
+        impossible_dimensions(made.hand.dimensions, model.dimensions);
+    if (!impossible.empty()) throw InputError(fmt::format("{}", fmt::join(impossible, "; ")));
+    return made;
+  } catch (const InputError& error) {
+    const RecordedScan& reference = record.scans.front();
+    throw InputError(fmt::format(
+        "{}: its bones and skin make no whole hand ({}). Bones that are missing or look "
+        "wrong: {}. Scan finer, name bones by setting \"labels\", or mend their meshes",
+        reference.title, error.what(), fmt::join(doubtful_bones(reference.surfaces, model), "; ")));
+  }
+}
+
+/// Shares of the whole time by what the steps take, in seconds of a usual scan on two cores.
+class Shares {
+ public:
+  void plan(double seconds) { left_ += seconds; }
+  void drop(double seconds) { left_ -= seconds; }
+  /// The next step's part.
+  Progress next(const Progress& progress, double seconds, const std::string& what) {
+    const double begin = at_;
+    at_ += (1.0 - at_) * std::min(1.0, seconds / left_);
+    left_ -= seconds;
+    return part_of(progress, begin, at_, what);
+  }
+
+ private:
+  double at_ = 0.0, left_ = 0.0;  // share that is done; seconds that aren't
+};
+constexpr double kChecked = 0.5;
+constexpr double kFound = 25.0, kKept = 0.1, kTracked = 4.0, kMade = 15.0, kWritten = 12.0;
+
+}  // namespace
+
+ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
+                            const MriPipelineOptions& options, const Progress& progress) {
+  ScanRecord result;
+  const auto tell = [&](const std::string& text) {
+    result.notes.push_back(with_setting_names(text, options.setting_names));
+    note_to(options.note, result.notes.back());
+  };
+  if (options.product && scans.back().posture != ScanPosture::kGrasp) {
+    throw UsageError("setting \"product\" " + options.product->source +
+                     ": none of the scans shows the posture grasp, in which it was held");
+  }
+  progress.update(0.0, "looking for what is there");
+  std::vector<PlannedScan> plans;
+  Shares shares;
+  for (const SelectedScan& selected : scans) {
+    progress.throw_if_cancelled();
+    PlannedScan plan{&selected, "", selected.has_surfaces};
+    if (!selected.has_surfaces) {
+      plan.key = key_of(selected, options.surfaces);
+      plan.is_kept = key_of_scan_surfaces(folder_of(selected.posture, options.work)) == plan.key;
+    }
+    shares.plan(plan.is_kept ? kKept : kFound + kChecked);
+    plans.push_back(std::move(plan));
+  }
+  shares.plan(kTracked * static_cast<double>(scans.size() - 1) + kMade + kWritten);
+
+  const auto found = std::count_if(plans.begin(), plans.end(),
+                                   [](const PlannedScan& plan) { return !plan.is_kept; });
+  if (found > 0) {
+    require_sound_images(plans, options.accepts_odd_slices,
+                         shares.next(progress, kChecked * static_cast<double>(found), ""), tell);
+  }
+
+  std::vector<std::string> digests;
+  for (const PlannedScan& plan : plans) {
+    const std::string name(name_of(plan.selected->posture));
+    std::optional<Side> side;
+    if (!result.scans.empty()) side = result.scans.front().surfaces.side;
+    result.scans.push_back(surfaces_of(plan, model, side, options,
+                                       shares.next(progress, plan.is_kept ? kKept : kFound, name)));
+    const RecordedScan& scan = result.scans.back();
+    for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);
+    const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
+    if (!doubts.empty()) {
+      tell(fmt::format(
+          "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
+          fmt::join(doubts, "; "),
+          result.scans.size() == 1 ? ". Joints and lengths of the hand hang on them: scan finer, "
+                                     "name them by setting \"labels\", "
+                                     "or mend their meshes"
+                                   : ""));
+    }
+    if (result.scans.size() == 1) {
+      require_bones(scan, model);
+      require_whole(scan);
+    }
+    require_same_side(scan, result.scans.front().surfaces.side);
+    digests.push_back(digest_of(scan.surfaces));
+  }
+
+  // What earlier runs kept first: then the time that is left can be told.
+  const ScanSurfaces& reference = result.scans.front().surfaces;
+  std::vector<std::string> keys = {""};
+  std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
+  for (std::size_t k = 1; k < result.scans.size(); ++k) {
+    const ScanPosture posture = result.scans[k].posture;
+    keys.push_back(sha256_hex(build_description() + digests.front() + digests[k] +
+                              plans.front().key + plans[k].key));
+    all += std::string(name_of(posture)) + keys.back();
+    auto kept = kept_bone_motions(folder_of(posture, options.work), keys.back());
+    if (!kept) continue;
+    result.motions[posture] = std::move(*kept);
+    shares.drop(kTracked);
+  }
+  const std::string made_key = sha256_hex(all);
+  std::optional<ScannedHand> made = kept_scanned_hand(options.work, made_key);
+  if (made) shares.drop(kMade - kKept);
+
+  std::optional<BoneImages> bones;
+  for (std::size_t k = 1; k < result.scans.size(); ++k) {
+    const RecordedScan& scan = result.scans[k];
+    if (result.motions.contains(scan.posture)) continue;
+    const Progress part = shares.next(progress, kTracked, std::string(name_of(scan.posture)));
+    part.update(0.0, "reading");
+    if (!bones) {
+      const std::optional<ImageLevels> image = levels_of(scans.front());
+      bones = image ? images_of_bones(reference, *image) : BoneImages();
+    }
+    const std::optional<ImageLevels> image = levels_of(scans[k]);
+    std::vector<BoneMotion> motions =
+        track_bones(reference, scan.surfaces, {&*bones, image ? &*image : nullptr}, part);
+    keep_bone_motions(folder_of(scan.posture, options.work), keys[k], motions);
+    result.motions[scan.posture] = std::move(motions);
+  }
+
+  const Progress part = shares.next(progress, made ? kKept : kMade, "");
+  part.update(0.0, "joints");
+  const Hand sided = reference.side == model.side ? model : mirrored(model);
+  std::map<ScanPosture, ScanSurfaces> surfaces;
+  for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
+  result.joints = measure_joints(surfaces, result.motions, sided);
+  for (const std::string& note : result.joints.notes) tell(note);
+  if (made) {
+    result.made = std::move(*made);
+  } else {
+    result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
+    keep_scanned_hand(options.work, made_key, result.made);
+  }
+  for (const std::string& note : result.made.notes) tell(note);
+  if (options.product) {
+    result.contact = grasp_contact(result, options.product->mesh, options.product->source);
+  }
+  if (options.write) options.write(result, shares.next(progress, kWritten, ""));
+  return result;
+}
+
+}  // namespace palmar

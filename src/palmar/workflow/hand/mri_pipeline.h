@@ -1,0 +1,41 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/capture/mri/bones/bone_labels.h"
+#include "palmar/capture/scan/scan_record.h"
+#include "palmar/core/progress.h"
+#include "palmar/core/setting_names.h"
+#include "palmar/product/product.h"
+#include "palmar/workflow/hand/scan_selection.h"
+#include "palmar/workflow/note.h"
+
+namespace palmar {
+
+struct MriPipelineOptions {
+  SurfaceOptions surfaces;          ///< its side counts; none: from the anatomy
+  std::vector<BoneLabel> labels;    ///< of the reference scan
+  bool accepts_odd_slices = false;  ///< goes on though a slice seems damaged
+  std::string work;                 ///< folder of what each step made
+  std::optional<Product> product;   ///< what the grasp held, in the patient frame of its scan
+  /// Called with each note as soon as it is known; may be empty.
+  NoteSink note;
+  SettingNames setting_names;  ///< for notes; exceptions name settings in the library's words
+  /// The last step, which writes hand and report.
+  std::function<void(ScanRecord&, const Progress&)> write;
+};
+
+/// Images to a hand: surfaces of every scan (one after the other, each on all threads), bones from
+/// posture to posture, joints, skin, contact with the product. What an earlier run kept in the work
+/// folder is taken up where all that goes into it is the same. Throws InputError, also when a scan
+/// shows too few bones to make a hand of; Cancelled (what was finished is kept).
+ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
+                            const MriPipelineOptions& options, const Progress& progress);
+
+}  // namespace palmar

@@ -1,0 +1,59 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/capture/mri/scan_surfaces.h"
+#include "palmar/capture/scan/scan_record.h"
+#include "palmar/core/progress.h"
+#include "palmar/core/setting_names.h"
+#include "palmar/geometry/length_unit.h"
+#include "palmar/workflow/hand/scan_selection.h"
+#include "palmar/workflow/note.h"
+
+namespace palmar {
+
+/// A person's hand from MR series of it in several postures (docs/method/mri.md).
+struct HandFromMriRequest {
+  /// Images: folders of DICOM series, NIfTI files, or folders that find_mri_surfaces()
+  /// made. The description of a series, or the name of its folder, tells the posture; the reference
+  /// is needed.
+  std::vector<std::string> images;
+  std::vector<SeriesPosture> series;  ///< what series show whose names don't tell it
+  std::vector<ScanPosture> skip;      ///< postures to leave out, for a spoilt series
+  std::string out;                    ///< the hand, *.hand.glb
+  std::string work;     ///< folder for the report and for what each step makes, which another run
+                        ///< takes up; empty: beside the hand, *.mri
+  std::string labels;   ///< file with names for bones of the reference scan; empty: none
+  std::string product;  ///< what the grasp holds, in the patient frame of its scan; empty:
+                        ///< nothing is compared
+  std::optional<LengthUnit> unit;   ///< of the product's file, where that carries none
+  std::string model = "template";   ///< hand to start from: "template" or a *.hand.glb file
+  std::string name;                 ///< of the hand; empty: that of the file
+  SurfaceOptions surfaces;          ///< how skin and bones are found; whose hand it is
+  bool accepts_odd_slices = false;  ///< a damaged slice spoils the surfaces near it, so going on is
+                                    ///< a choice
+  bool writes_report = true;
+
+  SettingNames setting_names;  ///< for the notes that hand and report keep
+  NoteSink note;               ///< gets every note once it is known; may be empty
+
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
+};
+
+struct HandFromMriOutcome {
+  ScanRecord record;   ///< the hand and how far it lies from the scans; notes
+  std::string work;    ///< folder of what each step made
+  std::string report;  ///< page; empty: none was written
+};
+
+/// Images to hand and report; minutes per posture. What an earlier run kept in the work folder is
+/// taken up where all that goes into it is the same. Throws UsageError; InputError naming series or
+/// file, also when a scan shows too few bones; OutputError; Cancelled (what was finished is kept).
+HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request,
+                                      const Progress& progress = {});
+
+}  // namespace palmar

@@ -1,0 +1,32 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/contact/press/press.h"
+#include "palmar/records/press_json.h"
+#include "palmar/workflow/hand/load_hand.h"
+
+namespace palmar {
+
+/// An indentation test on a plane, an ellipsoid or one region of a hand.
+struct PressRequest {
+  PressOptions test;   ///< its kernel and, with a tissue file, its tissue are set here
+  HandChoice hand;     ///< whose region is pressed; its tissue file also serves plane and ellipsoid
+  ContactModel model;  ///< the equations; a plane or ellipsoid takes the kernel
+  std::string out;     ///< file to write, .json, .csv or .svg (the curve); "": none
+  void check() const;  ///< throws UsageError: field, value, what is allowed
+};
+
+struct PressOutcome {
+  PressOptions test;  ///< as it ran
+  PressSetting setting;
+  std::vector<PressStep> steps;
+};
+
+/// Throws UsageError, InputError naming the file, NumericalError, OutputError.
+PressOutcome run_press(const PressRequest& request);
+
+}  // namespace palmar

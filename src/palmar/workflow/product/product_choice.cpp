@@ -1,0 +1,63 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/product/product_choice.h"
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/product/check.h"
+#include "palmar/records/product/made_product.h"
+
+namespace palmar {
+namespace {
+
+/// Above this, finding crossing triangles takes more than a few tenths of a second.
+constexpr int kMostTrianglesForCrossings = 100'000;
+
+/// Nothing unless the product's source says by which kind and parameters it was made.
+std::optional<Vec3> thumb_side_of(const Product& product) {
+  if (!is_made(product.source)) return std::nullopt;
+  try {
+    return thumb_side_of(made_from(product.source));
+  } catch (const Error&) {
+    return std::nullopt;  // a primitive, which says only its size
+  }
+}
+
+}  // namespace
+
+std::string ProductChoice::name() const { return value ? value->name : file.string(); }
+
+void ProductChoice::check() const {
+  if (!value && file.empty()) throw UsageError("product: is empty; a file or a value is required");
+  reading.limits.check();
+}
+
+Product load_product(const ProductChoice& choice, const Progress& progress) {
+  choice.check();
+  if (choice.value) return *choice.value;
+  LoadProductOptions options = choice.reading;
+  options.progress = progress;
+  return load_product(choice.file, options);
+}
+
+void add_findings(Product& product) {
+  const bool is_small = product.mesh.triangle_count() <= kMostTrianglesForCrossings;
+  for (const Finding& finding : check_mesh(product.mesh, is_small).findings) {
+    const bool is_known = std::any_of(
+        product.notes.begin(), product.notes.end(),
+        [&](const std::string& note) { return note.find(finding.text) != std::string::npos; });
+    if (finding.severity != Severity::kOk && !is_known) product.notes.push_back(finding.text);
+  }
+}
+
+GraspOptions options_for(const GraspSettings& settings, const Product& product) {
+  GraspOptions result = settings.options();
+  PlacementRequest& placement = result.power.placement;
+  if (!placement.at && !placement.axis && !placement.region) {
+    placement.axis = thumb_side_of(product);
+  }
+  return result;
+}
+
+}  // namespace palmar

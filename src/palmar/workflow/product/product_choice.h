@@ -1,0 +1,41 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp_settings.h"
+#include "palmar/product/product.h"
+#include "palmar/records/product/product_file.h"
+
+namespace palmar {
+
+/// Which product a task is done with: a file, or a value that is in memory already.
+struct ProductChoice {
+  ProductChoice() = default;
+  ProductChoice(std::filesystem::path path, LoadProductOptions options = {})
+      : file(std::move(path)), reading(std::move(options)) {}
+  ProductChoice(Product product) : value(std::move(product)) {}
+
+  std::filesystem::path file;    ///< STL, OBJ, PLY, 3MF, glTF, STEP or IGES
+  LoadProductOptions reading;    ///< of the file; its `progress` isn't used
+  std::optional<Product> value;  ///< in place of `file`
+
+  std::string name() const;  ///< path, or the value's name: what messages call it
+  void check() const;        ///< throws UsageError: neither a file nor a value, limits of reading
+};
+
+/// Throws InputError naming the file and what is wrong with it.
+Product load_product(const ProductChoice& choice, const Progress& progress = {});
+
+/// Adds what a check of its mesh finds to the product's notes, unless they say so already.
+void add_findings(Product& product);
+
+/// How the product is held, where a solid made by Palmar tells by itself which side the thumb is on
+/// and nothing else is asked for.
+GraspOptions options_for(const GraspSettings& settings, const Product& product);
+
+}  // namespace palmar

@@ -1,0 +1,224 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/feature_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "palmar/core/error.h"
+#include "palmar/product/make_product.h"
+#include "palmar/product/parametric_kinds.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kChordalError = 0.01;  // mm; finer than skin feels, the same for all candidates
+constexpr double kKept = 0.05;          // mm; surfaces are measured to about 0.02 mm
+
+/// Stops when the user asks for it, says nothing.
+Progress silent(const Progress& progress) {
+  Progress quiet;
+  quiet.cancel = progress.cancel;
+  return quiet;
+}
+
+}  // namespace
+
+void FeatureLimits::check() const {
+  const auto require = [](bool holds, const char* field, double value, const char* allowed) {
+    if (!holds) throw UsageError(fmt::format("{} is {:g}; {} is allowed", field, value, allowed));
+  };
+  if (largest_offset) {
+    require(*largest_offset > 0.0, "`largest_offset`", *largest_offset, "above 0");
+  }
+  require(smallest_radius >= 0.0, "`smallest_radius`", smallest_radius, "0 or more");
+  if (smallest_volume) {
+    require(*smallest_volume > 0.0, "`smallest_volume`", *smallest_volume, "above 0");
+  }
+  if (largest_volume) {
+    require(*largest_volume > 0.0, "`largest_volume`", *largest_volume, "above 0");
+  }
+  if (least_grip_force) {
+    require(*least_grip_force >= 0.0 && *least_grip_force <= 1.0, "`least_grip_force`",
+            *least_grip_force, "0 to 1");
+  }
+  require(lost_hands >= 0.0 && lost_hands <= 1.0, "`lost_hands`", lost_hands, "0 to 1");
+}
+
+void FeatureRun::find_starts(const Progress& progress) {
+  CadFeatureRequest asked{
+      .source = source, .reference = {}, .features = {}, .keep_out = limits.keep_out};
+  for (const FeatureSetting& setting : settings) {
+    if (setting.parameter.empty()) asked.features.push_back(setting.feature);
+  }
+  const std::vector<ChosenEdges> fillets = describe_features(asked, {}, silent(progress));
+  KindValues values;
+  if (source.made) values = complete_values(parametric_kind(source.made->kind), source.made->given);
+  start.clear();
+  size_t fillet = 0;
+  for (const FeatureSetting& setting : settings) {
+    double now = 0.0;
+    if (!setting.parameter.empty()) {
+      const auto at = values.find(setting.parameter);
+      if (at == values.end()) {
+        throw UsageError(fmt::format("a {} has no parameter {}; see `palmar product make {} -h`",
+                                     source.made->kind, setting.parameter, source.made->kind));
+      }
+      now = at->second;
+    } else if (setting.feature.feature == "fillet") {
+      now = fillets.at(fillet++).radius;
+    }
+    start.push_back(std::clamp(now, setting.lowest, setting.highest));
+  }
+}
+
+std::vector<double> FeatureRun::all_values(const std::vector<double>& varying) const {
+  std::vector<double> values;
+  size_t next = 0;
+  for (const FeatureSetting& setting : settings) {
+    values.push_back(setting.varies() ? varying.at(next++) : setting.lowest);
+  }
+  return values;
+}
+
+ChangedCad FeatureRun::make(const std::vector<double>& varying, bool mesh, bool step,
+                            const Progress& progress) const {
+  CadFeatureRequest asked = request_for(source, settings, all_values(varying));
+  asked.keep_out = limits.keep_out;
+  asked.mesh = mesh;
+  asked.step = step;
+  asked.chordal_error = kChordalError;
+  try {
+    return change_features(asked, {}, silent(progress));
+  } catch (const UsageError& error) {
+    // Parameters that don't go together: a candidate that can't be made.
+    if (!source.made) throw;
+    throw NumericalError(error.what());
+  }
+}
+
+Product FeatureRun::product_of(const ChangedCad& made, const std::string& name,
+                               const std::string& source_name) const {
+  return make_product(
+      name, made.mesh.mesh,
+      {.unit = LengthUnit::kMillimetre, .source = UnitSource::kMade, .explanation = ""},
+      source_name, &made.mesh.faces);
+}
+
+std::vector<SearchConstraint> FeatureRun::constraints() const {
+  std::vector<SearchConstraint> all;
+  if (limits.largest_offset) {
+    all.push_back({"largest change of the surface", "mm", *limits.largest_offset, true});
+  }
+  if (!limits.keep_out.empty()) all.push_back({"change of the faces to keep", "mm", kKept, true});
+  if (limits.smallest_volume) {
+    all.push_back({"volume by the original's", "", *limits.smallest_volume, false});
+  }
+  if (limits.largest_volume) {
+    all.push_back({"volume by the original's", "", *limits.largest_volume, true});
+  }
+  if (limits.least_grip_force) {
+    all.push_back({"grip force by the original's", "", *limits.least_grip_force, false});
+  }
+  all.push_back({"share of hands that lose hold", "", limits.lost_hands, true});
+  return all;
+}
+
+JudgedShape FeatureRun::judge(const ChangedCad& made, const Progress& progress) const {
+  const StudyResults results =
+      assess_candidate(request, *original, product_of(made, "candidate", "candidate"),
+                       needs_indices(goal), silent(progress));
+  return {.figure = goal_of(results, goal, 1),
+          .grip_force_ratio = mean_ratio(results, "grip_force_n", 1)};
+}
+
+const JudgedShape& FeatureRun::as_it_is(const Progress& progress) const {
+  if (!kept_as_it_is) {
+    FeatureRun unchanged = *this;
+    unchanged.settings.clear();
+    kept_as_it_is = judge(unchanged.make({}, true, false, progress), progress);
+  }
+  return *kept_as_it_is;
+}
+
+SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory::Beside& beside,
+                                 const Progress& progress) const {
+  const ChangedCad made = make(varying, true, false, progress);
+  const JudgedShape judged =
+      made.largest_change < kUnchanged ? as_it_is(progress) : judge(made, progress);
+  const GoalFigure& figure = judged.figure;
+  beside.hands = figure.hands;
+  beside.lost = figure.lost;
+  beside.grip_force_ratio = judged.grip_force_ratio;
+  beside.volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
+  SearchOutcome outcome{
+      .failure = "", .goal = figure.value, .goal_error = figure.error, .constraint = {}};
+  outcome.constraint =
+      values_of(made, beside.grip_force_ratio, static_cast<double>(figure.lost) / figure.hands);
+  return outcome;
+}
+
+SearchOutcome FeatureRun::measure(const std::vector<double>& varying,
+                                  const Progress& progress) const {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {.failure = "",
+          .constraint = values_of(make(varying, false, false, progress), kUnknown, kUnknown)};
+}
+
+std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_force_ratio,
+                                          double lost_share) const {
+  const double volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
+  std::vector<double> values;
+  if (limits.largest_offset) values.push_back(made.largest_change);
+  if (!limits.keep_out.empty()) values.push_back(made.keep_out_change);
+  if (limits.smallest_volume) values.push_back(volume_ratio);
+  if (limits.largest_volume) values.push_back(volume_ratio);
+  if (limits.least_grip_force) values.push_back(grip_force_ratio);
+  values.push_back(lost_share);
+  return values;
+}
+
+SearchStory FeatureRun::search(double step, const SearchOptions& options,
+                               const Progress& progress) const {
+  SearchStory story{
+      .settings = {}, .problem = {}, .goal = goal, .result = {}, .original = {}, .beside = {}};
+  for (size_t i = 0; i < settings.size(); ++i) {
+    if (!settings[i].varies()) continue;
+    story.settings.push_back(settings[i]);
+    story.problem.variables.push_back({settings[i].name, settings[i].unit, settings[i].lowest,
+                                       settings[i].highest, start[i], step});
+  }
+  story.problem.constraints = constraints();
+  story.problem.is_lower_better = goal.is_lower_better;
+  story.problem.evaluate = [&](const std::vector<double>& values) {
+    story.beside.emplace_back();
+    return assess(values, story.beside.back(), progress);
+  };
+  story.problem.measure = [&](const std::vector<double>& values) {
+    return measure(values, progress);
+  };
+  if (!story.problem.variables.empty()) {
+    story.result = search_features(story.problem, options, progress);
+    story.original = as_it_is(progress).figure;
+    return story;
+  }
+  SearchTrial only;
+  only.outcome = story.problem.evaluate({});
+  only.is_feasible = true;
+  for (size_t i = 0; i < story.problem.constraints.size(); ++i) {
+    if (excess(story.problem.constraints[i], only.outcome.constraint[i]) > 0.0) {
+      only.is_feasible = false;
+    }
+  }
+  story.result.history = {only};
+  story.result.best = only.is_feasible ? std::optional(0) : std::nullopt;
+  story.result.method = "as told";
+  story.result.ending = "one candidate";
+  story.original = as_it_is(progress).figure;
+  return story;
+}
+
+}  // namespace palmar

@@ -1,0 +1,184 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first and the last step of every redesign: hands hold the original; the same hands hold
+// original and redesigns.
+#include "palmar/workflow/redesign/held_original.h"
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/study/study_store.h"
+#include "palmar/report/study/study_report.h"
+#include "palmar/workflow/hand/load_hand.h"
+
+namespace palmar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Quantities that the comparison prints; the report has all.
+const std::vector<std::string> kCompared = {"peak_pressure_cells_mpa", "mean_pressure_mpa",
+                                            "contact_area_mm2", "grip_force_n"};
+
+bool keeps_posture(const RedesignRequest& request) {
+  return request.posture == RedesignPosture::kKept;
+}
+
+StudyRequest study_of(const RedesignRequest& asked) {
+  StudyRequest request;
+  request.hand = asked.hand;
+  if (asked.seed != 0) request.seed = asked.seed;
+  for (const std::string& name : asked.populations) {
+    request.populations.push_back(population_request(name));
+    PopulationRequest& one = request.populations.back();
+    if (one.table.empty()) one.sampling.hands = asked.hands;  // else given hands
+  }
+  request.grips = asked.grips;
+  ProductRequest product;
+  product.unit = asked.unit;
+  if (is_made(asked.product)) {
+    product.made = made_from(asked.product);
+    request.name = product.made.kind;
+  } else {
+    product.file = asked.product;
+    request.name = fs::path(asked.product).stem().string();
+  }
+  product.held.at = asked.at;
+  product.held.axis = asked.axis;
+  request.products.push_back(std::move(product));
+  StudySetting setting;
+  if (asked.grip_force > 0.0) setting.grip_force = asked.grip_force;
+  request.settings = {setting};
+  return request;
+}
+
+/// Original and redesigns as one study.
+LoadedStudy with_redesigns(const RedesignRequest& request, const HeldOriginal& original,
+                           const std::vector<RedesignedProduct>& redesigns) {
+  LoadedStudy study = original.study;
+  const StudyProduct before = study.plan.products.front();
+  for (const RedesignedProduct& redesign : redesigns) {
+    StudyProduct after = before;
+    after.name = after.family = redesign.name;
+    after.file = redesign.file;
+    after.content_hash = content_hash(redesign.product.mesh);
+    after.posture_of = keeps_posture(request) ? before.name : "";
+    study.plan.products.push_back(std::move(after));
+    study.inputs.products.push_back(redesign.product);
+    study.inputs.products.back().name = redesign.name;
+  }
+  study.plan.check();
+  return study;
+}
+
+/// The original's grasps stand already: they depend on hand and product alone.
+std::vector<StudyRecord> renumbered(const HeldOriginal& original, const StudyPlan& plan) {
+  std::vector<StudyRecord> records = original.records;
+  for (StudyRecord& record : records) {
+    record.number = number_of(plan, task_at(original.study.plan, record.number));
+  }
+  return records;
+}
+
+}  // namespace
+
+RecordSource HeldOriginal::source() const {
+  return [this](const std::function<void(const StudyRecord&)>& visit) {
+    for (const StudyRecord& record : records) visit(record);
+  };
+}
+
+HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress) {
+  request.check();
+  progress.throw_if_cancelled();
+  const StudyRequest asked = study_of(request);
+  HeldOriginal original{.study = load_study(asked, load_hand(asked.hand)), .records = {}};
+  if (request.on_note) {
+    for (const std::string& text : original.study.notes) request.on_note(text);
+  }
+  const StudyPlan& plan = original.study.plan;
+  run_study(
+      plan, original.study.inputs, {.tasks = tasks_of(plan)},
+      [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
+  std::sort(original.records.begin(), original.records.end(),
+            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
+  if (!is_held) {
+    const std::string& reason = original.records.front().reason;
+    throw NumericalError(
+        request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
+        (reason.empty() ? "" : " (" + reason + ")") +
+        "; a redesign starts from hands that do (`at`, `axis` and `grips` say where and how it is "
+        "held)");
+  }
+  return original;
+}
+
+StudyResults assess_candidate(const RedesignRequest& request, const HeldOriginal& original,
+                              const Product& candidate, bool with_indices,
+                              const Progress& progress) {
+  LoadedStudy study = with_redesigns(request, original, {{candidate, "candidate", ""}});
+  for (StudySetting& setting : study.plan.settings) setting.indices = with_indices;
+  StudyResults results{.plan = study.plan, .records = renumbered(original, study.plan)};
+  StudyRunOptions options;
+  for (const std::int64_t number : tasks_of(study.plan)) {
+    if (task_at(study.plan, number).product == 1) options.tasks.push_back(number);
+  }
+  run_study(
+      study.plan, study.inputs, options,
+      [&](const StudyRecord& record) {
+        results.records.push_back(record);
+        results.records.back().skin_pressure = {};
+        results.records.back().product_pressure = {};
+      },
+      progress);
+  std::sort(results.records.begin(), results.records.end(),
+            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  return results;
+}
+
+RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldOriginal& original,
+                                     const std::vector<RedesignedProduct>& redesigns,
+                                     const Progress& progress) {
+  const LoadedStudy study = with_redesigns(request, original, redesigns);
+  const fs::path folder = request.out;
+  create_folder(folder);
+  // Beside the old one until it is finished: a redesign that is stopped leaves the old one whole.
+  const fs::path store_path = folder / "redesign.palmar", fresh = folder / "redesign.new.palmar";
+  fs::remove(fresh);
+  StudyStore::create(fresh, study.plan, study.inputs);
+  RedesignComparison comparison{.results = {.plan = study.plan, .records = {}},
+                                .quantities = {},
+                                .report = folder / "report" / "report.html",
+                                .study = store_path};
+  StudyResults& results = comparison.results;
+  std::string digest, program;
+  {
+    StudyStore store(fresh, StudyAccess::kWrite);
+    for (const StudyRecord& record : renumbered(original, study.plan)) store.keep(record);
+    run_study(
+        study.plan, study.inputs, {.tasks = store.missing()},
+        [&](const StudyRecord& record) { store.keep(record); }, progress);
+    store.finish();
+    digest = store.digest();
+    program = store.program();
+    store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
+  }
+  fs::rename(fresh, store_path);
+  const StudyStore store(store_path);
+  write_study_report((folder / "report").string(),
+                     {results, study.inputs,
+                      [&store](const std::function<void(const StudyRecord&)>& visit) {
+                        store.for_each(true, visit);
+                      },
+                      program, digest},
+                     {}, progress);
+  for (const std::string& key : kCompared) {
+    comparison.quantities.push_back(quantity_named(results, key));
+  }
+  return comparison;
+}
+
+}  // namespace palmar

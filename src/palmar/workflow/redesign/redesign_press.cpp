@@ -1,0 +1,221 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/redesign_press.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/grasp/power/grip_axis.h"
+#include "palmar/redesign/held_hand.h"
+#include "palmar/report/picture/depth_pictures.h"
+
+namespace palmar {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+const std::string kOfTouching = "-of-touching";
+
+/// What the hands give besides their skin.
+struct HandsOnProduct {
+  std::vector<TriangleMesh> skins;
+  Vec3 axis = Vec3::Zero();  ///< of the handle, unit: across the fingers
+  Vec3 palm = Vec3::Zero();  ///< from the palm into the product
+};
+
+HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>& axis,
+                        const Progress& progress) {
+  HandsOnProduct result;
+  for_each_held_hand(
+      original.study.plan, original.study.inputs, original.source(), {}, 0,
+      [&](const HeldHand& held) {
+        result.skins.push_back(held.skin);
+        result.axis += held.product_from_hand.rotation * Vec3::UnitX();
+        result.palm += held.product_from_hand.rotation * Vec3::UnitZ();
+      },
+      progress);
+  // Hands lie a little aslant on a handle: its own axis is taken if one is near theirs.
+  if (axis) {
+    result.axis = *axis;
+  } else {
+    constexpr double kAslant = 0.8;  // cosine of 37 degrees
+    const Vec3 across = result.axis.normalized();
+    double nearest = kAslant;
+    for (const GripSite& site : find_grip_sites(original.product().mesh)) {
+      const double cosine = site.axis.dot(across);
+      if (std::abs(cosine) <= nearest) continue;
+      nearest = std::abs(cosine);
+      result.axis = std::copysign(1.0, cosine) * site.axis;
+    }
+  }
+  result.axis = result.axis.norm() > 1e-9 ? Vec3(result.axis.normalized()) : Vec3::UnitZ();
+  return result;
+}
+
+PressedShapeOptions shape_options(const RedesignPressRequest& request) {
+  PressedShapeOptions options = request.shape;
+  for (const std::string& face : request.keep_faces) {
+    const bool is_number = !face.empty() && std::all_of(face.begin(), face.end(), [](char c) {
+      return c >= '0' && c <= '9';
+    });
+    if (is_number && face.size() < 9) {
+      options.keep_out.faces.push_back(std::stoi(face));
+    } else {
+      options.keep_out.names.push_back(face);
+    }
+  }
+  return options;
+}
+
+Json press_settings(const RedesignPressRequest& request) {
+  const PressedShapeOptions& o = request.shape;
+  Json boxes = Json::array();
+  for (const Box3& box : o.keep_out.boxes) {
+    boxes.push_back(
+        {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()});
+  }
+  return {{"share", o.share},
+          {"over", name_of(o.combine)},
+          {"align", request.aligns ? "axis" : "none"},
+          {"depth_limit_mm", o.depth_limit},
+          {"wall_mm", o.wall},
+          {"smoothing_mm", o.smoothing},
+          {"rim_mm", o.rim_width},
+          {"edge_mm", o.edge_length},
+          {"keep_faces", request.keep_faces},
+          {"keep_boxes_mm", std::move(boxes)},
+          {"keep_blend_mm", o.keep_out.blend}};
+}
+
+Json press_figures(const PressedShape& shape, const Product& original) {
+  const auto vector = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
+  Json shifts = Json::array();
+  for (const double shift : shape.shift) shifts.push_back(shift);
+  return {
+      {"hands", shape.hands},
+      {"triangles", shape.mesh.triangle_count()},
+      {"triangles_before", original.mesh.triangle_count()},
+      {"is_closed", examine_topology(shape.mesh).is_closed},
+      {"volume_before_mm3", signed_volume(original.mesh)},
+      {"removed_volume_mm3", shape.removed_volume},
+      {"deepest_mm", shape.deepest},
+      {"deepest_at_mm", vector(shape.deepest_at)},
+      {"pressed_area_mm2", shape.pressed_area},
+      {"thinnest_wall_mm", std::isfinite(shape.thinnest_wall) ? Json(shape.thinnest_wall) : Json()},
+      {"limited_area_mm2",
+       {{"depth_limit", shape.limited_by_depth},
+        {"wall", shape.limited_by_wall},
+        {"keep_out", shape.limited_by_keep_out},
+        {"crossing", shape.limited_by_crossing}}},
+      {"shift_mm", std::move(shifts)}};
+}
+
+void write_pictures(const RedesignPressRequest& request, const PressedShape& shape,
+                    const Product& original, const HandsOnProduct& hands,
+                    const Progress& progress) {
+  DepthScene scene;
+  scene.mesh = shape.mesh;
+  scene.depth = shape.depth;
+  scene.title = original.name + ", pressed shape";
+  scene.subtitle = fmt::format("{:g} of the overlap of {} hands", request.shape.share, shape.hands);
+  scene.axis = hands.axis;
+  scene.palm = hands.palm;
+  for (const Picture& picture : depth_pictures(scene, {}, progress)) {
+    write_file(request.redesign.out / (picture.name + ".png"), encode_png(picture.image));
+  }
+}
+
+}  // namespace
+
+std::string name_of(const CombineOptions& combine) {
+  const bool is_mean = combine.statistic == ImprintStatistic::kMean;
+  return (is_mean ? "mean" : fmt::format("{:g}", combine.percentile)) +
+         (combine.is_among_touching ? kOfTouching : "");
+}
+
+CombineOptions combine_options(const std::string& words) {
+  CombineOptions combine;
+  std::string text = words;
+  if (text.size() > kOfTouching.size() && text.ends_with(kOfTouching)) {
+    combine.is_among_touching = true;
+    text.resize(text.size() - kOfTouching.size());
+  }
+  if (text == "mean") return combine;
+  const std::optional<double> percentile = parse_double(text);
+  if (!percentile || !std::isfinite(*percentile)) {
+    throw UsageError("`over` is \"" + words + "\"; mean or a percentile, 0 to 100, is allowed");
+  }
+  combine.statistic = ImprintStatistic::kPercentile;
+  combine.percentile = *percentile;
+  return combine;
+}
+
+void RedesignPressRequest::check() const {
+  redesign.check();
+  shape.check();
+  if (formats.empty()) throw UsageError("`formats` is empty; stl, obj or ply is required");
+  for (const std::string& format : formats) {
+    if (format != "stl" && format != "obj" && format != "ply") {
+      throw UsageError("`formats` has \"" + format + "\"; stl, obj and ply are allowed");
+    }
+  }
+}
+
+RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const Progress& progress) {
+  request.check();
+  const HeldOriginal original = grasp_original(request.redesign, progress);
+  const Product& product = original.product();
+  const HandsOnProduct hands = hands_on(original, request.redesign.axis, progress);
+  PressedShapeOptions options = shape_options(request);
+  if (request.aligns) options.align_along = hands.axis;
+  RedesignPressOutcome outcome{
+      .shape = press_shape(product, hands.skins, options, progress),
+      .volume_before = signed_volume(product.mesh),
+      .file = request.redesign.out / ("pressed." + request.formats.front()),
+      .comparison = {},
+      .notes = original.study.notes,
+      .json = ""};
+  const PressedShape& shape = outcome.shape;
+
+  const fs::path& folder = request.redesign.out;
+  create_folder(folder);
+  for (const std::string& format : request.formats) {
+    write_mesh(folder / ("pressed." + format), shape.mesh);
+  }
+  const Json json{{"product", product.name},
+                  {"source", product.source},
+                  {"command", request.redesign.command},
+                  {"seed", request.redesign.seed},
+                  {"population", request.redesign.populations},
+                  {"posture", name_of(request.redesign.posture)},
+                  {"settings", press_settings(request)},
+                  {"figures", press_figures(shape, product)}};
+  write_file(folder / "pressed.json", json.dump(2) + "\n");
+  if (request.draws) write_pictures(request, shape, product, hands, progress);
+  if (request.on_shape) request.on_shape(outcome);
+  outcome.json = json.dump();
+  if (shape.deepest <= 0.0) {
+    outcome.notes.emplace_back("nothing was pressed: there is nothing to compare");
+    if (request.redesign.on_note) request.redesign.on_note(outcome.notes.back());
+  }
+  if (request.compares && shape.deepest > 0.0) {
+    outcome.comparison =
+        compare_redesigns(request.redesign, original,
+                          {{pressed_product(product, shape, product.name + " pressed"), "pressed",
+                            outcome.file.string()}},
+                          progress);
+  }
+  return outcome;
+}
+
+}  // namespace palmar

@@ -1,0 +1,268 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/redesign_region.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/power/grip_axis.h"
+#include "palmar/product/make_product.h"
+#include "palmar/records/product/cad_format.h"
+#include "palmar/records/product/cad_worker.h"
+#include "palmar/records/product/face_mesh_file.h"
+#include "palmar/records/product/made_product.h"
+#include "palmar/redesign/contact_study.h"
+#include "palmar/report/picture/region_picture.h"
+#include "palmar/workflow/redesign/region_files.h"
+
+namespace palmar {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Along the handle that hands hold: what was asked for; else the bar whose axis is nearest to
+/// across their fingers; and where the whole product is such a bar, its own principal axis, which
+/// is exact.
+Vec3 handle_axis(const RedesignRequest& request, const HeldOriginal& original) {
+  if (request.axis) return request.axis->normalized();
+  constexpr double kAslant = 0.8, kSame = 0.998;  // cosines of 37 and 3.6 degrees
+  Vec3 across = Vec3::Zero();
+  for (const StudyRecord& record : original.records) {
+    if (is_in_hand(record)) across += record.product_from_hand.rotation * Vec3::UnitX();
+  }
+  const TriangleMesh& mesh = original.product().mesh;
+  const PrincipalFrame frame = principal_frame(mesh);
+  if (!(across.norm() > 1e-9)) return frame.axes.col(0);
+  Vec3 axis = across.normalized();
+  double nearest = kAslant;
+  for (const GripSite& site : find_grip_sites(mesh)) {
+    const double cosine = std::abs(site.axis.dot(across.normalized()));
+    if (cosine <= nearest) continue;
+    nearest = cosine;
+    axis = site.axis;
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(frame.axes.col(k).dot(axis)) > kSame) return frame.axes.col(k);
+  }
+  return axis;
+}
+
+/// Surfaces of one patch: one, or one for each piece of it if it goes over edges.
+void fit_patch(RegionFindings& findings, int region, int number, const std::vector<Vec3>& normals,
+               double pressed_share) {
+  const RegionPatch& patch = findings.regions[static_cast<std::size_t>(region)]
+                                 .patches[static_cast<std::size_t>(number - 1)];
+  std::vector<Vec3> points, directions, targets;
+  for (const int v : patch.vertices) {
+    const auto i = static_cast<std::size_t>(v);
+    points.push_back(findings.map.mesh.vertices[i]);
+    directions.push_back(normals[i]);
+    targets.push_back(points.back() - pressed_share * findings.imprint[i] * normals[i]);
+  }
+  // The product's own edges decide, not how unevenly hands press.
+  const auto pieces = split_patch(points, directions);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    FittedPatch fitted;
+    fitted.region = region;
+    fitted.number = number;
+    fitted.piece = pieces.size() > 1 ? static_cast<int>(p) + 1 : 0;
+    std::vector<Vec3> at, out;
+    for (const int k : pieces[p]) {
+      const auto i = static_cast<std::size_t>(k);
+      at.push_back(points[i]);
+      out.push_back(directions[i]);
+      fitted.target_points.push_back(targets[i]);
+      fitted.mean_depth += findings.imprint[static_cast<std::size_t>(patch.vertices[i])];
+    }
+    fitted.mean_depth /= static_cast<double>(at.size());
+    fitted.product = choose_surface(at, out);
+    fitted.target = choose_surface(fitted.target_points, out);
+    findings.patches.push_back(std::move(fitted));
+  }
+}
+
+RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRequest& request,
+                            const std::function<void(const std::string&)>& note,
+                            const Progress& progress) {
+  RegionFindings findings;
+  ContactStudy contact = study_contact(original.study.plan, original.study.inputs,
+                                       original.source(), {}, 0, request.threshold, progress);
+  findings.map = std::move(contact.map);
+  findings.count = std::move(contact.count);
+  findings.imprint = std::move(contact.imprint);
+  findings.axis = handle_axis(request.redesign, original);
+  const TriangleMesh& map = findings.map.mesh;
+  findings.regions.push_back(contact_region(map, findings.count, {}, request.region));
+  for (const HandPart part : {HandPart::kFingers, HandPart::kThumb, HandPart::kPalm}) {
+    findings.regions.push_back(contact_region(map, findings.count, part, request.region));
+  }
+  if (findings.regions.front().patches.empty()) {
+    throw UsageError(fmt::format(
+        "redesign region: {} touch nowhere above {:g} MPa; a smaller `share` or threshold has a "
+        "region",
+        findings.regions.front().title, request.threshold));
+  }
+  const std::vector<Vec3> normals = vertex_normals(map);
+  for (std::size_t r = 1; r < findings.regions.size(); ++r) {
+    const ContactRegion& region = findings.regions[r];
+    for (std::size_t k = 0; k < region.patches.size(); ++k) {
+      if (region.patches[k].area < request.smallest_patch ||
+          region.patches[k].vertices.size() < 8) {
+        continue;
+      }
+      fit_patch(findings, static_cast<int>(r), static_cast<int>(k) + 1, normals,
+                request.pressed_share);
+    }
+  }
+  try {
+    findings.sheet = unroll(original.product().mesh, findings.regions, findings.axis);
+  } catch (const UsageError& error) {
+    note(error.what());
+  }
+  if (request.relieves) {
+    RegionOptions wide = request.region;
+    wide.share = request.relief_share;
+    ReliefOptions options = request.relief;
+    options.axis = findings.axis;
+    try {
+      findings.plan =
+          plan_reliefs(map, findings.regions.front(), contact_region(map, findings.count, {}, wide),
+                       findings.imprint, options);
+      for (const std::string& text : findings.plan->notes) note(text);
+    } catch (const UsageError& error) {
+      note(error.what());
+    }
+  }
+  return findings;
+}
+
+/// Runs the CAD program; gives its reply, and the redesign if a solid was cut.
+Json run_region_cad(const RedesignRegionRequest& asked, const RegionFindings& findings,
+                    const Product& product, std::optional<RedesignedProduct>& redesign,
+                    const Progress& progress) {
+  const CadFolder folder;
+  const bool made = is_made(asked.redesign.product);
+  const bool has_solid = made || is_cad_file(asked.redesign.product);
+  const std::vector<RidgeRelief> reliefs =
+      findings.plan && has_solid ? findings.plan->reliefs : std::vector<RidgeRelief>();
+  Json request = region_request(curves_of(findings), surfaces_of(findings), reliefs);
+  request["junction_radius_mm"] = asked.junction_radius;
+  if (made) {
+    MakeCadOptions options;
+    options.mesh = false;
+    write_file(folder.path() / "product.step",
+               make_cad(made_from(asked.redesign.product), options, progress).step);
+    request["file"] = (folder.path() / "product.step").string();
+  } else if (has_solid) {
+    request["file"] = fs::absolute(asked.redesign.product).string();
+    if (asked.redesign.unit) {
+      request["millimetres_per_unit"] = millimetres_per(*asked.redesign.unit);
+    }
+  }
+  CadLimits limits;
+  limits.seconds = 300.0;
+  const Json reply =
+      Json::parse(run_cad("region", request.dump(), folder, product.name, limits, progress));
+  const fs::path& out = asked.redesign.out;
+  write_file(out / "region.step", read_file(folder.path() / "region.step"));
+  if (!reliefs.empty()) {
+    const std::string step = read_file(folder.path() / "redesign.step");
+    write_file(out / "redesign.step", step);
+    FaceMesh mesh = read_face_mesh(folder.path() / "mesh.bin");
+    write_mesh(out / "redesign.stl", mesh.mesh);
+    UnitDecision unit;
+    unit.unit = LengthUnit::kMillimetre;
+    unit.source = UnitSource::kMade;
+    redesign = RedesignedProduct{
+        make_product(product.name + ", reliefs", mesh.mesh, unit, "redesign.step", &mesh.faces),
+        "reliefs", (out / "redesign.step").string()};
+  }
+  return reply;
+}
+
+}  // namespace
+
+void RedesignRegionRequest::check() const {
+  const auto require = [](bool holds, const char* field, double value, const char* allowed) {
+    if (!holds) throw UsageError(fmt::format("{} is {:g}; {} is allowed", field, value, allowed));
+  };
+  redesign.check();
+  region.check();
+  relief.check();
+  require(threshold >= 0.0, "`threshold`", threshold, "0 MPa or more");
+  require(pressed_share >= 0.0 && pressed_share <= 1.0, "`pressed_share`", pressed_share, "0 to 1");
+  require(smallest_patch >= 0.0, "`smallest_patch`", smallest_patch, "0 mm2 or more");
+  require(relief_share >= 0.0 && relief_share <= 1.0, "`relief_share`", relief_share, "0 to 1");
+  require(junction_radius >= 0.0 && junction_radius <= 50.0, "`junction_radius`", junction_radius,
+          "0 to 50 mm");
+}
+
+RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
+                                      const Progress& progress) {
+  request.check();
+  RedesignRegionOutcome outcome;
+  const auto note = [&](const std::string& text) {
+    outcome.notes.push_back(text);
+    if (request.redesign.on_note) request.redesign.on_note(text);
+  };
+  const HeldOriginal original = grasp_original(request.redesign, progress);
+  outcome.notes = original.study.notes;
+  outcome.product = std::make_shared<const Product>(original.product());
+  const Product& product = *outcome.product;
+  outcome.findings = find_regions(original, request, note, progress);
+  const RegionFindings& findings = outcome.findings;
+  const fs::path& out = request.redesign.out;
+  create_folder(out);
+  std::optional<RedesignedProduct> redesign;
+  const Json cad = run_region_cad(request, findings, product, redesign, progress);
+  if (findings.plan && !redesign) {
+    // A mesh has no solid: its own triangles go back instead.
+    redesign =
+        RedesignedProduct{relieved_product(product, *findings.plan, product.name + ", reliefs"),
+                          "reliefs", (out / "redesign.stl").string()};
+    write_mesh(out / "redesign.stl", redesign->product.mesh);
+    note(product.name +
+         " is a mesh: region.step has outlines and surfaces but no solid, and the redesign is a "
+         "mesh, too");
+  }
+  Json json = {{"product", product.name},
+               {"source", product.source},
+               {"command", request.redesign.command},
+               {"seed", request.redesign.seed},
+               {"population", request.redesign.populations},
+               {"posture", name_of(request.redesign.posture)}};
+  json.update(Json::parse(region_json(findings, product)));
+  json["cad"] = cad;
+  write_file(out / "region.json", json.dump(2) + "\n");
+  if (const std::string csv = region_csv(findings, product); !csv.empty()) {
+    write_file(out / "region.csv", csv);
+  }
+  const std::vector<ContactRegion> parts(findings.regions.begin() + 1, findings.regions.end());
+  if (findings.sheet) {
+    const Drawing drawing = region_drawing(*findings.sheet, findings.regions, product.name);
+    write_file(out / "outline.dxf", dxf_of(drawing));
+    write_file(out / "outline.svg", svg_of(drawing));
+  }
+  if (request.draws) {
+    write_file(out / "region.png",
+               encode_png(region_picture(findings.map.mesh, parts, findings.axis,
+                                         product.name + ": contact region", {}, progress)));
+  }
+  if (request.on_region) request.on_region(outcome);
+  outcome.json = json.dump();
+  if (redesign && request.compares) {
+    outcome.comparison = compare_redesigns(request.redesign, original, {*redesign}, progress);
+  }
+  return outcome;
+}
+
+}  // namespace palmar

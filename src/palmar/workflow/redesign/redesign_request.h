@@ -1,0 +1,52 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/geometry/length_unit.h"
+#include "palmar/geometry/types.h"
+#include "palmar/grasp/grip.h"
+
+namespace palmar {
+
+/// How redesigns are held.
+enum class RedesignPosture {
+  kKept,  ///< in the posture in which the same hand holds the original (Xie 2014, 5.5.3)
+  kNew    ///< grasped by themselves
+};
+std::string name_of(RedesignPosture posture);               ///< "kept", "new"
+RedesignPosture redesign_posture(const std::string& name);  ///< throws UsageError
+
+/// What every redesign starts from: a product, the hands that hold it, where to write.
+struct RedesignRequest {
+  std::string product;             ///< file, or "made: prism width_mm=35 fillet_mm=3"
+  std::optional<LengthUnit> unit;  ///< of a file that carries none
+  std::string hand = "template";   ///< that is scaled: template, or a *.hand.glb file
+  /// Whose hands: names of built-in populations, population files (.toml), tables of given hands
+  /// (.csv).
+  std::vector<std::string> populations = {"xie2014"};
+  int hands = 30;                          ///< drawn from each population, 1 to 100 000
+  std::vector<std::optional<Grip>> grips;  ///< nothing inside: the one that suits the shape
+  std::optional<Vec3> at;                  ///< where it is held, product frame, mm
+  std::optional<Vec3> axis;                ///< of the handle there, product frame
+  RedesignPosture posture = RedesignPosture::kKept;
+  /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: as closed. A kept
+  /// posture decides the force itself, so it goes with kNew only.
+  double grip_force = 0.0;
+  std::uint64_t seed = 0;     ///< 0: a study's own
+  std::filesystem::path out;  ///< folder: new or empty, or of an earlier redesign
+  std::string command;        ///< that files give as where they come from; may be empty
+  /// Called with every note as it arises (a proposed unit, say); they are in the outcome, too.
+  std::function<void(const std::string& note)> on_note;
+
+  /// Throws UsageError: `field` in backquotes, value, what is allowed.
+  void check() const;
+};
+
+}  // namespace palmar

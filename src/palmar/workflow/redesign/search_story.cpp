@@ -1,0 +1,158 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/search_story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "palmar/records/csv.h"
+#include "palmar/report/chart/line_chart.h"
+
+namespace palmar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + ", " + unit;
+}
+
+/// "fillet_long_mm": a heading as CSV files have it.
+std::string heading(const std::string& name, const std::string& unit) {
+  std::string text;
+  for (const char c : name + (unit.empty() ? "" : "_" + unit)) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain) {
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!text.empty() && text.back() != '_') {
+      text += '_';
+    }
+  }
+  return name.ends_with("_" + unit) ? text.substr(0, text.size() - unit.size() - 1) : text;
+}
+
+std::string cell(double value) { return fmt::format("{:.6g}", value); }
+
+}  // namespace
+
+std::string history_csv(const SearchStory& story) {
+  CsvTable table;
+  table.header = {"candidate"};
+  for (const SearchVariable& variable : story.problem.variables) {
+    table.header.push_back(heading(variable.name, variable.unit));
+  }
+  table.header.push_back(heading(story.goal.name, story.goal.unit));
+  table.header.emplace_back("standard_error");
+  for (const SearchConstraint& constraint : story.problem.constraints) {
+    table.header.push_back(heading(constraint.name, constraint.unit));
+  }
+  for (const char* const name :
+       {"grip_force_ratio", "volume_ratio", "is_feasible", "failure", "seconds"}) {
+    table.header.emplace_back(name);
+  }
+  for (size_t i = 0; i < story.result.history.size(); ++i) {
+    const SearchTrial& trial = story.result.history[i];
+    const bool is_made = trial.outcome.failure.empty();
+    std::vector<std::string> row = {std::to_string(i + 1)};
+    for (const double value : trial.values) row.push_back(cell(value));
+    row.push_back(is_made ? cell(trial.outcome.goal) : "");
+    row.push_back(is_made && trial.outcome.goal_error > 0.0 ? cell(trial.outcome.goal_error) : "");
+    for (size_t k = 0; k < story.problem.constraints.size(); ++k) {
+      row.push_back(is_made ? cell(trial.outcome.constraint[k]) : "");
+    }
+    row.push_back(is_made ? cell(story.beside[i].grip_force_ratio) : "");
+    row.push_back(is_made ? cell(story.beside[i].volume_ratio) : "");
+    row.push_back(trial.is_feasible ? "yes" : "no");
+    row.push_back(trial.outcome.failure);
+    row.push_back(fmt::format("{:.2f}", trial.seconds));
+    table.rows.push_back(std::move(row));
+  }
+  return format_csv(table);
+}
+
+std::string history_json(const SearchStory& story) {
+  Json variables = Json::array(), constraints = Json::array(), history = Json::array();
+  for (const SearchVariable& one : story.problem.variables) {
+    variables.push_back({{"name", one.name},
+                         {"unit", one.unit},
+                         {"lowest", one.lowest},
+                         {"highest", one.highest},
+                         {"start", one.start},
+                         {"step", one.step}});
+  }
+  for (const SearchConstraint& one : story.problem.constraints) {
+    constraints.push_back({{"name", one.name},
+                           {"unit", one.unit},
+                           {one.is_highest ? "highest" : "lowest", one.limit}});
+  }
+  for (size_t i = 0; i < story.result.history.size(); ++i) {
+    const SearchTrial& trial = story.result.history[i];
+    Json one = {{"values", trial.values}, {"is_feasible", trial.is_feasible}};
+    if (trial.outcome.failure.empty()) {
+      one["goal"] = trial.outcome.goal;
+      one["standard_error"] =
+          trial.outcome.goal_error > 0.0 ? Json(trial.outcome.goal_error) : Json();
+      one["constraints"] = trial.outcome.constraint;
+      one["hands"] = story.beside[i].hands;
+      one["lost_hands"] = story.beside[i].lost;
+      one["grip_force_ratio"] = story.beside[i].grip_force_ratio;
+      one["volume_ratio"] = story.beside[i].volume_ratio;
+    } else {
+      one["failure"] = trial.outcome.failure;
+    }
+    history.push_back(std::move(one));
+  }
+  Json json = {{"goal",
+                {{"key", story.goal.key},
+                 {"name", story.goal.name},
+                 {"unit", story.goal.unit},
+                 {"better", story.goal.is_lower_better ? "lower" : "higher"}}},
+               {"original", story.original.value},
+               {"optimiser", story.result.method},
+               {"ending", story.result.ending},
+               {"variables", std::move(variables)},
+               {"constraints", std::move(constraints)},
+               {"best", story.result.best ? Json(*story.result.best) : Json()},
+               {"history", std::move(history)}};
+  return json.dump();
+}
+
+std::string history_svg(const SearchStory& story) {
+  LineSeries all{.name = "candidate", .points = {}};
+  LineSeries best{.name = "best within the constraints", .points = {}, .colour = {190, 80, 60}};
+  std::optional<double> lead;
+  for (size_t i = 0; i < story.result.history.size(); ++i) {
+    const SearchTrial& trial = story.result.history[i];
+    const double x = static_cast<double>(i + 1);
+    if (trial.outcome.failure.empty()) all.points.emplace_back(x, trial.outcome.goal);
+    if (trial.is_feasible && (!lead || (story.goal.is_lower_better ? trial.outcome.goal < *lead
+                                                                   : trial.outcome.goal > *lead))) {
+      lead = trial.outcome.goal;
+    }
+    if (lead) best.points.emplace_back(x, *lead);
+  }
+  std::vector<LineChart> charts = {{.title = "Search: " + story.goal.name,
+                                    .x_label = "Candidate",
+                                    .y_label = with_unit("Goal", story.goal.unit),
+                                    .series = {all, best}}};
+  if (story.problem.variables.size() == 1) {
+    const SearchVariable& variable = story.problem.variables.front();
+    LineSeries over{.name = "", .points = {}};
+    for (const SearchTrial& trial : story.result.history) {
+      if (trial.outcome.failure.empty()) {
+        over.points.emplace_back(trial.values.front(), trial.outcome.goal);
+      }
+    }
+    charts.push_back({.title = story.goal.name,
+                      .x_label = with_unit(variable.name, variable.unit),
+                      .y_label = with_unit("Goal", story.goal.unit),
+                      .series = {over}});
+  }
+  return svg_stack(charts);
+}
+
+}  // namespace palmar

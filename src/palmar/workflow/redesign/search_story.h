@@ -1,0 +1,37 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/redesign/feature_goal.h"
+#include "palmar/redesign/feature_search.h"
+#include "palmar/workflow/redesign/feature_settings.h"
+
+namespace palmar {
+
+/// A search with what is to be said of it.
+struct SearchStory {
+  std::vector<FeatureSetting> settings;
+  SearchProblem problem;
+  FeatureGoal goal;
+  SearchResult result;
+  GoalFigure original;  ///< in the same hands
+  /// One per trial that could be made: hands that lost hold, grip force by the original's.
+  struct Beside {
+    int hands = 0, lost = 0;
+    double grip_force_ratio = 0.0;
+    double volume_ratio = 0.0;
+  };
+  std::vector<Beside> beside;
+};
+
+/// One row per candidate, in the order in which they were tried.
+std::string history_csv(const SearchStory& story);
+/// One JSON object.
+std::string history_json(const SearchStory& story);
+/// The goal over the candidates, and the best feasible one so far.
+std::string history_svg(const SearchStory& story);
+
+}  // namespace palmar

@@ -1,0 +1,19 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/study/study_export.h"
+
+#include "palmar/records/study/study_export.h"
+#include "palmar/records/study/study_store.h"
+
+namespace palmar {
+
+StudyExportOutcome export_study(const StudyExportRequest& request, const Progress& progress) {
+  const StudyStore store(request.store);
+  StudyExportOutcome outcome;
+  outcome.files = export_study(store, request.folder, request.with_fields, progress);
+  outcome.missing = store.missing().size();
+  outcome.digest = store.digest();
+  return outcome;
+}
+
+}  // namespace palmar

@@ -1,0 +1,87 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/study/study_report.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/records/study/study_store.h"
+
+namespace palmar {
+namespace {
+
+StudyResults results_of(const StudyStore& store) {
+  StudyResults results{store.plan(), {}};
+  store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
+  if (results.records.empty()) {
+    throw UsageError(store.path().string() +
+                     ": no grasp was run yet; palmar study run or resume does");
+  }
+  return results;
+}
+
+std::vector<StudyQuantity> quantities_named(const StudyResults& results,
+                                            const std::vector<std::string>& keys) {
+  std::vector<StudyQuantity> quantities;
+  for (const std::string& key : keys) {
+    if (key == "all") return quantities_of(results);
+    quantities.push_back(quantity_named(results, key));
+  }
+  return quantities;
+}
+
+}  // namespace
+
+std::filesystem::path report_study(const std::filesystem::path& path, const std::string& folder,
+                                   const StudyReportOptions& options, const Progress& progress) {
+  options.check();
+  const StudyStore store(path);
+  const StudyResults results = results_of(store);
+  const StudyInputs inputs = store.inputs();
+  const StudyReportInput input{results, inputs,
+                               [&store](const std::function<void(const StudyRecord&)>& visit) {
+                                 store.for_each(true, visit);
+                               },
+                               store.program(), store.digest()};
+  write_study_report(folder, input, options, progress);
+  return std::filesystem::path(folder) / "report.html";
+}
+
+void StudyCompareRequest::check() const {
+  if (quantities.empty()) throw UsageError("quantities: none is given; at least one is required");
+  comparison.check();
+}
+
+StudyCompareOutcome compare_results(StudyResults compared_results,
+                                    const std::vector<StudyQuantity>& quantities,
+                                    const ComparisonOptions& options) {
+  StudyCompareOutcome outcome{std::move(compared_results), {}};
+  const StudyResults& results = outcome.results;
+  for (const StudyCondition& condition : conditions_of(results.plan)) {
+    ComparedCondition compared{condition, {}};
+    for (const StudyQuantity& quantity : quantities) {
+      ComparedQuantity one{quantity, {}, {}};
+      for (int p = 0; p < static_cast<int>(results.plan.products.size()); ++p) {
+        one.products.push_back(product_statistics(results, {quantity}, condition, p));
+      }
+      const QuantityComparison comparison = compare_products(results, condition, quantity, options);
+      for (const ProductPair& pair : comparison.pairs) {
+        one.pairs.push_back({pair, grip_forces(results, condition, pair.first, pair.second)});
+      }
+      compared.quantities.push_back(std::move(one));
+    }
+    outcome.conditions.push_back(std::move(compared));
+  }
+  return outcome;
+}
+
+StudyCompareOutcome compare_study(const StudyCompareRequest& request) {
+  request.check();
+  StudyResults results = results_of(StudyStore(request.store));
+  const auto quantities = quantities_named(results, request.quantities);
+  return compare_results(std::move(results), quantities, request.comparison);
+}
+
+}  // namespace palmar

@@ -1,0 +1,61 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/report/study/study_report.h"
+#include "palmar/study/statistics/study_comparison.h"
+#include "palmar/study/statistics/study_results.h"
+#include "palmar/study/statistics/study_statistics.h"
+
+namespace palmar {
+
+/// The page of a study's store; write_study_report() tells what it writes and throws. Gives back
+/// the page's path. Throws UsageError also if no grasp was run yet.
+std::filesystem::path report_study(const std::filesystem::path& store, const std::string& folder,
+                                   const StudyReportOptions& options = {},
+                                   const Progress& progress = {});
+
+/// Differences between the products of a study over the same hands.
+struct StudyCompareRequest {
+  std::filesystem::path store;
+  /// Keys of results: "contact_area_mm2", an index's; "all" for everything that the study has.
+  std::vector<std::string> quantities = {"peak_pressure_cells_mpa"};
+  ComparisonOptions comparison;
+  void check() const;  ///< throws UsageError: field, value, what is allowed
+};
+
+/// Two products; the mean grip forces of the hands that hold both, where they are known.
+struct ComparedPair {
+  ProductPair pair;
+  std::optional<GripForces> forces;
+};
+/// One quantity under one condition.
+struct ComparedQuantity {
+  StudyQuantity quantity;
+  std::vector<ProductStatistics> products;  ///< of this quantity, by product
+  std::vector<ComparedPair> pairs;          ///< by first, then second
+};
+struct ComparedCondition {
+  StudyCondition condition;
+  std::vector<ComparedQuantity> quantities;
+};
+struct StudyCompareOutcome {
+  StudyResults results;
+  std::vector<ComparedCondition> conditions;  ///< as conditions_of()
+};
+
+/// The products of `results` compared by `quantities`, condition by condition.
+StudyCompareOutcome compare_results(StudyResults results,
+                                    const std::vector<StudyQuantity>& quantities,
+                                    const ComparisonOptions& options);
+
+/// Throws UsageError: an unknown quantity (with the nearest), no grasp was run yet; InputError.
+StudyCompareOutcome compare_study(const StudyCompareRequest& request);
+
+}  // namespace palmar

@@ -1,0 +1,179 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "palmar/core/error.h"
+#include "palmar/records/hand/hand_file.h"
+#include "palmar/workflow/hand/workflow_test_hand.h"
+#include "palmar/workflow/study/study_report.h"
+#include "palmar/workflow/study/study_shards.h"
+
+namespace palmar {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using workflow_test::TemporaryFolder;
+
+/// A handle in three hands, two of them in the second shard's way, run once for all tests.
+class StudyWorkflow : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    hand_ = (*folder_ / "coarse.hand.glb").string();
+    write_hand(hand_, *workflow_test::coarse_hand());
+    whole_ = new StudyRunOutcome(run_study(run_into("whole.palmar")));
+  }
+  static void TearDownTestSuite() {
+    delete whole_;
+    delete folder_;
+  }
+
+  static StudyRunRequest run_into(const std::string& file, StudyShard shard = {}) {
+    QuickStudy quick;
+    quick.products = {"made: cylinder diameter_mm=42"};
+    quick.hands = 3;
+    quick.hand = hand_;
+    StudyRunRequest request;
+    request.study = study_of(quick);
+    request.study.settings.emplace_back();
+    request.study.settings.back().indices = false;
+    request.out = *folder_ / file;
+    request.shard = shard;
+    return request;
+  }
+
+  static TemporaryFolder* folder_;
+  static std::string hand_;
+  static StudyRunOutcome* whole_;
+};
+TemporaryFolder* StudyWorkflow::folder_ = nullptr;
+std::string StudyWorkflow::hand_;
+StudyRunOutcome* StudyWorkflow::whole_ = nullptr;
+
+TEST_F(StudyWorkflow, EveryGraspIsRunAndCounted) {
+  EXPECT_EQ(whole_->grasps, 3);
+  EXPECT_EQ(whole_->run_now, 3);
+  std::int64_t counted = 0;
+  for (const auto& [outcome, count] : whole_->outcomes) counted += count;
+  EXPECT_EQ(counted, 3);
+  EXPECT_EQ(whole_->digest.size(), 64U);  // SHA-256
+}
+
+TEST_F(StudyWorkflow, RunAgainNothingIsLeftToDo) {
+  const StudyRunOutcome again = run_study(run_into("whole.palmar"));
+  EXPECT_EQ(again.run_now, 0);
+  EXPECT_EQ(again.digest, whole_->digest);
+}
+
+TEST_F(StudyWorkflow, ShardsJoinToWhatOneRunWrote) {
+  run_study(run_into("shard-1.palmar", {1, 2}));
+  const StudyStatus half = study_status({*folder_ / "shard-1.palmar"});
+  EXPECT_THAT(half.absent_shards, ElementsAre("2/2"));
+  EXPECT_EQ(half.done, 2);
+  run_study(run_into("shard-2.palmar", {2, 2}));
+  const StudyMergeOutcome merged = merge_shards(
+      {*folder_ / "shard-1.palmar", *folder_ / "shard-2.palmar"}, *folder_ / "merged.palmar");
+  EXPECT_EQ(merged.digest, whole_->digest);
+}
+
+TEST_F(StudyWorkflow, CancelledRunKeepsWhatIsDoneAndGoesOnToTheSameResults) {
+  std::atomic<bool> cancel = false;
+  const Progress progress{.report =
+                              [&](double share, const std::string&) {
+                                if (share > 0.4 && share < 1.0) cancel = true;
+                              },
+                          .cancel = &cancel};
+  try {
+    run_study(run_into("stopped.palmar"), progress);
+    FAIL() << "the run wasn't stopped";
+  } catch (const Cancelled& error) {
+    EXPECT_THAT(error.what(), HasSubstr("of 3 grasps are kept"));
+  }
+  const fs::path path = *folder_ / "stopped.palmar";
+  const StudyStatus status = study_status({path});
+  EXPECT_EQ(status.stores.front().state, "stopped");
+  EXPECT_LT(status.done, 3);
+  const StudyRunOutcome rest = resume_study(path);
+  EXPECT_EQ(rest.run_now, 3 - status.done);
+  EXPECT_EQ(rest.digest, whole_->digest);
+}
+
+TEST_F(StudyWorkflow, StoreOfAnotherStudyIsLeftAlone) {
+  StudyRunRequest other = run_into("whole.palmar");
+  other.study.products.front().file = "made: cylinder diameter_mm=30";
+  EXPECT_THROW(run_study(other), UsageError);
+  EXPECT_EQ(study_status({*folder_ / "whole.palmar"}).done, 3);
+}
+
+TEST_F(StudyWorkflow, ComparisonCountsTheHandsThatHold) {
+  const StudyCompareOutcome outcome = compare_study(
+      {.store = *folder_ / "whole.palmar", .quantities = {"force_n"}, .comparison = {}});
+  ASSERT_FALSE(outcome.conditions.empty());
+  const ComparedQuantity& force = outcome.conditions.front().quantities.front();
+  EXPECT_EQ(force.quantity.unit, "N");
+  EXPECT_TRUE(force.pairs.empty());  // of one product
+  ASSERT_EQ(force.products.size(), 1U);
+  const QuantitySummary* summary = summary_of(force.products.front(), "force_n");
+  ASSERT_NE(summary, nullptr);
+  double sum = 0.0;
+  int held = 0;
+  for (const StudyRecord& record : outcome.results.records) {
+    if (!is_in_hand(record)) continue;
+    sum += record.force;
+    ++held;
+  }
+  EXPECT_EQ(summary->summary.n, held);
+  EXPECT_NEAR(summary->summary.mean, sum / held, 1e-9 * sum);  // N; rounding
+}
+
+TEST(StudyOf, UnknownNamesAndWhatDoesNotGoTogetherAreRefused) {
+  QuickStudy quick;
+  EXPECT_THROW(study_of(quick), UsageError);
+  quick.products = {"mug.stl"};
+  quick.populations = {"hands.csv"};
+  quick.hands = 5;
+  try {
+    study_of(quick);
+    FAIL() << "given hands were drawn";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("hands has no meaning with the given hands of hands.csv"));
+  }
+  quick.hands = 0;
+  quick.grips = {"tripot"};
+  try {
+    study_of(quick);
+    FAIL() << "tripot was taken for a grip";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("tripod"));
+  }
+}
+
+TEST(StudyOf, FirstProductNamesTheStudyAndTheUsualPopulationHoldsIt) {
+  QuickStudy quick;
+  quick.products = {"parts/mug.stl", "jug.stl"};
+  const StudyRequest study = study_of(quick);
+  EXPECT_EQ(study.name, "mug");
+  ASSERT_EQ(study.populations.size(), 1U);
+  EXPECT_EQ(study.populations.front().preset, "xie2014");
+}
+
+TEST(StudyStatus, FolderWithoutStoresIsNamed) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "empty");
+  try {
+    study_status({folder / "empty"});
+    FAIL() << "a study was found in an empty folder";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("empty: holds no study"));
+  }
+}
+
+}  // namespace
+}  // namespace palmar

@@ -1,0 +1,28 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/validate.h"
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/validation_json.h"
+
+namespace palmar {
+
+void ValidateRequest::check() const {
+  if (!out.empty() && (out.size() < 4 || !out.ends_with(".md")) &&
+      (out.size() < 6 || !out.ends_with(".json"))) {
+    throw UsageError("out: \"" + out + "\" ends with none of .md, .json");
+  }
+  options.check();
+}
+
+ValidationReport run_validation(const ValidateRequest& request, const Progress& progress) {
+  request.check();
+  const ValidationReport report = validate(load_hand(request.hand), request.options, progress);
+  if (request.out.empty()) return report;
+  write_file(request.out, request.out.ends_with(".md") ? validation_markdown(report)
+                                                       : validation_json(report) + "\n");
+  return report;
+}
+
+}  // namespace palmar

@@ -1,0 +1,25 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "palmar/core/progress.h"
+#include "palmar/validation/validation.h"
+#include "palmar/workflow/hand/load_hand.h"
+
+namespace palmar {
+
+/// The simulator against closed forms and measurements.
+struct ValidateRequest {
+  ValidationOptions options;
+  HandChoice hand;
+  std::string out;     ///< file to write, .md or .json; "": none
+  void check() const;  ///< throws UsageError: field, value, what is allowed
+};
+
+/// Runs the cases and writes the table. Misses are rows of the report. Throws UsageError,
+/// InputError, OutputError, Cancelled.
+ValidationReport run_validation(const ValidateRequest& request, const Progress& progress = {});
+
+}  // namespace palmar
