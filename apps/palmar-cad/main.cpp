@@ -3,7 +3,8 @@
 //
 // palmar-cad VERB FOLDER: does what FOLDER/request.json asks for with OpenCASCADE and leaves
 // FOLDER/reply.json, or FOLDER/error.json and Palmar's exit code. Started by Palmar
-// (io/cad_worker.h), not by people: OpenCASCADE may crash or never end on hostile files.
+// (records/product/cad_worker.h), not by people: OpenCASCADE may crash or never end on hostile
+// files.
 #include <unistd.h>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>

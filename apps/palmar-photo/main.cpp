@@ -3,7 +3,7 @@
 //
 // palmar-photo VERB FOLDER: does what FOLDER/request.json asks for with OpenCV and leaves
 // FOLDER/reply.json, or FOLDER/error.json and Palmar's exit code. Started by Palmar
-// (io/photo_worker.h), not by people.
+// (records/capture/photo_worker.h), not by people.
 //
 // board: {pattern, pixels_per_square} -> board.bin, {pixels}
 // corners: {pattern, files, threads} -> {offset_px, photographs: [{width, height, sharpness,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the main functions of the programs have in common that Palmar starts as children
-// (io/worker.h).
+// (formats/process/worker.h).
 #pragma once
 
 #include <sys/stat.h>

@@ -25,7 +25,7 @@ struct TableColumn {
 };
 
 /// People in rows, what was measured on them in columns. Lengths are in mm whatever unit the file
-/// had (io/dimension_table_file.h reads it).
+/// had (records/population/dimension_table_file.h reads it).
 struct DimensionTable {
   std::string source;      ///< file, for messages
   int header_line = 1;     ///< of the file

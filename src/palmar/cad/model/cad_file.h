@@ -39,7 +39,7 @@ struct CadFile {
 ///
 /// Throws InputError naming the file: not such a file, cut off, no shapes, nothing but curves or
 /// points, more bodies or faces than allowed. May take any time and memory, or crash, on hostile
-/// files: runs in a process of its own (io/cad_worker.h).
+/// files: runs in a process of its own (records/product/cad_worker.h).
 CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& options = {},
                   const Progress& progress = {});
 CadFile read_iges(const std::filesystem::path& path, const ReadCadOptions& options = {},
