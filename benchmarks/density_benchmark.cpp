@@ -61,7 +61,7 @@ void forget_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-/// Most memory in use since then, MB; 0 if the system doesn't tell.
+/// Most memory in use since then, MB; 0 if the system doesn't say.
 double peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {

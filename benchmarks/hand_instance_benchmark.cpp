@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // hand_instance_benchmark HAND_ASSET: one hand scaled segment by segment, from two dimensions and
-// from all of a population's, the template laid out anew or once for many; and measuring a hand. To
-// reach on one core of a quiet machine: 30 ms a hand.
+// from all of a population's, the template laid out again or once for many; and measuring a hand.
+// To reach on one core of a quiet machine: 30 ms a hand.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

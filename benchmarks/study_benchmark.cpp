@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
       judge.push_back(seconds_of([&] { judge_grasp(prepared, products[p], grasp, balance); }));
     }
     const std::string& name = products[p].name;
-    row(name + ": searched anew", median(search), "s");
+    row(name + ": searched again", median(search), "s");
     row(name + ": held at the kept place", median(hold), "s", 0.05);
     row(name + ": comes to rest", median(rest), "s", 0.06);
     row(name + ": evaluated with all indices, mapped", median(judge), "s", 0.03);

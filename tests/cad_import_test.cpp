@@ -179,7 +179,7 @@ TEST_F(CadImport, BallInMetresOrInchesIsTheSameBall) {
   }
 }
 
-TEST_F(CadImport, UnitOfTheUserWinsAndTheContradictionIsTold) {
+TEST_F(CadImport, UnitOfTheUserWinsAndTheContradictionIsReported) {
   const Product product = load_product(file("bar.step", step()), {.unit = LengthUnit::kCentimetre});
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
@@ -236,7 +236,7 @@ TEST_F(CadImport, CancelEndsTheChildWithinASecond) {
   EXPECT_EQ(last, "sleeping");
 }
 
-TEST_F(CadImport, CrashIsToldBySignal) {
+TEST_F(CadImport, CrashIsReportedBySignal) {
   const fs::path crasher = file("crasher.sh", "#!/bin/sh\nkill -SEGV $$\n");
   fs::permissions(crasher, fs::perms::owner_all);
   ::setenv("PALMAR_CAD", crasher.c_str(), 1);

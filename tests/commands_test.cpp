@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-TEST(HandCommand, InfoTellsASizeThatPeopleHave) {
+TEST(HandCommand, InfoReportsASizeThatPeopleHave) {
   const ProgramRun run = run_palmar("hand info template --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json info = Json::parse(run.out);

@@ -42,7 +42,7 @@ class DottedThumb : public TemplateTest {
   }
 };
 
-TEST_F(DottedThumb, TellsTheMetacarpalByTheDotsBeyondIt) {
+TEST_F(DottedThumb, ReportsTheMetacarpalByTheDotsBeyondIt) {
   const Rigid3 truth = pose_skeleton(hand().skeleton, bent()).thumb_metacarpal;
   const Vec3& mp = hand().skeleton.joint(JointId::kThumbMp).centre;
   EXPECT_LT((read(bent(), 0.0).metacarpal * mp - truth * mp).norm(), 1e-3);

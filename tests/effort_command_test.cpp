@@ -84,7 +84,7 @@ TEST(EffortCommand, ThumbMusclesActAsInCadavers) {
   }
   EXPECT_LT(arms["epl"]["ip_flexion"], -3.0);
   EXPECT_LT(arms["epb"]["mp_flexion"], -2.0);
-  // Straight lines through the specimen of Mirakhorlo et al. 2016 as it lay: 7.04 and 10.25 mm;
+  // Straight lines through the specimen of Mirakhorlo et al. 2016 as it was: 7.04 and 10.25 mm;
   // ours is another hand in another posture.
   EXPECT_NEAR(arms["fpl"]["ip_flexion"], 7.04, 0.2 * 7.04);
   EXPECT_NEAR(arms["fpl"]["mp_flexion"], 10.25, 0.3 * 10.25);

@@ -61,8 +61,8 @@ TEST_F(GraspPlaces, OtherHandsHoldTheSameSideAsFirmlyAsAfterASearch) {
     ASSERT_EQ(kept.status, GraspStatus::kHeld) << kept.message;
     EXPECT_LT(kept.product_from_hand.rotation.angularDistance(
                   place.reference_grasp().product_from_hand.rotation),
-              0.2);  // rad; lays differ by the tilt of thin handles only
-    // A search of its own may find a little more skin to lay on.
+              0.2);  // rad; poses differ by the tilt of thin handles only
+    // A search of its own may find a little more skin to place.
     const double searched = contact_area(other, product, find_grasp(*other, product));
     EXPECT_GT(contact_area(other, product, kept), 0.8 * searched);
   }

@@ -43,7 +43,7 @@ TEST(GripCommand, ClosesByOtherNamesOfAGrip) {
   }
 }
 
-TEST(GripCommand, UnknownGripIsToldWithTheNearest) {
+TEST(GripCommand, UnknownGripIsReportedWithTheNearest) {
   const ProgramRun run = grasp("close", "--grip tripot");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("\"tripot\""), HasSubstr("did you mean tripod?"),
@@ -86,7 +86,7 @@ TEST(GripCommand, PlacementsAreListedBestFirst) {
   EXPECT_EQ(grasp("place", "--json --grip lateral --threads 1").out, run.out);  // same bytes
 }
 
-TEST(ReachCommand, TellsWhoReachesAButtonAndWritesTheMap) {
+TEST(ReachCommand, ReportsWhoReachesAButtonAndWritesTheMap) {
   ASSERT_EQ(grasp("close", "--grip tripod --out held.json").exit_code, 0);
   const Json held = Json::parse(read_text(folder() + "/held.json"));
   const Json& at = held.at("fingertips").at(1).at("target_mm");

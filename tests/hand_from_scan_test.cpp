@@ -169,9 +169,9 @@ InkLine line_at(const HandCreases& creases, Segment segment, double off) {
   return line;
 }
 
-// Where the skin alone misjudges a finger by half a phalanx, the order of the lines tells which
+// Where the skin alone misjudges a finger by half a phalanx, the order of the lines says which
 // crease is which; a line that is nearer to the next crease than to its own was lost before.
-TEST_F(HandFromScanTest, CreasesAreToldByTheirOrder) {
+TEST_F(HandFromScanTest, CreasesAreRecognisedByTheirOrder) {
   const HandCreases creases(hand().skin, hand().skeleton);
   SkinMarks marks;
   const std::array<std::pair<Segment, double>, 3> drawn{{{Segment::kMiddleProximal, 1.0},

@@ -23,18 +23,18 @@ TEST(HandScaleCommand, WritesAHandOfTheDimensionsAsked) {
       "--out man.hand.glb --json",
       folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const Json told = Json::parse(run.out);
-  EXPECT_EQ(told.at("driven").size(), 3U);
-  EXPECT_EQ(told.at("driven").at(2).at("dimension"), "index_middle_width");
-  EXPECT_NEAR(told.at("driven").at(2).at("measured_mm").get<double>(), 18.0, 0.1);
-  EXPECT_LE(told.at("largest_miss_mm").get<double>(), 0.1);
-  EXPECT_EQ(told.at("measured").size(), 47U);
+  const Json reported = Json::parse(run.out);
+  EXPECT_EQ(reported.at("driven").size(), 3U);
+  EXPECT_EQ(reported.at("driven").at(2).at("dimension"), "index_middle_width");
+  EXPECT_NEAR(reported.at("driven").at(2).at("measured_mm").get<double>(), 18.0, 0.1);
+  EXPECT_LE(reported.at("largest_miss_mm").get<double>(), 0.1);
+  EXPECT_EQ(reported.at("measured").size(), 47U);
   const Json info = Json::parse(run_palmar("hand info man.hand.glb --json", folder).out);
   EXPECT_NEAR(info.at("hand_length_mm").get<double>(), 193.0, 0.1);
   EXPECT_NEAR(info.at("hand_circumference_mm").get<double>(), 212.0, 0.1);
 }
 
-TEST(HandScaleCommand, TellsAskedBesideMeasured) {
+TEST(HandScaleCommand, ReportsAskedBesideMeasured) {
   const ProgramRun run = run_palmar("hand scale --hand-length-mm 180 --palm-length-mm 97");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("asked"));

@@ -92,7 +92,7 @@ TEST_F(MeasuredJointsTest, AxesAreThoseThatThePersonTurnsAbout) {
     const Vec3 off = joints().patient_from_hand * dof.centre - truth.point;
     const bool is_mcp = truth.joint.find("mcp") != std::string::npos;
     // Knuckles turn about two axes at once in the fist, and nothing but their being about square
-    // tells the parts: a few degrees stay open. The middle finger hardly spreads.
+    // shows the parts: a few degrees stay open. The middle finger hardly spreads.
     if (truth.joint == "middle_mcp_abduction") continue;
     EXPECT_LT(axis_error(joints(), truth), is_mcp ? 5.0 : 2.0) << truth.joint;
     EXPECT_LT((off - off.dot(axis) * axis).norm(), 1.0) << truth.joint;

@@ -68,7 +68,7 @@ TEST(MriSeries, ListsWhatIsThere) {
   EXPECT_THAT(run_palmar("mri series p", scans()).out, HasSubstr("30 of 100 x"));
 }
 
-TEST(MriInfo, TellsPlaceAndIntensities) {
+TEST(MriInfo, ReportsPlaceAndIntensities) {
   const ProgramRun run = run_palmar("mri info p --description grasp --json", scans());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json info = Json::parse(run.out);

@@ -15,7 +15,7 @@
 namespace palmar {
 namespace {
 
-/// Hands laid on A4 and seen by a camera without error: what the method itself misses.
+/// Hands placed on A4 and seen by a camera without error: what the method itself misses.
 class OutlinePersonTest : public TemplateTest {
  protected:
   static OutlineScene scene(double tilt, bool palm_up = false) {
@@ -55,7 +55,7 @@ TEST_F(OutlinePersonTest, APersonThatIsNoneOfPalmarsHandsIsFound) {
     const OutlinePerson person = person_of_outline(hand(), population, {}, outline, place);
     ASSERT_TRUE(person.model);
     EXPECT_EQ(person.hand.side, side);
-    // Creases of people lie 1 mm from where joints have them; twice the errors told.
+    // Creases of people lie 1 mm from where joints have them; twice the errors reported.
     const OutlineErrors errors;
     EXPECT_NEAR(person.outline.hand_length, truth.dimensions.hand_length, 2.0 * errors.length);
     for (int f = 1; f < 5; ++f) {
@@ -83,7 +83,7 @@ TEST_F(OutlinePersonTest, OneOfPalmarsHandsIsFoundNearlyAsItIs) {
   }
 }
 
-TEST_F(OutlinePersonTest, AHandsBackAndPalmAreToldApart) {
+TEST_F(OutlinePersonTest, AHandsBackAndPalmAreDistinguished) {
   // The outline of a left hand on its palm is that of a right hand on its back.
   const SpreadHand left = spread_person(hand(), Side::kLeft, {.seed = 61});
   const OutlineScene place = scene(0.0, true);
@@ -98,12 +98,12 @@ TEST_F(OutlinePersonTest, AHandsBackAndPalmAreToldApart) {
   EXPECT_NEAR(person.outline.hand_length, left.dimensions.hand_length, 3.0);
 }
 
-TEST_F(OutlinePersonTest, WhatIsToldCountsInsteadOfThePhotograph) {
-  const KnownMeasure told = KnownMeasure::of({DimensionKind::kHandLength}, 190.0, 0.5);
+TEST_F(OutlinePersonTest, WhatIsStatedCountsInsteadOfThePhotograph) {
+  const KnownMeasure stated = KnownMeasure::of({DimensionKind::kHandLength}, 190.0, 0.5);
   HandOutline outline;
   outline.hand_length = 170.0;
   outline.hand_width = 80.0;
-  const auto all = measures_together({told}, measures_of(outline, OutlineErrors{}));
+  const auto all = measures_together({stated}, measures_of(outline, OutlineErrors{}));
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].value, 190.0);
   EXPECT_EQ(all[1].value, 80.0);

@@ -32,7 +32,7 @@ TEST_F(People, RegressionsStandInTheTemplatesProportions) {
   const HandDimensions measured = measure_hand(hand());
   for (const HandDimension one : all_hand_dimensions()) {
     EXPECT_NEAR(value_of(template_proportions(), one), value_of(measured, one), 0.15)
-        << name_of(one);  // mm; rounding, and a template built anew
+        << name_of(one);  // mm; rounding, and a template built again
   }
 }
 
@@ -155,8 +155,8 @@ TEST_F(People, StrengthNeededGrowsWithTheLoad) {
   EXPECT_GT(needed(5.0, 0.5), 5.0 / (M_PI * 0.5) - 1e-9);
 }
 
-// A wall square to the middle finger of the flat hand, 10 mm beyond the farthest nail's root: there
-// is room for 10 mm.
+// A wall perpendicular to the middle finger of the flat hand, 10 mm beyond the farthest nail's
+// root: there is room for 10 mm.
 TEST_F(People, NailsEndAtTheProduct) {
   const Posture flat = named_posture(hand().skeleton, "flat").value();
   const std::vector<Vec3> skin = pose_skin(hand(), flat);
@@ -173,8 +173,8 @@ TEST_F(People, NailsEndAtTheProduct) {
     return motion;
   };
   const double near = nail_room_of(hand(), flat, skin, facing(farthest + 10.0), wall);
-  // A nail square to a phalanx that isn't quite square to the wall begins a little before or behind
-  // the fingertip's front.
+  // A nail perpendicular to a phalanx that isn't quite perpendicular to the wall begins a little
+  // before or behind the fingertip's front.
   EXPECT_NEAR(near, 10.0, 1.5);
   EXPECT_NEAR(nail_room_of(hand(), flat, skin, facing(farthest + 15.0), wall) - near, 5.0, 0.2);
   EXPECT_EQ(nail_room_of(hand(), flat, skin, facing(farthest - 20.0), wall), 0.0);

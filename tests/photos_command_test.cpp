@@ -18,7 +18,7 @@
 // `palmar photos` and `palmar phantom photos` on a few small pictures of a box, whose edges are
 // known. Skipped where Palmar was
 // built without OpenCV. How near the surface comes to the truth with pictures of a useful size is
-// told in docs/method/photos.md.
+// reported in docs/method/photos.md.
 
 namespace palmar::testing {
 namespace {
@@ -137,13 +137,13 @@ TEST(Photos, RefusesWhatIsNone) {
   fs::create_directory(folder + "/other");
   run = run_palmar("hand from-photos empty other/ --out a.hand.glb", folder);
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("doesn't tell the posture"));
+  EXPECT_THAT(run.err, HasSubstr("doesn't give the posture"));
   for (const char* const name : {"p0_c1.png", "p1_c1.png", "p2_c1.png", "extra.png"}) {
     std::ofstream(folder + "/other/" + name) << "hello";
   }
   run = run_palmar("photos mesh other --out hand.ply", folder);
   EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.err, HasSubstr("the names of 3 photographs tell position and camera (as "
+  EXPECT_THAT(run.err, HasSubstr("the names of 3 photographs give position and camera (as "
                                  "p3_c2.jpg does), that of extra.png doesn't"));
   run = run_palmar("photos board --squares 10 --out board.svg", folder);
   if (run.exit_code != 6) {

@@ -34,7 +34,7 @@ TEST(PopulationSampleCommand, ListsPopulationsAndProfiles) {
   EXPECT_THAT(run_palmar("population list").out, HasSubstr("thick_gloves"));
 }
 
-TEST(PopulationSampleCommand, ShowTellsHowEveryDimensionIsKnown) {
+TEST(PopulationSampleCommand, ShowReportsHowEveryDimensionIsKnown) {
   const ProgramRun run = run_palmar("population show ansur2_women");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("measured"), HasSubstr("regressed"), HasSubstr("scaled"),

@@ -32,7 +32,7 @@ TEST(HandPoseCommand, AnglesGoThroughJsonAndCsvUnchanged) {
   EXPECT_EQ(a.at("posture").size(), 23U);
 }
 
-TEST(HandPoseCommand, WhatIsNotGivenOrClampedIsTold) {
+TEST(HandPoseCommand, WhatIsNotGivenOrClampedIsReported) {
   const std::string folder = temporary_folder();
   write_text(folder + "/some.json", R"({"index_pip_flexion_deg": 140})");
   const ProgramRun run = run_palmar("hand pose --angles some.json --json", folder);
@@ -92,7 +92,7 @@ TEST(HandPoseCommand, AMarkerSetOfOnesOwn) {
   const Json t = found.at("measured_from_hand").at("translation_mm");
   EXPECT_NEAR(t[0].get<double>(), 100, 1e-3);
   EXPECT_NEAR(t[1].get<double>(), 0, 1e-3);
-  EXPECT_EQ(found.at("not_observed").size(), 23U);  // markers on the palm tell no angle
+  EXPECT_EQ(found.at("not_observed").size(), 23U);  // markers on the palm show no angle
   const ProgramRun other = run_palmar("hand pose --markers take.csv --marker-set set.csv", folder);
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_THAT(other.err, HasSubstr("0 of the marker set's 5 labels"));

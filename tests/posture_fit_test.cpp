@@ -206,7 +206,7 @@ TEST_F(PostureFitTest, NoiseComesBackAsResidualAndAsTheAnglesSpread) {
   EXPECT_NEAR(normalised / angles, 1.0, 0.3);
 }
 
-TEST_F(PostureFitTest, TheBuiltInSetTellsEveryAngle) {
+TEST_F(PostureFitTest, TheBuiltInSetReportsEveryAngle) {
   Posture truth = *named_posture(hand().skeleton, "cylinder_grip");
   truth[Dof::kWristFlexion] = -25 * kDegree;
   truth[Dof::kWristDeviation] = 10 * kDegree;

@@ -30,7 +30,7 @@ ProgramRun make(const std::string& arguments) {
 
 bool is_there(const std::string& name) { return fs::is_regular_file(fs::path(folder()) / name); }
 
-TEST(ProductMake, ListTellsEveryKindWithItsRanges) {
+TEST(ProductMake, ListReportsEveryKindWithItsRanges) {
   const ProgramRun run = make("--list");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* kind :
@@ -63,8 +63,8 @@ TEST(ProductMake, TheSameWordsGiveTheSameBytes) {
   EXPECT_EQ(read_text(folder() + "/a.step"), read_text(folder() + "/b.step"));
 }
 
-// A pistol grip's shape doesn't tell which end is up; the kind does, with its rake of 30 degrees.
-TEST(ProductMake, TheStudyTellsWhichEndOfAPistolGripIsUpAndTheCommandThatMadeIt) {
+// A pistol grip's shape doesn't show which end is up; the kind does, with its rake of 30 degrees.
+TEST(ProductMake, TheStudyReportsWhichEndOfAPistolGripIsUpAndTheCommandThatMadeIt) {
   ASSERT_EQ(make("pistol_grip --rake-deg 30 --out 'my grips/'").exit_code, 0);
   EXPECT_THAT(read_text(folder() + "/my grips/study.toml"),
               AllOf(HasSubstr("axis = [0, -0.5, 0.866025]"),

@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Small photographs of a left hand on A4 (the lens isn't told) and of a right one beside a card.
+/// Small photographs of a left hand on A4 (the lens isn't given) and of a right one beside a card.
 class QuickCommand : public ::testing::Test {
  protected:
   static const std::string& folder() {
@@ -40,24 +40,24 @@ class QuickCommand : public ::testing::Test {
     EXPECT_EQ(run.exit_code, code) << run.err;
     EXPECT_THAT(run.err, HasSubstr(words));
   }
-  /// Most of what is told holds, and hand length is as near as told.
-  static void expect_true(const Json& told, const std::string& name) {
+  /// Most of what is reported holds, and hand length is as near as given.
+  static void expect_true(const Json& reported, const std::string& name) {
     const Json truth = Json::parse(read_text(folder() + "/" + name + "/truth.json"));
     int held = 0, all = 0;
-    for (const auto& [dimension, one] : told.at("dimensions").items()) {
+    for (const auto& [dimension, one] : reported.at("dimensions").items()) {
       const double error =
           one.at("value_mm").get<double>() - truth.at(dimension + "_mm").get<double>();
       ++all;
       held += std::abs(error) <= 1.96 * one.at("sd_mm").get<double>() ? 1 : 0;
     }
     EXPECT_GE(held, 0.85 * all) << name;
-    EXPECT_NEAR(told.at("dimensions").at("hand_length").at("value_mm").get<double>(),
+    EXPECT_NEAR(reported.at("dimensions").at("hand_length").at("value_mm").get<double>(),
                 truth.at("hand_length_mm").get<double>(), 3.0)
         << name;
   }
 };
 
-TEST_F(QuickCommand, TellsAHandOnASheetTheSameWithAnyThreads) {
+TEST_F(QuickCommand, ReportsAHandOnASheetTheSameWithAnyThreads) {
   std::string first, hand;
   for (const char* threads : {"1", "2"}) {
     const ProgramRun run = run_palmar(std::string("hand quick sheet/photo.jpg --json --threads ") +
@@ -72,23 +72,23 @@ TEST_F(QuickCommand, TellsAHandOnASheetTheSameWithAnyThreads) {
     EXPECT_TRUE(run.out == first && bytes == hand) << threads << " threads";
     EXPECT_THAT(run.err, HasSubstr("if its lens is that of most telephones"));
   }
-  const Json told = Json::parse(first);
-  EXPECT_EQ(told.at("side"), "left");
-  EXPECT_EQ(told.at("photograph").at("sheet"), "a4");
-  EXPECT_EQ(told.at("photograph").at("focal_from"), "usual");
-  EXPECT_TRUE(told.at("photograph").at("measured_against_a_model").get<bool>());
-  expect_true(told, "sheet");
+  const Json reported = Json::parse(first);
+  EXPECT_EQ(reported.at("side"), "left");
+  EXPECT_EQ(reported.at("photograph").at("sheet"), "a4");
+  EXPECT_EQ(reported.at("photograph").at("focal_from"), "usual");
+  EXPECT_TRUE(reported.at("photograph").at("measured_against_a_model").get<bool>());
+  expect_true(reported, "sheet");
   EXPECT_EQ(read_text(folder() + "/found.png").substr(1, 3), "PNG");
 }
 
-TEST_F(QuickCommand, TellsAHandBesideACard) {
+TEST_F(QuickCommand, ReportsAHandBesideACard) {
   const ProgramRun run = run_palmar("hand quick card/photo.jpg --sheet card --json", folder());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("lengths follow from so small a card within"));
-  const Json told = Json::parse(run.out);
-  EXPECT_EQ(told.at("side"), "right");
-  EXPECT_EQ(told.at("photograph").at("focal_from"), "camera");
-  expect_true(told, "card");
+  const Json reported = Json::parse(run.out);
+  EXPECT_EQ(reported.at("side"), "right");
+  EXPECT_EQ(reported.at("photograph").at("focal_from"), "camera");
+  expect_true(reported, "card");
 }
 
 TEST_F(QuickCommand, SaysWhatIsWrong) {

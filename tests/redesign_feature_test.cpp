@@ -59,7 +59,7 @@ TEST(RedesignFeatures, ASearchWritesAValidSolidAndItsHistory) {
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
 }
 
-TEST(RedesignFeatures, WhatThereIsNotIsToldBeforeHandsAreMade) {
+TEST(RedesignFeatures, WhatThereIsNotIsReportedBeforeHandsAreMade) {
   struct Case {
     std::string arguments, message;
     int exit_code = 2;
@@ -101,7 +101,7 @@ TEST(RedesignFeatures, AMeshHasNoFeatures) {
   EXPECT_THAT(run.err, HasSubstr("c.stl: a mesh; features change in CAD files"));
 }
 
-TEST(RedesignFeatures, ARadiusThatLeavesNoRoomIsToldWithItsValue) {
+TEST(RedesignFeatures, ARadiusThatLeavesNoRoomIsReportedWithItsValue) {
   const ProgramRun run = redesign("fillet " + kPrism + " --radius-mm 18 --out eighteen" + kFew);
   EXPECT_EQ(run.exit_code, 4);
   EXPECT_THAT(run.err, HasSubstr("fillet of 18 mm on fillets"));

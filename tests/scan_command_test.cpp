@@ -43,7 +43,7 @@ void expect_refused(const std::string& arguments, const std::string& folder, int
 TEST(HandFromScan, NamesWrongArguments) {
   const std::string folder = folder_with("a.obj", tetrahedron(200));
   expect_refused("hand from-scan a.obj --out a.glb", folder, 2, "must end in .hand.glb");
-  expect_refused("hand from-scan a.obj b.obj --out a.hand.glb", folder, 2, "tell the posture");
+  expect_refused("hand from-scan a.obj b.obj --out a.hand.glb", folder, 2, "give the posture");
   expect_refused("hand from-scan flexed.obj spread.obj --out a.hand.glb", folder, 2,
                  "no scan shows the reference posture");
   expect_refused("hand from-scan natural.obj open.obj --out a.hand.glb", folder, 2, "both show");

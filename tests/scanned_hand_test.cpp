@@ -91,7 +91,7 @@ TEST_F(ScannedHandTest, SkinLiesOnTheTrueOne) {
   EXPECT_LT(scanned.registration_mean, 0.2);
   EXPECT_LT(scanned.registration_p95, 0.6);
   EXPECT_THAT(scanned.notes,
-              testing::Not(testing::Contains(testing::HasSubstr("lies more than 2 mm"))));
+              testing::Not(testing::Contains(testing::HasSubstr("is more than 2 mm"))));
   const ClosestPointQuery truth(
       in_mirror(test_subject(hand()).postures.at(ScanPosture::kReference).skin));
   double sum = 0.0, worst = 0.0;
@@ -129,7 +129,7 @@ TEST_F(ScannedHandTest, DimensionsAreThePersons) {
   EXPECT_LT(sum / static_cast<double>(all_hand_dimensions().size()), 0.3);
 }
 
-TEST_F(ScannedHandTest, MarkersAndSkinMendTheThumbBall) {
+TEST_F(ScannedHandTest, MarkersAndSkinCorrectTheThumbBall) {
   const ScannedHand& scanned = made().scanned;
   ASSERT_EQ(scanned.skin_errors.size(), 1U);
   const SkinError& error = scanned.skin_errors[0];
@@ -186,7 +186,7 @@ TEST_F(ScannedHandTest, NeedsTheReferenceScan) {
   }
 }
 
-TEST_F(ScannedHandTest, TellsJointsThatDoNotBelongToTheSkin) {
+TEST_F(ScannedHandTest, ReportsJointsThatDoNotBelongToTheSkin) {
   MeasuredJoints elsewhere = made().joints;
   elsewhere.patient_from_hand.translation += Vec3(60.0, 0.0, 0.0);
   EXPECT_THROW(make_scanned_hand(hand(), made().scans, elsewhere), InputError);

@@ -1,7 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// `palmar study` as a whole: what is killed, parted or run on other threads ends with the same
+// `palmar study` as a whole: what is killed, separated or run on other threads ends with the same
 // bytes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -160,7 +160,7 @@ TEST_F(StudyCommand, CtrlCKeepsWhatIsFinished) {
   }
   if (has("cancelled")) {
     EXPECT_THAT(said,
-                HasSubstr("of 8 grasps are kept; `palmar study resume stopped.palmar` goes on"));
+                HasSubstr("of 8 grasps are kept; `palmar study resume stopped.palmar` continues"));
   }
   EXPECT_FALSE(fs::exists(folder_ + "/stopped.palmar-progress"));
   const ProgramRun resumed = run("study resume stopped.palmar --json");

@@ -239,7 +239,7 @@ TEST_F(TemplateInstance, ThumbStillTurnsAboutTheAxesOfItsJoint) {
 }
 
 TEST_F(TemplateInstance, CreasesLieWhereTheRegionsEnd) {
-  // Vertices whose place, by the creases laid anew on the skin, isn't the region that they keep:
+  // Vertices whose place, by the creases found again on the skin, isn't the region that they keep:
   // the template has some, at borders that were smoothed.
   const auto strays = [](const Hand& h) {
     const HandCreases creases(h.skin, h.skeleton);

@@ -30,7 +30,7 @@ void check_size(const CadFile& file, const std::string& object) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", size);
   throw InputError(object + ": its longest side is " + text + " mm (unit " +
-                   (file.unit.empty() ? "not told" : file.unit) +
+                   (file.unit.empty() ? "not stated" : file.unit) +
                    "); up to 10000 mm is allowed. If the unit is wrong, give it with --unit mm, "
                    "cm, m or inch");
 }

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 // The verbs: what request.json asks for becomes reply.json, beside files in `folder`. Lengths in
 // mm, keys with their unit. They throw palmar::Error; everything else that is thrown, crashes and
-// signals are told by the parent. One file each.
+// signals are reported by the parent. One file each.
 Json convert(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json check(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress);

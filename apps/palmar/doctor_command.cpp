@@ -121,7 +121,7 @@ int run_doctor(const CommonOptions& common) {
 
 void add_doctor_command(CLI::App& app, Context& context) {
   CLI::App* verb = add_verb(
-      app, "doctor", "Say what Palmar needs on this machine and what is missing", "palmar doctor");
+      app, "doctor", "Show what Palmar needs on this machine and what is missing", "palmar doctor");
   verb->callback([&context] { context.run = [&context] { return run_doctor(context.common); }; });
 }
 

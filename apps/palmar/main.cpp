@@ -82,7 +82,7 @@ int run(int argc, char** argv) {
     context.command_line += i == 0 ? "palmar" : " " + shell_word(argv[i]);
   }
 
-  CLI::App app("Palmar tells how a handheld product will feel in people's hands before it exists.",
+  CLI::App app("Palmar shows how a handheld product will feel in people's hands before it exists.",
                "palmar");
   app.set_version_flag("--version", build_description());
   app.set_help_flag("-h,--help", "Show this help and a worked example");

@@ -45,14 +45,14 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 std::string tissue_text(const Tissue& tissue) {
   std::string text = "source: " + tissue.source + "\n";
-  std::vector<bool> is_told(kRegionCount, false);
+  std::vector<bool> is_listed(kRegionCount, false);
   for (std::size_t r = 0; r < kRegionCount; ++r) {
-    if (is_told[r]) continue;
+    if (is_listed[r]) continue;
     const RegionTissue& one = tissue.region[r];
     std::string names;
     for (std::size_t other = r; other < kRegionCount; ++other) {
-      if (is_told[other] || tissue.region[other] != one) continue;
-      is_told[other] = true;
+      if (is_listed[other] || tissue.region[other] != one) continue;
+      is_listed[other] = true;
       names += (names.empty() ? "" : ", ") + std::string(name_of(static_cast<Region>(other)));
     }
     text += "\n" + names + "\n";

@@ -54,13 +54,13 @@ void add_validate_command(CLI::App& app, Context& context) {
   const auto o = std::make_shared<ValidateArguments>();
   CLI::App* verb =
       add_verb(app, "validate",
-               "Hold the simulator against closed forms and measurements; exit code 5 on a miss",
+               "Compare the simulator with closed forms and measurements; exit code 5 on a miss",
                "palmar validate --case G1,G2");
   verb->add_option("--case", o->request.options.cases, "Cases to run, as G1,layer; all by default")
       ->delimiter(',');
   verb->add_flag("--quick", o->request.options.quick,
                  "Leave out the cases that take longer than some seconds");
-  verb->add_flag("--list", o->is_list, "Say what the cases are, run nothing");
+  verb->add_flag("--list", o->is_list, "List the cases, run nothing");
   verb->add_flag("--markdown", o->is_markdown, "The table as in docs/method/validation.md");
   verb->add_option("--out", o->request.out, "File to write besides: .md or .json");
   verb->callback(

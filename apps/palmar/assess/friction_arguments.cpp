@@ -22,12 +22,11 @@ void take(const char* option, const std::string& text, std::optional<Vec3>& valu
 }  // namespace
 
 void FrictionArguments::add_to(CLI::App& verb) {
-  verb.add_option(
-      "--friction", settings_.friction,
-      fmt::format("Coefficient of friction of skin on the product (0.3 to 1.2 is usual): "
-                  "tells whether the hand holds the load; default: {:g} while the grasp "
-                  "comes to rest and for a given load. 0: none",
-                  kUsualFriction));
+  verb.add_option("--friction", settings_.friction,
+                  fmt::format("Coefficient of friction of skin on the product (0.3 to 1.2 is "
+                              "usual): shows whether the hand holds the load; default: {:g} while "
+                              "the grasp comes to rest and for a given load. 0: none",
+                              kUsualFriction));
   CLI::Option* mass = verb.add_option("--mass-kg", settings_.mass, "Mass of the product, kg");
   CLI::Option* weight = verb.add_option("--weight-n", settings_.weight,
                                         "Weight of the product instead of its mass, N")

@@ -151,7 +151,7 @@ void add_contact_commands(CLI::App& app, Context& context) {
                    fmt::format("Vertex spacing of a plane or ellipsoid, mm; default {}",
                                PressOptions{}.spacing));
   verb->add_option("--shear-modulus-kpa", o->shear_modulus_kpa,
-                   "Instead of the tissue's own G(d), kPa");
+                   "One shear modulus instead of the tissue's own G(d), kPa");
   verb->add_option("--preset", o->preset,
                    "Equations: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();

@@ -47,7 +47,7 @@ TissueFitOptions fit_options(const FitArguments& arguments) {
   return options;
 }
 
-/// Lays the test out; the layer is a known thickness, fitted, or the hand's own.
+/// Sets the test up; the layer is a known thickness, fitted, or the hand's own.
 struct TestSetup {
   PressOptions press;
   std::string hand;
@@ -217,15 +217,16 @@ void add_contact_fit_verb(CLI::App& contact, Context& context) {
   verb->add_option("--law", o->law, "stiffening (G0, G_lim, d_lim) or constant (one modulus)")
       ->capture_default_str();
   verb->add_option("--limit-depth-mm", o->limit_depth, "d_lim, mm; without it d_lim is fitted");
-  verb->add_option("--residuals", o->residuals,
-                   "absolute (a load cell's error in N) or relative (every depth counts alike)")
+  verb->add_option(
+          "--residuals", o->residuals,
+          "absolute (a load cell's error in N) or relative (every depth has the same weight)")
       ->capture_default_str();
   verb->add_option("--confidence", o->confidence_percent, "Confidence of the intervals, %")
       ->capture_default_str();
   verb->add_option("--spacing-mm", o->spacing, "Vertex spacing of a plane or ellipsoid, mm")
       ->capture_default_str();
   verb->add_option("--group", o->group,
-                   "What the tissue file gives the result to: finger, palm, dorsum or a region; "
+                   "Where the result goes in the tissue file: finger, palm, dorsum or a region; "
                    "default: the region's group, or finger");
   verb->add_option("--out", o->out, "Tissue file to write, *.toml");
   verb->callback(

@@ -30,10 +30,11 @@ void add_press_deck_options(CLI::App& verb, PressDeckArguments& arguments) {
   verb.add_option("--depth-mm", arguments.depths, "Depths from first touch, a,b,c in mm")
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--shear-modulus-kpa", arguments.shear_modulus_kpa, "Of the tissue, kPa")
+  verb.add_option("--shear-modulus-kpa", arguments.shear_modulus_kpa,
+                  "Shear modulus of the tissue, kPa")
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--poisson", arguments.poisson, "Of the tissue, below 0.5")
+  verb.add_option("--poisson", arguments.poisson, "Poisson's ratio of the tissue, below 0.5")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--largest-tet-mm3", arguments.largest_tet, "Largest tetrahedron, mm3")
@@ -41,7 +42,7 @@ void add_press_deck_options(CLI::App& verb, PressDeckArguments& arguments) {
       ->group(group);
   verb.add_option("--cut-mm", arguments.cut,
                   "Where the finger is cut off, mm distal of the region's proximal joint; default: "
-                  "the middle of the phalanx before")
+                  "the middle of the phalanx proximal to it")
       ->group(group);
   verb.add_flag("--large-strain", arguments.is_large_strain,
                 "Neo-Hookean tissue at large strain instead of linear")

@@ -19,19 +19,19 @@ struct GraspVerb {
   std::string (*text)(const Grasp&);
 };
 
-// A verb that finds a grasp of a product and tells of it.
-void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& told) {
+// A verb that finds a grasp of a product and describes it.
+void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& words) {
   struct Options {
     std::string product, out;
     GraspArguments grasp;
   };
   const auto o = std::make_shared<Options>();
-  CLI::App* verb = add_verb(grasp, told.name, told.about, told.example);
+  CLI::App* verb = add_verb(grasp, words.name, words.about, words.example);
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   o->grasp.add_to(*verb);
-  verb->add_option("--out", o->out, told.out);
-  verb->callback([&context, o, told] {
-    context.run = [&context, o, told] {
+  verb->add_option("--out", o->out, words.out);
+  verb->callback([&context, o, words] {
+    context.run = [&context, o, words] {
       GraspRequest request;
       request.grasp = o->grasp.settings();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
@@ -39,8 +39,8 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& told) {
       request.note = [&context](const std::string& text) { note(context.common, text); };
       const Grasp found = grasp_product(request, make_progress(context.common)).grasp;
       finish_progress();
-      if (!o->out.empty()) write_file(o->out, told.json(found) + "\n");
-      print(context.common.json ? told.json(found) + "\n" : told.text(found));
+      if (!o->out.empty()) write_file(o->out, words.json(found) + "\n");
+      print(context.common.json ? words.json(found) + "\n" : words.text(found));
       return 0;
     };
   });
@@ -56,12 +56,12 @@ void add_grasp_commands(CLI::App& app, Context& context) {
                  {.name = "close",
                   .about = "Close a hand on a product",
                   .example = "palmar grasp close handle.stl --unit mm --out grasp.json",
-                  .out = "JSON file to write: posture, placement, what stopped it",
+                  .out = "JSON file to write: posture, placement, what stopped each segment",
                   .json = grasp_json,
                   .text = grasp_text});
   add_grasp_verb(*grasp, context,
                  {.name = "place",
-                  .about = "List the best ways of holding a product, best first",
+                  .about = "List the best placements of a product in the hand, best first",
                   .example = "palmar grasp place marker.stl --unit mm --grip tripod",
                   .out = "JSON file to write: the list with postures and placements",
                   .json = placements_json,

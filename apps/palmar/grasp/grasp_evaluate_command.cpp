@@ -92,12 +92,13 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
                    "Joint angles, JSON or CSV, as `palmar hand pose --out` writes them");
   verb->add_option("--grasp", o->grasp,
                    "Posture and placement: JSON of `palmar grasp close` or `palmar assess`");
-  verb->add_option("--frame", o->frame, "Which posture of a file with several, from 1");
-  verb->add_option("--placement", o->placement,
-                   "product_from_hand: X,Y,Z in mm and a unit quaternion W,X,Y,Z; over the file's");
+  verb->add_option("--frame", o->frame, "Posture of a file that has several, counted from 1");
+  verb->add_option(
+      "--placement", o->placement,
+      "product_from_hand: X,Y,Z in mm and a unit quaternion W,X,Y,Z; replaces that of the file");
   verb->add_option("--measured-from-product", o->measured_from_product,
                    "Where the product is in the frame of the recording (or mesh) that the posture "
-                   "was found from, as seven numbers likewise");
+                   "was found from, as seven numbers like the placement");
   o->contact.add_to(*verb);
   o->friction.add_to(*verb);
   verb->add_option("--natural-postures", o->natural_postures,

@@ -71,8 +71,8 @@ void GraspArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY): mm, cm, m, inch");
   verb.add_option("--at", at_,
-                  "Point of the product that lies in mid-palm (precision grips: between the "
-                  "fingertips), x,y,z in mm");
+                  "Point of the product that is in the middle of the palm (precision grips: "
+                  "between the fingertips), x,y,z in mm");
   verb.add_option("--fingertip", fingertips_,
                   "Point of the product for a fingertip of a precision grip, once per finger: "
                   "FINGER:X,Y,Z in mm")
@@ -84,8 +84,8 @@ void GraspArguments::add_to(CLI::App& verb) {
       "--axis", axis_,
       "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
   verb.add_option("--region", region_,
-                  "Hold it by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in "
-                  "the product's frame (power grips)");
+                  "Hold the product by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners "
+                  "in mm in the product's frame (power grips)");
   verb.add_option("--turn-deg", turn_deg_, "Turn of the hand about the grip axis, deg");
   verb.add_option("--palm-limit-depth-mm", settings_.palm_limit_depth,
                   "Deepest penetration of the palm, mm")

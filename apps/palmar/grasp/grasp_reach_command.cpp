@@ -100,15 +100,17 @@ void add_grasp_reach(CLI::App& grasp, Context& context) {
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--button", o->buttons,
                    "Point that is pressed, may be given several times: NAME:X,Y,Z in mm, or "
-                   "NAME:X,Y,Z:FX,FY,FZ with the finger's force on the product in N; without it "
+                   "NAME:X,Y,Z:FX,FY,FZ with the finger's force on the product in N; default: "
                    "straight into the surface")
       ->allow_extra_args(false);
   o->grasp.add_to(*verb);
   verb->add_option("--grasp", o->grasp_file,
                    "JSON of a grasp to start from, as grasp close writes it, instead of searching");
-  verb->add_option("--map", o->map,
-                   "VTP file to write: who reaches every point of the surface, with what margin");
-  verb->add_option("--map-points", o->map_points, "Places of the surface that the map tries")
+  verb->add_option(
+      "--map", o->map,
+      "VTP file to write: which finger reaches each point of the surface, and with what margin");
+  verb->add_option("--map-points", o->map_points,
+                   "Number of points of the surface that the map tries")
       ->capture_default_str();
   verb->add_option("--out", o->out, "JSON file to write");
   verb->callback([&context, o] { context.run = [&context, o] { return run_reach(*o, context); }; });

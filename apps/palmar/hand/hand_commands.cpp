@@ -76,8 +76,9 @@ void add_tissue(CLI::App& hand, Context& context) {
   CLI::App* verb = add_verb(hand, "tissue", "Stiffness of a hand's skin by region, with its ranges",
                             "palmar hand tissue template --out my-tissue.toml");
   verb->add_option("HAND", o->hand, kHandHelp)->capture_default_str();
-  verb->add_option("--tissue", o->tissue, "Tissue file over the hand's own");
-  verb->add_option("--out", o->out, "Tissue file to write, *.toml: a start for one of your own");
+  verb->add_option("--tissue", o->tissue,
+                   "Tissue file that replaces values of the hand's own tissue");
+  verb->add_option("--out", o->out, "Tissue file to write, *.toml, to start your own from");
   verb->callback([&context, o] {
     context.run = [&context, o] {
       const auto loaded = load_hand(o->hand, o->tissue);
@@ -167,8 +168,8 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_elsewhere(*hand, context, kCaptureProgram, "from-mri",
                 "A person's hand from MR series of several postures");
   add_elsewhere(*hand, context, kCaptureProgram, "from-scan",
-                "A person's hand from surface scans: of any scanning app or "
-                "photogrammetry program, with drawn creases and dots if it may be");
+                "A person's hand from surface scans: of any scanning app or photogrammetry "
+                "program, with creases and dots drawn on the skin if possible");
   add_elsewhere(
       *hand, context, kCaptureProgram, "from-photos",
       "A person's hand from photographs of it on the printed board (palmar photos board), "
@@ -181,8 +182,8 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_hand_scale(*hand, context);
   add_elsewhere(
       *hand, context, kCaptureProgram, "quick",
-      "A hand from a few measures, or from one photograph of it flat on a sheet of A4 or beside a "
-      "bank card, and a population; tells how well each dimension is known");
+      "A hand from a few measurements, or from one photograph of it flat on a sheet of A4 or "
+      "beside a bank card, and a population; says how well each dimension is known");
   add_export(*hand, context);
 }
 

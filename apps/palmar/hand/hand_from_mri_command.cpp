@@ -115,28 +115,27 @@ void add_from_mri(CLI::App& hand, Context& context) {
   const auto a = std::make_shared<FromMriArguments>();
   CLI::App* verb = add_verb(hand, "from-mri", "A person's hand from MR series of several postures",
                             "palmar hand from-mri scans/ --out anna.hand.glb");
-  verb->add_option("IMAGE", a->request.images,
-                   "Folders of DICOM series, NIfTI files, or folders that palmar mri "
-                   "surfaces made. The description of a series "
-                   "(or the name of its folder) tells the posture: reference, thumb_flexion, "
-                   "thumb_extension, thumb_abduction, thumb_adduction, finger_flexion, "
-                   "finger_abduction, grasp; the reference is needed")
+  verb->add_option(
+          "IMAGE", a->request.images,
+          "Folders of DICOM series, NIfTI files, or folders that palmar mri surfaces made. The "
+          "description of a series (or the name of its folder) gives the posture: reference, "
+          "thumb_flexion, thumb_extension, thumb_abduction, thumb_adduction, finger_flexion, "
+          "finger_abduction, grasp; the reference is needed")
       ->required();
   verb->add_option("--out", a->request.out, "File to write, *.hand.glb")->required();
   verb->add_option("--series", a->series,
                    "What a series shows: NUMBER=POSTURE, or TEXT=POSTURE for part of its "
-                   "description; again for others");
-  verb->add_option("--skip", a->skip, "Posture to leave out, for a spoilt series");
-  verb->add_option(
-      "--work", a->request.work,
-      "Folder for the report and for what each step makes, which another run takes up; "
-      "default: beside the hand, *.mri");
+                   "description; may be given several times");
+  verb->add_option("--skip", a->skip,
+                   "Posture to leave out, for example because its series is spoilt");
+  verb->add_option("--work", a->request.work,
+                   "Folder for the report and for what each step makes, which another run reuses; "
+                   "default: beside the hand, *.mri");
   verb->add_option("--labels", a->request.labels,
                    "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
-  verb->add_option(
-      "--product", a->request.product,
-      "What the grasp holds, where it was in the scanner (patient frame): contact areas "
-      "of scan and hand are compared");
+  verb->add_option("--product", a->request.product,
+                   "The object that the grasp holds, where it was in the scanner (patient frame): "
+                   "contact areas of scan and hand are compared");
   verb->add_option("--unit", a->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--model", a->request.model,
                    "Hand to start from: \"template\" or a .hand.glb file")
@@ -144,8 +143,8 @@ void add_from_mri(CLI::App& hand, Context& context) {
   verb->add_option("--name", a->request.name, "Name of the hand; default: that of the file");
   a->surfaces.add_to(*verb);
   verb->add_flag("--accept-odd-slices", a->request.accepts_odd_slices,
-                 "Go on though a slice doesn't belong between its neighbours");
-  verb->add_flag("--no-report", a->no_report, "Only the hand");
+                 "Continue although a slice doesn't fit between its neighbours");
+  verb->add_flag("--no-report", a->no_report, "Write only the hand, no report");
   verb->callback([&context, a] { context.run = [&context, a] { return run(*a, context); }; });
 }
 

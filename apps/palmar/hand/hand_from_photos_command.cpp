@@ -39,14 +39,14 @@ void add_from_photos(CLI::App& hand, Context& context) {
                "--out anna.hand.glb");
   verb->add_option("FOLDER", a->request.folders,
                    "Photographs (.png, .jpg) of one posture, or a folder of such folders. The name "
-                   "tells the posture: reference (or natural), finger_flexion, finger_abduction; "
+                   "gives the posture: reference (or natural), finger_flexion, finger_abduction; "
                    "the reference is needed, a single folder is taken for it")
       ->required();
   verb->add_option("--posture", a->posture,
-                   "What a folder shows: FOLDER=POSTURE; again for others");
+                   "Posture that a folder shows: FOLDER=POSTURE; may be given several times");
   a->mesh.add_to(*verb);
   a->hand.add_to(*verb,
-                 "Folder for the report and for the meshes, which another run takes up; default: "
+                 "Folder for the report and for the meshes, which another run reuses; default: "
                  "beside the hand, *.photos");
   verb->callback(
       [&context, a] { context.run = [&context, a] { return run_from_photos(*a, context); }; });

@@ -35,20 +35,22 @@ int run_from_scan(const FromScanArguments& arguments, const Context& context) {
 
 void add_from_scan(CLI::App& hand, Context& context) {
   const auto a = std::make_shared<FromScanArguments>();
-  CLI::App* verb = add_verb(hand, "from-scan",
-                            "A person's hand from surface scans: of any scanning app or "
-                            "photogrammetry program, with drawn creases and dots if it may be",
-                            "palmar hand from-scan natural.glb flexed.glb spread.glb --out "
-                            "anna.hand.glb");
-  verb->add_option(
-          "SCAN", a->request.scans,
-          "OBJ with its texture, GLB, PLY with colours, or STL; one file per posture. The "
-          "file's name tells it: reference (or natural), finger_flexion, finger_abduction; "
-          "the reference is needed, a single file is taken for it")
+  CLI::App* verb =
+      add_verb(hand, "from-scan",
+               "A person's hand from surface scans: of any scanning app or photogrammetry program, "
+               "with creases and dots drawn on the skin if possible",
+               "palmar hand from-scan natural.glb flexed.glb spread.glb --out "
+               "anna.hand.glb");
+  verb->add_option("SCAN", a->request.scans,
+                   "OBJ with its texture, GLB, PLY with colours, or STL; one file per posture. The "
+                   "file's name gives it: reference (or natural), finger_flexion, "
+                   "finger_abduction; the reference is needed, a single file is taken for it")
       ->required();
-  verb->add_option("--posture", a->posture, "What a file shows: FILE=POSTURE; again for others");
+  verb->add_option("--posture", a->posture,
+                   "Posture that a file shows: FILE=POSTURE; may be given several times");
   verb->add_option("--unit", a->unit,
-                   "Of files that carry none: mm, cm, m or inch; default: what makes a hand of it");
+                   "Unit of files that carry none: mm, cm, m or inch; default: the one with which "
+                   "the scan is a hand");
   verb->add_option("--pick-crease", a->pick_crease,
                    "x,y,z of a point in the reference scan's own coordinates that has the "
                    "creases' colour");

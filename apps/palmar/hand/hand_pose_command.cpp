@@ -122,16 +122,16 @@ void note_fit(const CommonOptions& common, const std::string& place, const Postu
   note(common, place + ": " + fit.message);
   for (const int i : fit.outliers) {
     const auto k = static_cast<std::size_t>(i);
-    note(common, fmt::format("{}: marker {} is left out: it lies {:.1f} mm from its place", place,
+    note(common, fmt::format("{}: marker {} is left out: it is {:.1f} mm from its place", place,
                              set.label[k], *fit.residual[k]));
   }
   for (const auto& [a, b] : fit.swapped) {
-    note(common, fmt::format("{}: {} and {} look swapped: each lies where the other belongs", place,
+    note(common, fmt::format("{}: {} and {} look swapped: each is where the other belongs", place,
                              set.label[static_cast<std::size_t>(a)],
                              set.label[static_cast<std::size_t>(b)]));
   }
   if (!fit.not_observed.empty()) {
-    note(common, fmt::format("{}: the markers don't tell {}: at or near the reference posture",
+    note(common, fmt::format("{}: the markers don't determine {}: at or near the reference posture",
                              place, names_of(fit.not_observed)));
   }
   if (!fit.at_limit.empty()) {
@@ -178,14 +178,14 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
       if (++skipped <= 3) note(common, place + " is left out: " + fit.message);
       continue;
     }
-    // Of a long recording the first frame is told in full, the others are summed up.
+    // Of a long recording the first frame is reported in full, the others are summed up.
     if (report.postures.empty() || fit.status == PostureFitStatus::kPoor || !fit.outliers.empty()) {
       note_fit(common, place, fit, matched.set);
     }
     if (before && fit.not_observed != before->not_observed && ++changes <= 5) {
       note(common, place + (fit.not_observed.empty()
                                 ? ": all angles are observed"
-                                : ": the markers don't tell " + names_of(fit.not_observed)));
+                                : ": the markers don't determine " + names_of(fit.not_observed)));
     }
     before = fit;
     sum += fit.rms;
@@ -229,7 +229,7 @@ PostureReport from_mesh(const PoseArguments& arguments, const Hand& hand,
   }
   note(common, arguments.mesh + ": " + fit.message);
   if (!fit.not_observed.empty()) {
-    note(common, arguments.mesh + ": the mesh doesn't tell " + names_of(fit.not_observed));
+    note(common, arguments.mesh + ": the mesh doesn't determine " + names_of(fit.not_observed));
   }
   FoundPosture found;
   found.frame.posture = fit.posture;
@@ -306,18 +306,19 @@ void add_hand_pose(CLI::App& hand, Context& context) {
   verb->add_option("--posture", o->posture, "Named posture: reference, fist, ...");
   verb->add_option("--angles", o->angles, "Joint angles: JSON or CSV, NAME_deg");
   verb->add_option("--markers", o->markers, "Marker positions: C3D, or CSV with LABEL_x_mm ...");
-  verb->add_option("--marker-set", o->marker_set,
-                   "Where the markers sit: a CSV or JSON file, or dorsal (25 landmarks); default "
-                   "dorsal");
+  verb->add_option(
+      "--marker-set", o->marker_set,
+      "Where the markers are: a CSV or JSON file, or dorsal (25 landmarks); default dorsal");
   verb->add_option("--marker-height-mm", o->height_mm,
                    "Centres of the dorsal set's markers above the skin")
       ->capture_default_str();
-  verb->add_option("--marker-sd-mm", o->marker_sd_mm, "How far a marker is expected to be off")
+  verb->add_option("--marker-sd-mm", o->marker_sd_mm,
+                   "Expected error of a marker (standard deviation), mm")
       ->capture_default_str();
   verb->add_option("--mesh", o->mesh, "Mesh of a posed hand: STL, OBJ, PLY, 3MF, glTF");
   verb->add_option("--unit", o->unit, "Unit of the markers' or mesh's file: mm, cm, m or inch");
   verb->add_flag("--fit-scale", o->fits_scale, "Also fit one overall size of the hand");
-  verb->add_option("--frame", o->frame, "Which frame of a file with several: its number, or all");
+  verb->add_option("--frame", o->frame, "Frame of a file that has several: its number, or all");
   verb->add_option("--set", o->settings, "Angle of one degree of freedom, NAME=DEG; repeatable");
   verb->add_option("--out", o->out,
                    "File to write, repeatable: .json, .csv (angles and residuals), .glb (skin by "

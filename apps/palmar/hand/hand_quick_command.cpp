@@ -42,7 +42,7 @@ std::vector<SizedDimension> measured_sizes(const QuickArguments& arguments) {
 }
 
 std::string text_of(const PersonEstimate& estimate, const Population& population) {
-  std::string text = fmt::format("{:<26} {:>8} {:>8}  (mm; 95 of 100 such hands lie within +-)\n",
+  std::string text = fmt::format("{:<26} {:>8} {:>8}  (mm; 95 of 100 such hands are within +-)\n",
                                  "dimension", "value", "+-");
   for (const EstimatedDimension& one : estimate.dimensions) {
     text += fmt::format("{:<26} {:8.1f} {:8.1f}  {}\n", name_of(one.dimension), one.value,
@@ -74,11 +74,11 @@ int run_quick(const QuickArguments& arguments, const Context& context) {
 
 void add_hand_quick(CLI::App& hand, Context& context) {
   const auto o = std::make_shared<QuickArguments>();
-  CLI::App* verb = add_verb(
-      hand, "quick",
-      "A hand from a few measures, or from one photograph of it flat on a sheet of A4 or beside a "
-      "bank card, and a population; tells how well each dimension is known",
-      "palmar hand quick --hand-length-mm 181 --circumference-mm 190 --out anna.hand.glb");
+  CLI::App* verb =
+      add_verb(hand, "quick",
+               "A hand from a few measurements, or from one photograph of it flat on a sheet of A4 "
+               "or beside a bank card, and a population; says how well each dimension is known",
+               "palmar hand quick --hand-length-mm 181 --circumference-mm 190 --out anna.hand.glb");
   verb->add_option(
       "PHOTO", o->request.photo,
       "PNG or JPEG: the hand palm down on a white sheet, fingers spread, the crease of "
@@ -88,19 +88,21 @@ void add_hand_quick(CLI::App& hand, Context& context) {
   verb->add_option("--hand-length-mm", o->length, "Wrist crease to tip of the middle finger");
   verb->add_option("--circumference-mm", o->circumference, "Girth over the metacarpal heads");
   verb->add_option("--width-mm", o->width, "Breadth over the metacarpal heads");
-  verb->add_option("--dimension", o->dimensions, "Any other, NAME=MM; repeatable")
+  verb->add_option("--dimension", o->dimensions,
+                   "Any other dimension, NAME=MM; may be given several times")
       ->allow_extra_args(false);
   verb->add_option("--error-mm", o->request.error, "Standard error of what you measured by hand")
       ->capture_default_str();
-  verb->add_option("--population", o->request.population, "Of what people: a name or a .toml file")
+  verb->add_option("--population", o->request.population,
+                   "Population that the person belongs to: a name or a .toml file")
       ->capture_default_str();
   verb->add_option("--sheet", o->request.sheet,
-                   "a4, letter or card; default: a sheet, told by its shape");
+                   "a4, letter or card; default: a sheet, recognised by its shape");
   verb->add_option(
           "--wrist-inside-mm", o->request.wrist_inside,
-          "How far inside the sheet's edge the crease of the wrist lies, or beyond the card's")
+          "How far inside the sheet's edge the crease of the wrist is, or beyond the card's")
       ->capture_default_str();
-  verb->add_flag("--palm-up", o->request.palm_up, "The palm looks at the camera");
+  verb->add_flag("--palm-up", o->request.palm_up, "The palm faces the camera");
   verb->add_option("--side", o->side, "right or left; with a photograph only checked");
   verb->add_option("--picture", o->request.picture,
                    "PNG to write: the photograph with what was found drawn on it");

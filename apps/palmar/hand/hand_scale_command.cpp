@@ -190,13 +190,13 @@ void add_hand_scale(CLI::App& hand, Context& context) {
                    "Any of the 47 dimensions, NAME=MM (index_proximal_length=22); repeatable")
       ->allow_extra_args(false);
   verb->add_option("--table", o->table,
-                   "CSV of subjects; every dimension in the row's columns is asked for");
+                   "CSV of subjects; every dimension in the row's columns is requested");
   verb->add_option(
       "--row", o->row,
       "Which row: its entry in the column subject, id, name or label; its number from 1 if "
       "there is no such column");
-  verb->add_option("--factor", o->factor, "Everything times one factor instead");
-  verb->add_option("--out", o->out, "File to write, *.hand.glb; default: only tell what is met");
+  verb->add_option("--factor", o->factor, "Scale everything by one factor instead");
+  verb->add_option("--out", o->out, "File to write, *.hand.glb; default: only print what is met");
   verb->callback([&context, o] { context.run = [&context, o] { return run_scale(*o, context); }; });
 }
 

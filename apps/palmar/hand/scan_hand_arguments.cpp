@@ -48,10 +48,10 @@ void ScanHandArguments::add_to(CLI::App& verb, const std::string& work_help) {
   verb.add_option("--truth", options_.truth,
                   "subject.json of a synthetic person: how far the hand is off, in the report");
   verb.add_option("--model", options_.model,
-                  "Hand whose segments, regions and joints are laid over the surface")
+                  "Hand whose segments, regions and joints are fitted to the surface")
       ->capture_default_str();
   verb.add_option("--name", options_.name, "Name of the hand; default: that of the file");
-  verb.add_flag("--no-report", no_report_, "Only the hand");
+  verb.add_flag("--no-report", no_report_, "Write only the hand, no report");
   verb.add_option("--work", options_.work, work_help);
 }
 

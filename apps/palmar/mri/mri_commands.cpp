@@ -105,14 +105,14 @@ int run_info(const InfoArguments& arguments, const Context& context) {
 }  // namespace
 
 void add_mri_commands(CLI::App& app, Context& context) {
-  CLI::App* mri = app.add_subcommand("mri", "MR images: what is in them, single steps");
+  CLI::App* mri = app.add_subcommand("mri", "MR images: contents, single steps");
   mri->require_subcommand(1);
   mri->fallthrough();
 
   const auto folder = std::make_shared<std::string>();
   CLI::App* series = add_verb(*mri, "series", "Series in a folder of DICOM files",
                               "palmar mri series subject3/mri");
-  series->add_option("FOLDER", *folder, "Looked through with the folders in it")->required();
+  series->add_option("FOLDER", *folder, "Folder to search, with the folders in it")->required();
   series->callback([&context, folder] {
     context.run = [&context, folder] { return run_series(*folder, context); };
   });
@@ -122,7 +122,8 @@ void add_mri_commands(CLI::App& app, Context& context) {
                             "palmar mri info subject3/mri --series 1");
   info->add_option("IMAGE", o->image, "Folder of DICOM files, .nii or .nii.gz")->required();
   info->add_option("--series", o->choice.number, "Number of the series, if there are several");
-  info->add_option("--description", o->choice.description, "Or a part of its description");
+  info->add_option("--description", o->choice.description,
+                   "Part of its description, instead of the number");
   info->callback([&context, o] { context.run = [&context, o] { return run_info(*o, context); }; });
   add_mri_steps(*mri, context);
   mri->footer("Example: palmar mri series subject3/mri");

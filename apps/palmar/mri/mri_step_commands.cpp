@@ -84,14 +84,13 @@ void add_surfaces(CLI::App& mri, Context& context) {
   verb->add_option("--series", a->request.choice.number,
                    "Number of the series, if the folder has several");
   verb->add_option("--description", a->request.choice.description,
-                   "Part of the series' description, likewise");
+                   "Part of the series' description, instead of the number");
   verb->add_option("--labels", a->request.labels,
                    "Names for bones: CSV with name, x_mm, y_mm, z_mm");
-  verb->add_option("--model", a->request.model, "Hand that tells what bones there are")
-      ->capture_default_str();
+  verb->add_option("--model", a->request.model, "Hand that names the bones")->capture_default_str();
   a->surfaces.add_to(*verb);
   verb->add_flag("--accept-odd-slices", a->request.accepts_odd_slices,
-                 "Go on though a slice doesn't belong between its neighbours");
+                 "Continue although a slice doesn't fit between its neighbours");
   verb->callback(
       [&context, a] { context.run = [&context, a] { return run_surfaces(*a, context); }; });
 }
@@ -135,8 +134,8 @@ void add_motion(CLI::App& mri, Context& context) {
       ->required();
   verb->add_option("POSTURE", a->request.posture, "Another one, of another posture")->required();
   verb->add_option("--images", a->images,
-                   "Images of both (DICOM folder or NIfTI): bones are laid on their "
-                   "intensities, which is more accurate than on their surfaces")
+                   "Images of both (DICOM folder or NIfTI): bones are aligned by their "
+                   "intensities, which is more accurate than by their surfaces")
       ->expected(2);
   verb->callback(
       [&context, a] { context.run = [&context, a] { return run_motion(*a, context); }; });

@@ -59,7 +59,7 @@ int run_mri(const PhantomArguments& arguments, const Context& context) {
 }  // namespace
 
 void add_phantom_commands(CLI::App& app, Context& context) {
-  CLI::App* phantom = app.add_subcommand("phantom", "Synthetic persons, whose truth is known");
+  CLI::App* phantom = app.add_subcommand("phantom", "Synthetic persons with known truth");
   phantom->require_subcommand(1);
   phantom->fallthrough();
   const auto o = std::make_shared<PhantomArguments>();
@@ -97,7 +97,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_flag("--no-markers", o->no_markers, "None");
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
   verb->add_flag("--both-hands", o->request.both_hands,
-                 "The other hand lies beside it, on the patient's left");
+                 "The other hand is beside it, on the patient's left");
   verb->add_option("--base", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

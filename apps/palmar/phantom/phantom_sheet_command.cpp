@@ -64,7 +64,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->add_option("--hand", o->request.hand,
-                   "One of Palmar's hands instead of a person of its own: \"template\" or a "
+                   "One of Palmar's hands instead of a synthetic person: \"template\" or a "
                    ".hand.glb file; truth.hand.glb is written then");
   verb->add_option("--side", o->side, "right or left")->capture_default_str();
   verb->add_option("--sheet", o->request.sheet, "a4, letter or card (a bank card beside the hand)")
@@ -81,7 +81,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
   verb->add_option("--together", o->request.together, "0: fingers spread; 1: side by side")
       ->capture_default_str();
   verb->add_option("--wrist-inside-mm", p.wrist_inside,
-                   "How far inside the sheet's edge the wrist crease lies")
+                   "How far inside the sheet's edge the wrist crease is")
       ->capture_default_str();
   verb->add_option("--focal", p.focal,
                    "Of the lens over the picture's longer side; 0.74: 26 mm on film, as most "

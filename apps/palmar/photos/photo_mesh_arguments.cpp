@@ -12,18 +12,20 @@ PhotoMeshArguments::PhotoMeshArguments() {
 }
 
 void PhotoMeshArguments::add_to(CLI::App& verb) {
-  verb.add_option("--lenses", options_.lenses,
-                  "Lenses: a file of palmar photos calibrate, or a folder of photographs of the "
-                  "tilted board; without, they are found from the photographs of the hand, which "
-                  "tell less");
+  verb.add_option(
+      "--lenses", options_.lenses,
+      "Lenses: a file of palmar photos calibrate, or a folder of photographs of the tilted board; "
+      "without, they are found from the photographs of the hand, which is less accurate");
   verb.add_option("--box-mm", box_,
                   "Width, depth, height of the space above the board's middle that holds the hand")
       ->capture_default_str();
-  verb.add_option("--cut-mm", options_.model.cut, "The mesh ends so far above the board")
+  verb.add_option("--cut-mm", options_.model.cut,
+                  "Height above the board at which the mesh ends, mm")
       ->capture_default_str();
-  verb.add_option("--pixel-mm", options_.model.pixel, "What a pixel covers on the hand, for stereo")
+  verb.add_option("--pixel-mm", options_.model.pixel, "Size of a pixel on the hand for stereo, mm")
       ->capture_default_str();
-  verb.add_flag("--no-motion", no_motion_, "The hand surely did not move: don't look for it");
+  verb.add_flag("--no-motion", no_motion_,
+                "The hand certainly didn't move: don't correct its motion");
 }
 
 PhotoMeshOptions PhotoMeshArguments::options() const {

@@ -57,7 +57,7 @@ void add_photos_commands(CLI::App& app, Context& context) {
   photos->footer("Example: palmar photos mesh photos/ --lenses lenses.json --out hand.ply");
 
   const auto b = std::make_shared<PhotoBoardRequest>();
-  CLI::App* board = add_verb(*photos, "board", "The board that the hand stands on, to be printed",
+  CLI::App* board = add_verb(*photos, "board", "The board under the hand, to be printed",
                              "palmar photos board --out board.svg");
   board->add_option("--out", b->out, "The drawing, .svg in millimetres")->required();
   board->add_option("--squares", b->board.squares, "Along an edge; odd")->capture_default_str();
@@ -71,9 +71,9 @@ void add_photos_commands(CLI::App& app, Context& context) {
                                  "Lenses of cameras from about 12 photographs each of the board, "
                                  "tilted every way; focus and zoom as for the hand",
                                  "palmar photos calibrate calibration/ --out lenses.json");
-  calibrate->add_option("folder", c->folder, "Photographs; names like p3_c2.jpg say the camera")
+  calibrate->add_option("folder", c->folder, "Photographs; names like p3_c2.jpg name the camera")
       ->required();
-  calibrate->add_option("--out", c->out, "Lenses, JSON")->required();
+  calibrate->add_option("--out", c->out, "JSON file to write: the lenses")->required();
   calibrate->callback(
       [&context, c] { context.run = [&context, c] { return run_calibrate(*c, context); }; });
 

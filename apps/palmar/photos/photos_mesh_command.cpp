@@ -58,13 +58,14 @@ int run_mesh(const PhotosMeshArguments& arguments, const Context& context) {
 void add_photos_mesh_command(CLI::App& photos, Context& context) {
   const auto o = std::make_shared<PhotosMeshArguments>();
   CLI::App* verb = add_verb(photos, "mesh",
-                            "A coloured mesh in millimetres from photographs of a hand that stands "
-                            "on the middle of the board, taken from all round at two heights",
+                            "A coloured mesh in millimetres from photographs of a hand on the "
+                            "middle of the board, taken from all round at two heights",
                             "palmar photos mesh photos/ --lenses lenses.json --out hand.ply");
   verb->add_option("folder", o->request.folder,
-                   "Photographs (.png, .jpg); names like p3_c2.jpg say position and camera")
+                   "Photographs (.png, .jpg); names like p3_c2.jpg name position and camera")
       ->required();
-  verb->add_option("--out", o->request.out, "The mesh, .ply; a report goes beside it")->required();
+  verb->add_option("--out", o->request.out, "Mesh to write, .ply; a report is written beside it")
+      ->required();
   o->mesh.add_to(*verb);
   verb->callback([&context, o] { context.run = [&context, o] { return run_mesh(*o, context); }; });
 }

@@ -8,7 +8,7 @@ namespace palmar::cli {
 
 void add_population_commands(CLI::App& app, Context& context) {
   CLI::App* population =
-      app.add_subcommand("population", "Whose hands: built-in populations, tables of subjects");
+      app.add_subcommand("population", "Built-in populations and tables of subjects");
   population->require_subcommand(1);
   population->fallthrough();
   add_population_table_verbs(*population, context);

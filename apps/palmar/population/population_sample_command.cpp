@@ -140,21 +140,22 @@ SamplingDesign design_named(const std::string& name) {
 
 void add_sample(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<SampleArguments>();
-  CLI::App* verb = add_verb(noun, "sample", "Draw hands of a population, one row each",
+  CLI::App* verb = add_verb(noun, "sample", "Sample hands of a population, one row each",
                             "palmar population sample ansur2 --hands 30 --out hands.csv");
   verb->add_option("POPULATION", o->population, kNameOrFile)->required();
-  verb->add_option("--hands", o->sampling.hands, "How many (random, latin_hypercube)")
+  verb->add_option("--hands", o->sampling.hands, "Number of hands (random, latin_hypercube)")
       ->capture_default_str();
   verb->add_option("--design", o->design, "random, latin_hypercube, boundary or percentiles")
       ->capture_default_str();
   verb->add_option("--boundary", o->sampling.boundary, "Share of people inside the boundary hands")
       ->capture_default_str();
-  verb->add_option("--points", o->sampling.boundary_points, "Boundary hands beside the mean one")
+  verb->add_option("--points", o->sampling.boundary_points,
+                   "Number of boundary hands beside the mean one")
       ->capture_default_str();
   verb->add_option("--percentiles", o->percentiles,
                    "Percentiles of every stratum: a list as in 5,50,95");
   verb->add_flag("--no-residuals", o->without_residuals,
-                 "Regressed dimensions without the scatter about their regressions");
+                 "Leave out the scatter of regressed dimensions about their regressions");
   verb->add_flag("--csv", o->as_csv, "Table on stdout (as without --json)");
   verb->add_option("--out", o->out, "File to write: .csv, or .json");
   verb->callback([&context, o] {

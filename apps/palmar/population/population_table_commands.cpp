@@ -47,7 +47,7 @@ struct TableArguments {
     verb.add_option("FILE", file, "Table of subjects: CSV, one line per person, units in headings")
         ->required();
     verb.add_option("--by", by,
-                    "Column whose values part the subjects: sex, age (by ten years) ...");
+                    "Column whose values group the subjects: sex, age (by ten years) ...");
     verb.add_option("--where", conditions,
                     "Only subjects that meet it: sex=F, \"age>=40\"; may be given several times");
     verb.add_option("--dimension", dimensions, "Only these columns: A,B,...");
@@ -57,7 +57,7 @@ struct TableArguments {
   }
 
   void add_level_to(CLI::App& verb) {
-    verb.add_option("--level", level, "Of confidence")->capture_default_str();
+    verb.add_option("--level", level, "Confidence level")->capture_default_str();
   }
 
   std::vector<std::string> columns() const { return names_in("--dimension", dimensions); }
@@ -106,13 +106,13 @@ TableResults<Result> analysed(const TableArguments& arguments, std::vector<Table
   return results;
 }
 
-void tell(const Context& context, const std::vector<std::string>& notes) {
+void report_notes(const Context& context, const std::vector<std::string>& notes) {
   for (const std::string& text : notes) note(context.common, text);
 }
 
 /// Columns of numbers that are no dimension of a hand: the population file can't hold them.
-void tell_what_is_left_out(const Context& context, const DimensionTable& table,
-                           const std::string& path) {
+void report_what_is_left_out(const Context& context, const DimensionTable& table,
+                             const std::string& path) {
   std::string headers;
   for (const TableColumn* column : table.measures()) {
     if (!column->dimension) headers += (headers.empty() ? "" : ", ") + column->header;
@@ -147,7 +147,7 @@ void add_describe(CLI::App& noun, Context& context) {
       if (results.groups.front().result.empty()) {
         throw InputError(o->file + " has no column of numbers to describe");
       }
-      tell(context, results.notes);
+      report_notes(context, results.notes);
       o->write_csv("description.csv", descriptions_csv(results));
       print(context.common.json ? descriptions_json(results) + "\n" : descriptions_text(results));
       return 0;
@@ -173,9 +173,10 @@ void write_correlation_charts(const TableArguments& o, const Correlations& resul
 
 void add_correlate(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<TableArguments>();
-  CLI::App* verb = add_verb(noun, "correlate",
-                            "How the dimensions of a table go together: r, interval, significance",
-                            "palmar population correlate hands.csv --by sex --out figures");
+  CLI::App* verb =
+      add_verb(noun, "correlate",
+               "Correlations between the dimensions of a table: r, interval, significance",
+               "palmar population correlate hands.csv --by sex --out figures");
   o->add_to(*verb);
   o->add_level_to(*verb);
   verb->callback([&context, o] {
@@ -184,8 +185,8 @@ void add_correlate(CLI::App& noun, Context& context) {
       const auto results = analysed<TableCorrelation>(*o, groups, [&](const DimensionTable& table) {
         return correlate(table, o->columns(), o->level);
       });
-      tell(context, results.notes);
-      for (const auto& group : results.groups) tell(context, group.result.notes);
+      report_notes(context, results.notes);
+      for (const auto& group : results.groups) report_notes(context, group.result.notes);
       if (!o->out.empty()) {
         o->write_csv("correlation.csv", correlations_csv(results));
         write_correlation_charts(*o, results);
@@ -269,11 +270,11 @@ void add_regress(CLI::App& noun, Context& context) {
   o->table.add_to(*verb);
   o->table.add_level_to(*verb);
   verb->add_option("--on", o->on,
-                   "Predictors A,B,...; unless given hand_length and hand_circumference");
+                   "Predictors A,B,...; default: hand_length and hand_circumference");
   verb->add_option("--population-out", o->population_out,
                    "Population file (TOML) to write, driven by the predictors");
-  verb->add_option("--name", o->name, "Of the population; unless given that of its file");
-  verb->add_option("--title", o->title, "Of the population, for people");
+  verb->add_option("--name", o->name, "Name of the population; default: that of its file");
+  verb->add_option("--title", o->title, "Title of the population, for people");
   verb->callback([&context, o] {
     context.run = [&context, o] {
       std::vector<TableGroup> groups;
@@ -284,7 +285,7 @@ void add_regress(CLI::App& noun, Context& context) {
             if (predictors.empty()) predictors = usual_predictors(table);
             return regress(table, predictors, o->table.columns());
           });
-      tell(context, results.notes);
+      report_notes(context, results.notes);
       if (results.groups.front().result.empty() && o->population_out.empty()) {
         throw UsageError(o->table.file + " has no column beside the predictors to regress");
       }
@@ -298,8 +299,8 @@ void add_regress(CLI::App& noun, Context& context) {
         const Population population = population_of_table(
             groups, predictors, name, o->title.empty() ? "People of " + stem : o->title);
         write_population(o->population_out, population);
-        tell(context, population.cautions);
-        tell_what_is_left_out(context, groups.front().table, o->population_out);
+        report_notes(context, population.cautions);
+        report_what_is_left_out(context, groups.front().table, o->population_out);
         note(context.common, "wrote " + o->population_out);
       }
       print(context.common.json ? regressions_json(results) + "\n" : regressions_text(results));

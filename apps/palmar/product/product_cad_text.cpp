@@ -22,11 +22,11 @@ std::string hex_of(const std::array<float, 3>& colour) {
 
 }  // namespace
 
-std::string cad_text(const ImportedCad& cad, const std::string& told_unit) {
-  const std::string in_file = cad.unit.empty() ? "not told" : cad.unit;
-  const std::string unit = told_unit.empty()
+std::string cad_text(const ImportedCad& cad, const std::string& stated_unit) {
+  const std::string in_file = cad.unit.empty() ? "not stated" : cad.unit;
+  const std::string unit = stated_unit.empty()
                                ? fmt::format("{} ({:.6g} mm)", in_file, cad.millimetres_per_unit)
-                               : fmt::format("{} as told (file: {})", told_unit, in_file);
+                               : fmt::format("{} as given (file: {})", stated_unit, in_file);
   std::string text = fmt::format(
       "{}, unit {}: {} bod{}, {} solid{}, {} faces, {} edges, volume {}\n"
       "chordal error {:.4g} mm: {}\n",

@@ -10,7 +10,7 @@
 namespace palmar::cli {
 
 /// Bodies, faces with area and colour, tolerance of a CAD file, for `palmar product info`.
-std::string cad_text(const ImportedCad& cad, const std::string& told_unit = "");
+std::string cad_text(const ImportedCad& cad, const std::string& stated_unit = "");
 nlohmann::ordered_json cad_json(const ImportedCad& cad);
 
 /// What the CAD kernel finds, for `palmar product check`.

@@ -137,8 +137,9 @@ int convert(const FileArguments& o, const Context& context) {
 
 void add_convert(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<FileArguments>();
-  CLI::App* verb = add_verb(noun, "convert", "Another format, in mm, welded and oriented",
-                            "palmar product convert handle.3mf --out handle.stl");
+  CLI::App* verb =
+      add_verb(noun, "convert", "Convert to another format, in mm, welded and oriented",
+               "palmar product convert handle.3mf --out handle.stl");
   verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   verb->add_option("--out", o->out, "File to write: .stl, .obj or .ply; .step if it was CAD")
@@ -154,7 +155,8 @@ void add_product_commands(CLI::App& app, Context& context) {
   product->require_subcommand(1);
   product->fallthrough();
   add_inspection(*product, context, "info", "Size, area, volume and state of a mesh", false);
-  add_inspection(*product, context, "check", "Like info; exit code 5 if something is wrong", true);
+  add_inspection(*product, context, "check",
+                 "Check a product like info, with exit code 5 if something is wrong", true);
   add_convert(*product, context);
   add_product_repair(*product, context);
   add_product_make_command(*product, context);

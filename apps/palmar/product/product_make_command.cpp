@@ -133,7 +133,8 @@ void make_files(const MakeArguments& o, const Context& context) {
   }
   if (in_folder && o.out.size() > 1) {
     throw UsageError("--out " + o.out.front() + " and --out " + o.out[1] +
-                     ": a folder stands alone; --format step,stl tells which files it gets");
+                     ": a folder can't be combined with other outputs; --format step,stl says "
+                     "which files it gets");
   }
   ProductVariantsRequest files;
   files.chordal_error = o.chordal_error;

@@ -104,17 +104,18 @@ int repair(const RepairArguments& o, const Context& context) {
 void add_product_repair(CLI::App& product, Context& context) {
   const auto o = std::make_shared<RepairArguments>();
   CLI::App* verb =
-      add_verb(product, "repair", "Repair what is safe, say what was done and what is left",
+      add_verb(product, "repair", "Repair what is safe, and report what was done and what is left",
                "palmar product repair scan.stl --unit mm --out repaired.stl");
   verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   verb->add_option("--out", o->out, "File to write, in mm: .stl, .obj or .ply")->required();
   verb->add_option("--weld-mm", o->options.weld,
-                   "Vertices this near become one; without it a millionth of the diagonal");
+                   "Vertices nearer than this become one; default: a millionth of the diagonal");
   verb->add_option("--hole-mm", o->options.hole,
-                   "Longest rim of a hole that is filled; without it a fifth of the diagonal");
-  verb->add_option("--speck-mm", o->options.speck,
-                   "Pieces below this diagonal are dropped; without it a hundredth of the whole's");
+                   "Longest border of a hole that is filled; default: a fifth of the diagonal");
+  verb->add_option(
+      "--speck-mm", o->options.speck,
+      "Pieces with a smaller diagonal are dropped; default: a hundredth of the whole's");
   verb->callback([&context, o] { context.run = [&context, o] { return repair(*o, context); }; });
 }
 

@@ -12,9 +12,8 @@ void add_commands(CLI::App& app, Context& context) {
   add_grasp_commands(app, context);
   add_contact_commands(app, context);
   add_effort_commands(app, context);
-  add_elsewhere(app, context, kCaptureProgram, "mri", "MR images: what is in them, single steps");
-  add_elsewhere(app, context, kCaptureProgram, "phantom",
-                "Synthetic persons, whose truth is known");
+  add_elsewhere(app, context, kCaptureProgram, "mri", "MR images: contents, single steps");
+  add_elsewhere(app, context, kCaptureProgram, "phantom", "Synthetic persons with known truth");
   add_elsewhere(app, context, kCaptureProgram, "photos",
                 "A coloured mesh of a hand from photographs: board, lenses, mesh");
   add_population_commands(app, context);
@@ -22,7 +21,7 @@ void add_commands(CLI::App& app, Context& context) {
                 "Better shapes for the same hands, and back to CAD");
   add_study_commands(app, context);
   add_elsewhere(app, context, kRedesignProgram, "validate",
-                "Hold the simulator against closed forms and measurements; exit code 5 on a miss");
+                "Compare the simulator with closed forms and measurements; exit code 5 on a miss");
   add_doctor_command(app, context);
 }
 

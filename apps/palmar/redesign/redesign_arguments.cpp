@@ -20,7 +20,7 @@ void RedesignArguments::add_to(CLI::App& verb) {
                   "population file (.toml) or a table of given hands (.csv)")
       ->allow_extra_args(false)
       ->capture_default_str();
-  verb.add_option("--hands", request.hands, "Hands to draw from each population")
+  verb.add_option("--hands", request.hands, "Number of hands to sample from each population")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   verb.add_option("--hand", request.hand, "Hand that is scaled: template or a *.hand.glb file");
@@ -29,7 +29,7 @@ void RedesignArguments::add_to(CLI::App& verb) {
   verb.add_option("--axis", axis, "Direction of the handle there: x,y,z");
   verb.add_option("--posture", posture,
                   "kept: redesigns are held in the posture in which the same hand holds the "
-                  "original; new: grasped by themselves")
+                  "original; new: each is grasped on its own")
       ->capture_default_str();
   verb.add_option("--grip-force-n", request.grip_force,
                   "Grip force with which all are held, N; 0: as closed. With --posture new")

@@ -57,7 +57,8 @@ void add_common(CLI::App& verb, FeatureArguments& a) {
                   "Most that any point of the surface may move, mm");
   verb.add_option("--keep-out", a.request.limits.keep_out,
                   "Faces that must stay as they are: face=3+5, name=grip, ends");
-  verb.add_option("--smallest-radius-mm", a.request.limits.smallest_radius, "Of fillets")
+  verb.add_option("--smallest-radius-mm", a.request.limits.smallest_radius,
+                  "Smallest radius of fillets, mm")
       ->capture_default_str();
   verb.add_option("--smallest-volume", a.request.limits.smallest_volume,
                   "Least volume as a share of the original's");
@@ -67,11 +68,13 @@ void add_common(CLI::App& verb, FeatureArguments& a) {
                   "Least grip force as a share of the original's (a kept posture on a smaller "
                   "product holds with less force)");
   verb.add_option("--lost-hands", a.request.limits.lost_hands,
-                  "Most hands that may lose hold, as a share of those that hold the original")
+                  "Largest share of hands that may no longer hold the product, out of those that "
+                  "hold the original")
       ->capture_default_str();
-  verb.add_option("--evaluations", a.request.search.evaluations, "Most candidates that hands hold")
+  verb.add_option("--evaluations", a.request.search.evaluations,
+                  "Largest number of candidates that are made and held")
       ->capture_default_str();
-  verb.add_option("--step-mm", a.request.step, "Sizes are rounded to this, as a machine keeps it")
+  verb.add_option("--step-mm", a.request.step, "Sizes are rounded to this step, mm")
       ->capture_default_str();
   verb.add_option("--optimiser", a.optimiser, "auto, cobyla, bobyqa, direct")
       ->capture_default_str();
@@ -90,7 +93,8 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
     verb->add_option("--edges", a->edges,
                      "long, convex, concave, edge=3+5, face=7 (a fillet) or name=grip, joined by +")
         ->capture_default_str();
-    verb->add_option("--radius-mm", a->radius, "Range as 1:15, or one radius that is just made")
+    verb->add_option("--radius-mm", a->radius,
+                     "Range as 1:15, or one radius that is made without a search")
         ->capture_default_str();
     verb->callback([a, &context] {
       context.run = [a, &context] {
@@ -105,23 +109,24 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
       "palmar redesign features \"made: cylinder diameter_mm=30 length_mm=130\" --vary "
       "diameter_mm=25:45 --posture new --hands 30 --out handle");
   add_common(*verb, *a);
-  verb->add_option("--vary", a->request.vary,
-                   "Feature and its range, or one value that is just made: fillet:EDGES=1:15, "
-                   "offset:FACES=-2:2, taper:FACES=0:4 (deg), groove:at=40=0:2 (ring 40 mm from "
-                   "the middle, depth), groove:LINE.csv=1.5, PARAMETER=25:45 of a made product; "
-                   "may be repeated")
+  verb->add_option(
+          "--vary", a->request.vary,
+          "Feature and its range, or one value that is made without a search: fillet:EDGES=1:15, "
+          "offset:FACES=-2:2, taper:FACES=0:4 (deg), groove:at=40=0:2 (ring 40 mm from the middle, "
+          "depth), groove:LINE.csv=1.5, PARAMETER=25:45 of a made product; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--groove-radius-mm", a->request.grooves.radius,
-                   "Of a groove's section: the cutter's")
+                   "Radius of a groove's section, that of the cutter, mm")
       ->capture_default_str();
-  verb->add_option("--groove-rim-mm", a->request.grooves.rim, "Radius along a groove's rims")
+  verb->add_option("--groove-rim-mm", a->request.grooves.rim,
+                   "Radius along the edges of a groove, mm")
       ->capture_default_str();
   verb->add_option("--smallest-groove-radius-mm", a->request.smallest_groove_radius,
-                   "Smallest cutter that can be used")
+                   "Smallest cutter radius that can be used, mm")
       ->capture_default_str();
   verb->add_flag("--propose", a->request.proposes,
-                 "Don't search: say which features carry the peaks, try a change of each, and rank "
-                 "them by what they gain");
+                 "Don't search: list the features that carry the peaks, try one change of each, "
+                 "and rank the changes by their gain");
   verb->callback([a, &context] {
     context.run = [a, &context] {
       return naming_options(kFeatureOptions, [&] { return run_features(*a, context); });

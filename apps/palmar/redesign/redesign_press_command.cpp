@@ -57,7 +57,7 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
   a->redesign.add_to(*verb);
   PressedShapeOptions& o = a->request.shape;
   verb->add_option("--share", o.share,
-                   "Of the overlap of undeformed skin and product, 0 to 1: 1 makes room for all")
+                   "Share of the overlap of undeformed skin and product that is removed, 0 to 1")
       ->capture_default_str();
   verb->add_option(
           "--over", a->over,
@@ -66,24 +66,27 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
       ->capture_default_str();
   verb->add_option("--align", a->align,
                    "axis: before they are combined, shift every hand along the handle until its "
-                   "imprint lies best on those of all")
+                   "imprint fits those of all best")
       ->check(CLI::IsMember({"none", "axis"}))
       ->capture_default_str();
-  verb->add_option("--depth-limit-mm", o.depth_limit, "Never deeper")->capture_default_str();
-  verb->add_option("--wall-mm", o.wall, "Thickness that must remain")->capture_default_str();
+  verb->add_option("--depth-limit-mm", o.depth_limit, "Largest depth, mm")->capture_default_str();
+  verb->add_option("--wall-mm", o.wall, "Wall thickness that must remain, mm")
+      ->capture_default_str();
   verb->add_option("--keep-face", a->request.keep_faces,
                    "CAD face that must stay as it is: its number or name; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--keep-box-mm", a->keep_boxes,
                    "Box that must stay as it is: x,y,z,x,y,z, lower corner first; may be repeated")
       ->allow_extra_args(false);
-  verb->add_option("--keep-blend-mm", o.keep_out.blend, "Over which the depth grows beside them")
+  verb->add_option("--keep-blend-mm", o.keep_out.blend,
+                   "Width over which the depth grows beside kept faces and boxes, mm")
       ->capture_default_str();
-  verb->add_option("--smoothing-mm", o.smoothing, "Standard deviation of the smoothing")
+  verb->add_option("--smoothing-mm", o.smoothing, "Standard deviation of the smoothing, mm")
       ->capture_default_str();
-  verb->add_option("--rim-mm", o.rim_width, "Round the imprint, over which the depth ends")
+  verb->add_option("--rim-mm", o.rim_width,
+                   "Width round the imprint over which the depth falls to 0, mm")
       ->capture_default_str();
-  verb->add_option("--edge-mm", o.edge_length, "Longest edge of triangles that move")
+  verb->add_option("--edge-mm", o.edge_length, "Longest edge of triangles that move, mm")
       ->capture_default_str();
   verb->add_option("--format", a->request.formats,
                    "stl, obj, ply: file of the shape; may be repeated")
@@ -91,7 +94,7 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
       ->allow_extra_args(false)
       ->capture_default_str();
   verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
-  verb->add_flag("--no-compare", a->no_compare, "Only make the shape; hands don't hold it again");
+  verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
   verb->callback([a, &context] {
     context.run = [a, &context] {
       return naming_options(redesign_options({{"over", "--over"}, {"formats", "--format"}}),

@@ -62,44 +62,45 @@ void add_redesign_region_command(CLI::App& noun, Context& context) {
       "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 4 --out "
       "region");
   a->redesign.add_to(*verb);
-  verb->add_option("--share", a->share, "Of the hands that must touch: any, half, or 0 to 1")
+  verb->add_option("--share", a->share, "Share of the hands that must touch: any, half, or 0 to 1")
       ->capture_default_str();
-  verb->add_option("--threshold-mpa", a->request.threshold, "A hand touches where it presses more")
+  verb->add_option("--threshold-mpa", a->request.threshold,
+                   "Pressure above which a hand counts as touching, MPa")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  verb->add_option("--smoothing-mm", a->request.region.smoothing, "By which outlines are rounded")
+  verb->add_option("--smoothing-mm", a->request.region.smoothing, "Smoothing of the outlines, mm")
       ->capture_default_str();
   verb->add_option("--smallest-area-mm2", a->request.region.smallest_area,
-                   "Smaller specks and holes are dropped")
+                   "Smaller patches and holes are dropped, mm2")
       ->capture_default_str();
   verb->add_option("--pressed-share", a->request.pressed_share,
-                   "Of the mean imprint by which the surface is set back before simple surfaces "
-                   "are fitted to it")
+                   "Share of the mean imprint by which the surface is moved inwards before simple "
+                   "surfaces are fitted to it")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   verb->add_flag("--no-relief", a->no_relief, "Only export the region; no redesign");
   verb->add_option("--relief-share", a->relief_share,
-                   "Ridges are rounded as far as that share of the hands touch them: any, half, or "
-                   "0 to 1")
+                   "Ridges are rounded over the length that this share of the hands touches: any, "
+                   "half, or 0 to 1")
       ->capture_default_str();
   verb->add_option("--fit-share", a->request.relief.share,
-                   "Of the mean imprint that a rounding is fitted to")
+                   "Share of the mean imprint that a rounding is fitted to")
       ->capture_default_str();
   verb->add_option("--largest-depth-mm", a->request.relief.largest_depth,
-                   "By which a ridge may go back")
+                   "Largest depth by which a ridge may go back, mm")
       ->capture_default_str();
   verb->add_option("--smallest-radius-mm", a->request.relief.smallest_radius,
-                   "Of the cutter: ridges get no smaller one")
+                   "Radius of the cutter: ridges get no smaller one, mm")
       ->capture_default_str();
   verb->add_option("--run-out-mm", a->request.relief.run_out,
-                   "Radius of the arc along which the cutter leaves the product")
+                   "Radius of the arc along which the cutter leaves the product, mm")
       ->capture_default_str();
   verb->add_option("--junction-radius-mm", a->request.junction_radius,
                    "Rounds the edges in which the cutter leaves; 0: left as they are")
       ->check(CLI::Range(0.0, 50.0))
       ->capture_default_str();
   verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
-  verb->add_flag("--no-compare", a->no_compare, "Only make the shape; hands don't hold it again");
+  verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
   verb->callback([a, &context] {
     context.run = [a, &context] {
       return naming_options(redesign_options({{"share", "--share"},

@@ -32,7 +32,7 @@ void StudyArguments::add_to(CLI::App& verb) {
       "or "
       "a table of given hands (.csv); xie2014 if not given")
       ->allow_extra_args(false);
-  add("--hands", quick_.hands, "Hands to draw from each population; 30 if not given")
+  add("--hands", quick_.hands, "Number of hands to sample from each population; 30 if not given")
       ->check(CLI::Range(1, QuickStudy::kMostHands));
   add("--profile", quick_.profiles,
       "none, reduced_range, thick_gloves ...; may be given several times")

@@ -33,10 +33,10 @@ void add_report(CLI::App& noun, Context& context) {
                    "Maps of the share of hands above this pressure (blood-flow family)")
       ->capture_default_str();
   verb->add_option("--significance", o->report.comparison.significance,
-                   "Corrected p values below it name a difference")
+                   "Level of the corrected p value below which a difference is named")
       ->capture_default_str();
   verb->add_option("--most-grasps", o->report.most_grasps,
-                   "Grasps in the 3-D view, evenly chosen by hand length; 0: no view")
+                   "Grasps in the 3-D view, chosen evenly by hand length; 0: no view")
       ->capture_default_str();
   verb->add_flag("--no-pictures", o->no_pictures, "No pictures of the maps");
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
@@ -72,7 +72,7 @@ void add_compare(CLI::App& noun, Context& context) {
                    "force_n, an index; all for everything")
       ->delimiter(',');
   verb->add_option("--significance", o->comparison.significance,
-                   "Corrected p values below it name a difference")
+                   "Level of the corrected p value below which a difference is named")
       ->capture_default_str();
   verb->callback([&context, o] {
     context.run = [&context, o] {

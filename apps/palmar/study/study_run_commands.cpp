@@ -40,7 +40,7 @@ Json summary_object(const StudyRunOutcome& outcome) {
 }
 
 /// What came of a run, for people or programs.
-int tell(const StudyRunOutcome& outcome, const CommonOptions& common) {
+int print_outcome(const StudyRunOutcome& outcome, const CommonOptions& common) {
   finish_progress();
   if (common.json) {
     print(summary_object(outcome).dump(2) + "\n");
@@ -68,11 +68,12 @@ int run_run(const RunArguments& arguments, const Context& context) {
   request.study = arguments.study.request(context);
   request.out = arguments.out;
   request.note = notes_of(context);
-  return tell(run_study(request, make_progress(context.common)), context.common);
+  return print_outcome(run_study(request, make_progress(context.common)), context.common);
 }
 
 int run_resume(const std::string& path, const Context& context) {
-  return tell(resume_study(path, notes_of(context), make_progress(context.common)), context.common);
+  return print_outcome(resume_study(path, notes_of(context), make_progress(context.common)),
+                       context.common);
 }
 
 int run_plan(const StudyArguments& arguments, bool no_sample, const Context& context) {
@@ -132,7 +133,7 @@ int run_plan(const StudyArguments& arguments, bool no_sample, const Context& con
 void add_study_run_commands(CLI::App& noun, Context& context) {
   const auto plan_options = std::make_shared<StudyArguments>();
   const auto no_sample = std::make_shared<bool>(false);
-  CLI::App* plan = add_verb(noun, "plan", "Say what would run, how long and in how much memory",
+  CLI::App* plan = add_verb(noun, "plan", "Print what would run, how long and in how much memory",
                             "palmar study plan handles.toml");
   plan_options->add_to(*plan);
   plan->add_flag("--no-sample", *no_sample, "Don't measure a few grasps for the estimate");
@@ -144,12 +145,12 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
 
   const auto run_options = std::make_shared<RunArguments>();
   CLI::App* run = add_verb(
-      noun, "run", "Run a study, or go on with it where its store is there",
+      noun, "run", "Run a study, or continue it if its store exists",
       "palmar study run --product a.stl --product b.stl --unit mm --population ansur2_women "
       "--hands 30 --out study.palmar");
   run_options->study.add_to(*run);
   run->add_option("--out", run_options->out,
-                  "Store to write; if it is there and of this study, what is missing is run");
+                  "Store to write; an existing store of this study is continued");
   run->add_option("--shard", run_options->shard,
                   "k/n: only every n-th hand, from the k-th; `study merge` joins the shards");
   run->callback([&context, run_options] {
@@ -157,7 +158,7 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   });
 
   const auto path = std::make_shared<std::string>();
-  CLI::App* resume = add_verb(noun, "resume", "Go on with a study that was stopped",
+  CLI::App* resume = add_verb(noun, "resume", "Continue a study that was stopped",
                               "palmar study resume study.palmar");
   resume->add_option("STORE", *path, "Store of the study")->required();
   resume->callback(

@@ -107,8 +107,7 @@ void add_study_shard_commands(CLI::App& noun, Context& context) {
                "palmar study merge shards/*.palmar --out study.palmar");
   merge->add_option("SHARD", merge_options->shards, "Finished shards, or a folder with them")
       ->required();
-  merge->add_option("--out", merge_options->out, "Store to write; must not be there yet")
-      ->required();
+  merge->add_option("--out", merge_options->out, "Store to write; must not exist yet")->required();
   merge->callback([&context, merge_options] {
     context.run = [&context, merge_options] { return run_merge(*merge_options, context); };
   });

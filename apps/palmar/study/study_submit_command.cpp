@@ -37,9 +37,8 @@ int run_submit(const SubmitArguments& arguments, const Context& context) {
     print(outcome.script);
   } else {
     print(
-        fmt::format("{}\njob {}: {} shards in {}\n"
-                    "palmar study status {}    tells how far they are\n"
-                    "palmar study merge {} --out study.palmar    joins them\n",
+        fmt::format("{}\njob {}: {} shards in {}\npalmar study status {}    shows how far they "
+                    "are\npalmar study merge {} --out study.palmar    joins them\n",
                     study_size_text(outcome.plan), outcome.job, outcome.array.shards,
                     outcome.array.folder.string(), arguments.out, arguments.out));
   }
@@ -53,7 +52,8 @@ void add_study_submit_command(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(noun, "submit", "Run a study's shards as a Slurm job array",
                             "palmar study submit handles.toml --shards 20 --out shards "
                             "--sbatch=--partition=long");
-  verb->add_option("FILE", options->request.file, "Study file, in a folder that all nodes see")
+  verb->add_option("FILE", options->request.file,
+                   "Study file, in a folder that is visible to all nodes")
       ->required();
   verb->add_option("--shards", options->request.shards, "Tasks of the job array")
       ->required()
@@ -66,11 +66,12 @@ void add_study_submit_command(CLI::App& noun, Context& context) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   verb->add_option("--minutes", options->request.minutes,
-                   "Time to ask for per shard; else three times what a sample grasp suggests");
-  verb->add_option("--memory-mb", options->request.memory,
-                   "Memory to ask for per shard; else one and a half times that of a sample");
+                   "Time limit per shard; default: three times the estimate from sample grasps");
+  verb->add_option(
+      "--memory-mb", options->request.memory,
+      "Memory limit per shard; default: one and a half times that of the sample grasps");
   verb->add_option("--palmar", options->request.program,
-                   "The program as the nodes see it; else this one");
+                   "Path of the program on the nodes; default: this one");
   verb->add_option(
           "--sbatch", options->request.options,
           "Further option of sbatch, as in --sbatch=--partition=long; may be given several "

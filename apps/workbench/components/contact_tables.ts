@@ -180,7 +180,7 @@ export function settingsTable(assessment: Assessment): Markup {
     ["Limit depth of the fingers", shortNumber(s.finger_limit_depth_mm) + " mm"],
     ["Placement", isGiven ? "as asked" : "found from the product's shape"],
     ["Grip", assessment.grasp.grip],
-    ["Grip force", s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N asked for"
+    ["Grip force", s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N requested"
                                                  : "as firm as closing to the limit depths"],
     ["Comes to rest", s.balance ? "yes" : "no"],
     ["Equations of the contact", s.contact_model],

@@ -68,7 +68,7 @@ export function indexSection(indices: GraspIndex[]): Markup | null {
     });
   });
   return html`<h3>Indices of this grasp</h3>
-<p>Each stands for itself: they are never added up to one number, and those of different groups can't be weighed against each other. Open a name for its definition and source.</p>
+<p>They are never added up to one number, and those of different groups can't be weighed against each other. Open a name for its definition and source.</p>
 ${tables}`;
 }
 

@@ -187,7 +187,7 @@ function faceTable(page: StudyPage, one: FaceStatistics): Markup {
   const untouched = one.faces_in_all - one.faces_touched;
   return html`<p>${one.words}</p>${table({
     caption: ["Faces of " + page.products[one.product].name + " over " + counted(one.hands, "hand") + " that hold it. Peaks: mean ± standard deviation over the hands that touch the face. ",
-              rest > 0 && "Another " + rest + " stand in faces.csv. ",
+              rest > 0 && "Another " + rest + " are in faces.csv. ",
               untouched > 0 && "Of " + one.faces_in_all + " faces nobody touches " + untouched + "."],
     columns: [words("Face"), numbers("Highest of the product in"), numbers("Touched by"), numbers("Peak, MPa"),
               numbers("95th percentile, MPa"), numbers("Largest, MPa"),

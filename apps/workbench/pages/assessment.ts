@@ -45,7 +45,7 @@ function methodLimits(first: Assessment): Markup {
   const items = [
     settings.tissue_model === "halfspace"
       ? "The skin is endlessly deep tissue whose stiffness grows with depth, region by region; the bone under it is not modelled, so peaks over bone are too low where the skin is thin."
-      : "The skin is one elastic layer over bone, as deep as the bones of this hand stand under it; fat, nail and tendons are not told apart.",
+      : "The skin is one elastic layer over bone, as thick as the skin over the bones of this hand; fat, nail and tendons are not distinguished.",
     settings.balance
       ? "Product and fingers come to rest once; people also change their hold, spread the fingers and press harder when they feel it slip."
       : "The hand is as it was closed to given depths: forces don't balance.",
@@ -59,7 +59,7 @@ function methodLimits(first: Assessment): Markup {
     "One hand. Other people's hands are larger, smaller, stiffer or softer. Its bones are synthetic.",
     settings.regions === "independent" &&
       "Regions are solved one by one; neighbours don't push each other's skin down, which makes forces too high where they meet.",
-    "Limits of pressure come in families ten times apart. Film peak values at pain onset (ISO/TS 15066:2016: finger 3.0, palm 2.6, ball of the thumb 2.0 MPa) stand against the peak pressure; the 0.05 MPa at which blood flow stops stand against the peak averaged on 24 mm² sensor cells and concern grips held long. Neither is a verdict on comfort.",
+    "Limits of pressure come in families that differ tenfold. Film peak values at pain onset (ISO/TS 15066:2016: finger 3.0, palm 2.6, ball of the thumb 2.0 MPa) are compared with the peak pressure; the 0.05 MPa at which blood flow stops is compared with the peak averaged on 24 mm² sensor cells and concern grips held long. Neither is a verdict on comfort.",
   ];
   return html`<h2 id="limits">What this does not model</h2>
 <ul>

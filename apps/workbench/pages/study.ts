@@ -21,7 +21,7 @@ function condition(page: StudyPage, one: StudyConditionResult, index: number): M
 `)}</div>
 `;
   const figures = !one.are_figures_shown
-    ? html`<p>Its figures stand beside this file in the folder figures.</p>
+    ? html`<p>Its figures are beside this file in the folder figures.</p>
 `
     : index === 0 ? drawn : folded("Figures", drawn);
   return html`<h2 id="condition-${index}">${capitalised(one.title)}</h2>
@@ -39,7 +39,7 @@ function sceneSection(page: StudyPage): Markup | null {
   const option = (value: number, words: string) => html`<option value="${value}">${words}</option>`;
   const controls = html`<div class="controls"><label>Product <select data-toggle="which-product">${page.products.map((one, p) => option(p, one.name))}</select></label><label>Show <select data-toggle="which-hand"><optgroup label="Over all hands"><option value="mean">Mean pressure</option><option value="sd">Standard deviation</option><option value="above">Share of hands above ${thresholdWords(page)}</option></optgroup><optgroup label="One hand">${scene.hands.map((words, i) => option(i, words))}</optgroup></select></label></div>`;
   const which = scene.hands.length === scene.hands_in_all ? "Every hand with every product"
-    : scene.hands.length + " of " + scene.hands_in_all + " hands, evenly chosen by hand length,";
+    : scene.hands.length + " of " + scene.hands_in_all + " hands, chosen evenly by hand length,";
   return html`<h2 id="turn">Turn it</h2>
 <p>${first.words && html`<strong>${capitalised(first.words)}</strong>, the first of ${page.conditions.length} conditions. `}${which} and the maps over all hands. Skin that would be inside the product is drawn on its surface; the bulge beside the contact isn’t shown.</p>
 ${turnableView({
@@ -75,7 +75,7 @@ ${shown.map((one) => html`<h3>${one.name}</h3>${pictureFigures(one.pictures)}`)}
 
 function method(provenance: StudyProvenance): Markup {
   return html`<h2 id="method">How this was computed</h2>
-<p>Every hand is the template scaled segment by segment to a sampled person’s dimensions. It closes round the product (Xie 2014, 5.5.1), comes to rest on it unless a setting says otherwise, and the skin’s contact is solved; equations and tissue stand under Provenance. All hands have one tissue: people differ in stiffness, too. The sum of normal forces is not the reading of a dynamometer; the grip force is nearer to it.</p>
+<p>Every hand is the template scaled segment by segment to a sampled person’s dimensions. It closes round the product (Xie 2014, 5.5.1), comes to rest on it unless a setting says otherwise, and the skin’s contact is solved; equations and tissue are under Provenance. All hands have one tissue: people differ in stiffness, too. The sum of normal forces is not the reading of a dynamometer; the grip force is nearer to it.</p>
 <p>Products are compared over the same hands. The t-test is Student’s for pairs, as in the thesis; Wilcoxon’s signed-rank test needs no normal differences. p values are corrected after Holm over all pairs of a quantity. Cohen’s dz is the mean difference over the standard deviation of the differences. <strong>These are simulated hands: enough of them make any difference significant.</strong> Judge by the size of the difference and its interval; p says only that it isn’t the chance of which hands were drawn. It doesn’t cover the errors of the model, which are larger: compare products, don’t take single figures for people’s.</p>
 <p>Shares have intervals after Wilson. A hand that doesn’t hold a product counts as outside the limits and is left out of means and tests; tables say how many and why. Sizes: every subset of a family’s sizes was tried.</p>
 ${provenance.has_several_profiles && html`<p>Profiles take range, strength, gloves, nails and size as factors on any population. They are not measured people.</p>

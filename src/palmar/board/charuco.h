@@ -13,7 +13,7 @@ namespace palmar {
 ///
 /// OpenCV 4.6 finds corners half a pixel too far to the right and down (its issue 25539), later
 /// versions don't. So a drawn board, whose corners are known, is searched first: what is found
-/// there too far is taken off everywhere, and tells where OpenCV puts which corner. Corners are
+/// there too far is taken off everywhere, and says where OpenCV puts which corner. Corners are
 /// then found again as saddle points of the brightness in windows without markers.
 class CharucoFinder {
  public:

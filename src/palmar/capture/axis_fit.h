@@ -34,8 +34,8 @@ struct HingeFit {
 /// single motion gives fit_axis(). Throws UsageError without motions.
 HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points, const Vec3& near);
 
-/// Turn from which an axis can be told in the presence of what registration leaves (about half a
-/// degree): then it errs by less than ten degrees.
+/// Turn from which an axis can be determined in the presence of what registration leaves (about
+/// half a degree): then it errs by less than ten degrees.
 inline constexpr double kLeastTurn = 0.05;  // rad
 
 }  // namespace palmar

@@ -46,7 +46,7 @@ TEST(FitAxis, FindsTheAxisOfTurnsFromATenthOfADegreeToNearlyAHalfTurn) {
   }
 }
 
-TEST(FitAxis, TheSlideAlongTheAxisIsDroppedAndTold) {
+TEST(FitAxis, TheSlideAlongTheAxisIsDroppedAndReported) {
   Rigid3 screw = Rigid3::about_axis(kAxis, kOnAxis, 0.7);
   screw.translation += 1.5 * kAxis;
   const AxisFit fit = fit_axis(screw, kOnAxis);

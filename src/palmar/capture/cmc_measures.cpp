@@ -162,10 +162,10 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
     Limit& limit = limits[k];
     CmcLimit& place = measures.skeleton.thumb_cmc.*limit.place;
     if (limit.motion && limit.angle < kLeastLimit) {
-      measures.notes.push_back(fmt::format(
-          "{}: the thumb's metacarpal stands {:.0f} degrees from the reference posture in that "
-          "sense; the model's range is taken there instead.",
-          name_of(limit.posture), limit.angle / kDegree));
+      measures.notes.push_back(
+          fmt::format("{}: the thumb's metacarpal is {:.0f} degrees from the reference posture in "
+                      "that sense; the model's range is taken there instead.",
+                      name_of(limit.posture), limit.angle / kDegree));
       limit.motion.reset();
     }
     const JointDof& dof = limit.axis == MainAxis::kFirst ? flexion : abduction;

@@ -33,7 +33,7 @@ struct FixedAxisCmc {
   }
 };
 
-/// Joints of the reference hand: measured where the limit postures' motions tell them, else those
+/// Joints of the reference hand: measured where the limit postures' motions show them, else those
 /// of the model moved onto the bones. Ranges of the fingers' and thumb's hinges are the model's
 /// still.
 struct JointMeasures {
@@ -47,7 +47,7 @@ struct JointMeasures {
 
 /// Hinges (PIP, DIP, thumb MP, IP): the fixed axis of all limit postures (fit_hinge()). MCP: two
 /// axes, flexion fixed to the metacarpal, abduction to the phalanx (fit_two_axes()). Sense and what
-/// isn't told: the model's. Moves `hand`'s joint centres to the axes found.
+/// isn't given: the model's. Moves `hand`'s joint centres to the axes found.
 void measure_finger_joints(ReferenceHand& hand, const Hand& model, const MotionsByPosture& motions,
                            JointMeasures& measures);
 

@@ -18,7 +18,7 @@ struct PosedModel {
 /// Makes the segments of `model` as long as the links between the joints of `skeleton`, the palm as
 /// long and as broad as the way to and between its MCP joints, and looks for the posture in which
 /// joint centres, fingertips and flexion axes lie nearest to those of `skeleton`. Wrist angles,
-/// which joints of the hand don't tell, stay at the model's reference.
+/// which joints of the hand don't show, stay at the model's reference.
 PosedModel posed_model(const Hand& model, const Skeleton& skeleton);
 
 /// Skin of a posed model in the frame of the person's joints, mm. What joints miss in the posture

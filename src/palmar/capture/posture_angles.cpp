@@ -57,7 +57,7 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
         row += 3;
       }
     }
-    // What no bone tells stays where it starts: 1e-3 mm per rad decides nothing else.
+    // What no bone shows stays where it starts: 1e-3 mm per rad decides nothing else.
     for (Eigen::Index j = 0; j < n; ++j) {
       r[m + j] = 1e-3 * (x[j] - angles[free[j]].start);
     }

@@ -12,7 +12,7 @@ namespace palmar {
 
 /// Angles within the ranges of `skeleton` at which it comes nearest to the bones of a posture:
 /// min sum_b sum_i |T_b(theta) x_bi - N_b x_bi|^2 over the moments' points x of the bones b of each
-/// finger, T_b from pose_skeleton(). What no bone tells stays at the reference posture. The wrist's
+/// finger, T_b from pose_skeleton(). What no bone shows stays at the reference posture. The wrist's
 /// angles come from radius and ulna, if these are seen whole enough.
 Posture fit_angles(const Skeleton& skeleton, const ReferenceHand& hand,
                    const PostureMotions& motions);

@@ -127,7 +127,7 @@ void part_crossings(TriangleMesh& skin) {
         }
       }
     }
-    // Surroundings go along, so that no dents remain.
+    // Surroundings move with it, so that no dents remain.
     for (int pass = 0; pass < 2; ++pass) {
       std::vector<Vec3> spread = move;
       for (std::size_t v = 0; v < move.size(); ++v) {
@@ -272,7 +272,7 @@ Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& seg
   for (std::size_t v = 0; v < skin.size(); ++v) {
     if (segment[v] == last) farthest = std::max(farthest, (skin[v] - joint).norm());
   }
-  // A fingertip is blunt: the middle of what is nearly as far away tells the direction best.
+  // A fingertip is blunt: the middle of what is nearly as far away shows the direction best.
   constexpr double kCap = 1.0;  // mm
   Vec3 sum = Vec3::Zero();
   for (std::size_t v = 0; v < skin.size(); ++v) {

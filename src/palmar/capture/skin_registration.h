@@ -19,7 +19,7 @@ struct SkinScan {
   double marker_radius = 2.5;
 };
 
-/// A model's skin laid on a scanned one.
+/// A model's skin placed on a scanned one.
 struct RegisteredSkin {
   std::vector<Vec3> skin;                  ///< vertex for vertex the model's; frame of the scan, mm
   std::vector<char> has_partner;           ///< per vertex: scanned skin lies there
@@ -29,7 +29,7 @@ struct RegisteredSkin {
   double left_over = 0.0;  ///< share of the scanned skin that lies more than 2 mm from this one
 };
 
-/// Lays the skin of `model` on a scan. `skeleton`: the person's joints in the scan's frame, which
+/// Places the skin of `model` on a scan. `skeleton`: the person's joints in the scan's frame, which
 /// must be a hand frame; the model is sized and posed by them (posed_model.h), then bent onto the
 /// scan (nonrigid_fit.h). Fingers only find partners on the same finger; skin that isn't in the
 /// scan (touching fingers, the cut forearm, spots) follows its surroundings. At the end no triangle

@@ -22,7 +22,7 @@ struct TwoAxisFit {
   bool is_first_observed = false, is_second_observed = false;
 };
 
-/// What is known of a two-axis joint before any motion is looked at: standard deviations tell how
+/// What is known of a two-axis joint before any motion is looked at: standard deviations show how
 /// well.
 struct TwoAxisPrior {
   Vec3 near = Vec3::Zero();                            ///< where both axes pass, mm
@@ -39,7 +39,7 @@ struct TwoAxisPrior {
 /// What a motion is meant to be: a posture at the limit of one of the two axes.
 enum class MainAxis { kFirst, kSecond, kEither };
 
-/// Least squares over all motions, axes and angles; the prior decides what the motions don't tell.
+/// Least squares over all motions, axes and angles; the prior decides what the motions don't show.
 TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxis> main,
                         std::span<const Vec3> points, const TwoAxisPrior& prior);
 

@@ -151,7 +151,7 @@ enum class ContactStatus {
 };
 
 /// Skin deeper in the product than this is no contact that a half-space can describe (twice the
-/// limit depth of the palm); it is left out of the solution and told.
+/// limit depth of the palm); it is left out of the solution and reported.
 constexpr double kMaxContactDepth = 15.0;  // mm
 
 /// Contact of a posed hand with a product. Per-vertex fields follow hand.skin; product frame, mm,
@@ -194,7 +194,7 @@ struct ContactResult {
 /// along the product's normal, the rest along its own normal (eq. 3-15). Where the nearest surface
 /// is on the far side of a thin product (its normal points along the skin's own), the surface is
 /// looked for against the skin's normal, the way the skin came; where there is none, the vertex is
-/// left out and told in `message`.
+/// left out and reported in `message`.
 ///
 /// Never throws on a numerical failure: see status. Throws UsageError on bad options or if
 /// posed_skin has not one point per skin vertex.

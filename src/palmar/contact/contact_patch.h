@@ -10,10 +10,10 @@
 
 namespace palmar {
 
-/// Area in contact, told vertex by vertex (mm^2; 0 where not loaded), so that a part's area is the
-/// sum over its vertices. A triangle with all corners loaded counts in full, one with some loaded
-/// counts as far as the edge of the contact reaches into it: on a triangle's edge of length l
-/// between a loaded vertex (pressure p) and one that is lifted (gap g) the edge of the contact
+/// Area in contact, reported vertex by vertex (mm^2; 0 where not loaded), so that a part's area is
+/// the sum over its vertices. A triangle with all corners loaded counts in full, one with some
+/// loaded counts as far as the edge of the contact reaches into it: on a triangle's edge of length
+/// l between a loaded vertex (pressure p) and one that is lifted (gap g) the edge of the contact
 /// stands at x from the loaded one, where
 ///
 ///     p = K sqrt(x),   g = (4 K / 3 E*) (l - x)^1.5,   E* = 4 G

@@ -154,7 +154,7 @@ TEST(HandContact, ThinSheetPushesBackFromTheSideTheSkinCameFrom) {
   EXPECT_LT(thin.residual_penetration_contact, 1e-6);
 }
 
-TEST(HandContact, SkinFarInsideCarriesNoForceAndIsTold) {
+TEST(HandContact, SkinFarInsideCarriesNoForceAndIsReported) {
   // A ball of skin in the middle of a ball of 40 mm: every vertex is 30 mm deep.
   const PreparedHand& hand = prepared_ball();
   const ContactResult contact =

@@ -41,18 +41,18 @@ TEST(SetThreadCount, RefusesNegativeCounts) {
 }
 
 TEST(Progress, OfAPartRunsWithinItsShareOfTheWhole) {
-  std::vector<std::pair<double, std::string>> told;
+  std::vector<std::pair<double, std::string>> reported;
   const Progress whole{.report = [&](double share, const std::string& activity) {
-    told.emplace_back(share, activity);
+    reported.emplace_back(share, activity);
   }};
   const Progress part = part_of(whole, 0.2, 0.6, "index");
   part.update(0.0, "begins");
   part_of(part, 0.5, 1.0).update(0.5, "goes on");
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_DOUBLE_EQ(told[0].first, 0.2);
-  EXPECT_EQ(told[0].second, "index: begins");
-  EXPECT_DOUBLE_EQ(told[1].first, 0.2 + 0.4 * 0.75);
-  EXPECT_EQ(told[1].second, "index: goes on");
+  ASSERT_EQ(reported.size(), 2U);
+  EXPECT_DOUBLE_EQ(reported[0].first, 0.2);
+  EXPECT_EQ(reported[0].second, "index: begins");
+  EXPECT_DOUBLE_EQ(reported[1].first, 0.2 + 0.4 * 0.75);
+  EXPECT_EQ(reported[1].second, "index: goes on");
 }
 
 TEST(Progress, ThrowsCancelledOnceTheFlagIsSet) {

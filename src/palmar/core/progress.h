@@ -8,7 +8,7 @@
 
 namespace palmar {
 
-/// How long work tells where it stands and learns that it should stop. Cheap to copy; a
+/// How long work says where it stands and learns that it should stop. Cheap to copy; a
 /// default-constructed one reports nowhere and never cancels.
 struct Progress {
   /// Called with the share done in [0, 1] and what is being done now. May be empty.

@@ -33,7 +33,7 @@ struct EffortOptions {
 enum class EffortStatus {
   kNoLoad,        ///< nothing touches the digit
   kHeld,          ///< the muscles hold the load
-  kOverloaded,    ///< they can't; the missing moments are told
+  kOverloaded,    ///< they can't; the missing moments are reported
   kNotConverged,  ///< numerical failure
 };
 std::string_view name_of(EffortStatus status);  ///< "no_load", "held", "overloaded", ...

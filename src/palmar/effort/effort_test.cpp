@@ -33,7 +33,7 @@ Posture grip_posture(const Hand& hand) {
   return posture;
 }
 
-/// A product pushes every phalanx off by `force` [N], square to it in its plane of flexion.
+/// A product pushes every phalanx off by `force` [N], perpendicular to it in its plane of flexion.
 std::vector<SkinLoad> grip_loads(const Hand& hand, const Posture& posture, double force) {
   std::vector<SkinLoad> loads;
   const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
@@ -207,12 +207,12 @@ TEST(Effort, OverloadNamesJointAndMoment) {
   EXPECT_EQ(effort.status, EffortStatus::kOverloaded);
   EXPECT_THAT(effort.message, testing::MatchesRegex(".*index DIP flexion: [0-9]+ N mm missing.*"));
   EXPECT_EQ(effort.digits[2].status, EffortStatus::kNoLoad);
-  bool is_told = false;
+  bool is_reported = false;
   for (const GraspIndex& index : effort_indices(effort)) {
     if (index.key != "missing_moment_n_mm") continue;
-    is_told = index.value && *index.value > 100.0;
+    is_reported = index.value && *index.value > 100.0;
   }
-  EXPECT_TRUE(is_told);
+  EXPECT_TRUE(is_reported);
 }
 
 TEST(Effort, StrongerPersonWorksLess) {

@@ -69,7 +69,7 @@ FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
   if (svd.singularValues()[3] < kLeastLever * svd.singularValues()[0]) {
     throw NumericalError("the " + std::string(name_of(tendons.finger)) +
                          " is too straight: a force along it has no lever about any joint, so that "
-                         "the force at its tip can't be told; flex its joints");
+                         "the force at its tip can't be determined; flex its joints");
   }
   const Eigen::Vector4d solution = svd.solve(moment);
   result.force = solution.head<3>();

@@ -24,7 +24,7 @@ struct MuscleProblem {
 
 enum class MuscleStatus {
   kBalanced,
-  kOverloaded,   ///< no activations up to 1 can give these moments; `missing` tells which
+  kOverloaded,   ///< no activations up to 1 can give these moments; `missing` says which
   kNotConverged  ///< the residual stayed above 1e-6
 };
 

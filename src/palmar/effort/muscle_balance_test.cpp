@@ -60,7 +60,7 @@ TEST(BalanceMuscles, FullMuscleLeavesTheRestToTheOther) {
   EXPECT_NEAR(solution.activation[0], 0.8, 1e-6);
 }
 
-TEST(BalanceMuscles, OverloadTellsWhatIsMissing) {
+TEST(BalanceMuscles, OverloadReportsWhatIsMissing) {
   const MuscleSolution solution = balance_muscles(one_axis({100, -40}, 250, 3));
   ASSERT_EQ(solution.status, MuscleStatus::kOverloaded);
   EXPECT_NEAR(solution.missing[0], 150.0, 1e-4);

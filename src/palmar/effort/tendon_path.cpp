@@ -24,8 +24,8 @@ bool crosses_one_axis(const TendonSpan& span) {
 }
 
 /// A chord between points at distances p and q from the axis has its largest arm, the smaller of
-/// these, where it is square to the shorter one, cos psi = p / q. Nearer together it would pass
-/// through the joint's soft parts: length goes on falling by that arm.
+/// these, where it is perpendicular to the shorter one, cos psi = p / q. Nearer together it would
+/// pass through the joint's soft parts: length goes on falling by that arm.
 void hold_largest_arm(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double axial,
                       double sense, Course& course) {
   const double arm = std::min(a.norm(), b.norm()), other = std::max(a.norm(), b.norm());

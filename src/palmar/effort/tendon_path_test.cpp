@@ -72,9 +72,9 @@ TEST(TendonPath, ExtensorLeavesTheCylinderInExtension) {
 }
 
 TEST(TendonPath, FlexorKeepsItsLargestArmInDeepFlexion) {
-  // Points 5 and 10 mm from the axis: the chord's arm grows to 5 mm where it is square to the
-  // shorter one, at an angle of acos(5 / 10) = 60 degrees between them, 120 degrees of flexion from
-  // opposite.
+  // Points 5 and 10 mm from the axis: the chord's arm grows to 5 mm where it is perpendicular to
+  // the shorter one, at an angle of acos(5 / 10) = 60 degrees between them, 120 degrees of flexion
+  // from opposite.
   const TendonPath path = {{{0, Vec3(0, -10, 0)},
                             {1, Vec3(0, 5, 0)},
                             TendonCylinder{0, Vec3::Zero(), Vec3::UnitX(), 1.0, -1.0},

@@ -76,7 +76,7 @@ const std::vector<Head>& heads() {
   return all;
 }
 
-/// Frame of a bone: along it, square to that on the flexion side, and the flexion axis.
+/// Frame of a bone: along it, perpendicular to that on the flexion side, and the flexion axis.
 struct BoneFrame {
   Vec3 origin = Vec3::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();

@@ -105,16 +105,16 @@ CsvFile parse_csv(std::string_view text, const std::string& path, CsvStyle style
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   TextScanner scanner(text);
-  std::optional<char> told;
+  std::optional<char> stated;
   while (const auto line = scanner.next_line()) {
     if (trimmed(*line).empty() || line->front() == '#') continue;
     if (file.header.empty()) {
-      if (style == CsvStyle::kSpreadsheet && !told && line->size() == 5 &&
+      if (style == CsvStyle::kSpreadsheet && !stated && line->size() == 5 &&
           lower(*line).starts_with("sep=")) {
-        told = line->back();
+        stated = line->back();
         continue;
       }
-      file.separator = told                             ? *told
+      file.separator = stated                           ? *stated
                        : line->find(';') != line->npos  ? ';'
                        : line->find('\t') != line->npos ? '\t'
                                                         : ',';

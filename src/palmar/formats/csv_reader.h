@@ -9,9 +9,9 @@
 
 namespace palmar {
 
-/// A CSV file taken apart: one header line, then rows of as many cells. Cells are parted by comma,
-/// semicolon or tab, whichever the header has, quoted as in RFC 4180 but within one line, and
-/// trimmed; lines that start with # are comments, blank lines are skipped.
+/// A CSV file taken apart: one header line, then rows of as many cells. Cells are separated by
+/// comma, semicolon or tab, whichever the header has, quoted as in RFC 4180 but within one line,
+/// and trimmed; lines that start with # are comments, blank lines are skipped.
 struct CsvFile {
   struct Row {
     int line = 0;  ///< in the file, from 1
@@ -32,7 +32,7 @@ struct CsvFile {
 };
 
 /// kStrict: every column has a name. kSpreadsheet: as programs write tables for people, where
-/// columns may lack a name (row numbers, empty columns at the end) and a first line "sep=;" tells
+/// columns may lack a name (row numbers, empty columns at the end) and a first line "sep=;" shows
 /// the separator.
 enum class CsvStyle { kStrict, kSpreadsheet };
 

@@ -17,8 +17,8 @@ inline constexpr std::uint64_t kMaxInputBytes = std::uint64_t{4} << 30;
 /// `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes = kMaxInputBytes);
 
-/// What a file begins and ends with, to tell what it is without reading it. Both at most `size`
-/// bytes; they overlap in a short file. Throws InputError as read_file().
+/// What a file begins and ends with, to determine what it is without reading it. Both at most
+/// `size` bytes; they overlap in a short file. Throws InputError as read_file().
 struct FileEnds {
   std::string head, tail;
   std::uint64_t bytes = 0;  ///< of the whole file

@@ -51,7 +51,7 @@ TEST(File, WrittenBytesReadBackUnchanged) {
   EXPECT_EQ(entries(folder.path()), 1u) << "a temporary file was left behind";
 }
 
-TEST(File, ReadingTellsWhatIsWrongWithThePath) {
+TEST(File, ReadingReportsWhatIsWrongWithThePath) {
   const TestFolder folder;
   const std::string name = (folder / "no.stl").string();
   EXPECT_EQ(read_message(folder / "no.stl"), name + ": no such file");

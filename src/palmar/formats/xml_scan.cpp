@@ -103,7 +103,7 @@ void XmlScanner::read_attributes() {
     ++position_;
     while (position_ < text_.size() && is_space(text_[position_])) ++position_;
     const char quote = position_ < text_.size() ? text_[position_] : '\0';
-    if (quote != '"' && quote != '\'') fail("an attribute value stands without quotes");
+    if (quote != '"' && quote != '\'') fail("an attribute value has no quotes");
     ++position_;
     const std::size_t end = text_.find(quote, position_);
     if (end == text_.npos) fail("an attribute value does not end");

@@ -14,7 +14,7 @@ namespace palmar {
 Eigen::Matrix3d fit_rotation(const Eigen::Matrix3d& sum);
 
 /// The shortest rotation that brings direction `from` to `to`, of any lengths above 0; half a turn
-/// about any axis square to them if they are opposite.
+/// about any axis perpendicular to them if they are opposite.
 Quat shortest_rotation(const Vec3& from, const Vec3& to);
 
 }  // namespace palmar

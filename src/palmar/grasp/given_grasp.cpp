@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kFar = 1000.0;    // mm; how far a gap is told
+constexpr double kFar = 1000.0;    // mm; how far a gap is reported
 constexpr double kDeepest = 15.0;  // mm; half a finger's thickness and more: no contact but a clash
 
 void check(const Posture& posture, const Rigid3& product_from_hand) {
@@ -66,7 +66,7 @@ void judge(Grasp& grasp) {
   grasp.message += touching.size() == 1 || touching.empty() ? " touches" : " touch";
   grasp.message += " the product";
   if (deepest > kDeepest) {
-    grasp.message += "; skin lies " + std::to_string(std::lround(deepest)) +
+    grasp.message += "; skin is " + std::to_string(std::lround(deepest)) +
                      " mm deep in it, which is no contact: the placement may be wrong";
   }
 }

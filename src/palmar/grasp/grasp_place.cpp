@@ -12,7 +12,7 @@
 namespace palmar {
 namespace {
 
-constexpr const char* kOwnPlace = "; not where the reference hand holds it: a place of its own";
+constexpr const char* kOwnPlace = "; not where the reference hand holds it: at its own place";
 
 bool is_held(const Grasp& grasp) { return grasp.status == GraspStatus::kHeld; }
 

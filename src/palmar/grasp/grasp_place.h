@@ -28,7 +28,7 @@ class GraspingHand {
 };
 
 /// Where and how hands of different size hold one product: the place is searched once, on a
-/// reference hand, and kept. Power grips: the same side of the product, the same lay in the hand
+/// reference hand, and kept. Power grips: the same side of the product, the same pose in the hand
 /// (lengths in hand lengths); each hand presses the product into its own palm and closes its own
 /// fingers. Precision grips: fingertips go to the same points of the product. What is known about
 /// the product (distances near the place) is shared. Immutable, shareable between threads; product

@@ -16,7 +16,8 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
 /// round the axis exceeds half a turn by more than two friction angles of 30 degrees.
 void judge_hold(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp);
 
-/// Status and message of a shape that skin can't be closed on, told before trying. False: it can.
+/// Status and message of a shape that skin can't be closed on, reported before trying. False: it
+/// can.
 bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Grasp& grasp);
 
 }  // namespace palmar

@@ -11,7 +11,7 @@ namespace palmar {
 
 /// Hand frame of a right hand from its joint frames: origin at the wrist joint centre; y distal,
 /// from there to the MCP centre of the middle finger; x radial, along the line from the MCP of the
-/// little to that of the index finger, made square to y; z = x cross y, out of the palm.
+/// little to that of the index finger, made perpendicular to y; z = x cross y, out of the palm.
 ///
 /// The frames know where dorsal is (their y), so a left hand or a frame turned inside out doesn't
 /// slip through: throws InputError naming the joint if the fingers' dorsal directions don't point

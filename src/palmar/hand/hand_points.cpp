@@ -45,7 +45,7 @@ std::vector<JointId> joints_to(Segment segment) {
 
 HandPoint skin_point(const Hand& hand, int vertex, double height) {
   if (vertex < 0 || vertex >= hand.skin.vertex_count()) {
-    throw UsageError("skin vertex " + std::to_string(vertex) + " is asked for; the hand has 0 to " +
+    throw UsageError("skin vertex " + std::to_string(vertex) + " is requested; the hand has 0 to " +
                      std::to_string(hand.skin.vertex_count() - 1));
   }
   HandPoint point{hand.skin.vertices[vertex], vertex, {}};

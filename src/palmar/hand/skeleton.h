@@ -75,7 +75,7 @@ struct ClampedPosture {
   std::vector<ClampedAngle> clamped;  ///< empty if the posture was inside the range of motion
 };
 
-/// Holds a posture to the range of motion and tells which angles it changed.
+/// Holds a posture to the range of motion and says which angles it changed.
 ClampedPosture clamp_to_range(const Skeleton& skeleton, const Posture& posture);
 
 /// Where each rigid part stands in a posture: posed_from_reference for the palm (identity, the hand

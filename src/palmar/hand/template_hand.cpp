@@ -38,7 +38,7 @@ Hand build_template(const HandAsset& asset, const TemplateOptions& options) {
   hand.name = "template";
   hand.side = Side::kRight;
   hand.skeleton = build_skeleton(placed);
-  // The asset's edges of 6.7 mm become 1.7 mm, finer than the mesh that is laid over them.
+  // The asset's edges of 6.7 mm become 1.7 mm, finer than the mesh that is placed over them.
   const TriangleMesh smooth = subdivide(with_even_cut(placed.skin), {.levels = 2});
   const TriangleMesh even = remesh(smooth, {.edge_length = options.edge_length}).mesh;
   SkinPartition partition = partition_skin(even, hand.skeleton);

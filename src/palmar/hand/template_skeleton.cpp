@@ -72,7 +72,8 @@ JointDof make_dof(Dof dof, const Vec3& axis, const Vec3& centre, double referenc
 
 constexpr const char* kFrameAxis = "axis: joint frame of the template asset";
 
-/// Flexion axis of a joint: -x of the frame of the bone distal to it, made square to that bone.
+/// Flexion axis of a joint: -x of the frame of the bone distal to it, made perpendicular to that
+/// bone.
 Vec3 flexion_axis(const Rigid3& frame, const Vec3& bone) {
   const Vec3 axis = frame.rotation * -Vec3::UnitX();
   const Vec3 along = bone.normalized();

@@ -12,9 +12,9 @@ namespace palmar {
 /// skin). Axes: flexion of PIP, DIP, MP, IP and MCP about -x of the frame distal to the joint; they
 /// lean as published axes do (little PIP here 0.90, 0.34, -0.28 radial, distal, palmar; Mirakhorlo
 /// 2016 0.84, 0.28, -0.47), so that flexed fingers converge on the scaphoid. MCP abduction about
-/// the axis square to flexion axis and phalanx, moving with flexion. CMC: see thumb_cmc.h.
+/// the axis perpendicular to flexion axis and phalanx, moving with flexion. CMC: see thumb_cmc.h.
 /// Reference angles are measured between the bones of the asset; ranges are means of healthy
-/// adults, widened to the reference angle where that lies outside. `source` tells both.
+/// adults, widened to the reference angle where that lies outside. `source` shows both.
 ///
 /// Throws InputError naming the frame if one is missing.
 Skeleton build_skeleton(const HandAsset& asset_in_hand);

@@ -103,21 +103,20 @@ RegionTissue finger_tissue() {
 }
 
 RegionTissue palm_tissue() {
-  return {
-      .half_space = {.nominal = {0.0275, 0.060, 7.0},
-                     .low = {0.005, 0.040, 7.0},
-                     .high = {0.050, 0.080, 7.0}},
-      .layered = {.nominal = {0.0185, 0.0230, 7.0},
-                  .low = {0.0044, 0.0155, 7.0},
-                  .high = {0.0305, 0.0310, 7.0}},
-      .swelling_height = 3.0,
-      .swelling_radius = 15.0,
-      .swelling_width = 3.0,
-      .neighbourhood = 17.5,
-      .source = std::string(kHalfSpaceSource) +
-                "; layered: gives the forces of those half-spaces on the "
-                "template's thenar, hypothenar and the two pads against a plate (1-7 mm), as "
-                "the thesis' test is not described well enough to press it anew: an assumption"};
+  return {.half_space = {.nominal = {0.0275, 0.060, 7.0},
+                         .low = {0.005, 0.040, 7.0},
+                         .high = {0.050, 0.080, 7.0}},
+          .layered = {.nominal = {0.0185, 0.0230, 7.0},
+                      .low = {0.0044, 0.0155, 7.0},
+                      .high = {0.0305, 0.0310, 7.0}},
+          .swelling_height = 3.0,
+          .swelling_radius = 15.0,
+          .swelling_width = 3.0,
+          .neighbourhood = 17.5,
+          .source = std::string(kHalfSpaceSource) +
+                    "; layered: gives the forces of those half-spaces on the template's thenar, "
+                    "hypothenar and the two pads against a plate (1-7 mm), as the thesis' test is "
+                    "not described well enough to repeat it: an assumption"};
 }
 
 RegionTissue dorsum_tissue() {

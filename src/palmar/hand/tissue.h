@@ -30,7 +30,7 @@ std::optional<TissueClass> tissue_class_named(std::string_view name);
 ///     neighbourhood    12.5 mm (finger), 17.5 mm (palm)             5 and 7 rings of 2.5 mm
 ///
 /// Layered: fitted to the forces that those half-spaces give, with bone under the skin
-/// (docs/using/tissue.md tells how).
+/// (docs/using/tissue.md says how).
 RegionTissue finger_tissue();
 RegionTissue palm_tissue();
 

@@ -75,7 +75,7 @@ class BlockBuilder {
  public:
   explicit BlockBuilder(TissueBlock& block) : block_(block) { cut_face_.face = BlockFace::kCut; }
 
-  /// Triangles with use[t]; `face` tells what each is. `is_bone`: rims are holes of the cut face.
+  /// Triangles with use[t]; `face` says what each is. `is_bone`: rims are holes of the cut face.
   template <typename FaceOf>
   void add(const CutMesh& part, const std::vector<bool>& use, bool is_bone, FaceOf face) {
     std::vector<int> index(part.mesh.vertices.size(), -1);

@@ -22,7 +22,7 @@ double air_threshold(const Volume& image) {
     const auto bin = static_cast<std::size_t>((static_cast<double>(value) - low) * scale);
     count[std::min(bin, kBins - 1)] += 1.0;
   }
-  return low + otsu_parting(count) / scale;
+  return low + otsu_threshold(count) / scale;
 }
 
 }  // namespace palmar

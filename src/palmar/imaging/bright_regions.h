@@ -39,9 +39,9 @@ struct BrightRegionOptions {
 /// 2. Where two basins A, B meet, the darker voxel of each pair of touching voxels (6 neighbours)
 ///    goes into a histogram; m is the value that a share `leak` of them exceeds. With L the mean
 ///    brightness of a basin's voxels above `core` and D = `dark`, the film has depth
-///    1 - (m - D) / (min(L_A, L_B) - D): what a dim basin is parted by needn't be as dark. The pair
-///    with the shallowest film is made one as long as that is less than `depth`. A hierarchy by the
-///    pass (dynamics) would join two sides at the first leak.
+///    1 - (m - D) / (min(L_A, L_B) - D): what a dim basin is separated by needn't be as dark. The
+///    pair with the shallowest film is made one as long as that is less than `depth`. A hierarchy
+///    by the pass (dynamics) would join two sides at the first leak.
 ///
 /// Smooth the image first: noise makes basins. Deterministic. Throws UsageError.
 BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,

@@ -18,7 +18,7 @@ struct OddSlice {
 /// overwritten, half empty, of another image. Per slice q = min(|s - s-|, |s - s+|) / |s+ - s-|
 /// (root mean square); noise alone gives 1, what changes from slice to slice less. Odd is q above
 /// twice the median of all and above 1.5, so a scanner that makes every other slice brighter isn't.
-/// The two outermost slices can't be told.
+/// The two outermost slices can't be determined.
 std::vector<OddSlice> odd_slices(const Volume& image);
 
 }  // namespace palmar

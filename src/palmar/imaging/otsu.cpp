@@ -6,7 +6,7 @@
 
 namespace palmar {
 
-double otsu_parting(const std::vector<double>& histogram) {
+double otsu_threshold(const std::vector<double>& histogram) {
   double total = 0.0, sum = 0.0;
   for (std::size_t b = 0; b < histogram.size(); ++b) {
     total += histogram[b];

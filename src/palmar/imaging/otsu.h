@@ -11,6 +11,6 @@ namespace palmar {
 /// of a histogram with fewer than two bins that aren't empty, 1.
 ///
 /// Source: Otsu 1979, "A threshold selection method from gray-level histograms", eq. (12), (18).
-double otsu_parting(const std::vector<double>& histogram);
+double otsu_threshold(const std::vector<double>& histogram);
 
 }  // namespace palmar

@@ -26,7 +26,7 @@ VoxelMask simple_body(const VolumeGrid& grid, const VoxelMask& mask,
 /// Whether the middle one of 27 voxels can join or leave the body without a change of topology:
 /// among its neighbours there is exactly one part of the body and one of the outside next to it
 /// (Bertrand, Malandain 1994: topological numbers for 6+ neighbours of the body and 18 of the
-/// outside). Bit i + 3 j + 9 k of `around` tells whether neighbour (i, j, k), 0 to 2 each, is body;
+/// outside). Bit i + 3 j + 9 k of `around` says whether neighbour (i, j, k), 0 to 2 each, is body;
 /// bit 13 is ignored.
 bool is_simple(std::uint32_t around);
 

@@ -153,7 +153,7 @@ TEST(SimpleBody, NoiseLeavesASphereAndBubblesAreFilled) {
   EXPECT_NEAR(signed_volume(surface.mesh), 4.0 / 3.0 * std::numbers::pi * 1331.0, 300.0);
 }
 
-TEST(SimpleBody, EmptyMaskAndWrongCountsAreTold) {
+TEST(SimpleBody, EmptyMaskAndWrongCountsAreReported) {
   VolumeGrid grid;
   grid.size = {2, 2, 2};
   EXPECT_EQ(simple_body(grid, VoxelMask(8, 0), std::vector<float>(8)), VoxelMask(8, 0));

@@ -101,12 +101,12 @@ Population xie2014() {
           "database, their correlation from the thesis' own 20 subjects (18 men, 2 women)",
       .cautions = {"Mixes the sexes: the mean length is that of Japanese men, the mean "
                    "circumference that of men and women together, and one normal distribution "
-                   "stands for two. Hands as drawn are longer and narrower than people's.",
+                   "represents two. Hands as drawn are longer and narrower than people's.",
                    "The correlation, 0.36, comes from 20 other people; surveys find 0.56 to 0.59 "
                    "within a sex and 0.70 over both.",
                    "The thesis' regressions of the segments are lost: segments follow in the "
                    "template's proportions, lengths the hand length, the rest the circumference.",
-                   "Grip strength isn't known: the sexes aren't told apart."}};
+                   "Grip strength isn't known: the sexes aren't distinguished."}};
 }
 
 Population ansur2_of(Sex sex) {

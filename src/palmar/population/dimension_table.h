@@ -55,9 +55,9 @@ struct TableGroup {
   std::string name;  ///< the cell's text; "20-29" of ages; "all" without groups
   DimensionTable table;
 };
-/// The table parted by a column, groups in the order of their names (numbers by size), ages by ten
-/// years; `by` empty: one group "all". Subjects whose cell is missing are left out and told in
-/// `notes`. Throws UsageError if there are more than 50 groups or none.
+/// The table separated by a column, groups in the order of their names (numbers by size), ages by
+/// ten years; `by` empty: one group "all". Subjects whose cell is missing are left out and reported
+/// in `notes`. Throws UsageError if there are more than 50 groups or none.
 std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& by,
                                 std::vector<std::string>& notes);
 

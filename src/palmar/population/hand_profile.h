@@ -25,7 +25,7 @@ struct HandProfile {
   bool operator==(const HandProfile&) const = default;
 };
 
-/// The profiles that come with Palmar, "none" first; docs/method/profiles.md tells where their
+/// The profiles that come with Palmar, "none" first; docs/method/profiles.md says where their
 /// figures come from and which are choices.
 const std::vector<HandProfile>& built_in_profiles();
 

@@ -72,7 +72,7 @@ TEST(WithRangeShare, NarrowsEveryRangeAboutTheRelaxedPosture) {
 }
 
 // Whatever the narrower hand can do looks as on the whole one, the thumb included, whose posture is
-// told in shares of its limits.
+// reported in shares of its limits.
 TEST(WithRangeShare, PosesAsTheWholeHandWithinTheNarrowRange) {
   const Hand hand = simple_hand();
   RandomStream random(1, 0);
@@ -107,7 +107,7 @@ TEST(WithRangeShare, OfOneChangesNothingAndOfNothingIsRefused) {
   }
 }
 
-TEST(HandProfile, BuiltInOnesAreSoundAndTellTheirSources) {
+TEST(HandProfile, BuiltInOnesAreSoundAndReportTheirSources) {
   EXPECT_EQ(built_in_profiles().front().name, "none");
   for (const HandProfile& profile : built_in_profiles()) {
     EXPECT_NO_THROW(profile.check());

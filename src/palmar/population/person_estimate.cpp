@@ -97,8 +97,7 @@ Given given(const Stratum& stratum, const std::vector<KnownMeasure>& measures) {
 }
 
 void check(const std::vector<KnownMeasure>& measures) {
-  if (measures.empty())
-    throw UsageError("a person's hand can't be told from no measure; one is needed");
+  if (measures.empty()) throw UsageError("no measurement of the person is given; one is needed");
   for (const KnownMeasure& one : measures) {
     if (!(one.value >= 1.0 && one.value <= 400.0)) {
       throw UsageError(one.name + " is " + significant(one.value, 4) +
@@ -162,7 +161,7 @@ PersonEstimate estimate_person(const Population& population,
     }
     if (least > kRare) {
       result.notes.push_back(measures[k].name + ", " + significant(measures[k].value, 4) +
-                             " mm, lies " + significant(least, 4) +
+                             " mm, is " + significant(least, 4) +
                              " standard deviations from the mean of " + population.name +
                              ": was it measured as the documents show?");
     }

@@ -104,10 +104,10 @@ TEST(PersonEstimate, TheMiddleFingerIsWhatHandAndPalmLeave) {
   EXPECT_EQ(sizes_of(one).size() + 1, one.dimensions.size());
 }
 
-TEST(PersonEstimate, RareAndImpossibleMeasuresAreTold) {
+TEST(PersonEstimate, RareAndImpossibleMeasuresAreReported) {
   EXPECT_TRUE(estimate_person(two_drivers(), {KnownMeasure::of(kL, 200.0, 0.0)}).notes.empty());
   EXPECT_THAT(estimate_person(two_drivers(), {KnownMeasure::of(kL, 230.0, 0.0)}).notes.front(),
-              HasSubstr("hand_length, 230 mm, lies 5 standard deviations"));
+              HasSubstr("hand_length, 230 mm, is 5 standard deviations"));
   EXPECT_THAT([] { estimate_person(two_drivers(), {}); },
               ThrowsMessage<UsageError>(HasSubstr("one is needed")));
   EXPECT_THAT([] { estimate_person(two_drivers(), {KnownMeasure::of(kL, 0.0, 1.0)}); },

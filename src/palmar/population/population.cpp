@@ -79,7 +79,7 @@ std::string fault_of_regressions(const Stratum& stratum) {
   for (const DimensionRegression& regression : stratum.regressions) {
     const std::string what = "regression of " + name_of(regression.dimension);
     if (index_of(known, regression.dimension)) {
-      return what + ": the dimension is there already; each may stand once";
+      return what + ": the dimension is there already; each may appear once";
     }
     if (!std::isfinite(regression.intercept)) {
       return what + ": intercept is no finite number";

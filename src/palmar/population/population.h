@@ -77,7 +77,7 @@ struct Population {
   std::string title;  ///< for people
   std::vector<Stratum> strata;
   std::string source;
-  std::vector<std::string> cautions;  ///< told with every result: mixed sexes, means only ...
+  std::vector<std::string> cautions;  ///< reported with every result: mixed sexes, means only ...
   void check() const;  ///< throws UsageError: stratum, dimension, value, what is allowed
 };
 

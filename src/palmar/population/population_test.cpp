@@ -49,7 +49,7 @@ std::string message_of(const Population& population) {
   return "";
 }
 
-TEST(Population, BuiltInOnesAreSoundAndTellTheirSources) {
+TEST(Population, BuiltInOnesAreSoundAndReportTheirSources) {
   for (const Population& population : built_in_populations()) {
     EXPECT_EQ(message_of(population), "");
     EXPECT_FALSE(population.source.empty()) << population.name;
@@ -86,7 +86,7 @@ TEST(Population, JapaneseSharesGiveThePooledMeans) {
   EXPECT_NEAR(girth, 193.5, 0.05);
 }
 
-TEST(Population, UnknownNameTellsTheNearest) {
+TEST(Population, UnknownNameReportsTheNearest) {
   try {
     population_named("ansur2_woman");
     FAIL();

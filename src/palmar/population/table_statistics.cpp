@@ -156,7 +156,7 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
   TableCorrelation result;
   std::vector<const TableColumn*> columns = chosen_columns(table, names);
   if (names.empty()) {
-    // A column that nobody filled in says nothing; who asks for it by name is told so below.
+    // A column that nobody filled in says nothing; who asks for it by name is reported so below.
     const auto is_empty = [&](const TableColumn* column) {
       if (!present(*column).empty()) return false;
       result.notes.push_back(table.source + ": column " + std::to_string(column->number) + " (" +

@@ -80,7 +80,7 @@ void judge(ProductCheck& c, const OrientResult& oriented) {
   }
   if (c.duplicate_triangles > 0) {
     add(Severity::kNote,
-        counted(c.duplicate_triangles, "triangle stands", "triangles stand") + " there twice");
+        counted(c.duplicate_triangles, "triangle is", "triangles are") + " there twice");
   }
   if (c.low_triangles > 0) {
     add(Severity::kNote,
@@ -97,7 +97,7 @@ void judge(ProductCheck& c, const OrientResult& oriented) {
   }
   if (oriented.undecided_patches > 0) {
     add(Severity::kWarning, "for " + counted(oriented.undecided_patches, "patch", "patches") +
-                                " it can't be told which side is outside");
+                                " it can't be determined which side is outside");
   }
   if (oriented.twisted_patches > 0) {
     add(Severity::kWarning, counted(oriented.twisted_patches, "patch is", "patches are") +
@@ -194,7 +194,7 @@ ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
     c.crossing_pairs = static_cast<int>(find_self_crossings(welded).size());
   }
   const OrientResult oriented = orient_outwards(welded);
-  c.flipped_patches = oriented.flipped_patches + oriented.mended_patches;
+  c.flipped_patches = oriented.flipped_patches + oriented.repaired_patches;
   c.flipped_triangles = static_cast<int>(oriented.flipped_triangles.size());
   c.undecided_patches = oriented.undecided_patches;
   c.twisted_patches = oriented.twisted_patches;

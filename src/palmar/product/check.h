@@ -37,7 +37,7 @@ struct ProductCheck {
   int low_triangles = 0;             ///< without area: lower than a millionth of the size
   int flipped_patches = 0;           ///< that face inwards, or whose triangles disagree
   int flipped_triangles = 0;         ///< that must be turned
-  int undecided_patches = 0;         ///< of which it can't be told which side is outside
+  int undecided_patches = 0;         ///< of which it can't be determined which side is outside
   int twisted_patches = 0;           ///< one-sided
   int crossing_pairs = 0;            ///< pairs of triangles that go through each other
   int euler_number = 0;              ///< 2 for a ball, 0 for a ring, 2 - 2 g for g tunnels, closed

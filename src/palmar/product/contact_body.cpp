@@ -23,7 +23,7 @@ namespace palmar {
 namespace {
 
 constexpr int kRays = 48;
-constexpr int kProbes = 2000;  // triangles looked at to tell whether there is a cavity at all
+constexpr int kProbes = 2000;  // triangles looked at to determine whether there is a cavity at all
 
 /// Directions over the hemisphere about z, dense as the cosine; Hammersley's points.
 std::array<Vec3, kRays> hemisphere() {

@@ -69,12 +69,12 @@ TEST(Gloved, RangeAndMemoryDontChangeTheAnswer) {
   }
   std::vector<Vec3> moved = points;
   for (Vec3& point : moved) point += Vec3(0.1, -0.2, 0.05);
-  std::vector<DistanceSample> anew(moved.size());
-  grown.distance->sample(moved, kRange, anew);
+  std::vector<DistanceSample> again(moved.size());
+  grown.distance->sample(moved, kRange, again);
   grown.distance->resample(moved, kRange, samples);
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    EXPECT_NEAR(samples[i].distance, anew[i].distance, 1e-12);
-    EXPECT_NEAR((samples[i].closest - anew[i].closest).norm(), 0.0, 1e-9);
+    EXPECT_NEAR(samples[i].distance, again[i].distance, 1e-12);
+    EXPECT_NEAR((samples[i].closest - again[i].closest).norm(), 0.0, 1e-9);
   }
 }
 

@@ -62,9 +62,9 @@ void note_repairs(const WeldResult& welded, const OrientResult& oriented,
     notes.push_back("turned " + counted(oriented.flipped_patches, "patch", "patches") +
                     " that faced inwards (of " + std::to_string(oriented.patches) + ")");
   }
-  if (oriented.mended_patches > 0) {
+  if (oriented.repaired_patches > 0) {
     notes.push_back("made neighbouring triangles agree about outside in " +
-                    counted(oriented.mended_patches, "patch", "patches"));
+                    counted(oriented.repaired_patches, "patch", "patches"));
   }
   if (!oriented.flipped_triangles.empty()) {
     notes.push_back(
@@ -77,7 +77,7 @@ void note_repairs(const WeldResult& welded, const OrientResult& oriented,
   }
   if (oriented.undecided_patches > 0) {
     notes.push_back("for " + counted(oriented.undecided_patches, "patch", "patches") +
-                    " it can't be told which side is outside; left as in the file");
+                    " it can't be determined which side is outside; left as in the file");
   }
 }
 

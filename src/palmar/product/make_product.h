@@ -12,7 +12,7 @@ namespace palmar {
 /// Makes a product of a mesh as it stands in a file: converts to mm, welds vertices nearer than a
 /// millionth of the size, drops triangles that collapse by it, repairs the orientation of patches
 /// (orient.h) and prepares the signed distance (mesh_distance.h). What was done, and what is left
-/// doubtful (holes, for one), is told in notes, the unit's explanation first.
+/// doubtful (holes, for one), is reported in notes, the unit's explanation first.
 ///
 /// `raw` is in the unit of `unit`; `source` is the path or the command that made it and stands in
 /// front of every message. Throws InputError on no triangles, on one triangle, on vertices that are

@@ -42,13 +42,13 @@ struct ParametricKind {
   std::string description;
   std::vector<KindParameter> parameters;
   std::vector<KindRelation> relations;
-  /// Along the grip to the side of thumb and index finger, unit; empty where the shape alone tells.
+  /// Along the grip to the side of thumb and index finger, unit; empty where the shape alone shows.
   /// A pistol grip without its frame doesn't: what stands on it, not its own mass, says which end
   /// is up.
   std::function<Vec3(const KindValues&)> thumb_side = {};
 };
 
-/// In the order in which people are told of them.
+/// In the order in which people are informed of them.
 const std::vector<ParametricKind>& parametric_kinds();
 std::vector<std::string> parametric_kind_names();
 /// Throws UsageError naming the nearest, and all.

@@ -47,7 +47,7 @@ TEST(ParametricKinds, DefaultsLieInsideTheirRangesAndNamesAreUnique) {
 }
 
 // The centre line of the grip goes from its foot, which lies behind (+y), up to the frame.
-TEST(ParametricKinds, ThePistolGripTellsThatTheThumbIsAtItsFrame) {
+TEST(ParametricKinds, ThePistolGripReportsThatTheThumbIsAtItsFrame) {
   const ParametricKind& kind = parametric_kind("pistol_grip");
   const Vec3 side = kind.thumb_side(complete_values(kind, {{"rake_deg", 30.0}}));
   EXPECT_LT((side - Vec3(0.0, -0.5, std::sqrt(0.75))).norm(), 1e-12);

@@ -149,10 +149,10 @@ TEST(PrimitiveFaces, SidesThatFilletsTakeAwayAreLeftOut) {
       {.width = 40, .depth = 30, .length = 100, .fillet_radius = 15, .fineness = {}});
   EXPECT_THAT(names(stadium), ElementsAre("back", "front", "fillet 1", "fillet 2", "fillet 3",
                                           "fillet 4", "bottom", "top"));
-  double meshed = 0.0, told = 0.0;
+  double meshed = 0.0, listed = 0.0;
   for (const double area : meshed_areas(stadium)) meshed += area;
-  for (const ProductFace& face : stadium.faces->face) told += face.area;
-  EXPECT_NEAR(meshed, told, 0.002 * told);
+  for (const ProductFace& face : stadium.faces->face) listed += face.area;
+  EXPECT_NEAR(meshed, listed, 0.002 * listed);
 }
 
 TEST(ProductFaces, FollowAMeshThroughUnitWeldAndOrientation) {
@@ -197,7 +197,7 @@ TEST(ProductFaces, BordersAreWhereFacesMeet) {
   EXPECT_NEAR(length, 2.0 * std::numbers::pi * 48.0, 0.5);  // chords of two circles
 }
 
-TEST(ProductFaces, TellWhichFaceIsTooSmallToBeKept) {
+TEST(ProductFaces, ReportWhichFaceIsTooSmallToBeKept) {
   const Product prism = make_prism_product({});
   ProductFaces faces = *prism.faces;
   TriangleMesh mesh = prism.mesh;

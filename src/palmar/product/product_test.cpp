@@ -77,7 +77,7 @@ TEST(UnitGuard, RefusesToGuessBetweenTwoUnits) {
   EXPECT_THAT(message, HasSubstr("50 mm if cm"));
 }
 
-TEST(UnitGuard, UserWinsOverFileAndIsTold) {
+TEST(UnitGuard, UserWinsOverFileAndIsReported) {
   EXPECT_EQ(decide_unit(box_of(5.0), {}, LengthUnit::kInch, "cup").unit, LengthUnit::kInch);
   EXPECT_EQ(decide_unit(box_of(0.1), LengthUnit::kMetre, {}, "cup").source, UnitSource::kFile);
   const UnitDecision both =
@@ -139,7 +139,7 @@ TEST(MakeProduct, TurnsAnInvertedMeshAndSaysSo) {
   EXPECT_TRUE(has_note(product, "faced inwards"));
 }
 
-TEST(MakeProduct, TellsThatAMeshIsOpen) {
+TEST(MakeProduct, ReportsThatAMeshIsOpen) {
   const Product product = make_product(
       "tube", make_cylinder({.radius = 20, .length = 100, .rings = 20, .is_capped = false}), kInMm,
       "tube.stl");

@@ -117,15 +117,15 @@ class Repairer {
       drop_fins();
       drop_specks();
       turn_outwards();
-      mend_low();
+      repair_low();
       if (close_holes()) {
-        mend_low();
+        repair_low();
         turn_outwards();
       }
       part_solids();
       if (result_.done.size() == before) break;
     }
-    tell_what_is_left();
+    report_what_is_left();
     return std::move(result_);
   }
 
@@ -170,15 +170,15 @@ class Repairer {
     mesh() = std::move(welded.mesh);
   }
 
-  void mend_low() {
-    LowTrianglesResult mended = mend_low_triangles(mesh(), limits().weld);
-    if (mended.mesh.triangles.empty()) return;
-    const int count = size_of(mended.places);
+  void repair_low() {
+    LowTrianglesResult repaired = repair_low_triangles(mesh(), limits().weld);
+    if (repaired.mesh.triangles.empty()) return;
+    const int count = size_of(repaired.places);
     add(result_.done, "low triangles", count,
-        "mended " + counted(count, "triangle", "triangles") + " without area",
-        std::move(mended.places));
-    low_left_ = std::move(mended.left);
-    mesh() = std::move(mended.mesh);
+        "repaired " + counted(count, "triangle", "triangles") + " without area",
+        std::move(repaired.places));
+    low_left_ = std::move(repaired.left);
+    mesh() = std::move(repaired.mesh);
     forget_unused();
   }
 
@@ -311,27 +311,27 @@ class Repairer {
   }
 
   void part_solids() {
-    PartSheetsResult parted = part_touching_sheets(mesh(), kGap * limits().weld);
-    if (parted.parted.empty()) return;
-    const int count = size_of(parted.parted);
-    if (find_self_crossings(parted.mesh).size() > find_self_crossings(mesh()).size()) {
+    SeparatedSheets separated = separate_touching_sheets(mesh(), kGap * limits().weld);
+    if (separated.separated.empty()) return;
+    const int count = size_of(separated.separated);
+    if (find_self_crossings(separated.mesh).size() > find_self_crossings(mesh()).size()) {
       add(touching_left_, "touching", count,
           "what touches in " + counted(count, "corner", "corners") +
               " would go through itself if taken apart",
-          std::move(parted.parted));
+          std::move(separated.separated));
       return;
     }
     add(result_.done, "touching", count,
         "took apart what touched in " + counted(count, "corner", "corners") +
-            (parted.parted_edges.empty()
+            (separated.separated_edges.empty()
                  ? std::string()
-                 : " and " + counted(size_of(parted.parted_edges), "edge", "edges")) +
+                 : " and " + counted(size_of(separated.separated_edges), "edge", "edges")) +
             ", by " + significant(kGap * limits().weld, 4) + " mm",
-        std::move(parted.parted));
-    mesh() = std::move(parted.mesh);
+        std::move(separated.separated));
+    mesh() = std::move(separated.mesh);
   }
 
-  void tell_what_is_left() {
+  void report_what_is_left() {
     auto& left = result_.left;
     for (RepairAction& hole : holes_left_) {
       add(left, hole.name, 1, hole.text, std::move(hole.places));
@@ -340,7 +340,7 @@ class Repairer {
     const MeshTopology topology = build_topology(mesh());
     const BoundaryLoops loops = find_boundary_loops(mesh(), topology);
     add(left, "holes", loops.loose_edges,
-        counted(loops.loose_edges, "free edge lies", "free edges lie") +
+        counted(loops.loose_edges, "free edge is", "free edges are") +
             " round no hole: the triangles there disagree about outside",
         {});
     std::vector<Vec3> places;
@@ -370,7 +370,8 @@ class Repairer {
     add(left, "sides", twisted_,
         counted(twisted_, "patch is", "patches are") + " one-sided like a Moebius band", {});
     add(left, "sides", undecided_,
-        "of " + counted(undecided_, "patch", "patches") + " it can't be told which side is outside",
+        "of " + counted(undecided_, "patch", "patches") +
+            " it can't be determined which side is outside",
         {});
   }
 
@@ -455,7 +456,7 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
     }
   }
   if (check.duplicate_triangles > 0) {
-    fixes.push_back("triangles that stand there twice: `palmar product repair` drops them");
+    fixes.push_back("duplicate triangles: `palmar product repair` drops them");
   }
   if (check.low_triangles > 0) {
     fixes.push_back("triangles without area: `palmar product repair` joins them with neighbours");

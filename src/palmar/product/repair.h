@@ -45,12 +45,12 @@ struct RepairResult {
 };
 
 /// Repairs what can be repaired safely, in this order: vertices are welded and triangles that stand
-/// there twice dropped (weld.h); triangles without height mended (low_triangles.h); fins (small
+/// there twice dropped (weld.h); triangles without height repaired (low_triangles.h); fins (small
 /// sheets that hang on an edge with their other side free) and specks dropped; triangles turned
 /// outwards (orient.h); small holes filled (fill_holes.h); solids that touch in an edge or a corner
 /// taken apart by four times the weld's tolerance (part_sheets.h).
 ///
-/// Left as they are, and told: large openings, triangles that go through each other, one-sided
+/// Left as they are, and reported: large openings, triangles that go through each other, one-sided
 /// patches, walls within a solid. A mesh without faults comes back bit by bit, and what was
 /// repaired stays as it is when repaired again. Deterministic. `mesh` is in mm; throws InputError
 /// on coordinates that aren't finite, corners outside the list, and if no triangle has an area.

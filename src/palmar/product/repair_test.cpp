@@ -248,7 +248,7 @@ TEST(Repair, TakesApartCubesThatTouchAndDropsAFin) {
   EXPECT_FALSE(repair_mesh(repaired.mesh, options).has_changed());
 }
 
-TEST(Repair, TellsWhatGoesThroughItself) {
+TEST(Repair, ReportsWhatGoesThroughItself) {
   TriangleMesh balls = make_icosphere(20, 3);
   append(balls, make_icosphere(20, 3), Vec3(25, 1, 2));
   const RepairResult repaired = repair_mesh(balls);

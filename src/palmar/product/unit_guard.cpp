@@ -54,7 +54,7 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
     UnitDecision decision{*from_user, UnitSource::kUser, ""};
     if (from_file && *from_file != *from_user) {
       decision.explanation =
-          "unit " + name_of(*from_user) + " as told, though the file says " + name_of(*from_file);
+          "unit " + name_of(*from_user) + " as given, though the file says " + name_of(*from_file);
     }
     return decision;
   }
@@ -71,7 +71,7 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
                  " mm if " + name_of(unit);
     }
     throw InputError(object + ": the file doesn't carry its unit and its size, " +
-                     sides(size, 1.0) + ", doesn't tell (longest side " + reading +
+                     sides(size, 1.0) + ", is ambiguous (longest side " + reading +
                      "). Give it with --unit mm, cm, m or inch");
   }
   return {*proposed, UnitSource::kProposed,

@@ -14,15 +14,15 @@ namespace palmar {
 struct UnitDecision {
   LengthUnit unit = LengthUnit::kMillimetre;
   UnitSource source = UnitSource::kMade;
-  std::string explanation;  ///< one sentence for people; empty if there is nothing to tell
+  std::string explanation;  ///< one sentence for people; empty if there is nothing to report
 };
 
 /// Settles the unit of a mesh; never silently. `box` is its bounding box in file units, `object`
 /// names it in messages.
 ///
-/// What the user says wins over what the file says (a contradiction is told). If neither is known,
-/// the size is held against a hand: the longest side of a handheld product is 40 to 600 mm. A unit
-/// is proposed only if it is the only one that fits, or the fit of another would be odd:
+/// What the user says wins over what the file says (a contradiction is reported). If neither is
+/// known, the size is held against a hand: the longest side of a handheld product is 40 to 600 mm.
+/// A unit is proposed only if it is the only one that fits, or the fit of another would be odd:
 ///
 ///     longest side in the file   proposed      because
 ///     0.04 to 0.6                m             in any other unit it is below 16 mm

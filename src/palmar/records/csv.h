@@ -21,7 +21,7 @@ struct CsvTable {
 std::string format_csv(const CsvTable& table);
 
 /// One row per product and region in contact, then one per product named "total": force, area,
-/// pressures, centre of pressure, penetration, and the product's source, which tells products of
+/// pressures, centre of pressure, penetration, and the product's source, which keeps products of
 /// one name apart.
 CsvTable region_table(const AssessmentSet& set);
 

@@ -40,7 +40,7 @@ TEST(IndexJson, ValuesReadBackExactlyAndNothingIsNull) {
   EXPECT_TRUE(json["skin_above_50_kpa_mm2"].is_null());
 }
 
-TEST(IndexJson, RowsTellEverything) {
+TEST(IndexJson, RowsReportEverything) {
   const auto json = nlohmann::json::parse(index_rows(two_rows()).dump());
   ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(json[0]["better"], "up");

@@ -13,7 +13,7 @@ namespace palmar {
 struct MeasuredCurves {
   std::vector<MeasuredPoint> points;  ///< in the file's order, depth above 0
   std::vector<std::string> ignored;   ///< columns that mean nothing here
-  int zero_depths = 0;                ///< rows at depth 0, left out: they tell nothing
+  int zero_depths = 0;                ///< rows at depth 0, left out: they show nothing
 };
 
 /// A CSV file as read_csv() takes it apart. Columns:

@@ -25,10 +25,10 @@ struct NamedSurface {
   std::array<float, 3> colour{};
   SimpleSurface surface;
   std::vector<Vec3> points;   ///< that it covers, mm; near the surface
-  std::vector<Vec3> outline;  ///< that it ends at, laid onto the surface; may be empty
+  std::vector<Vec3> outline;  ///< that it ends at, projected onto the surface; may be empty
 };
 
-// Curves, surfaces and reliefs as the CAD program is told them (apps/palmar-cad/region.cpp): under
+// Curves, surfaces and reliefs as the CAD program is given them (apps/palmar-cad/region.cpp): under
 // "curves", "surfaces", "reliefs" of its request. Reading what isn't so throws InputError.
 nlohmann::ordered_json region_request(const std::vector<NamedCurve>& curves,
                                       const std::vector<NamedSurface>& surfaces,

@@ -243,7 +243,7 @@ TEST(RegionTable, HasOneRowPerRegionAndATotal) {
   EXPECT_EQ(table.rows[1][2], "total");
 }
 
-TEST(RegionTable, TellsProductsOfOneNameApartBySource) {
+TEST(RegionTable, DistinguishesProductsOfOneNameBySource) {
   AssessmentSet set = example();
   set.assessments.push_back(set.assessments[0]);
   set.assessments[0].product.source = "old/handle.stl";
@@ -268,7 +268,7 @@ TEST(HandJson, TakesNamesThatAreNoUtf8) {
   EXPECT_EQ(PlainJson::parse(hand_info_json(hand))["name"], "hand \xef\xbf\xbd");
 }
 
-TEST(AssessmentJson, IsToldFromOtherJson) {
+TEST(AssessmentJson, IsDistinguishedFromOtherJson) {
   EXPECT_TRUE(is_assessment_json(assessment_json(example())));
   for (const char* other :
        {"", "{", "[]", "{\"versions\": {\"palmar\": 1}}", "{\"versions\": 3}"}) {

@@ -56,7 +56,7 @@ class SqliteStatement {
   SqliteStatement& bind(int parameter, std::string_view text);
   SqliteStatement& bind_blob(int parameter, std::string_view bytes);
   SqliteStatement& bind_null(int parameter);
-  /// Next row; false at the end, after which the statement may be bound anew.
+  /// Next row; false at the end, after which the statement may be bound again.
   bool next();
   /// To the end, without rows.
   void run();

@@ -217,7 +217,7 @@ TEST(TableStatistics, FewSubjectsAreDescribedButNotCorrelated) {
               HasSubstr("named twice"));
 }
 
-TEST(TableStatistics, ColumnsThatTellNothingAreNamed) {
+TEST(TableStatistics, ColumnsThatDetermineNothingAreNamed) {
   const auto fault = [](const std::string& text, const std::vector<std::string>& on) {
     return message_of<InputError>([&] { regress(parsed_table(text), on); });
   };

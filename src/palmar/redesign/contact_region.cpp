@@ -93,7 +93,7 @@ RegionOutline smooth_outline(const std::vector<Vec3>& raw, const ClosestPointQue
   outline.points = spaced(raw, options.spacing);
   const double reach = options.smoothing / options.spacing;
   const int rounds = static_cast<int>(std::ceil(2.0 * reach * reach));
-  const auto lay_back = [&] {
+  const auto project_back = [&] {
     std::optional<int> hint;
     for (Vec3& x : outline.points) {
       const auto found = surface.closest(x, std::numeric_limits<double>::infinity(), hint);
@@ -104,10 +104,10 @@ RegionOutline smooth_outline(const std::vector<Vec3>& raw, const ClosestPointQue
   for (int k = 0; k < rounds; ++k) {
     relax(outline.points, kLambda);
     relax(outline.points, kMu);
-    lay_back();
+    project_back();
   }
   outline.points = spaced(outline.points, options.spacing);
-  lay_back();
+  project_back();
   const std::size_t n = outline.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     outline.length += (outline.points[(i + 1) % n] - outline.points[i]).norm();

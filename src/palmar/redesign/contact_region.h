@@ -14,7 +14,7 @@
 
 namespace palmar {
 
-/// Parts of the hand that a product's designer tells apart (Xie 2014, fig. 5-16: red and blue).
+/// Parts of the hand that a product's designer shows apart (Xie 2014, fig. 5-16: red and blue).
 enum class HandPart { kFingers, kThumb, kPalm };
 inline constexpr int kHandParts = 3;
 std::string name_of(HandPart part);  ///< "fingers", "thumb", "palm"
@@ -77,9 +77,9 @@ struct ContactRegion {
 
 /// The region of the whole hand, or of one part of it. The count's "inside or not" is smoothed
 /// along the surface, specks and holes below the smallest area are dropped, the level lines are
-/// spaced evenly, smoothed without shrinking (Taubin 1995) and laid back onto the surface. Empty,
-/// without patches, if too few hands touch anywhere. Throws UsageError if count and map don't
-/// belong together.
+/// spaced evenly, smoothed without shrinking (Taubin 1995) and projected back onto the surface.
+/// Empty, without patches, if too few hands touch anywhere. Throws UsageError if count and map
+/// don't belong together.
 ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
                              std::optional<HandPart> part = {}, const RegionOptions& options = {});
 

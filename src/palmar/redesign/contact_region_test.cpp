@@ -47,7 +47,7 @@ TEST(ContactRegion, OfADiscHasItsAreaAndOneSmoothOutlineOnTheSurface) {
   EXPECT_EQ(region.title, "palm, half of 10 hands");
   EXPECT_EQ(region.least_hands, 5);
   ASSERT_EQ(region.patches.size(), 1U);
-  // Vertices 3 mm apart tell a circle to about half of that, evenly round it.
+  // Vertices 3 mm apart show a circle to about half of that, evenly round it.
   EXPECT_NEAR(region.area, std::numbers::pi * radius * radius,
               0.03 * std::numbers::pi * radius * radius);
   ASSERT_EQ(region.patches[0].outline.size(), 1U);
@@ -81,7 +81,7 @@ TEST(ContactRegion, AsksForAsManyHandsAsTheShareSays) {
   EXPECT_EQ(contact_region(t.map, t.count, {}, any).title, "any of 10 hands");
 }
 
-TEST(ContactRegion, DropsSpecksAndFillsHolesAndTellsThem) {
+TEST(ContactRegion, DropsSpecksAndFillsHolesAndReportsThem) {
   const Touched t = touched(slab(), 10, [](const Vec3& x) {
     if (!is_on_top(x)) return false;
     const bool is_hole = (x.head<2>() - Eigen::Vector2d(5.0, 0.0)).norm() < 3.5;

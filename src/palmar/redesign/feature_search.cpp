@@ -116,7 +116,7 @@ class Candidates {
   }
 
   double over(const SearchTrial& trial, size_t constraint) const {
-    // What can't be made has no value: the optimiser is told by the goal alone.
+    // What can't be made has no value: the optimiser is recognised by the goal alone.
     if (!trial.outcome.failure.empty()) return 0.0;
     return excess(problem_.constraints[constraint], trial.outcome.constraint[constraint]);
   }
@@ -219,7 +219,7 @@ struct Callback {
   size_t constraint = 0;
   /// DIRECT knows no constraints here: what exceeds them is penalised.
   size_t penalised_constraints = 0;
-  /// NLopt lets no exceptions through: they are kept while it is told to stop.
+  /// NLopt lets no exceptions through: they are kept while it is asked to stop.
   std::exception_ptr* thrown = nullptr;
 };
 

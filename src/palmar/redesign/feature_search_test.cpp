@@ -220,7 +220,7 @@ TEST(SearchFeatures, CancellingAndOtherErrorsComeThrough) {
   EXPECT_THROW(search_features(problem), InputError);
 }
 
-TEST(SearchFeatures, ProblemsThatMakeNoSenseAreToldByName) {
+TEST(SearchFeatures, ProblemsThatMakeNoSenseAreReportedByName) {
   const auto message = [](const SearchProblem& problem, const SearchOptions& options) {
     try {
       search_features(problem, options);

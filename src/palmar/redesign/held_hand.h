@@ -23,7 +23,7 @@ struct HeldHand {
 };
 
 /// Gives every hand that has product `product` (index) in the hand under `condition` to `visit`,
-/// ascending by hand. `records` come with their fields. Hands are made anew from their dimensions
+/// ascending by hand. `records` come with their fields. Hands are made again from their dimensions
 /// on the threads of thread_count(); the same whatever their number. Throws UsageError if no hand
 /// holds the product; Cancelled.
 void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,

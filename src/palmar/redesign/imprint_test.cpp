@@ -66,9 +66,9 @@ TEST(ImprintGauge, IsNotDeeperThanHalfTheWall) {
   const ImprintGauge gauge(moved(make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp);
   const TriangleMesh skin = moved(make_box({20, 20, 10}), {0, 0, 12});  // 3 mm deep
   EXPECT_NEAR(depth_at(gauge.measure(skin), 0), 2.0, 1e-4);
-  const ImprintGauge told(moved(make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp,
-                          {.largest = 15.0, .wall_share = 1.0});
-  EXPECT_NEAR(depth_at(told.measure(skin), 0), 3.0, 1e-4);
+  const ImprintGauge wall_gauge(moved(make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp,
+                                {.largest = 15.0, .wall_share = 1.0});
+  EXPECT_NEAR(depth_at(wall_gauge.measure(skin), 0), 3.0, 1e-4);
 }
 
 TEST(ImprintGauge, SkinThatCameThroughTheWallFromBehindDoesntPressTheFarSide) {
@@ -85,7 +85,7 @@ TEST(ImprintGauge, RefusesPointsWithoutDirections) {
       ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("3 points, 0 directions")));
 }
 
-TEST(CombineImprints, HandsThatDontTouchCountAsZeroUnlessToldOtherwise) {
+TEST(CombineImprints, HandsThatDontTouchCountAsZeroUnlessStatedOtherwise) {
   const std::vector<Imprint> hands = {{{0, 1}, {2.0, 4.0}}, {{1}, {1.0}}, {{}, {}}, {{1}, {1.0}}};
   EXPECT_EQ(combine_imprints(hands, 3), (std::vector<double>{0.5, 1.5, 0.0}));
   CombineOptions options;

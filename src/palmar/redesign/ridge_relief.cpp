@@ -261,7 +261,7 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
     const auto at_start = near(start), at_end = near(end);
     if (!at_start || !at_end) {
       plan.notes.push_back(name +
-                           ": doesn't go on over the length that hands touch; left as it is");
+                           ": doesn't extend over the length that hands touch; left as it is");
       continue;
     }
     const double share = (0.5 * (low + high) - at_first) / std::max(1e-9, at_last - at_first);
@@ -287,14 +287,14 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
     plan.reliefs.push_back(std::move(relief));
   }
   if (plan.reliefs.empty()) {
-    constexpr std::size_t kTold = 4;
+    constexpr std::size_t kNamed = 4;
     std::string why = fmt::format(
         "{}", fmt::join(plan.notes.begin(),
                         plan.notes.begin() +
-                            static_cast<std::ptrdiff_t>(std::min(kTold, plan.notes.size())),
+                            static_cast<std::ptrdiff_t>(std::min(kNamed, plan.notes.size())),
                         "; "));
-    if (plan.notes.size() > kTold) {
-      why += fmt::format("; and {} more", plan.notes.size() - kTold);
+    if (plan.notes.size() > kNamed) {
+      why += fmt::format("; and {} more", plan.notes.size() - kNamed);
     }
     throw UsageError("relief: none of the handle's ridges can be rounded (" + why + ")");
   }

@@ -122,7 +122,7 @@ TEST(PlanReliefs, KeepsToTheLargestDepthAndGoesThroughANearEnd) {
   EXPECT_FALSE(plan.reliefs[0].is_open_start);
 }
 
-TEST(RidgeRelief, RunsOutAlongAnArcAndLaysPointsOntoItself) {
+TEST(RidgeRelief, RunsOutAlongAnArcAndProjectsPointsOntoItself) {
   RidgeRelief relief;
   relief.start = Vec3(0, 0, -20);
   relief.end = Vec3(0, 0, 20);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<FaceKind, 5> kKinds = {FaceKind::kPlane, FaceKind::kCylinder,
                                             FaceKind::kSphere, FaceKind::kCone, FaceKind::kTorus};
-constexpr std::size_t kPointsOfAStart = 400;  // suffice to tell good starts from bad ones
+constexpr std::size_t kPointsOfAStart = 400;  // suffice to distinguish good starts from bad ones
 
 int parameters_of(FaceKind kind) {
   switch (kind) {
@@ -286,7 +286,7 @@ SurfaceFit plane_through(std::span<const Vec3> points) {
   return fit;
 }
 
-/// A cone is told by where it widens; a plane by the side of the material.
+/// A cone is recognised by where it widens; a plane by the side of the material.
 void settle(SimpleSurface& s, std::span<const Vec3> points, std::span<const Vec3> normals) {
   if (s.kind == FaceKind::kPlane && !normals.empty() && mean_of(normals).dot(s.axis) < 0.0) {
     s.axis = -s.axis;

@@ -139,7 +139,7 @@ TEST(FitSurface, FindsATorusFromAnOuterAnInnerAndAWholePatch) {
   }
 }
 
-TEST(FitSurface, TellsTheNoiseAsItsResidual) {
+TEST(FitSurface, ReportsTheNoiseAsItsResidual) {
   // Least squares of 900 points with 5 parameters: rms 0.1 sqrt(895 / 900) mm, itself known to
   // 0.1 / sqrt(1800) = 2.4 %: four of these.
   const SurfaceFit fit =

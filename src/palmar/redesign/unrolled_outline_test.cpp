@@ -36,7 +36,7 @@ TEST(Unroll, ACircleRoundACylinderBecomesAStraightLineOfItsCircumference) {
     const double a = i * std::numbers::pi / 180.0;
     circle.emplace_back(20.0 * std::cos(a), 20.0 * std::sin(a), 7.0);
   }
-  // A region of no height can't tell where it lies: a second circle.
+  // A region of no height can't determine where it lies: a second circle.
   std::vector<Vec3> other = circle;
   for (Vec3& x : other) x.z() = -12.0;
   const UnrolledOutline sheet =

@@ -5,7 +5,7 @@
 namespace palmar {
 
 /// Distributions that tests and intervals need, from Boost.Math. Tail probabilities keep their
-/// digits however small they are (1e-300 is told apart from 0).
+/// digits however small they are (1e-300 is distinguished from 0).
 
 /// P(Z <= z) of the standard normal distribution.
 double normal_cdf(double z);

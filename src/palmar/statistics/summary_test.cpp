@@ -58,7 +58,7 @@ TEST(Summary, FarFromZeroKeepsItsDigits) {
   EXPECT_NEAR(*s.skewness, 0.0, 1e-12);
 }
 
-TEST(Summary, WhatFewOrEqualValuesCannotTellIsMissing) {
+TEST(Summary, WhatFewOrEqualValuesCannotDetermineIsMissing) {
   const Summary one = summarise(std::vector<double>{190.0});
   EXPECT_EQ(one.mean, 190.0);
   EXPECT_EQ(one.sd, 0.0);

@@ -14,7 +14,7 @@ namespace palmar {
 /// threads.
 using StudyHandMaker = std::function<Hand(const StudyTask&)>;
 
-/// Makes the hands of a study anew, for pictures and redesigns. `plan` must outlive it.
+/// Makes the hands of a study again, for pictures and redesigns. `plan` must outlive it.
 StudyHandMaker study_hand_maker(const StudyPlan& plan, std::shared_ptr<const Hand> base);
 
 }  // namespace palmar

@@ -33,7 +33,7 @@ void check_some(const List& list, const std::string& what) {
   if (list.empty()) throw UsageError("study: has no " + what + "; at least one is required");
 }
 
-/// Names that people tell things by must not be given twice.
+/// Names that people show things by must not be given twice.
 template <typename List>
 void check_names(const List& list, const std::string& what) {
   std::set<std::string> seen;
@@ -84,7 +84,7 @@ void check_product(const StudyPlan& plan, std::size_t number) {
     if (!other.posture_of.empty()) {
       throw UsageError(what + ": keeps the posture of \"" + other.name +
                        "\", which keeps that of \"" + other.posture_of +
-                       "\"; only a product grasped by itself is allowed");
+                       "\"; only a product that is grasped itself is allowed");
     }
     return;
   }

@@ -60,7 +60,7 @@ struct StudySetting {
   /// Whether the indices have the volume of the wrench space, too: a tenth of a study's time.
   bool wrench_volume = false;
   /// Where a product is held: found once on the mean hand and kept for all (only pressing in and
-  /// closing are done anew), or searched for every hand.
+  /// closing are done again), or searched for every hand.
   bool is_place_per_hand = false;
 };
 

@@ -24,7 +24,7 @@ struct HandTasks {
 
 std::vector<HandTasks> by_hand(const StudyPlan& plan, const std::vector<std::int64_t>& tasks) {
   if (std::adjacent_find(tasks.begin(), tasks.end(), std::greater_equal<>()) != tasks.end()) {
-    throw UsageError("study: tasks to run are not ascending, or one stands there twice");
+    throw UsageError("study: tasks to run are not ascending, or one appears twice");
   }
   std::vector<HandTasks> result;
   for (std::size_t begin = 0; begin < tasks.size();) {
@@ -75,7 +75,7 @@ void run_study(const StudyPlan& plan, const StudyInputs& inputs, const StudyRunO
   Ledger ledger(options.tasks.size(), keep, progress);
   ledger.report();
 
-  // What a hand does inside asks only whether to stop; the study tells how far it is.
+  // What a hand does inside asks only whether to stop; the study says how far it is.
   std::atomic<bool> is_stopping{false};
   std::atomic<std::size_t> next{0};
   Progress quiet = progress;

@@ -320,7 +320,7 @@ class StudySubject {
     options.balance.grip_force = setting.grip_force;
     if (setting.strength_share) {
       if (!(sample_.grip_strength > 0.0)) {
-        throw Failure{"a share of the grip strength is asked for, but the person's isn't known"};
+        throw Failure{"a share of the grip strength is requested, but the person's isn't known"};
       }
       const double of_grip = options.grasp.grip ? strength_share(*options.grasp.grip) : 1.0;
       options.balance.grip_force =

@@ -42,7 +42,7 @@ TEST(Judge, DeliberatelyWrongTargetIsMissed) {
   EXPECT_EQ(judge("force", "N", -2.05, near_value(-2.0, 0.02, "")).verdict, Verdict::kMissed);
 }
 
-TEST(Judge, EdgesAreInclusiveAndTellTheWayToTheNearerOne) {
+TEST(Judge, EdgesAreInclusiveAndReportTheWayToTheNearerOne) {
   EXPECT_EQ(judge("x", "", 1.0, between(1.0, 2.0, "")).verdict, Verdict::kMet);
   EXPECT_EQ(judge("x", "", 2.0, between(1.0, 2.0, "")).verdict, Verdict::kMet);
   EXPECT_EQ(judge("x", "", 1.5, between(1.0, 2.0, "")).difference, 0.0);
@@ -83,7 +83,7 @@ TEST(ValidationReport, CountsVerdictsOfAllCases) {
   EXPECT_EQ(report.count(Verdict::kMet), 0);
 }
 
-TEST(ValidationMarkdown, RowTellsOursTheirsDifferenceAndVerdict) {
+TEST(ValidationMarkdown, RowReportsOursTheirsDifferenceAndVerdict) {
   const std::string text =
       validation_markdown(report_of(judge("force", "N", 2.03, near_value(2.0, 0.02, "a law"))));
   EXPECT_THAT(text, HasSubstr("| force, N | 2.03 | 2 | +1.5 % | 2 % | met | no | - | a law |"));
@@ -111,7 +111,7 @@ TEST(ValidationMarkdown, RowSaysWhatWasChosenOnItAndWhereItComesFrom) {
               HasSubstr("| met | yes, in def5678 | abc1234 | s |"));
 }
 
-TEST(ValidationText, TellsTheTimeOfACase) {
+TEST(ValidationText, ReportsTheTimeOfACase) {
   EXPECT_THAT(validation_text(report_of(not_built("x", "y"))), HasSubstr("T1: a case (12.5 s)"));
 }
 

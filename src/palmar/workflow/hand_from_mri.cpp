@@ -56,7 +56,7 @@ void HandFromMriRequest::check() const {
 
 HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const Progress& progress) {
   request.check();
-  const auto tell = [&](const std::string& text) { note_to(request.note, text); };
+  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
   const auto model = load_hand(request.model);
   HandFromMriOutcome outcome;
   outcome.work = request.work.empty() ? beside_hand(request.out, ".mri") : request.work;
@@ -64,12 +64,12 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   options.surfaces = request.surfaces;
   options.accepts_odd_slices = request.accepts_odd_slices;
   options.work = outcome.work;
-  options.note = tell;
+  options.note = on_note;
   options.setting_names = request.setting_names;
   if (!request.labels.empty()) options.labels = read_bone_labels(request.labels);
   if (!request.product.empty()) {
     options.product = load_product(request.product, {.unit = request.unit});
-    for (const std::string& text : options.product->notes) tell(text);
+    for (const std::string& text : options.product->notes) on_note(text);
   }
   progress.update(0.0, "looking for series");
   ScanSelection selection = select_scans(request.images, request.series, request.skip);
@@ -78,9 +78,9 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   require_writable(folder_of(request.out));
   for (std::string& text : selection.notes) {
     text = with_setting_names(text, request.setting_names);
-    tell(text);
+    on_note(text);
   }
-  tell(words_of(selection.scans));
+  on_note(words_of(selection.scans));
   options.write = [&](ScanRecord& record, const Progress& part) {
     record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
     Hand& hand = record.made.hand;

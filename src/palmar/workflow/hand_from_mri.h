@@ -19,10 +19,10 @@ namespace palmar {
 /// A person's hand from MR series of it in several postures (docs/method/mri.md).
 struct HandFromMriRequest {
   /// Images: folders of DICOM series, NIfTI files, or folders that find_mri_surfaces()
-  /// made. The description of a series, or the name of its folder, tells the posture; the reference
+  /// made. The description of a series, or the name of its folder, shows the posture; the reference
   /// is needed.
   std::vector<std::string> images;
-  std::vector<SeriesPosture> series;  ///< what series show whose names don't tell it
+  std::vector<SeriesPosture> series;  ///< what series show whose names don't show it
   std::vector<ScanPosture> skip;      ///< postures to leave out, for a spoilt series
   std::string out;                    ///< the hand, *.hand.glb
   std::string work;     ///< folder for the report and for what each step makes, which another run

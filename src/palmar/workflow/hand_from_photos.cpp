@@ -63,7 +63,7 @@ std::vector<std::string> folders_in(const std::vector<std::string>& paths, std::
   return folders;
 }
 
-/// A set of photographs as the hand's notes tell of it.
+/// A set of photographs as the hand's notes describe it.
 std::vector<std::string> notes_of(const std::string& folder, const PhotoMeshReport& report) {
   std::vector<std::string> notes = {
       fmt::format("{}: {} photographs, {:.0f} % of the surface measured", folder,
@@ -78,7 +78,7 @@ using MeshPlans = std::map<ScanPosture, PhotoMeshPlan>;
 MeshPlans plan_meshes(const HandFromPhotosRequest& request, const fs::path& work,
                       const std::map<ScanPosture, std::string>& folders,
                       const std::optional<PhotoLenses>& lenses) {
-  const auto tell = [&](const std::string& text) { note_to(request.note, text); };
+  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
   MeshPlans plans;
   double seconds = 0.0;
   for (const auto& [posture, folder] : folders) {
@@ -86,11 +86,11 @@ MeshPlans plan_meshes(const HandFromPhotosRequest& request, const fs::path& work
     plan = plan_photo_mesh(folder, work / (std::string(name_of(posture)) + ".ply"), lenses,
                            request.mesh);
     seconds += plan.seconds;
-    tell(fmt::format("{}: {} photographs in {}{}", name_of(posture), plan.set.photographs.size(),
-                     folder, plan.kept ? ", whose mesh is there already" : ""));
+    on_note(fmt::format("{}: {} photographs in {}{}", name_of(posture), plan.set.photographs.size(),
+                        folder, plan.kept ? ", whose mesh is there already" : ""));
   }
   constexpr double kSecondsPerScan = 20.0;  // of one core, to make the hand
-  tell(fmt::format(
+  on_note(fmt::format(
       "this takes about {:.0f} s",
       seconds + kSecondsPerScan * static_cast<double>(plans.size()) / std::max(1, thread_count())));
   return plans;
@@ -137,8 +137,8 @@ ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
     const PhotoMeshReport report = make_planned_mesh(
         plan, lenses, request.mesh, part_of(progress, begin, end, std::string(name_of(posture))));
     begin = end;
-    const std::vector<std::string> told = notes_of(plan.folder, report);
-    notes.insert(notes.end(), told.begin(), told.end());
+    const std::vector<std::string> reported = notes_of(plan.folder, report);
+    notes.insert(notes.end(), reported.begin(), reported.end());
     const std::string file = plan.mesh.string();
     ReadSurface read = read_scan_surface(file, LengthUnit::kMillimetre);
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());

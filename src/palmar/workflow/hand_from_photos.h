@@ -16,11 +16,11 @@ namespace palmar {
 /// A person's hand from photographs of it on the printed board (docs/method/photos.md).
 struct HandFromPhotosRequest {
   /// A folder of photographs (.png, .jpg) per posture, or folders of such folders, of which one
-  /// called calibration or lenses is where lenses come from if nothing else is said. The name tells
+  /// called calibration or lenses is where lenses come from if nothing else is said. The name gives
   /// the posture: reference (or natural), finger_flexion, finger_abduction; the reference is
   /// needed, a single folder is taken for it.
   std::vector<std::string> folders;
-  std::map<std::string, ScanPosture> posture;  ///< of folders whose names don't tell it
+  std::map<std::string, ScanPosture> posture;  ///< of folders whose names don't show it
   PhotoMeshOptions mesh;                       ///< how surfaces are made of the photographs
   ScanHandOptions hand;  ///< `work`: folder for the report and for the meshes, which another run
                          ///< takes up; empty: beside the hand, *.photos

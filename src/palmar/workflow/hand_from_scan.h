@@ -18,10 +18,10 @@ namespace palmar {
 /// creases and dots if there are any (docs/method/scan.md).
 struct HandFromScanRequest {
   /// Coloured surfaces (OBJ with its texture, GLB, PLY, STL), a file per posture. The file's name
-  /// tells it: reference (or natural), finger_flexion, finger_abduction; the reference is needed, a
+  /// shows it: reference (or natural), finger_flexion, finger_abduction; the reference is needed, a
   /// single file is taken for it.
   std::vector<std::string> scans;
-  std::map<std::string, ScanPosture> posture;  ///< of files whose names don't tell it
+  std::map<std::string, ScanPosture> posture;  ///< of files whose names don't show it
   std::optional<LengthUnit> unit;  ///< of files that carry none; nothing: the one that makes
                                    ///< a hand of the reference, which holds for all
   /// Points of the reference scan, in its own coordinates and unit, that have an ink's colour;

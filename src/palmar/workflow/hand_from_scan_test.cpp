@@ -42,7 +42,7 @@ TEST(HandFromScanRequest, TheScanItselfIsNoOutput) {
             "another file");
 }
 
-TEST(FilesByPosture, NamesTellPosturesAlsoInShort) {
+TEST(FilesByPosture, NamesReportPosturesAlsoInShort) {
   const Files files = files_by_posture({"a/natural.ply", "a/fist.ply", "a/spread.ply"}, {}, "scan");
   EXPECT_EQ(files, (Files{{ScanPosture::kReference, "a/natural.ply"},
                           {ScanPosture::kFingerFlexion, "a/fist.ply"},

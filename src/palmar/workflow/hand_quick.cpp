@@ -56,11 +56,11 @@ PhotographedHand photographed(const HandQuickRequest& request) {
   return result;
 }
 
-void tell_of_photograph(const PhotographedHand& photo, const NoteSink& tell) {
+void note_photograph(const PhotographedHand& photo, const NoteSink& on_note) {
   const SheetView& sheet = photo.scene.sheet;
   const bool is_card = is_beside_card(photo);
   const double finger = photo.scene.proportions.finger_height[2] * photo.outline.hand_length;
-  tell(fmt::format(
+  on_note(fmt::format(
       "{}, edges straight within {:.2f} mm; camera {:.0f} mm above it, {:.0f} "
       "degrees off its normal{}",
       is_card ? "bank card" : sheet.format.name + " sheet", sheet.edge_error, sheet.eye.z(),
@@ -68,13 +68,14 @@ void tell_of_photograph(const PhotographedHand& photo, const NoteSink& tell) {
       sheet.focal_source == "usual" ? " if its lens is that of most telephones (26 mm on film)"
                                     : ""));
   if (is_card) {
-    tell(fmt::format("lengths follow from so small a card within {:.1f} % (standard error)",
-                     100.0 * sheet.scale_error));
+    on_note(fmt::format("lengths follow from so small a card within {:.1f} % (standard error)",
+                        100.0 * sheet.scale_error));
   }
-  tell(fmt::format("skin above the paper looks larger: fingertips by {:.1f} %, which is taken off",
-                   100.0 * finger / (sheet.eye.z() - finger)));
+  on_note(
+      fmt::format("skin above the paper looks larger: fingertips by {:.1f} %, which is taken off",
+                  100.0 * finger / (sheet.eye.z() - finger)));
   if (photo.outline.hand_width <= 0.0) {
-    tell("the thumb lies in the way of the breadth over the knuckles; it follows from the rest");
+    on_note("the thumb covers the breadth over the knuckles, which follows from the rest");
   }
 }
 
@@ -114,7 +115,7 @@ void HandQuickRequest::check() const {
 
 HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress& progress) {
   request.check();
-  const auto tell = [&](const std::string& text) { note_to(request.note, text); };
+  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
   HandQuickOutcome outcome;
   outcome.population = load_population(request.population);
   const Population& population = outcome.population;
@@ -132,18 +133,18 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress
     outcome.photograph = photographed(request);
     const PhotographedHand& photo = *outcome.photograph;
     outcome.side = side_of(photo, request);
-    tell_of_photograph(photo, tell);
+    note_photograph(photo, on_note);
     progress.update(0.4, "measuring");
     person = person_of_outline(*load_hand("template"), population, own, photo.outline, photo.scene);
-    for (const std::string& text : person.notes) tell(text);
+    for (const std::string& text : person.notes) on_note(text);
     if (!request.picture.empty()) {
       write_file(request.picture, outline_picture(photo.image, photo.scene.sheet, photo.outline,
                                                   person.model ? &person.model->outline : nullptr));
-      tell("wrote " + request.picture);
+      on_note("wrote " + request.picture);
     }
   }
-  for (const std::string& text : person.estimate.notes) tell(text);
-  for (const std::string& text : population.cautions) tell(text);
+  for (const std::string& text : person.estimate.notes) on_note(text);
+  for (const std::string& text : population.cautions) on_note(text);
   const char* const from = !outcome.photograph ? ""
                            : is_beside_card(*outcome.photograph)
                                ? " of a photograph beside a bank card"
@@ -153,7 +154,7 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress
   progress.update(0.95, "writing");
   if (!request.out.empty()) {
     write_hand(request.out, person.hand);
-    tell(fmt::format("wrote {} ({} hand)", request.out, name_of(outcome.side)));
+    on_note(fmt::format("wrote {} ({} hand)", request.out, name_of(outcome.side)));
   }
   return outcome;
 }

@@ -178,8 +178,8 @@ ProductVariantsOutcome write_variants(const ProductVariantsRequest& request,
     outcome.study = fs::path(request.folder) / kStudyFile;
     const std::string study = outcome.study.string();
     write_file(outcome.study, study_text(request));
-    note(fmt::format("wrote {}: {} products in 30 hands; go on with\n  palmar study run {}", study,
-                     request.products.size(), study));
+    note(fmt::format("wrote {}: {} products in 30 hands; continue with\n  palmar study run {}",
+                     study, request.products.size(), study));
     result["study"] = study;
   }
   outcome.json = result.dump();

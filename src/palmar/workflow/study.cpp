@@ -58,12 +58,12 @@ class Keeper {
   double last_ = 0.0;
 };
 
-/// Runs what is missing, finishes the store and tells what came of it.
+/// Runs what is missing, finishes the store and says what came of it.
 StudyRunOutcome run_rest(StudyStore& store, const StudyInputs& inputs, const Progress& progress) {
   const std::vector<std::int64_t> rest = store.missing();
   if (store.is_finished() && !rest.empty()) {
     throw InputError(store.path().string() + ": is damaged: " + missing_grasps(rest) +
-                     "; delete it and run the study anew");
+                     "; delete it and run the study again");
   }
   Keeper keeper(store, rest.size());
   try {
@@ -73,8 +73,7 @@ StudyRunOutcome run_rest(StudyStore& store, const StudyInputs& inputs, const Pro
   } catch (const Cancelled&) {
     remove_study_progress(store.path());
     throw Cancelled(
-        fmt::format("cancelled; {} of {} grasps are kept; `palmar study resume {}` "
-                    "goes on",
+        fmt::format("cancelled; {} of {} grasps are kept; `palmar study resume {}` continues",
                     keeper.note().done, keeper.note().total, store.path().string()));
   } catch (...) {
     remove_study_progress(store.path());
@@ -115,9 +114,9 @@ void check_same(const StudyStore& store, const StudyPlan& plan, StudyShard shard
   }
   const std::vector<std::string> differences = plan_differences(store.plan(), plan);
   if (differences.empty()) return;
-  std::string text = name + ": holds another study than the one asked for:";
+  std::string text = name + ": holds another study than the requested one:";
   for (const std::string& one : differences) text += "\n  " + one;
-  throw UsageError(text + "\nGive another --out, or delete the file to begin anew.");
+  throw UsageError(text + "\nGive another --out, or delete the file to start again.");
 }
 
 void check_program(const StudyStore& store) {
@@ -194,7 +193,7 @@ StudyRunOutcome run_study(const StudyRunRequest& request, const Progress& progre
   if (!store.is_finished()) check_program(store);
   const std::size_t done = store.done().size();
   if (done > 0 && !store.is_finished()) {
-    note_to(request.note, fmt::format("{}: goes on after {} grasps", path.string(), done));
+    note_to(request.note, fmt::format("{}: continues after {} grasps", path.string(), done));
   }
   return run_rest(store, study.inputs, progress);
 }

@@ -16,7 +16,7 @@ namespace palmar {
 /// The edge at which two faces meet, or would meet without the fillet between them.
 struct RoundedEdge {
   std::array<int, 2> face{};  ///< numbers in the model
-  gp_Pnt hint;                ///< on the edge or its fillet: tells edges of the same faces apart
+  gp_Pnt hint;                ///< on the edge or its fillet: distinguishes edges of the same faces
   double radius = 0.0;        ///< mm; 0: sharp
   int blend = 0;              ///< number of the face that rounded it; 0: it was sharp
   bool is_asked = false;      ///< by the user; else it was there and comes back as it was

@@ -157,7 +157,7 @@ std::vector<RoundedEdge> edges_to_round(const Resolved& wanted,
   for (const auto& [number, radius] : wanted.sharp) {
     const EdgeRelation& edge = relations[number - 1];
     if (own.count(edge.face[0]) == 0 || is_removed(edge.face[0]) || is_removed(edge.face[1])) {
-      continue;  // the end of a fillet that is rolled anew: a corner comes out there
+      continue;  // the end of a fillet that is rolled again: a corner comes out there
     }
     edges.push_back({edge.face, edge.middle, radius, 0, true});
   }
@@ -250,7 +250,7 @@ EditedModel edit_features(const CadModel& model, const FeatureEdits& edits) {
       for (const GrooveEdit& groove : edits.grooves) cut_groove(edit, groove, long_line);
       if (removed.size() > wanted.rounded.size()) {
         result.notes.push_back(fmt::format(
-            "{} fillets hang together with what was changed and were rolled anew by their radii",
+            "{} fillets are connected with what was changed and were rolled again with their radii",
             removed.size() - wanted.rounded.size()));
       }
     }

@@ -43,9 +43,9 @@ struct EditedModel {
 };
 
 /// All changes at once: fillets that are in the way are taken off (their neighbours extended until
-/// they meet), faces tapered and moved, then every fillet rolled anew, with the radius asked for or
-/// the one that it had, and grooves cut. So a change of an edge's radius from 3 to 10 mm equals the
-/// edge made with 10 mm.
+/// they meet), faces tapered and moved, then every fillet rolled again, with the radius asked for
+/// or the one that it had, and grooves cut. So a change of an edge's radius from 3 to 10 mm equals
+/// the edge made with 10 mm.
 ///
 /// Every body that is changed must be a closed solid and stays one: checked by the kernel's own
 /// check, closed shell, positive volume. Throws UsageError (unknown edge, body that isn't a solid)

@@ -89,7 +89,7 @@ TEST(EditFeatures, OneOfFourFilletsChangesAlone) {
   EXPECT_NEAR(one.volume, expected, 1e-6 * expected);
 }
 
-TEST(EditFeatures, AFullyRoundedBoxIsRolledAnewDownToItsCorners) {
+TEST(EditFeatures, AFullyRoundedBoxIsRolledAgainDownToItsCorners) {
   // Volume of a box rounded all over by r (Steiner): core + 6 slabs + quarter cylinders + a ball.
   const auto steiner = [](double r) {
     const double a = kWidth - 2 * r, l = kLength - 2 * r;
@@ -177,7 +177,7 @@ TEST(EditFeatures, ARingGrooveTakesAwayWhatPappusSays) {
   EXPECT_LT(soft.volume, grooved.volume);
 }
 
-TEST(EditFeatures, ARingFindsTheAxisOfATurnedBodyWhoseBoxLiesAskew) {
+TEST(EditFeatures, ARingFindsTheAxisOfATurnedBodyWhoseBoxIsOblique) {
   const TopoDS_Shape cone =
       BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(5, 5, -50), gp_Dir(0, 0, 1)), 19, 14, 100).Shape();
   const CadModel rimmed = fillet(make_cad_model(cone, "cone"), "convex", 4).model;
@@ -215,7 +215,7 @@ TEST(EditFeatures, NamesAndBodiesRemain) {
   EXPECT_EQ(after.impl().bodies.front().name, "box");
 }
 
-TEST(EditFeatures, WhatCannotBeMadeIsToldWithFeatureAndValue) {
+TEST(EditFeatures, WhatCannotBeMadeIsReportedWithFeatureAndValue) {
   const CadModel r3 = fillet(box(), "long", 3).model;
   EXPECT_THAT(message_of<NumericalError>([&] { fillet(r3, "long", 18); }),
               HasSubstr("fillet of 18 mm on fillets"));
@@ -234,7 +234,7 @@ TEST(EditFeatures, WhatCannotBeMadeIsToldWithFeatureAndValue) {
               HasSubstr("doesn't reach 90 mm"));
 }
 
-TEST(EditFeatures, UnknownEdgesFacesAndWordsAreToldWithWhatThereIs) {
+TEST(EditFeatures, UnknownEdgesFacesAndWordsAreReportedWithWhatThereIs) {
   EXPECT_EQ(message_of<UsageError>([] { fillet(box(), "edge=99", 3); }),
             "edge 99: the product has edges 1 to 12");
   EXPECT_EQ(message_of<UsageError>([] { fillet(box(), "face=0", 3); }),

@@ -13,7 +13,7 @@ namespace palmar {
 /// A groove whose section is an arc of a circle, along a line on the surface: where a finger lies.
 /// Along the line given as points, or around the model's longest axis.
 struct GrooveEdit {
-  /// mm; near the surface, in order; a B-spline is laid through what they show (see `smoothing`).
+  /// mm; near the surface, in order; a B-spline is fitted through what they show (see `smoothing`).
   std::vector<Vec3> points{};
   bool is_closed = false;  ///< the line runs back to its first point
   /// mm along the longest direction from the middle of the model's box: a ring there, no `points`.

@@ -156,7 +156,7 @@ double area_of(const TopoDS_Face& face) {
   return properties.Mass();
 }
 
-/// The part inside of an outline, or nothing if the outline can't be laid onto the surface.
+/// The part inside of an outline, or nothing if the outline can't be projected onto the surface.
 TopoDS_Face inside_of(const Handle(Geom_Surface) & surface, const std::vector<gp_Pnt2d>& outline,
                       double largest_area) {
   if (outline.size() < 8) return {};
@@ -220,14 +220,14 @@ TopoDS_Face make_face(const NamedSurface& given, SurfaceReport& report) {
   }
   if (u2 - u1 < 1e-6) u2 = u1 + 1e-6;
   if (v2 - v1 < 1e-6) v2 = v1 + 1e-6;
-  const bool goes_round = is_round_u && u2 - u1 > 1.9 * kPi;
-  if (goes_round) {
+  const bool surrounds = is_round_u && u2 - u1 > 1.9 * kPi;
+  if (surrounds) {
     u1 = 0.0;
     u2 = 2.0 * kPi;
   }
   const TopoDS_Face whole = BRepBuilderAPI_MakeFace(surface, u1, u2, v1, v2, 1e-6).Face();
   TopoDS_Face face;
-  if (!given.outline.empty() && !goes_round) {
+  if (!given.outline.empty() && !surrounds) {
     std::vector<gp_Pnt2d> outline;
     for (const Vec3& x : given.outline) outline.push_back(place(x));
     // The outline runs a little outside of the points: a region's border crosses triangles.

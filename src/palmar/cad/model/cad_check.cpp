@@ -32,7 +32,7 @@ std::string words_of(BRepCheck_Status status) {
     case BRepCheck_IntersectingWires:
       return "its outlines cross";
     case BRepCheck_UnorientableShape:
-      return "inside and outside can't be told";
+      return "inside and outside can't be determined";
     case BRepCheck_BadOrientationOfSubshape:
     case BRepCheck_BadOrientation:
       return "it is turned the wrong way";
@@ -43,13 +43,13 @@ std::string words_of(BRepCheck_Status status) {
     case BRepCheck_InvalidCurveOnSurface:
     case BRepCheck_InvalidSameParameterFlag:
     case BRepCheck_InvalidCurveOnClosedSurface:
-      return "an edge lies off the surface";
+      return "an edge is off the surface";
     case BRepCheck_FreeEdge:
       return "an edge is free";
     case BRepCheck_InvalidPointOnCurve:
     case BRepCheck_InvalidPointOnSurface:
     case BRepCheck_InvalidPointOnCurveOnSurface:
-      return "a corner lies off its edge";
+      return "a corner is off its edge";
     default:
       return "kernel's finding " + std::to_string(static_cast<int>(status));
   }

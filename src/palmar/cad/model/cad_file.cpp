@@ -207,7 +207,7 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
   const std::string activity =
       "translating " + path.filename().string() + (broken.empty() ? "" : " (" + broken + ")");
   if (!broken.empty()) file.notes.push_back(broken);
-  progress.update(0.3, activity);  // told if the kernel crashes on it
+  progress.update(0.3, activity);  // reported if the kernel crashes on it
   if (const double instances = count_instances(model); instances > options.max_bodies) {
     throw InputError(object + ": " +
                      (std::isinf(instances)

@@ -25,7 +25,7 @@ struct ReadCadOptions {
 struct CadFile {
   CadModel model;      ///< mm, bodies where the assembly has them
   std::string format;  ///< "STEP AP214", "IGES 5.3"
-  std::string unit;    ///< as the file calls it: "millimetre", "inch"; "" if it tells none
+  std::string unit;    ///< as the file calls it: "millimetre", "inch"; "" if it shows none
   double millimetres_per_unit = 1.0;  ///< by which lengths were multiplied
   int solids = 0;
   int open_shells = 0;             ///< bodies that enclose nothing
@@ -34,8 +34,8 @@ struct CadFile {
 
 /// Reads STEP (AP203, AP214, AP242; ISO 10303-21) or IGES (5.3). Assemblies become bodies, every
 /// instance one, named "assembly / part" and numbered if a name comes again; names and colours of
-/// bodies and faces are kept. Loose curves and points are left out (told); surfaces too if there
-/// are solids; without solids they are sewn, and closed shells become solids (told).
+/// bodies and faces are kept. Loose curves and points are left out (reported); surfaces too if
+/// there are solids; without solids they are sewn, and closed shells become solids (reported).
 ///
 /// Throws InputError naming the file: not such a file, cut off, no shapes, nothing but curves or
 /// points, more bodies or faces than allowed. May take any time and memory, or crash, on hostile

@@ -127,7 +127,7 @@ TEST(WriteStep, SaysWhereItCannotWrite) {
   }
 }
 
-TEST(ReadStep, UnitOfTheFileIsHeededAndTold) {
+TEST(ReadStep, UnitOfTheFileIsRespectedAndReported) {
   // A cylinder of 32 mm across and 120 mm: pi 16^2 120 mm^3 whatever the file counts in.
   const TestFolder folder;
   const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(16.0, 120.0).Shape();
@@ -150,7 +150,7 @@ TEST(ReadStep, UnitOfTheUserWins) {
   const TestFolder folder;
   write_plain(folder / "c.step", BRepPrimAPI_MakeCylinder(1.0, 4.0).Shape());
   const CadFile file = read_step(folder / "c.step", {.millimetres_per_unit = 25.4});
-  EXPECT_EQ(file.unit, "millimetre");  // what the file says, for the user to be told
+  EXPECT_EQ(file.unit, "millimetre");  // what the file says, for the user to be informed
   EXPECT_NEAR(volume_of(file.model), std::numbers::pi * 4.0 * 25.4 * 25.4 * 25.4, 1e-3);
 }
 
@@ -260,7 +260,7 @@ TEST(ReadStep, AShapeOfAnUnknownTypeIsRefusedByItsNumber) {
                     HasSubstr("is no shape that can be read")));
 }
 
-TEST(ReadStep, WireframePointsAndNothingAreToldApart) {
+TEST(ReadStep, WireframePointsAndNothingAreDistinguished) {
   const TestFolder folder;
   TopoDS_Compound wires;
   const BRep_Builder builder;
@@ -336,7 +336,7 @@ TEST(ReadIges, LooseSurfacesThatCloseBecomeASolid) {
   EXPECT_NEAR(volume_of(inch.model), 120000.0, 1e-2);
 }
 
-TEST(ReadIges, OpenShellsAndCutOffFilesAreToldByName) {
+TEST(ReadIges, OpenShellsAndCutOffFilesAreReportedByName) {
   const TestFolder folder;
   TopoDS_Compound two;
   const BRep_Builder builder;

@@ -44,8 +44,8 @@ std::vector<std::string> body_names(const CadModel& model) {
 
 namespace {
 
-/// What an edge is told by: the faces that it bounds and where its middle is. The order in which
-/// the kernel walks along outlines changes when a file is written and read; this doesn't.
+/// What an edge is recognised by: the faces that it bounds and where its middle is. The order in
+/// which the kernel walks along outlines changes when a file is written and read; this doesn't.
 struct EdgeKey {
   std::array<int, 2> faces = {};
   std::array<double, 3> middle = {};  ///< 1e-5 mm, rounded

@@ -171,7 +171,7 @@ struct Describer {
       curve.Initialize(edge);
       one.length = GCPnts_AbscissaPoint::Length(curve);
     } catch (const Standard_Failure&) {
-      return;  // without a curve in space; its faces' triangles tell where it runs
+      return;  // without a curve in space; its faces' triangles show where it runs
     }
     if (!std::isfinite(one.length)) one.length = 0.0;
     if (one.faces[0] < 0 || one.faces[1] < 0) return;

@@ -42,7 +42,7 @@ constexpr double kSharper = 1.05;
 constexpr double kFlat = 1e-4;  // 1/mm; radii above 10 m are flat
 constexpr double kSameRadius = 0.02;
 constexpr double kBackToBack = 175 * std::numbers::pi / 180;  // rad
-constexpr double kAskew = 10 * std::numbers::pi / 180;        // rad
+constexpr double kOblique = 10 * std::numbers::pi / 180;      // rad
 
 /// A face at one point of its rim.
 struct FaceAtEdge {
@@ -203,7 +203,8 @@ std::vector<Blend> blends_of(const CadModel::Impl& model,
 
 namespace {
 
-/// A box of a turned body may lie askew; the axis of its largest face that goes all round is exact.
+/// A box of a turned body may be oblique; the axis of its largest face that goes all round is
+/// exact.
 void settle_on_turned_face(const CadModel::Impl& model, LongAxis& axis) {
   double largest = 0.0;
   std::optional<gp_Ax1> turned;
@@ -216,7 +217,7 @@ void settle_on_turned_face(const CadModel::Impl& model, LongAxis& axis) {
     if (surface.GetType() == GeomAbs_Torus) own = surface.Torus().Axis();
     if (!own || turn < 2 * std::numbers::pi - 1e-6) continue;
     const double angle = own->Direction().Angle(axis.direction);
-    if (std::min(angle, std::numbers::pi - angle) > kAskew) continue;
+    if (std::min(angle, std::numbers::pi - angle) > kOblique) continue;
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(model.faces(i), properties);
     if (properties.Mass() <= largest) continue;

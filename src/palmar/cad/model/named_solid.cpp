@@ -152,8 +152,8 @@ NamedSolid revolve_section(const std::vector<SectionCorner>& corners) {
       make_section(corners, [](const SectionPoint& p) { return gp_Pnt(p[0], 0.0, p[1]); });
   BRepPrimAPI_MakeRevol turned(section.face, gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)));
   NamedSolid solid{turned.Shape(), {}};
-  // MakeRevol doesn't tell what became of edges square to the axis: the face through the edge's
-  // middle is the one.
+  // MakeRevol doesn't show what became of edges perpendicular to the axis: the face through the
+  // edge's middle is the one.
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid.shape, TopAbs_FACE, faces);
   for (const NamedEdge& one : section.edges) {

@@ -76,7 +76,7 @@ Handle(TCollection_HAsciiString) text(const std::string& value) {
   return new TCollection_HAsciiString(value.c_str());
 }
 
-/// The header tells Palmar, and nothing of the day, the user or the machine.
+/// The header names Palmar, and nothing of the day, the user or the machine.
 void set_header(const Handle(StepData_StepModel) & model) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text("product"));

@@ -32,7 +32,7 @@ constexpr double kSizeShare = 2000.0;  // a 120 mm handle: 0.06 mm
 constexpr double kRoundShare = 20.0;   // a 20th of the smallest rounding
 constexpr double kFinest = 0.01;       // mm; a tenth of a skin ridge's height
 constexpr double kCoarsest = 0.2;      // mm
-constexpr double kSmallestAllowed = 1e-4, kLargestAllowed = 10.0;  // mm, told by the user
+constexpr double kSmallestAllowed = 1e-4, kLargestAllowed = 10.0;  // mm, given by the user
 
 double size_of(const CadModel& model) {
   const Box3 box = box_of(model);
@@ -51,7 +51,7 @@ double estimate_freeform(const BRepAdaptor_Surface& surface, double chordal_erro
   constexpr int kGrid = 8;
   const double u0 = surface.FirstUParameter(), u1 = surface.LastUParameter();
   const double v0 = surface.FirstVParameter(), v1 = surface.LastVParameter();
-  // Turn of the tangent along grid lines tells how many chords they need.
+  // Turn of the tangent along grid lines says how many chords they need.
   const auto along = [&](bool is_u, double fixed) {
     double steps = 0.0;
     gp_Vec last;
@@ -138,7 +138,7 @@ void coarsen(Choice& choice, const TessellationOptions& options) {
 
 Choice choose(const CadModel& model, const ProductFaces& faces,
               const TessellationOptions& options) {
-  if (options.chordal_error) return {*options.chordal_error, "as told", options.angle};
+  if (options.chordal_error) return {*options.chordal_error, "as given", options.angle};
   const double size = size_of(model);
   double smallest = 0.0;
   for (const ProductFace& face : faces.face) {
@@ -152,11 +152,11 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
   }
   if (choice.chordal_error < kFinest) {
     choice.chordal_error = kFinest;
-    choice.reason = "the finest that is chosen without being told";
+    choice.reason = "the finest that is chosen automatically";
   }
   if (choice.chordal_error > kCoarsest) {
     choice.chordal_error = kCoarsest;
-    choice.reason = "the coarsest that is chosen without being told";
+    choice.reason = "the coarsest that is chosen automatically";
   }
   // Half of the triangles are kept in reserve: it is an estimate.
   while (can_be_coarser(choice) &&

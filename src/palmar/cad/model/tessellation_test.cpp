@@ -96,7 +96,7 @@ TEST(Tessellate, RoundedBoxHasItsVolumeFacesAndFillets) {
   }
 }
 
-TEST(DescribeFaces, TellsOuterAndInnerEdgesOfAStep) {
+TEST(DescribeFaces, DistinguishesOuterAndInnerEdgesOfAStep) {
   // A box with a corner cut away along its length: 12 + 6 edges of which one is hollow.
   const TopoDS_Shape step = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(40, 30, 100).Shape(),
                                             BRepPrimAPI_MakeBox(20, 15, 100).Shape())
@@ -114,7 +114,7 @@ TEST(DescribeFaces, TellsOuterAndInnerEdgesOfAStep) {
   }
 }
 
-TEST(DescribeFaces, TellsAHoleFromARod) {
+TEST(DescribeFaces, DistinguishesAHoleFromARod) {
   const ProductFaces rod = describe_faces(model_of(BRepPrimAPI_MakeCylinder(10, 50).Shape()));
   const ProductFaces hole = describe_faces(
       model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(-30, -30, 0), gp_Pnt(30, 30, 50)).Shape(),
@@ -164,7 +164,7 @@ TEST(Tessellate, TooManyTrianglesAreRefusedByNumber) {
     EXPECT_THAT(error.what(), HasSubstr("up to 10000 are made"));
     EXPECT_THAT(error.what(), HasSubstr("--chordal-error-mm"));
   }
-  // Without an error being told it gets coarser instead.
+  // Without a given error it gets coarser instead.
   const Tessellation coarse = tessellate(ball, {.max_triangles = 1000});
   EXPECT_LE(coarse.mesh.triangle_count(), 1000);
   EXPECT_THAT(coarse.chordal_reason, HasSubstr("no more than 1000 triangles"));

@@ -116,7 +116,7 @@ class Flattener {
 
   void check_depth(int depth) const {
     if (depth <= kDeepestAssembly) return;
-    throw InputError(object_ + ": assemblies stand within assemblies more than " +
+    throw InputError(object_ + ": assemblies are nested more than " +
                      std::to_string(kDeepestAssembly) + " deep");
   }
 
@@ -259,7 +259,7 @@ class Flattener {
     if (body.was_sewn && body.is_solid) ++sewn_solids_;
     if (name.empty()) name = "body";
     if (const int number = ++names_[name]; number > 1) {
-      // "screw", "screw (2)": so that every body can be told from the others.
+      // "screw", "screw (2)": so that every body can be distinguished from the others.
       name += " (" + std::to_string(number) + ")";
     }
     FaceInfo info;
@@ -307,7 +307,7 @@ class Flattener {
         "open shells: their surfaces enclose nothing, what is inside is judged by the winding "
         "number");
     add(turned_, "solid was inside out and was turned", "solids were inside out and were turned");
-    add(healed_, "body was faulty and was mended", "bodies were faulty and were mended");
+    add(healed_, "body was faulty and was repaired", "bodies were faulty and were repaired");
     add(invalid_, "body is faulty by the CAD kernel's check (`palmar product check`)",
         "bodies are faulty by the CAD kernel's check (`palmar product check`)");
   }

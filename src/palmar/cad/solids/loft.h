@@ -13,8 +13,8 @@ namespace palmar {
 /// Rises from 0 at t = 0 to 1 at t = 1 with no slope and no curvature at both; 0 before, 1 behind.
 double smoother_step(double t);
 
-/// A curve through points of given abscissa, ascending, with no slope at any of them: what is told
-/// by its highest and lowest points. Constant before the first and behind the last.
+/// A curve through points of given abscissa, ascending, with no slope at any of them: what is
+/// reported by its highest and lowest points. Constant before the first and behind the last.
 class Undulation {
  public:
   struct Point {
@@ -40,9 +40,9 @@ struct LoftBand {
 };
 
 /// A smooth solid along z. `section(z, turn)` is the side's point in the plane of z; it must go
-/// round once, counter-clockwise, and be smooth in both. Both ends are flat and square to z, and
-/// their edges are rounded with `end_fillet` as a rolling ball would: below the tightest radius of
-/// the sections there.
+/// round once, counter-clockwise, and be smooth in both. Both ends are flat and perpendicular to z,
+/// and their edges are rounded with `end_fillet` as a rolling ball would: below the tightest radius
+/// of the sections there.
 ///
 /// The side is one bicubic B-spline surface through `columns` x rows points, cut into the faces of
 /// `bands` from bottom to top; bands don't reach into the roundings, which become "bottom fillet"

@@ -68,7 +68,7 @@ std::string what_is_wrong(const TopoDS_Shape& shape) {
   return properties.Mass() > 0.0 ? "" : "it has no volume";
 }
 
-/// The same without parts that are only moved: a STEP file tells no names of those.
+/// The same without parts that are only moved: a STEP file has no names of those.
 NamedSolid without_locations(const NamedSolid& made) {
   ShapeUpgrade_RemoveLocations flat;
   flat.Remove(made.shape);

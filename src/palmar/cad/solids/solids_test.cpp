@@ -105,7 +105,7 @@ TEST(KindSolids, AScrewdriverWithoutNeckAndFlutesIsARoundedBar) {
               1.0, 2e-4);
 }
 
-TEST(KindSolids, HaveTheSizeThatTheirParametersTell) {
+TEST(KindSolids, HaveTheSizeThatTheirParametersGive) {
   const double tolerance = 0.06;  // mm; chords of 0.02 on both sides, and splines between points
   const auto expect = [&](const std::string& kind, const Vec3& size) {
     EXPECT_LT((size_of(make(kind)) - size).cwiseAbs().maxCoeff(), tolerance)

@@ -23,7 +23,7 @@ std::string in_words(std::string_view name) {
   return words;
 }
 
-/// Motions of the limit postures that turn enough to tell an axis.
+/// Motions of the limit postures that turn enough to determine an axis.
 struct Turns {
   std::vector<Rigid3> motion;
   std::vector<ScanPosture> posture;
@@ -59,7 +59,7 @@ JointDof moved_dof(const ReferenceHand& hand, const Hand& model, Finger finger, 
   return result;
 }
 
-/// Columns: a unit direction, the part of another one square to it, and their cross product.
+/// Columns: a unit direction, the part of another one perpendicular to it, and their cross product.
 Eigen::Matrix3d frame_of(const Vec3& along, const Vec3& other) {
   const Vec3 across = (other - other.dot(along) * along).normalized();
   Eigen::Matrix3d frame;
@@ -146,7 +146,7 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
   measures.skeleton.joints[index_of(id)] = {id, node, {spreads, bends}};
 }
 
-/// Angles of the reference posture, from the directions of the bones. The model's own angle tells
+/// Angles of the reference posture, from the directions of the bones. The model's own angle shows
 /// where zero is: measured on the model's bones, the same way gives its reference posture.
 void set_reference_angles(const ReferenceHand& hand, const Hand& model, Finger finger, JointId id,
                           std::size_t link, JointMeasures& measures) {

@@ -23,7 +23,7 @@ struct Fixture {
 /// - its inside is even: the signal deviates by 15 % at most, where a finger has bone and fat;
 /// - more than 1 cm^3; of several pieces those that have the largest one's signal, within 15 %.
 /// From there it reaches through all that connects to it, is thicker than 2.4 mm and is darker than
-/// half way between its own signal and the skin's; if the two are too alike to be told apart, to
+/// half way between its own signal and the skin's; if the two are too alike to be distinguished, to
 /// 2 mm from the fat.
 ///
 /// `tissue`: hand and fixture; `air`: what is round it; `bright`, `skin`, `noise`: signals.

@@ -45,7 +45,7 @@ ScanContact grasp_contact(const ScanRecord& record, const TriangleMesh& product,
   }
   const auto moved_palm = place_palm(record.scans.front().surfaces, scan->surfaces);
   if (!moved_palm) {
-    throw InputError(scan->title + ": shows too few bones of the palm to lay the hand on it");
+    throw InputError(scan->title + ": shows too few bones of the palm to align the hand with it");
   }
   constexpr double kRange = 2.0;   // mm; Xie 2014
   constexpr double kReach = 30.0;  // mm
@@ -54,10 +54,10 @@ ScanContact grasp_contact(const ScanRecord& record, const TriangleMesh& product,
   if (gap > kRange) {
     const bool is_turned = nearest(skin, in_other_axes(product), kReach) <= kRange;
     throw InputError(fmt::format(
-        "{}: lies {}{:.1f} mm from the skin in the scan of the grasp; it must stand where it was "
-        "in the scanner (patient frame of DICOM: x to the left, y to the back, z to the head){}",
+        "{}: is {}{:.1f} mm from the skin in the scan of the grasp; it must be where it was in the "
+        "scanner (patient frame of DICOM: x to the left, y to the back, z to the head){}",
         name, gap >= kReach ? "more than " : "", gap,
-        is_turned ? "; with x and y negated it lies in the hand, so the file has the axes of NIfTI"
+        is_turned ? "; with x and y negated it is in the hand, so the file has the axes of NIfTI"
                   : ""));
   }
   const Rigid3 patient_from_hand = *moved_palm * record.made.patient_from_hand;

@@ -195,27 +195,25 @@ void note_bones(const ReferenceHand& hand,
       if (has_image && !found->image) by_surface.push_back(name);
       if (found->is_cut_out && !found->counterpart.empty() && found->counterpart != name) {
         notes.push_back(
-            fmt::format("{}: the bone labelled {} is taken for the {}, as it stands in "
-                        "that bone's joint and has its shape.",
+            fmt::format("{}: the bone labelled {} is taken for the {}, as it is in that bone's "
+                        "joint and has its shape.",
                         name_of(posture), found->counterpart, name));
       }
     }
     if (!by_image.empty()) {
-      notes.push_back(
-          fmt::format("{}: without a surface of its own, found by the image alone: {}. Tables of "
-                      "errors leave it out.",
-                      name_of(posture), joined(by_image, ", ")));
+      notes.push_back(fmt::format(
+          "{}: without a surface, found by the image alone: {}. Tables of errors leave it out.",
+          name_of(posture), joined(by_image, ", ")));
     }
     if (!by_surface.empty()) {
       notes.push_back(
-          fmt::format("{}: doesn't look in the image as in the reference, laid on its surface "
+          fmt::format("{}: doesn't look in the image as in the reference, aligned by its surface "
                       "instead, which is less accurate: {}.",
                       name_of(posture), joined(by_surface, ", ")));
     }
     if (!lost.empty()) {
       notes.push_back(
-          fmt::format("{}: not found again: {}. The posture tells nothing of their "
-                      "joints.",
+          fmt::format("{}: not found again: {}. The posture says nothing about their joints.",
                       name_of(posture), joined(lost, ", ")));
     }
   }

@@ -24,7 +24,7 @@ struct AxisFit {
   Vec3 point = Vec3::Zero();  ///< on the axis, nearest to where it was looked for
   double angle = 0.0;         ///< rad, [0, pi]
   double slide = 0.0;        ///< of the motion along the axis, which a pure rotation can't make, mm
-  bool is_observed = false;  ///< the angle is large enough to tell an axis
+  bool is_observed = false;  ///< the angle is large enough to determine an axis
 };
 /// `motion` of the distal part relative to the proximal one; `near`: where the joint is, mm.
 AxisFit fit_axis(const Rigid3& motion, const Vec3& near);
@@ -35,7 +35,7 @@ struct BoneMotion {
   std::string counterpart;        ///< its name in the other scan: another one if labels disagree
   Rigid3 posture_from_reference;  ///< patient frame of one scan to that of the other
   IcpResult fit;                  ///< surface to surface; 0 without is_cut_out
-  std::optional<ImageFit> image = std::nullopt;  ///< what the motion is from, if images tell it
+  std::optional<ImageFit> image = std::nullopt;  ///< what the motion is from, if images show it
   bool is_cut_out = true;                        ///< the other scan has a surface for it
 };
 
@@ -48,7 +48,7 @@ struct TrackedImages {
 /// Finds every bone of `reference` in `posture` by registration along the chain from the carpus
 /// out: each bone starts where its proximal neighbour's motion and the bone of the same name put
 /// it. A bone that doesn't fit the one of its name is tried on others near where it must be
-/// (counterpart). With `images` the motions are those that lay the reference's intensities on the
+/// (counterpart). With `images` the motions are those that align the reference's intensities on the
 /// other scan's (image_registration.h), and what has no surface there is searched for in the image
 /// by turning it about its joint. Bones that aren't found are left out.
 std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSurfaces& posture,
@@ -73,15 +73,16 @@ struct MeasuredJoints {
   std::array<bool, kDofCount>
       is_measured{};  ///< axis and range come from the scans; others from the model
   std::map<ScanPosture, Posture> postures;  ///< angles of every posture
-  /// Where the palm is in other scans, as far as something else than its bones told.
+  /// Where the palm is in other scans, as far as something else than its bones showed.
   std::map<ScanPosture, Rigid3> patient_from_hand_in = {};
   std::vector<BoneError> errors;
   std::vector<std::string> notes;  ///< what is lost for want of a posture or bone: sentences
 };
 
 /// `scans`: kReference at least; `motions`: those of the bones in every other posture that was
-/// scanned. `model`: joints that the scans don't tell are taken over from it, fitted to the bones.
-/// Throws InputError if the reference scan lacks, or shows too few bones to tell where the hand is.
+/// scanned. `model`: joints that the scans don't show are taken over from it, fitted to the bones.
+/// Throws InputError if the reference scan lacks, or shows too few bones to determine where the
+/// hand is.
 MeasuredJoints measure_joints(const std::map<ScanPosture, ScanSurfaces>& scans,
                               const std::map<ScanPosture, std::vector<BoneMotion>>& motions,
                               const Hand& model);

@@ -131,7 +131,7 @@ std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger fi
   return nodes;
 }
 
-/// Similarity that lays the model's palm on the scan's.
+/// Similarity that places the model's palm on the scan's.
 struct Similarity {
   double scale = 1.0;
   Rigid3 motion;
@@ -177,7 +177,7 @@ Similarity palm_similarity(const Meshes& scan, const Meshes& model) {
   if (bones < 3 || from.size() < 4) {
     throw InputError("reference scan: " + std::to_string(bones) +
                      " bones of the palm (metacarpals II to V, carpals) are named; at least 3, "
-                     "among them a metacarpal, are needed to tell where the hand is");
+                     "among them a metacarpal, are needed to find where the hand is");
   }
   // Wrong names stand out once the others agree.
   Similarity fit = similarity_of(from, to);
@@ -239,7 +239,7 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
   const std::array<Vec3, 2> ends = ends_of(bone, centre_of_volume(distal));
   const Vec3 axis = (ends[1] - ends[0]).normalized();
   const double length = (ends[1] - ends[0]).norm();
-  // Head: the last fifth. Its thickness is the smaller of two extents square to each other.
+  // Head: the last fifth. Its thickness is the smaller of two extents perpendicular to each other.
   const Vec3 e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
   Eigen::AlignedBox2d box;
   for (const Vec3& v : bone.vertices) {
@@ -341,7 +341,7 @@ PostureMotions motions_in_hand(const ReferenceHand& hand, const std::vector<Bone
     const auto bone = hand.bones.find(motion.bone);
     if (bone == hand.bones.end() || !is_palm_bone(motion.bone)) continue;
     const bool is_metacarpal = motion.bone.ends_with("_metacarpal");
-    // A metacarpal's ends tell more than a carpal, whose turn is hardly held: all six points.
+    // A metacarpal's ends show more than a carpal, whose turn is hardly held: all six points.
     const std::size_t count = is_metacarpal ? 6 : 1;
     for (std::size_t k = 0; k < count; ++k) {
       const auto& p = bone->second.points;
@@ -354,7 +354,7 @@ PostureMotions motions_in_hand(const ReferenceHand& hand, const std::vector<Bone
   if (from.size() < 3) {
     throw InputError(std::string(name_of(posture)) +
                      ": no bones of the palm were found again; at least three carpals or a "
-                     "metacarpal are needed to tell how the hand moved");
+                     "metacarpal are needed to find how the hand moved");
   }
   PostureMotions result;
   constexpr double kTolerance = 0.7;  // mm; a bone that moves farther doesn't count as the palm

@@ -32,7 +32,7 @@ struct ReferenceBone {
   std::array<Vec3, 6> points;  ///< moment_points()
 };
 
-/// The hand of the reference scan in its own hand frame, laid over a model.
+/// The hand of the reference scan in its own hand frame, placed over a model.
 struct ReferenceHand {
   Rigid3 patient_from_hand;
   std::map<std::string, ReferenceBone> bones;
@@ -42,7 +42,7 @@ struct ReferenceHand {
 
   const RayNodes& nodes(Finger f) const { return ray[index_of(f)]; }
   /// A direction that moves with the model's link k of a finger, as it lies in the scan: turned by
-  /// the least turn that lays the model's link on the scan's.
+  /// the least turn that places the model's link on the scan's.
   Vec3 from_model(Finger finger, std::size_t link, const Vec3& direction) const;
 };
 
@@ -52,7 +52,7 @@ struct ReferenceHand {
 /// scan's side. Throws InputError with fewer than three bones of the palm to go by.
 ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model);
 
-/// Proximal and distal end of a long bone on its principal axis; `distal` tells the ends apart.
+/// Proximal and distal end of a long bone on its principal axis; `distal` distinguishes the ends.
 std::array<Vec3, 2> ends_of(const TriangleMesh& bone, const Vec3& distal);
 
 /// Centre of a bone's head, the end of it that carries `distal`: of the sphere through what lies

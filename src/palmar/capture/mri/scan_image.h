@@ -37,7 +37,7 @@ struct ScanImage {
 
 /// Cuts out, cleans and measures. Thresholds, unless they are given:
 /// - air from tissue: half of the median signal 0.5 to 1.3 mm below the surface, so that a surface
-///   lies where half a voxel is skin (the surface that Otsu's threshold gives tells where that is).
+///   lies where half a voxel is skin (the surface that Otsu's threshold gives says where that is).
 ///   Half way to the air's mean would be too high: noise has no sign in a magnitude image
 ///   (noise_floor.h);
 /// - marrow from cortical bone: half way between the medians of the dark and of the bright class

@@ -43,9 +43,9 @@ TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
   SimpleSurface surface =
       simple_surface(std::move(field), scan.levels.air_threshold, scan.levels.skin);
   if (surface.handles > 0) {
-    notes.push_back(
-        fmt::format("skin touches skin, or is too thin to be seen, in {} {}: it was parted there",
-                    surface.handles, surface.handles == 1 ? "place" : "places"));
+    notes.push_back(fmt::format(
+        "skin touches skin, or is too thin to be seen, in {} {}: it was separated there",
+        surface.handles, surface.handles == 1 ? "place" : "places"));
   }
   const TriangleMesh mesh = smooth_taubin(surface.mesh, {.rounds = 8});
   return remesh(mesh, {.edge_length = edge_length, .rounds = 8}).mesh;

@@ -41,7 +41,7 @@ struct SurfaceOptions {
   double edge_length = 1.2;       ///< mean edge of the meshes, mm
   double marker_diameter = 5.0;   ///< mm; 0: no markers are looked for
   std::optional<Side> side = {};  ///< which hand it is, if that is known
-  /// Bones that fit the other hand with less than this share of the misfit tell that `side` is
+  /// Bones that fit the other hand with less than this share of the misfit show that `side` is
   /// wrong after all; 0: it is certain.
   double doubted_below = 0.0;
   void check() const;  ///< throws UsageError: field, value, allowed range

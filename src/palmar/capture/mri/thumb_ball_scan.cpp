@@ -154,7 +154,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
   }
   fit.markers = static_cast<int>(kept.size());
 
-  // The skin bent onto the scans tells the rest, and where a marker is that wasn't seen.
+  // The skin bent onto the scans shows the rest, and where a marker is that wasn't seen.
   std::array<std::vector<Vec3>, 4> posed, bent;
   for (std::size_t l = 0; l < 4; ++l) {
     if (!limits[l]) continue;

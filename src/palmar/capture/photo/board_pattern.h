@@ -9,12 +9,11 @@
 
 namespace palmar {
 
-/// A chessboard with a marker in every white square, by which its inner corners are told apart. Its
-/// middle is the origin of the world; x along the rows of the print, y up its columns, z towards
-/// the reader.
-/// Source: Garrido-Jurado et al. 2014 (markers); their chessboard of corners as OpenCV has it, with
-/// markers of 5 x 5 cells, 250 of them. An odd number of squares: versions of OpenCV agree about
-/// those.
+/// A chessboard with a marker in every white square, by which its inner corners are distinguished.
+/// Its middle is the origin of the world; x along the rows of the print, y up its columns, z
+/// towards the reader. Source: Garrido-Jurado et al. 2014 (markers); their chessboard of corners as
+/// OpenCV has it, with markers of 5 x 5 cells, 250 of them. An odd number of squares: versions of
+/// OpenCV agree about those.
 struct BoardPattern {
   int squares = 11;      ///< along an edge; odd, 5 to 21
   double square = 36.0;  ///< edge of a square, mm

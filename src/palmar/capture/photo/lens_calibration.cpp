@@ -336,9 +336,8 @@ LensCalibration calibrate_lens(int width, int height,
   constexpr double kWorst = 3.0;  // pixels
   if (!std::isfinite(result.rms) || result.rms > kWorst) {
     throw InputError(
-        fmt::format("{}: corners of the board lie {:.1f} pixels from where any lens would show "
-                    "them; photographs "
-                    "of several lenses or zooms, or another board",
+        fmt::format("{}: corners of the board are {:.1f} pixels from where any lens would show "
+                    "them; photographs of several lenses or zooms, or another board",
                     name, result.rms));
   }
   result.lens.check(name);

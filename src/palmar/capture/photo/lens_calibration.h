@@ -44,11 +44,11 @@ struct LensExpectation {
 
 /// All numbers of a lens and its places from photographs of the board with this one camera, focus
 /// and zoom untouched. Photographs should show the board tilted every way: a camera that goes round
-/// a flat board at one height can't tell its centre from its tilt (the deviations then say so).
-/// What lenses are like (LensExpectation) counts for as much as it is certain: nothing beside good
-/// photographs, but it holds what these can't tell. Throws InputError naming `name` if fewer than
-/// three photographs show 8 corners or more, or no lens fits.
-/// Source: Zhang 2000, "A flexible new technique for camera calibration".
+/// a flat board at one height can't determine its centre from its tilt (the deviations then say
+/// so). What lenses are like (LensExpectation) counts for as much as it is certain: nothing beside
+/// good photographs, but it holds what these can't determine. Throws InputError naming `name` if
+/// fewer than three photographs show 8 corners or more, or no lens fits. Source: Zhang 2000, "A
+/// flexible new technique for camera calibration".
 LensCalibration calibrate_lens(int width, int height,
                                const std::vector<std::vector<BoardCorner>>& photographs,
                                const std::string& name, const LensExpectation& expected = {});

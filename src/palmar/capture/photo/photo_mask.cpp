@@ -170,7 +170,7 @@ PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
   result.paper = paper_of(view, colour, region, board_half);
 
   VoxelMask mask(view.grey.size(), 0);
-  // The board is neutral, so it tells nothing of what is behind the hand.
+  // The board is neutral, so it shows nothing of what is behind the hand.
   const VoxelMask board = board_region(view, board_half);
   std::size_t region_size = 0, outside = 0, around = 0;
   for (std::size_t p = 0; p < mask.size(); ++p) {

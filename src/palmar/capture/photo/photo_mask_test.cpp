@@ -41,14 +41,14 @@ Box3 box_of(double half) {
 }
 
 // A box that the hand fills is no background that looks like skin; one of wood is.
-TEST(PhotoMask, TellsABackgroundFromAFullBox) {
+TEST(PhotoMask, DistinguishesABackgroundFromAFullBox) {
   const PhotoMask plain = mask_hand(view_of(kCloth), box_of(32.0), 0.0);
   EXPECT_GT(plain.box_share, 0.7);
   EXPECT_LT(plain.around_share, 0.05);
   const PhotoMask wood = mask_hand(view_of(kWood), box_of(32.0), 0.0);
   EXPECT_GT(wood.box_share, 0.9);
   EXPECT_GT(wood.around_share, 0.9);
-  // Nothing beside it: what is around can't be told.
+  // Nothing beside it: what is around can't be determined.
   EXPECT_EQ(mask_hand(view_of(kCloth), box_of(160.0), 0.0).around_share, 1.0);
 }
 

@@ -50,7 +50,7 @@ TriangleMesh largest_part(const TriangleMesh& mesh) {
 }
 
 /// Leaves out what is a guess, and pieces that then hang loose: what is behind a hand makes
-/// surfaces of its own where it isn't told from the hand.
+/// surfaces of its own where it isn't distinguished from the hand.
 void keep_measured(PhotoModel& model) {
   TriangleMesh& mesh = model.skin.mesh;
   const auto is_measured = [&model](int v) { return model.measured[v] != 0; };
@@ -204,16 +204,16 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
     around.push_back(mask.around_share);
   }
   // A narrow box may be full of hand before a plain backdrop, which shows beside it.
-  constexpr double kTellsLittle = 0.5, kLittleAround = 0.15;
-  model.has_background = median(shares) > kTellsLittle && median(around) > kLittleAround;
+  constexpr double kShowsLittle = 0.5, kLittleAround = 0.15;
+  model.has_background = median(shares) > kShowsLittle && median(around) > kLittleAround;
   double begin = 0.12;  // of the fine stereo
   if (model.has_background) {
     begin = 0.4;
     narrow_by_depth(photographs, views, options, masks, part_of(progress, 0.08, begin));
     model.warnings.push_back(
-        "the hand's colour doesn't tell it from what is behind it; its outline was found by "
-        "comparing photographs, which takes longer and is less sure: a plain blue or grey backdrop "
-        "helps");
+        "the hand's colour doesn't distinguish it from what is behind it; its outline was found by "
+        "comparing photographs, which takes longer and is less certain: a plain blue or grey "
+        "backdrop helps");
   }
   progress.update(model.has_background ? begin : 0.09, "carving the outline");
   const VisualHull hull = make_visual_hull(views, masks, options.box, options.hull);

@@ -38,7 +38,7 @@ struct PhotoUse {
   double glare_share = 0.0;   ///< of the hand's pixels that are as bright as can be
   double depth_share = 0.0;   ///< of the hand's pixels that got a depth
   double kept_share = 0.0;    ///< of those, depths that other photographs agree with
-  double gain = 1.0;          ///< its exposure, made good
+  double gain = 1.0;          ///< its exposure, corrected
 };
 
 /// A hand as the photographs show it, in the board's frame, mm.
@@ -53,7 +53,7 @@ struct PhotoModel {
   double hull_volume = 0.0;     ///< mm^3
   double measured_share = 0.0;  ///< of the area
   SkinLight light;              ///< gloss, lamps that moved
-  bool has_background = false;  ///< masks tell little: what is behind the hand looks like skin;
+  bool has_background = false;  ///< masks show little: what is behind the hand looks like skin;
                                 ///< what wasn't measured is left out then
   std::vector<std::string> warnings;
 };

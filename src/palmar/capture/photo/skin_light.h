@@ -24,7 +24,7 @@ struct SkinLight {
   /// Change of its own light from photograph to photograph, deviation over mean: 0 if lamps and
   /// hand stand still.
   double change = 0.0;
-  std::size_t spots = 0;  ///< that told; few of them tell nothing
+  std::size_t spots = 0;  ///< that reported; few of them show nothing
 };
 
 /// Skin mirrors lamps in their own colour, white, and sends back light of its own in its colour
@@ -33,7 +33,7 @@ struct SkinLight {
 ///     c_i = m_i c + w_i (1, 1, 1) |c|_1 / 3,
 ///
 /// c the spot's usual colour (medians over its samples), m_i how much of its own light and w_i how
-/// much mirrored light there is. What is left of c_i without its grey part tells m_i, its sum then
+/// much mirrored light there is. What is left of c_i without its grey part shows m_i, its sum then
 /// w_i. Noise spreads w_i evenly to both sides, mirrored light to the bright one. Moved lamps
 /// change m_i, and the sum with it, which noise doesn't: the root of their covariance is taken.
 /// Spots of fewer than five samples or of nearly no colour are left out. Source: Shafer 1985,

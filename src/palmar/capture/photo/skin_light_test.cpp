@@ -69,7 +69,7 @@ TEST(SkinLight, MovedLampsChangeItsOwnLight) {
   EXPECT_LT(light.gloss, 0.04);  // brighter samples have more noise
 }
 
-TEST(SkinLight, GreyTellsNothing) {
+TEST(SkinLight, GreyDeterminesNothing) {
   const SkinLight light = judge_skin_light(spots_of(
       Eigen::Vector3f::Constant(0.3F), 0.0, [](int, int) { return 1.0; },
       [](int s, int p) { return (s + p) % 5 == 0 ? 0.5 : 0.0; }));

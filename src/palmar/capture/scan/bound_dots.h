@@ -16,7 +16,7 @@ struct BoundDot {
   HandPoint on_hand;
   Segment segment{};  ///< that it was drawn on; on the back of the hand: palm
   /// On a proximal phalanx so near the knuckle that its skin is the palm's: it slides between both
-  /// and tells the motion of neither.
+  /// and shows the motion of neither.
   bool slides = false;
 };
 

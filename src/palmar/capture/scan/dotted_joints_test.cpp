@@ -30,7 +30,7 @@ double degrees_off(const DotHinge& h) {
   return std::acos(std::min(1.0, std::abs(h.axis.dot(kHinge)))) * 57.29578;
 }
 
-TEST(DottedJoints, ExactDotsTellTheHinge) {
+TEST(DottedJoints, ExactDotsDetermineTheHinge) {
   HingePrior prior;  // knows nearly nothing
   prior.axis = Vec3(1.0, -0.15, 0.1).normalized();
   prior.point = kPoint + Vec3(0.0, 3.0, -2.0);

@@ -46,7 +46,7 @@ std::array<Vec3, 6> metacarpal_points(const Hand& hand) {
 /// The four limit transforms, the joint's axes and ranges.
 void measure_limits(const Hand& hand, const std::map<ScanPosture, ThumbReading>& readings,
                     MeasuredJoints& joints) {
-  // The person's own hand is its own model: what isn't told stays.
+  // The person's own hand is its own model: what isn't given stays.
   ReferenceHand reference;
   const auto of = [&](JointId id) { return joints.skeleton.joint(id).centre; };
   reference.ray[0] = {{of(JointId::kThumbCmc), of(JointId::kThumbMp), of(JointId::kThumbIp),

@@ -33,7 +33,7 @@ struct ThumbReading {
 ///   sum |M MP(m) x - y|^2 + sum |M MP(m) IP(i) x - y|^2      over s^2 = (1 mm)^2
 ///   + |t|^2 / (1.5 mm)^2 + (|d|^2 + (m - m0)^2 + (i - i0)^2) / (8 degrees)^2
 /// least: the base of the metacarpal stays on the trapezium, the skin (M0 with R0,
-/// m0, i0 of `by_skin`) tells roughly how it lies.
+/// m0, i0 of `by_skin`) shows roughly how it lies.
 ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const Posture& by_skin);
 
 /// Puts the thumb's CMC joint into `joints` by what of its limit postures is among `readings` (Xie

@@ -261,8 +261,8 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
 }
 
 /// The plane through a crease's ink; nothing if that is too narrow.
-void lay_plane(const std::vector<const Line*>& lines, const Frame& frame, Segment segment,
-               FoundCreases& found) {
+void fit_crease_plane(const std::vector<const Line*>& lines, const Frame& frame, Segment segment,
+                      FoundCreases& found) {
   struct Sample {
     double value, aside, weight;
   };
@@ -330,7 +330,7 @@ FoundCreases find_creases(const SkinMarks& marks, const Rigid3& hand_from_scan,
     for (const Line& line : lines) {
       if (line.crease == segment) own.push_back(&line);
     }
-    lay_plane(own, frame_of(creases, segment), segment, found);
+    fit_crease_plane(own, frame_of(creases, segment), segment, found);
   }
   const Rigid3 scan_from_hand = hand_from_scan.inverse();
   for (const Line& line : lines) {

@@ -36,7 +36,8 @@ struct FoundCreases {
 ///   the next begins. Lines narrower than a third of the finger's breadth don't count.
 /// - Lines and creases are paired without crossing, so that the sum of (d / 5 mm)^2, d the distance
 ///   from line to crease along the finger, is least; one left alone costs 3.
-/// - A crease is the plane through its points that stays square to the finger's palmar direction:
+/// - A crease is the plane through its points that stays perpendicular to the finger's palmar
+/// direction:
 ///   offset and slope across the finger by least squares.
 /// What `marks` labels by hand comes first. `creases`: where the joints suggest them. Throws
 /// InputError "file:line: ..." for labels that contradict each other.

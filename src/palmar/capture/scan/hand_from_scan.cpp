@@ -39,10 +39,10 @@ TriangleMesh looked_up(const TriangleMesh& mesh) {
   return mesh.triangle_count() > kMany ? cluster_vertices(mesh, kLookUpEdge) : mesh;
 }
 
-MeasuredJoints joints_of(const LaidSkeleton& laid) {
+MeasuredJoints joints_of(const PlacedSkeleton& placed_model) {
   MeasuredJoints joints;
-  joints.skeleton = laid.skeleton;
-  joints.patient_from_hand = laid.scan_from_hand;
+  joints.skeleton = placed_model.skeleton;
+  joints.patient_from_hand = placed_model.scan_from_hand;
   return joints;
 }
 
@@ -75,7 +75,7 @@ class DotReader {
     read_thumb_of(palm, found);
     for (int f = 1; f < kFingerCount && !is_thumb_limit(name); ++f) {
       Rigid3 before = palm;
-      is_told_ = true;
+      is_found_by_dots_ = true;
       for (const auto& segment : segments_of(static_cast<Finger>(f))) {
         if (segment) before = before * read_joint(*segment, before, found);
       }
@@ -103,7 +103,7 @@ class DotReader {
     posture_[Dof::kThumbIpFlexion] = reading.ip;
     result_.thumb[name_] = reading;
     Rigid3 before = palm * reading.metacarpal;
-    is_told_ = true;
+    is_found_by_dots_ = true;
     for (const Segment segment : {Segment::kThumbProximal, Segment::kThumbDistal}) {
       before = before * read_joint(segment, before, found);
     }
@@ -142,15 +142,15 @@ class DotReader {
         taken[seen] = dots_[of_expected[k]].segment;
       }
     };
-    // Whose segment somebody told first: they may lie farther off.
+    // Whose segment somebody reported first: they may lie farther off.
     for (int s = 0; s < kSegmentCount; ++s) match(static_cast<Segment>(s), 25.0, 12.0);
     match({}, 10.0, 4.0);
     std::map<Segment, int> again;
     for (const auto& segment : taken) {
       if (segment) ++again[*segment];
     }
-    const std::string lacking = missing_dots_note(scan.name, again, result_.dots);
-    if (!lacking.empty()) result_.notes.push_back(lacking);
+    const std::string missing_note = missing_dots_note(scan.name, again, result_.dots);
+    if (!missing_note.empty()) result_.notes.push_back(missing_note);
     for (std::size_t k = 0; k < taken.size(); ++k) {
       result_.marks.push_back({name_, MarkLabel::Kind::kDot, taken[k], scan.marks.dots[k].point});
     }
@@ -193,9 +193,9 @@ class DotReader {
     constexpr std::size_t kEnough = 2;
     // Dots behind a part whose own dots weren't found see its error, too.
     constexpr double kByDotsSd = 1.0, kBySkinSd = 3.0;  // mm
-    prior.dot_sd = is_told_ ? kByDotsSd : kBySkinSd;
-    is_told_ = x.size() >= kEnough;
-    if (!is_told_) {
+    prior.dot_sd = is_found_by_dots_ ? kByDotsSd : kBySkinSd;
+    is_found_by_dots_ = x.size() >= kEnough;
+    if (!is_found_by_dots_) {
       return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
     }
     const DotHinge hinge = fit_dot_hinge(x, y, prior);
@@ -209,10 +209,10 @@ class DotReader {
     report.centre_change = (hinge.point - prior.point).norm();
     report.dots = static_cast<int>(x.size());
     result_.joints.push_back(report);
-    // A turn of 20 degrees or more tells an axis; the largest one tells most.
-    constexpr double kTells = 20.0 * kDegree;
-    double& most = told_by_[index_of(joint.id)];
-    if (std::abs(hinge.turn) > std::max(kTells, most)) {
+    // A turn of 20 degrees or more shows an axis; the largest one shows most.
+    constexpr double kDetermines = 20.0 * kDegree;
+    double& most = found_by_[index_of(joint.id)];
+    if (std::abs(hinge.turn) > std::max(kDetermines, most)) {
       most = std::abs(hinge.turn);
       JointDof& dof = joint.dofs.back();
       dof.axis = hinge.axis;
@@ -230,8 +230,8 @@ class DotReader {
   HandFromScan& result_;
   ScanPosture name_{};
   Posture posture_;
-  std::array<double, kJointCount> told_by_{};
-  bool is_told_ = true;  // where the part before the next joint is, by its own dots
+  std::array<double, kJointCount> found_by_{};
+  bool is_found_by_dots_ = true;  // where the part before the next joint is, by its own dots
 };
 
 /// Ends of the ranges that were scanned as such.
@@ -249,28 +249,28 @@ void take_ranges(const std::map<ScanPosture, Posture>& postures, bool has_cmc, S
 }
 
 /// Finds the person's creases by where the joints suggest them, and moves joints to them.
-void take_creases(const SurfaceScan& scan, LaidSkeleton& laid, HandFromScan& result) {
+void take_creases(const SurfaceScan& scan, PlacedSkeleton& placed_model, HandFromScan& result) {
   const Hand& hand = result.scanned.hand;
   const HandCreases suggested(hand.skin, hand.skeleton);
   FoundCreases& found = result.creases;
-  const Rigid3 before = laid.scan_from_hand;
+  const Rigid3 before = placed_model.scan_from_hand;
   found = find_creases(scan.marks, before.inverse(), suggested);
-  shift_to_creases(laid, found);
-  const Rigid3 turn = laid.scan_from_hand.inverse() * before;
+  shift_to_creases(placed_model, found);
+  const Rigid3 turn = placed_model.scan_from_hand.inverse() * before;
   for (auto& [segment, plane] : found.plane) {
     plane = {turn * plane.point, turn.rotation * plane.normal};
   }
   if (!found.missing.empty()) result.notes.push_back(missing_creases_note(found.missing));
   constexpr int kMany = 60;
   if (found.stray > kMany) {
-    result.notes.emplace_back("Some of what is drawn in the creases' colour lies on no crease.");
+    result.notes.emplace_back("Some of what is drawn in the creases' colour is on no crease.");
   }
 }
 
 /// Takes rings out of the reference scan: what is under them follows its surroundings.
-void leave_out_rings(const LaidSkeleton& laid, SurfaceScan& scan, HandFromScan& result) {
-  const std::vector<RingBand> rings =
-      find_rings(scan.skin, scan.marks, laid.scan_from_hand.inverse(), laid.skeleton);
+void leave_out_rings(const PlacedSkeleton& placed_model, SurfaceScan& scan, HandFromScan& result) {
+  const std::vector<RingBand> rings = find_rings(
+      scan.skin, scan.marks, placed_model.scan_from_hand.inverse(), placed_model.skeleton);
   for (const RingBand& ring : rings) {
     result.notes.push_back(fmt::format(
         "A ring on {}, {:.0f} mm wide, is left out of the scan: the skin under it follows its "
@@ -304,25 +304,25 @@ HandFromScan make_hand_from_scans(const Hand& model,
   const double others = static_cast<double>(scans.size() - 1);
   const double unit = 1.0 / (4.0 + others);  // laying, registering thrice, one fit each
 
-  LaidSkeleton laid =
-      lay_skeleton(model, looked_up(scan.skin), side, scan.name, part_of(progress, 0.0, unit));
-  const Hand base = laid.side == model.side ? model : mirrored(model);
-  MeasuredJoints joints = joints_of(laid);
-  leave_out_rings(laid, scan, result);
+  PlacedSkeleton placed_model =
+      place_skeleton(model, looked_up(scan.skin), side, scan.name, part_of(progress, 0.0, unit));
+  const Hand base = placed_model.side == model.side ? model : mirrored(model);
+  MeasuredJoints joints = joints_of(placed_model);
+  leave_out_rings(placed_model, scan, result);
   result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
   if (!scan.marks.lines.empty() || !scan.marks.added_lines.empty()) {
-    take_creases(scan, laid, result);
-    joints = joints_of(laid);
+    take_creases(scan, placed_model, result);
+    joints = joints_of(placed_model);
     // The same skin, seen from the frame that the creases moved.
     result.scanned = register_model(base, scan, joints, part_of(progress, 2.0 * unit, 3.0 * unit));
   } else {
-    result.notes.push_back(
-        std::string(scan.marks.is_ink.empty() ? "No drawn creases"
-                                              : "No lines in the creases' colour") +
-        ": segments and joints follow the skin's shape alone, which tells where fingers bend to 2 "
-        "to 4 mm.");
+    result.notes.push_back(std::string(scan.marks.is_ink.empty()
+                                           ? "No drawn creases"
+                                           : "No lines in the creases' colour") +
+                           ": segments and joints follow the skin's shape alone, which shows where "
+                           "fingers bend to 2 to 4 mm.");
   }
-  const Rigid3 hand_from_scan = laid.scan_from_hand.inverse();
+  const Rigid3 hand_from_scan = placed_model.scan_from_hand.inverse();
 
   // Joints by dots, seen from the hand that the skin gave.
   const Hand& by_skin = result.scanned.hand;
@@ -334,14 +334,14 @@ HandFromScan make_hand_from_scans(const Hand& model,
   for (const BoundDot& dot : dots) {
     ++result.dots[dot.segment];
     result.marks.push_back({ScanPosture::kReference, MarkLabel::Kind::kDot, dot.segment,
-                            laid.scan_from_hand * dot.point});
+                            placed_model.scan_from_hand * dot.point});
   }
   if (!dots.empty()) {
-    const std::string lacking = missing_dots_note(scan.name, result.dots, advised_dots());
-    if (!lacking.empty()) result.notes.push_back(lacking);
+    const std::string missing_note = missing_dots_note(scan.name, result.dots, advised_dots());
+    if (!missing_note.empty()) result.notes.push_back(missing_note);
   }
   result.postures[ScanPosture::kReference] = reference_posture(joints.skeleton);
-  result.scan_from_hand[ScanPosture::kReference] = laid.scan_from_hand;
+  result.scan_from_hand[ScanPosture::kReference] = placed_model.scan_from_hand;
   DotReader reader(by_skin, dots, joints, result);
   int done = 0;
   for (const auto& [name, other] : scans) {

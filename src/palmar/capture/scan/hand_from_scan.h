@@ -26,13 +26,13 @@ struct SurfaceScan {
   SkinMarks marks;    ///< in the same frame; empty without colours
 };
 
-/// What the dots tell of one joint.
+/// What the dots describe one joint.
 struct DottedJoint {
   Segment segment{};           ///< distal of it
   ScanPosture posture{};       ///< against the reference posture
   double turn = 0.0;           ///< rad, from the reference
   double residual = 0.0;       ///< rms of the dots that a fixed axis leaves, mm
-  double axis_change = 0.0;    ///< of the axis against that told by the skin, rad
+  double axis_change = 0.0;    ///< of the axis against that recognised by the skin, rad
   double centre_change = 0.0;  ///< of the joint's centre, mm
   int dots = 0;
 };
@@ -65,9 +65,9 @@ struct PlacedJoints {
 PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
 
 /// Makes a person's hand of surface scans: the reference posture (natural, fingers apart) at least;
-/// finger_flexion and finger_abduction tell joints if dots were drawn (Xie 2014, chapter 4).
+/// finger_flexion and finger_abduction show joints if dots were drawn (Xie 2014, chapter 4).
 ///
-/// 1. Joints by the skin (lay_skeleton()), moved to the drawn creases.
+/// 1. Joints by the skin (place_skeleton()), moved to the drawn creases.
 /// 2. The model registered to the scan as for images (make_scanned_hand()).
 /// 3. That hand is fitted to the other scans; where its skin would carry the dots, dots are looked
 ///    for (match_markers()).
@@ -75,13 +75,13 @@ PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
 ///      sum |Rot(u, p, t) x_i - M^-1 y_i|^2 / s^2 + |u - u0|^2 / a^2 + |p - p0|^2 / b^2
 ///    least, M the motion of the part before, x and y the dots of the part behind in both scans, u0
 ///    and p0 the skin's; s = 1 mm (skin slides over bones), a = 4 degrees, b = 1.5 mm. Xie 2014
-///    takes the dots alone; three dots close together on sliding skin tell an axis to four degrees
+///    takes the dots alone; three dots close together on sliding skin show an axis to four degrees
 ///    only.
 /// 5. The thumb's limit postures give its CMC joint by four transforms (dotted_thumb.h) and correct
 ///    the thumb ball.
-/// 6. The hand anew with these joints; flexion and abduction scanned are the ends of the ranges.
+/// 6. The hand again with these joints; flexion and abduction scanned are the ends of the ranges.
 ///
-/// `model` may be of either side; `side`: as for lay_skeleton(). Creases and dots that lack are
+/// `model` may be of either side; `side`: as for place_skeleton(). Creases and dots that lack are
 /// named and done without, a scan in which this hand isn't found as well. Throws InputError without
 /// a reference scan, or if no hand is found in it.
 HandFromScan make_hand_from_scans(const Hand& model,

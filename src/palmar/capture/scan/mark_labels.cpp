@@ -21,7 +21,7 @@ std::string place_text(const Vec3& p) {
 [[noreturn]] void fail_none_there(const MarkLabel& label, double nearest) {
   const char* what = label.kind == MarkLabel::Kind::kDot ? "dot" : "line";
   const std::string far = nearest < std::numeric_limits<double>::max()
-                              ? fmt::format("the nearest lies {:.1f} mm away", nearest)
+                              ? fmt::format("the nearest is {:.1f} mm away", nearest)
                               : "none was found at all";
   throw InputError(
       fmt::format("{}: no {} within {:.0f} mm of {} in the {} scan; {} (added_{} adds one)",

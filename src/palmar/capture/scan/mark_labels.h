@@ -27,7 +27,7 @@ struct MarkLabel {
 /// within 3 mm. Throws InputError "file:line: ..." if there is none (with the distance to the
 /// nearest), if a dot is named twice, if the posture wasn't scanned or has no colours, if creases
 /// are named in another posture than the reference, or if what is added of a crease is narrower
-/// than 5 mm, which tells no direction.
+/// than 5 mm, which shows no direction.
 void apply_mark_labels(const std::vector<MarkLabel>& labels,
                        std::map<ScanPosture, SkinMarks*>& marks);
 

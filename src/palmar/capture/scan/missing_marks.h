@@ -10,7 +10,7 @@
 
 namespace palmar {
 
-// What was drawn on a hand and isn't found in a scan, told to its owner; "" if nothing lacks.
+// What was drawn on a hand and isn't found in a scan, reported to its owner; "" if nothing lacks.
 
 /// `missing`: creases by the segment distal of them, the wrist's by the palm.
 std::string missing_creases_note(const std::vector<Segment>& missing);

@@ -7,7 +7,7 @@
 namespace palmar {
 namespace {
 
-TEST(MissingMarks, NamesWhatLacks) {
+TEST(MissingMarks, NamesWhatIsMissing) {
   EXPECT_EQ(missing_creases_note({}), "");
   EXPECT_EQ(missing_creases_note({Segment::kPalm, Segment::kRingMiddle}),
             "Creases not found, taken from the joints: wrist, ring_middle.");

@@ -70,7 +70,7 @@ Affine map_of_skin(const std::vector<Vec3>& before, const std::vector<Vec3>& aft
   return map;
 }
 
-/// Parts of the skin that tell of a joint: the segments on either side of it.
+/// Parts of the skin that describe a joint: the segments on either side of it.
 std::vector<char> beside_joint(const std::vector<Segment>& segment, JointId id) {
   std::set<Segment> sides;
   if (id == JointId::kWrist || id == JointId::kThumbCmc) {
@@ -90,7 +90,7 @@ std::vector<char> beside_joint(const std::vector<Segment>& segment, JointId id) 
   return result;
 }
 
-/// Joints as the skin carries them, and the hand frame anew by them.
+/// Joints as the skin carries them, and the hand frame again by them.
 void carry_joints(const Hand& model, const RegisteredSkin& registered, Skeleton& skeleton) {
   const std::vector<Vec3> before = skin_at(registered.start, skeleton);
   const double size =
@@ -115,10 +115,10 @@ void carry_joints(const Hand& model, const RegisteredSkin& registered, Skeleton&
 }
 
 /// Puts the hand frame where the joints have it (hand_frame.h).
-void lay_frame(LaidSkeleton& laid) {
-  Skeleton& skeleton = laid.skeleton;
+void place_frame(PlacedSkeleton& placed) {
+  Skeleton& skeleton = placed.skeleton;
   const Vec3 wrist = skeleton.joint(JointId::kWrist).centre;
-  const double radial = laid.side == Side::kLeft ? -1.0 : 1.0;  // x of a left hand is ulnar
+  const double radial = placed.side == Side::kLeft ? -1.0 : 1.0;  // x of a left hand is ulnar
   const Vec3 y = (skeleton.joint(JointId::kMiddleMcp).centre - wrist).normalized();
   const Vec3 across = radial * (skeleton.joint(JointId::kIndexMcp).centre -
                                 skeleton.joint(JointId::kLittleMcp).centre);
@@ -140,11 +140,11 @@ void lay_frame(LaidSkeleton& laid) {
     limit->t = new_from_old.rotation * limit->t;
   }
   for (Vec3& tip : skeleton.fingertips) tip = new_from_old * tip;
-  laid.scan_from_hand = laid.scan_from_hand * old_from_new;
+  placed.scan_from_hand = placed.scan_from_hand * old_from_new;
 }
 
 /// One size for the whole hand is wrong where fingers are long and the palm is narrow: the model
-/// with shorter or longer fingers may lie better. Skin hardly tells by how much, but whether.
+/// with shorter or longer fingers may lie better. Skin hardly shows by how much, but whether.
 void take_better_lengths(Hand& base, const TriangleMesh& mesh, MeshFit& fit,
                          const Progress& progress) {
   constexpr std::array<double, 4> kLonger{0.92, 1.08, 1.16, 1.24};
@@ -172,43 +172,43 @@ void take_better_lengths(Hand& base, const TriangleMesh& mesh, MeshFit& fit,
 
 }  // namespace
 
-LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
-                          const std::string& name, const Progress& progress) {
-  LaidSkeleton laid;
+PlacedSkeleton place_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
+                              const std::string& name, const Progress& progress) {
+  PlacedSkeleton placed;
   const MeshFitOptions options{.fits_scale = true};
   Hand base = side && *side != model.side ? mirrored(model) : model;
-  laid.fit = fit_posture_to_mesh(base, mesh, options, part_of(progress, 0.0, 0.4));
-  if (laid.fit.status == PostureFitStatus::kMirrored) {
+  placed.fit = fit_posture_to_mesh(base, mesh, options, part_of(progress, 0.0, 0.4));
+  if (placed.fit.status == PostureFitStatus::kMirrored) {
     base = mirrored(base);
     if (side) {
       throw InputError(fmt::format(
           "{}: shows a {} hand, not a {} one; or its axes were mirrored when it was exported", name,
           name_of(base.side), name_of(*side)));
     }
-    laid.fit = fit_posture_to_mesh(base, mesh, options, part_of(progress, 0.4, 0.6));
+    placed.fit = fit_posture_to_mesh(base, mesh, options, part_of(progress, 0.4, 0.6));
   }
-  if (laid.fit.status != PostureFitStatus::kFitted) {
-    throw InputError(name + ": no hand found: " + laid.fit.message);
+  if (placed.fit.status != PostureFitStatus::kFitted) {
+    throw InputError(name + ": no hand found: " + placed.fit.message);
   }
-  laid.side = base.side;
-  take_better_lengths(base, mesh, laid.fit, part_of(progress, 0.6, 0.7));
-  const Hand sized = uniformly_sized(base, laid.fit.scale);
-  laid.skeleton = skeleton_in_posture(sized.skeleton, laid.fit.posture);
-  laid.scan_from_hand = laid.fit.mesh_from_hand;
-  const Rigid3 hand_from_scan = laid.scan_from_hand.inverse();
+  placed.side = base.side;
+  take_better_lengths(base, mesh, placed.fit, part_of(progress, 0.6, 0.7));
+  const Hand sized = uniformly_sized(base, placed.fit.scale);
+  placed.skeleton = skeleton_in_posture(sized.skeleton, placed.fit.posture);
+  placed.scan_from_hand = placed.fit.mesh_from_hand;
+  const Rigid3 hand_from_scan = placed.scan_from_hand.inverse();
   SkinScan scan;
   scan.skin = mesh;
   for (Vec3& v : scan.skin.vertices) v = hand_from_scan * v;
   const RegisteredSkin registered =
-      register_skin(base, scan, laid.skeleton, part_of(progress, 0.7, 1.0));
-  carry_joints(base, registered, laid.skeleton);
-  lay_frame(laid);
-  return laid;
+      register_skin(base, scan, placed.skeleton, part_of(progress, 0.7, 1.0));
+  carry_joints(base, registered, placed.skeleton);
+  place_frame(placed);
+  return placed;
 }
 
-void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases) {
+void shift_to_creases(PlacedSkeleton& placed, const FoundCreases& creases) {
   constexpr double kShare = 0.85;
-  Skeleton& skeleton = laid.skeleton;
+  Skeleton& skeleton = placed.skeleton;
   const auto wrist = creases.shift.find(Segment::kPalm);
   if (wrist != creases.shift.end()) {
     Joint& joint = skeleton.joints[index_of(JointId::kWrist)];
@@ -228,7 +228,7 @@ void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases) {
       for (JointDof& dof : joint.dofs) dof.centre += by;
     }
   }
-  lay_frame(laid);
+  place_frame(placed);
 }
 
 }  // namespace palmar

@@ -13,15 +13,15 @@
 namespace palmar {
 
 /// Joints of a person of whom a scan shows the skin.
-struct LaidSkeleton {
+struct PlacedSkeleton {
   Skeleton skeleton;      ///< the scan's posture is its reference; hand frame of the scan
   Rigid3 scan_from_hand;  ///< mm
   Side side = Side::kRight;
-  MeshFit fit;  ///< how the model lay in the scan at first
+  MeshFit fit;  ///< where the model was in the scan at first
 };
 
-/// Lays a model's joints into a scan by what lies round them:
-/// 1. fit_posture_to_mesh() with one overall size tells posture and place, the model as it is or
+/// Places a model's joints into a scan by what lies round them:
+/// 1. fit_posture_to_mesh() with one overall size shows posture and place, the model as it is or
 ///    with fingers 8 % shorter, 8, 16 or 24 % longer: whatever lies nearest;
 /// 2. the skin of the model, posed so, is bent onto the scan (register_skin());
 /// 3. every joint goes with the skin round it: an affine map of the vertices within a finger's
@@ -31,14 +31,14 @@ struct LaidSkeleton {
 /// scan's axes may have been mirrored on the way, so what is known is held against what is found.
 /// `model` may be of either side. Throws InputError "`name`: ..." if no hand, or that of the other
 /// side, lies in it.
-LaidSkeleton lay_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
-                          const std::string& name, const Progress& progress = {});
+PlacedSkeleton place_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
+                              const std::string& name, const Progress& progress = {});
 
 /// Moves the fingers' hinges along their fingers to where the creases over them say: a joint lies
 /// distal of its crease by a share of the phalanx (HandCreases). Creases differ between people by
-/// about a millimetre; the skin of a slim finger hardly tells the place (two to four millimetres on
+/// about a millimetre; the skin of a slim finger hardly shows the place (two to four millimetres on
 /// synthetic persons). So 0.85 of the difference counts.
 /// The wrist goes with its crease. The hand frame, and so `laid.scan_from_hand`, follows.
-void shift_to_creases(LaidSkeleton& laid, const FoundCreases& creases);
+void shift_to_creases(PlacedSkeleton& placed, const FoundCreases& creases);
 
 }  // namespace palmar

@@ -87,7 +87,7 @@ std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
     const auto moved_palm = place_palm(reference, scan->second);
     if (!moved_palm) {
       notes.push_back(
-          fmt::format("The scan of {} shows too few bones of the palm to tell where the hand is.",
+          fmt::format("The scan of {} shows too few bones of the palm to find where the hand is.",
                       name_of(kThumbLimits[l])));
       continue;
     }
@@ -160,7 +160,7 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   constexpr double kLeftOver = 0.01;
   if (registered.left_over > kLeftOver) {
     result.notes.push_back(
-        fmt::format("{:.0f} % of the scanned skin lies more than 2 mm from the hand's: joints or "
+        fmt::format("{:.0f} % of the scanned skin is more than 2 mm from the hand's: joints or "
                     "surfaces are wrong somewhere.",
                     100.0 * registered.left_over));
   }
@@ -191,8 +191,8 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   correct_thumb_ball(thumb_limits(scans, joints, result.notes), skin.markers,
                      part_of(progress, 0.5, 1.0), result);
   hand.provenance =
-      "skin, bones and joints from scans of a person; triangles laid over the skin "
-      "by registration of: " +
+      "skin, bones and joints from scans of a person; triangles fitted to the skin by registration "
+      "of: " +
       base.provenance;
   return result;
 }

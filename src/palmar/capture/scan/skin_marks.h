@@ -69,8 +69,8 @@ struct SkinMarks {
 ///
 /// Vertices that are guesses bear no ink, and what is drawn as far as where guesses begin is taken
 /// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws
-/// InputError "`name`: ..." if an ink can't be told from this skin or from the other ink, or the
-/// mesh is too coarse.
+/// InputError "`name`: ..." if an ink can't be distinguished from this skin or from the other ink,
+/// or the mesh is too coarse.
 SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
                           const SkinMarkOptions& options = {});
 

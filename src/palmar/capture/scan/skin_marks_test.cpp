@@ -97,7 +97,7 @@ TEST(SkinMarks, WhatNobodySawBearsNone) {
   EXPECT_NE(find_skin_marks(ball, "ball").notes, marks.notes);
 }
 
-TEST(SkinMarks, NamesInksThatCannotBeTold) {
+TEST(SkinMarks, NamesInksThatCannotBeDistinguished) {
   const Srgb skin{0.80F, 0.60F, 0.50F};
   const ColouredMesh ball = painted_ball(skin, {}, 0.9);
   const auto message = [&](const SkinMarkOptions& inks) -> std::string {

@@ -31,7 +31,7 @@ constexpr float kOtherColour = 0.15F;    // share by which a channel differs fro
 constexpr float kBrighter = 1.45F, kDarker = 0.2F;  // over the table's light; shadows: 0.3 to 0.8
 constexpr double kCardEdge = 0.6;                   // of an edge that must be seen
 constexpr const char* kCardAdvice =
-    "lay the hand on a plain table that isn't of the colour of skin, and the card beside it, not "
+    "place the hand on a plain table that isn't of the colour of skin, and the card beside it, not "
     "under it, all of it in the picture, in another colour than the table";
 
 [[noreturn]] void fail_card(const std::string& name, const std::string& what) {
@@ -46,7 +46,7 @@ struct OffTable {
 };
 
 OffTable off_table(const RgbImage& small) {
-  DrawnSheet drawn;
+  RectifiedSheet drawn;
   drawn.grid.width = small.width;
   drawn.grid.height = small.height;
   drawn.light.resize(drawn.grid.count());
@@ -228,7 +228,7 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
     if (!found) continue;
     if (card != nullptr) {
       fail_card(name, fmt::format("several things look like a card, at pixels ({:.0f}, {:.0f}) and "
-                                  "({:.0f}, {:.0f}); only one may lie there",
+                                  "({:.0f}, {:.0f}); only one may be there",
                                   by * card->middle.x(), by * card->middle.y(),
                                   by * part.middle.x(), by * part.middle.y()));
     }
@@ -279,12 +279,14 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   const double angle = std::atan2(towards.y(), towards.x());
   const double quarter = 0.5 * std::numbers::pi;
   const int turns = static_cast<int>(std::lround((angle + quarter) / quarter));
-  const double askew = angle + quarter - turns * quarter;
-  if (std::abs(askew) > 30.0 * kDegree) {
-    fail_card(name, fmt::format("the card lies askew to the forearm, by {:.0f} degrees; lay one of "
-                                "its edges level with the crease of the wrist, square to the "
-                                "forearm, within 30 degrees",
-                                std::abs(askew) / kDegree));
+  const double skew = angle + quarter - turns * quarter;
+  if (std::abs(skew) > 30.0 * kDegree) {
+    fail_card(
+        name,
+        fmt::format(
+            "the card isn't parallel to the forearm, by {:.0f} degrees; place one of its edges "
+            "level with the crease of the wrist, perpendicular to the forearm, within 30 degrees",
+            std::abs(skew) / kDegree));
   }
   const CardPose turned = pose.turned(turns);
   view.format = card_format();

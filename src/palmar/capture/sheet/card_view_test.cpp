@@ -144,10 +144,10 @@ TEST(CardView, SaysWhatIsWrong) {
   Scene several = small_beside_card();
   several.other_card = {120.0, 60.0};
   message(several, "several things look like a card");
-  Scene askew = small_beside_card();
-  askew.card_turn = 42.0;
-  askew.card->x() += 12.0;
-  message(askew, "askew");
+  Scene skew = small_beside_card();
+  skew.card_turn = 42.0;
+  skew.card->x() += 12.0;
+  message(skew, "isn't parallel");
   Scene oblique = small_beside_card();
   oblique.tilt = 32.0;
   message(oblique, "degrees off the table's normal");

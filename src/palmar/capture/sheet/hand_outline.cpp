@@ -79,7 +79,7 @@ ThumbFirst thumb_first(std::vector<Vec2> curve, OutlineExtremes extremes, const 
 void HandOutlineOptions::check() const {
   if (!(wrist >= 0.0 && wrist <= 80.0)) {
     throw UsageError(
-        fmt::format("the wrist crease lies {} mm inside the edge; 0 to 80 is allowed", wrist));
+        fmt::format("the wrist crease is {} mm inside the edge; 0 to 80 is allowed", wrist));
   }
 }
 

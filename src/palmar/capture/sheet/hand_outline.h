@@ -33,7 +33,7 @@ struct OutlineFinger {
                 ///< lengths are in the shares given; thumb: 0, it lies on its side
 };
 
-/// What the outline of a hand lying on a sheet tells.
+/// What the outline of a hand lying on a sheet shows.
 struct HandOutline {
   bool is_right = true;
   double hand_length = 0.0;  ///< middle of the wrist to the middle finger's tip, mm

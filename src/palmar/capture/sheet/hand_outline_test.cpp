@@ -53,7 +53,7 @@ TEST(SheetView, FindsTheCameraAndTheSheet) {
   }
 }
 
-TEST(SheetView, TellsA4FromLetter) {
+TEST(SheetView, DistinguishesA4FromLetter) {
   Scene letter = small_scene();
   letter.half = {107.95, 139.7};
   letter.hand.bottom = -180.0;
@@ -142,7 +142,7 @@ TEST(HandOutline, MeasuresWhatIsDrawn) {
   }
 }
 
-TEST(HandOutline, TellsTheSideByTheThumb) {
+TEST(HandOutline, ReportsTheSideByTheThumb) {
   Scene scene;
   for (DrawnHand::Strip& strip : scene.hand.fingers) {
     strip.from.x() *= -1.0;

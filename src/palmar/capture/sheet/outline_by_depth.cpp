@@ -124,7 +124,7 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
       choose_sources(coarse, options.box.center(), stereo);
   const RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
-  over_views(count, part_of(progress, 0.1, 0.95), "telling the hand from what is behind it",
+  over_views(count, part_of(progress, 0.1, 0.95), "separating the hand from what is behind it",
              [&](std::size_t v) {
                maps[v] = match_patches(coarse, packs, static_cast<int>(v), rough[v], sources[v],
                                        bound, hull.surface, stereo);
@@ -136,9 +136,9 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
   constexpr double kRadius = 6.0;  // mm: two cells
   if (!narrow_to_points(fused.points, views, kRadius, masks)) {
     throw InputError(
-        "the hand can't be told from what is behind it, neither by its colour nor by where it is: "
-        "photographs agree about hardly anything above the board; a plain blue or grey backdrop, "
-        "more photographs or sharper ones help");
+        "the hand can't be distinguished from what is behind it, neither by its colour nor by "
+        "where it is: photographs agree about hardly anything above the board; a plain blue or "
+        "grey backdrop, more photographs or sharper ones help");
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace palmar {
 
-/// Masks of a hand whose colour doesn't tell it from what is behind it, narrowed by where things
+/// Masks of a hand whose colour doesn't show it from what is behind it, narrowed by where things
 /// are: stereo in the photographs reduced to three times the pixels of the fine one, all through
 /// the box; what lies behind the hand is far off or agrees nowhere. Throws InputError if hardly
 /// anything in the box agrees.

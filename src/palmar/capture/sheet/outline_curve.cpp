@@ -125,20 +125,17 @@ OpenOutline open_outline(const SheetGrid& grid, const std::vector<Vec2>& closed,
     fail_outline(name, "the forearm crosses a corner of the sheet; it must cross one edge");
   }
   if (across.norm() < kLeastForearm || across.norm() > kMostForearm) {
-    fail_outline(
-        name,
-        fmt::format("what crosses the sheet's edge is {:.0f} mm wide; the wrist, {:.0f} to {:.0f} "
-                    "mm, is to lie there",
-                    across.norm(), kLeastForearm, kMostForearm));
+    fail_outline(name, fmt::format("what crosses the sheet's edge is {:.0f} mm wide; the wrist, "
+                                   "{:.0f} to {:.0f} mm, must be there",
+                                   across.norm(), kLeastForearm, kMostForearm));
   }
   for (const Run& run : runs) {
     if (run.first == forearm.first || run.count * grid.cell < 2.0) continue;
     const Vec2 at = closed[(start + run.first + run.count / 2) % n];
-    fail_outline(
-        name,
-        fmt::format("the hand reaches beyond the sheet at ({:.0f}, {:.0f}) mm from its middle, "
-                    "{:.0f} x {:.0f} mm: all but the wrist must lie on it",
-                    at.x(), at.y(), grid.cell * grid.width, grid.cell * grid.height));
+    fail_outline(name,
+                 fmt::format("the hand reaches beyond the sheet at ({:.0f}, {:.0f}) mm from its "
+                             "middle, {:.0f} x {:.0f} mm: all but the wrist must be on it",
+                             at.x(), at.y(), grid.cell * grid.width, grid.cell * grid.height));
   }
   for (std::size_t i = forearm.first + forearm.count; i < forearm.first + n; ++i) {
     result.curve.push_back(closed[(start + i) % n]);

@@ -37,7 +37,7 @@ double angle_between(const Vec2& from, const Vec2& to) {
   return std::atan2(cross2(from, to), from.dot(to));
 }
 
-/// +1 if positive abduction turns a finger of the laid hand anticlockwise: towards a thumb that
+/// +1 if positive abduction turns a finger of the placed hand anticlockwise: towards a thumb that
 /// lies to the left of fingers that point up.
 double anticlockwise(Side side, bool palm_up) {
   return (side == Side::kRight) != palm_up ? 1.0 : -1.0;
@@ -92,10 +92,10 @@ OutlineProportions outline_proportions(const HandDimensions& d) {
   return p;
 }
 
-LaidModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
-  LaidModel model;
+PlacedModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
+  PlacedModel model;
   model.posture = *named_posture(hand.skeleton, "flat");
-  model.posture = laid_on_table(model.posture, [&](const Posture& p) {
+  model.posture = posture_on_table(model.posture, [&](const Posture& p) {
     const auto tips = skeleton_in_posture(hand.skeleton, p).fingertips;
     return std::array{tips[0].z(), tips[1].z(), tips[2].z(), tips[3].z(), tips[4].z()};
   });
@@ -107,7 +107,7 @@ LaidModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
   return model;
 }
 
-TriangleMesh lay_model(const Hand& hand, const LaidModel& model, bool palm_up) {
+TriangleMesh place_model(const Hand& hand, const PlacedModel& model, bool palm_up) {
   TriangleMesh lying{pose_skin(hand, model.posture), hand.skin.triangles};
   double paper = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < lying.vertices.size(); ++v) {
@@ -130,13 +130,13 @@ TriangleMesh lay_model(const Hand& hand, const LaidModel& model, bool palm_up) {
 }
 
 ModelOutline match_model(const Hand& hand, const HandOutline& seen, const OutlineScene& scene,
-                         const LaidModel& start, int rounds) {
+                         const PlacedModel& start, int rounds) {
   const bool palm_up = scene.options.palm_up;
   const double sign = anticlockwise(hand.side, palm_up);
   ModelOutline result{start, {}, 0.0};
   for (int round = 0;; ++round) {
     VoxelMask mask =
-        silhouette(lay_model(hand, result.model, palm_up), scene.sheet.eye, scene.grid);
+        silhouette(place_model(hand, result.model, palm_up), scene.sheet.eye, scene.grid);
     hold_inside(mask, scene.grid, seen.wrist);
     result.outline =
         measure_outline(scene.grid, mask, scene.sheet, scene.proportions, "model", scene.options);

@@ -7,8 +7,8 @@
 
 namespace palmar {
 
-/// A hand laid on the sheet as a photographed one lies there.
-struct LaidModel {
+/// A hand placed on the sheet as a photographed one lies there.
+struct PlacedModel {
   Posture posture;
   double turn = 0.0;                                ///< about the sheet's normal, rad
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< where the middle of its wrist crease is, mm
@@ -22,11 +22,11 @@ OutlineProportions outline_proportions(const HandDimensions& dimensions);
 HandDimensions straight_dimensions(const Hand& hand);
 
 /// Straight fingers, the thumb beside the palm.
-LaidModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up);
+PlacedModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up);
 
 /// The skin of a hand in that posture, palm (or back) down, the fingers' pads (or nails) on the
 /// sheet; what would be lower is flattened on it.
-TriangleMesh lay_model(const Hand& hand, const LaidModel& model, bool palm_up);
+TriangleMesh place_model(const Hand& hand, const PlacedModel& model, bool palm_up);
 
 /// Where a hand was photographed, to photograph another in its place.
 struct OutlineScene {
@@ -38,17 +38,17 @@ struct OutlineScene {
 
 /// What the measures of a hand's outline miss of it, and how the hand lies.
 struct ModelOutline {
-  LaidModel model;
+  PlacedModel model;
   HandOutline outline;  ///< measured on the model's silhouette just as on a photograph
   double direction_error =
       0.0;  ///< largest angle between its fingers and those of the photograph, rad
 };
 
-/// Lays `hand`, of the photographed side, as the photographed hand lies: turns it and spreads
+/// Places `hand`, of the photographed side, as the photographed hand lies: turns it and spreads
 /// fingers and thumb, `rounds` times, until their middle lines have the directions of those in
 /// `seen`; and measures its silhouette. Starts from `start`. Throws InputError if its outline can't
 /// be measured (fingers that touch).
 ModelOutline match_model(const Hand& hand, const HandOutline& seen, const OutlineScene& scene,
-                         const LaidModel& start, int rounds);
+                         const PlacedModel& start, int rounds);
 
 }  // namespace palmar

@@ -22,7 +22,7 @@ constexpr OutlineErrors kRawErrors{
 constexpr OutlineErrors kModelErrors{};
 constexpr double kStraightAbove = 12.0, kTwice = 20.0;  // deg; deg more make errors twice as large
 
-OutlineErrors seen_aslant(const OutlineErrors& errors, double tilt) {
+OutlineErrors seen_obliquely(const OutlineErrors& errors, double tilt) {
   const double more = 1.0 + std::max(0.0, tilt - kStraightAbove) / kTwice;
   return {
       .length = more * errors.length,
@@ -99,10 +99,10 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
 std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
                                             const std::vector<KnownMeasure>& photo) {
   for (const KnownMeasure& one : photo) {
-    const bool is_told = std::any_of(own.begin(), own.end(), [&](const KnownMeasure& other) {
+    const bool is_known = std::any_of(own.begin(), own.end(), [&](const KnownMeasure& other) {
       return other.terms == one.terms;
     });
-    if (!is_told) own.push_back(one);
+    if (!is_known) own.push_back(one);
   }
   return own;
 }
@@ -115,7 +115,8 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
   OutlinePerson person;
   const auto estimate_from = [&](const HandOutline& outline, const OutlineErrors& errors) {
     const auto measures = measures_together(
-        own, measures_of(outline, seen_aslant(errors, scene.sheet.tilt), scene.sheet.scale_error));
+        own,
+        measures_of(outline, seen_obliquely(errors, scene.sheet.tilt), scene.sheet.scale_error));
     person.outline = outline;
     person.measures = static_cast<int>(measures.size());
     person.estimate = estimate_person(population, measures);
@@ -125,12 +126,12 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
   estimate_from(seen, kRawErrors);
   for (int round = 0; round < rounds; ++round) {
     try {
-      const LaidModel start =
+      const PlacedModel start =
           person.model ? person.model->model : flat_model(person.hand, seen, scene.options.palm_up);
       person.model = match_model(person.hand, seen, scene, start, round == 0 ? 4 : 2);
     } catch (const InputError& error) {
       person.model.reset();
-      person.notes.push_back(std::string("no model of a hand could be laid as this one lies (") +
+      person.notes.push_back(std::string("no model of a hand could be placed like this one (") +
                              error.what() +
                              "): measures are taken as they are seen, with larger errors");
       estimate_from(seen, kRawErrors);

@@ -17,7 +17,7 @@ struct OutlineErrors {
   std::array<double, 3> breadth{1.0, 0.5, 0.5};
 };
 
-/// Measures of a person as an outline has them; not the thumb's length, which an outline tells no
+/// Measures of a person as an outline has them; not the thumb's length, which an outline shows no
 /// better than the rest of the hand does. `scale_error`: of all lengths, as a share.
 std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineErrors& errors,
                                       double scale_error = 0.0);
@@ -31,12 +31,12 @@ struct OutlinePerson {
   PersonEstimate estimate;
   Hand hand;  ///< in the person's size, of the photographed side
   int measures = 0;
-  std::optional<ModelOutline> model;  ///< nothing: none could be laid as the hand lies
+  std::optional<ModelOutline> model;  ///< nothing: none could be placed as the hand lies
   std::vector<std::string> notes;
 };
 
 /// The person of an outline, by analysis and synthesis: a hand in the size that the measures give
-/// is laid as the photographed one lies, its silhouette measured in the same way, and what the
+/// is placed as the photographed one lies, its silhouette measured in the same way, and what the
 /// measures miss of that hand's true dimensions taken off those of the photograph; `rounds` times.
 /// That takes care of height over the paper, of the slant of view and of where base creases lie
 /// beside webs, as far as hands are alike. `template_hand`: a right one; `seen`: measured in

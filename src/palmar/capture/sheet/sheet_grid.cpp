@@ -20,8 +20,8 @@ constexpr double kBlurredBorder = 1.5;  // mm
 constexpr double kBeside = 270.0;       // mm: as far as a hand beside a card reaches to either side
 constexpr double kAbove = 270.0;        // and from the line under its wrist
 
-DrawnSheet drawn(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid) {
-  DrawnSheet result{grid, {}, {}};
+RectifiedSheet drawn(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid) {
+  RectifiedSheet result{grid, {}, {}};
   result.light.resize(grid.count());
   result.is_seen.resize(grid.count());
   std::array<float, 256> table{};
@@ -97,7 +97,7 @@ float linear_light(double srgb) {
   return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-std::vector<Vec3f> level_light(DrawnSheet& drawn, Ground ground) {
+std::vector<Vec3f> level_light(RectifiedSheet& drawn, Ground ground) {
   using Six = Eigen::Matrix<double, 6, 1>;
   const SheetGrid& grid = drawn.grid;
   const auto terms = [&](int x, int y) {
@@ -152,9 +152,9 @@ std::vector<Vec3f> level_light(DrawnSheet& drawn, Ground ground) {
   return ground_light;
 }
 
-DrawnSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
-                      Ground ground) {
-  DrawnSheet result = drawn(image, sheet, grid);
+RectifiedSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
+                          Ground ground) {
+  RectifiedSheet result = drawn(image, sheet, grid);
   level_light(result, ground);
   return result;
 }

@@ -35,7 +35,7 @@ SheetGrid grid_of_sheet(const SheetView& sheet, double cell);
 SheetGrid grid_beside_card(const SheetView& card, double cell);
 
 /// A grid as a photograph shows it.
-struct DrawnSheet {
+struct RectifiedSheet {
   SheetGrid grid;
   std::vector<Eigen::Vector3f> light;  ///< linear; over that of paper or table once it is levelled
   std::vector<char> is_seen;           ///< the cell is in the picture
@@ -46,13 +46,13 @@ enum class Ground { kPaper, kTable };
 /// Divides by the light of paper or table: a quadratic of the place for each channel, fitted to
 /// what is nearly as bright as paper (the brightest large part) or as the table (most of it). What
 /// isn't seen gets the ground's light. Returns that light, cell by cell.
-std::vector<Eigen::Vector3f> level_light(DrawnSheet& drawn, Ground ground);
+std::vector<Eigen::Vector3f> level_light(RectifiedSheet& drawn, Ground ground);
 
 /// sRGB of 0 to 255 in linear light, 0 to 1.
 float linear_light(double srgb);
 
 /// Draws it and levels its light.
-DrawnSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
-                      Ground ground);
+RectifiedSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
+                          Ground ground);
 
 }  // namespace palmar

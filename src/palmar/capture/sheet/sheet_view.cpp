@@ -27,7 +27,7 @@ constexpr double kLeastShare = 0.06;  // of the picture that the sheet fills
 constexpr double kUsualFocal = 0.74;  // of the longer side: 26 mm on film, as most telephones have
 constexpr double kLeastEdge = 0.3;    // of an edge that must be seen
 constexpr const char* kSheetAdvice =
-    "lay the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
+    "place the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
 
 /// Pixels that are as bright and as grey as paper in this light.
 VoxelMask paper_of(const RgbImage& image) {
@@ -52,7 +52,7 @@ VoxelMask paper_of(const RgbImage& image) {
   for (std::size_t c = 0; c < 3; ++c) {
     paper[c] = std::max(1.0, static_cast<double>(median(std::move(channel[c]))));
   }
-  // Grey by that: parted from the table by brightness.
+  // Grey by that: separated from the table by brightness.
   std::vector<double> share(count, 0.0);
   std::vector<double> brightness(128, 0.0);
   constexpr double kColour = 0.2;
@@ -64,7 +64,7 @@ VoxelMask paper_of(const RgbImage& image) {
     share[p] = most - least < kColour * most ? least : 0.0;
     brightness[static_cast<std::size_t>(std::clamp(least, 0.0, 1.27) * 100.0)] += 1.0;
   }
-  const double limit = std::clamp(otsu_parting(brightness) / 100.0, 0.35, 0.8);
+  const double limit = std::clamp(otsu_threshold(brightness) / 100.0, 0.35, 0.8);
   VoxelMask mask(count, 0);
   for (std::size_t p = 0; p < count; ++p) mask[p] = share[p] > limit ? 1 : 0;
   return mask;
@@ -126,9 +126,9 @@ Fit fit_of(const Eigen::Matrix3d& h, const SheetFormat& format, const RgbImage& 
   if (options.focal) return {format, *options.focal, columns.misfit(*options.focal), "camera"};
   const double usual = kUsualFocal * longer, own = best_focal(columns, longer);
   // How much a fifth more or less would matter.
-  const double told = columns.misfit(1.2 * own) + columns.misfit(own / 1.2);
-  constexpr double kTells = 0.05;
-  if (told > kTells && columns.misfit(own) < 0.02) {
+  const double proportion_misfit = columns.misfit(1.2 * own) + columns.misfit(own / 1.2);
+  constexpr double kClear = 0.05;
+  if (proportion_misfit > kClear && columns.misfit(own) < 0.02) {
     return {format, own, columns.misfit(own), "sheet"};
   }
   return {format, usual, columns.misfit(usual), "usual"};
@@ -194,13 +194,13 @@ SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by
                quad_area = quad ? area_of({quad->begin(), quad->end()}) : 0.0;
   if (!quad) {
     fail(name, fmt::format("the largest white part isn't a sheet with four edges: something white "
-                           "lies beside it, or it is bent; {}",
+                           "is beside it, or it is bent; {}",
                            kSheetAdvice));
   }
   if (std::abs(hull_area) < 0.93 * std::abs(quad_area)) {
     const Vec2 hidden = by * hidden_corner(hull, *quad);
     fail(name, fmt::format("a corner of the sheet isn't seen, at about pixel ({:.0f}, {:.0f}): the "
-                           "hand or something else lies over it; all four corners must be free; {}",
+                           "hand or something else covers it; all four corners must be free; {}",
                            hidden.x(), hidden.y(), kSheetAdvice));
   }
   // Clockwise in the picture, from the upper left corner.
@@ -218,12 +218,11 @@ SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by
                                                 from, to, {.reach = 3.0 * by + 8.0});
     line[e] = line_through(found);
     if (line[e].points < kLeastEdge * kEdgePlaces) {
-      fail(name,
-           fmt::format(
-               "an edge of the sheet, from pixel ({:.0f}, {:.0f}) to ({:.0f}, {:.0f}), "
-               "is hidden or bent: {} of {} places on it are seen; all but the wrist must lie "
-               "within the sheet; {}",
-               from.x(), from.y(), to.x(), to.y(), line[e].points, kEdgePlaces, kSheetAdvice));
+      fail(name, fmt::format("an edge of the sheet, from pixel ({:.0f}, {:.0f}) to ({:.0f}, "
+                             "{:.0f}), is hidden or bent: {} of {} places on it are seen; all but "
+                             "the wrist must be within the sheet; {}",
+                             from.x(), from.y(), to.x(), to.y(), line[e].points, kEdgePlaces,
+                             kSheetAdvice));
     }
   }
   SheetView view;
@@ -360,16 +359,16 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   } catch (const InputError&) {
     // A finger over an edge may part the sheet.
     constexpr double kPiece = 0.015;  // of the largest part
-    bool is_parted = false;
+    bool is_cut = false;
     for (std::size_t p = 0; p < is_sheet.size(); ++p) {
       if (is_sheet[p] != 0 || static_cast<double>(parts.voxels[p]) <
                                   kPiece * static_cast<double>(parts.voxels[sheet])) {
         continue;
       }
       is_sheet[p] = 1;
-      is_parted = true;
+      is_cut = true;
     }
-    if (is_parted) {
+    if (is_cut) {
       try {
         return sheet_of(image, rim_of(grid, parts, is_sheet), small.width, by, name, options);
       } catch (const InputError&) {  // what the largest part lacks is the better message

@@ -50,7 +50,7 @@ struct SheetView {
 };
 
 struct SheetOptions {
-  std::optional<SheetFormat> format;  ///< nothing: told by its shape
+  std::optional<SheetFormat> format;  ///< nothing: recognised by its shape
   std::optional<double> focal;        ///< of the lens, pixels, as the camera says
   double most_tilt = 40.0;            ///< deg
   void check() const;                 ///< throws UsageError: field, value, allowed range
@@ -60,7 +60,7 @@ struct SheetOptions {
 /// bounded by four straight edges (of which a hand may cross one); corners where the edges' lines
 /// meet. The lens has its axis in the picture's middle, square pixels and no distortion. Throws
 /// InputError `name`: no sheet, not all of it in the picture, hidden edges, too oblique, A4 and
-/// letter not told apart.
+/// letter not distinguished.
 SheetView find_sheet(const RgbImage& image, const std::string& name,
                      const SheetOptions& options = {});
 

@@ -29,7 +29,7 @@ constexpr float kBluer = -0.06F;        // than paper or table: none of them and
 float redness(const Vec3f& light) { return (light[0] - light[2]) / std::max(0.02F, light.sum()); }
 
 /// A hand beside cells that the picture doesn't show goes on there.
-void check_in_picture(const DrawnSheet& sheet, const VoxelMask& mask, const std::string& name) {
+void check_in_picture(const RectifiedSheet& sheet, const VoxelMask& mask, const std::string& name) {
   const SheetGrid& grid = sheet.grid;
   for (int y = 1; y + 1 < grid.height; ++y) {
     for (int x = 2; x + 2 < grid.width; ++x) {
@@ -49,7 +49,7 @@ void check_in_picture(const DrawnSheet& sheet, const VoxelMask& mask, const std:
 
 }  // namespace
 
-VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& name) {
+VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::string& name) {
   const SheetGrid& grid = sheet.grid;
   const std::vector<Vec3f>& lights = sheet.light;
   constexpr double kLow = -0.1, kHigh = 0.7;
@@ -60,12 +60,12 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
     const double t = (redness(light) - kLow) / (kHigh - kLow);
     heap[static_cast<std::size_t>(std::clamp(t, 0.0, 0.999) * kBins)] += 1.0;
   }
-  const double parting = kLow + otsu_parting(heap) * (kHigh - kLow) / kBins;
+  const double threshold = kLow + otsu_threshold(heap) * (kHigh - kLow) / kBins;
   std::array<std::vector<float>, 3> channel;
   double paper = 0.0, papers = 0.0;
   for (const Vec3f& light : lights) {
     const double r = redness(light);
-    if (r > parting) {
+    if (r > threshold) {
       for (std::size_t c = 0; c < 3; ++c) channel[c].push_back(light[static_cast<int>(c)]);
     } else if (r >= kBluer) {
       paper += r;
@@ -87,11 +87,11 @@ VoxelMask skin_mask(const DrawnSheet& sheet, Ground ground, const std::string& n
             ? fmt::format("no hand is found on the sheet: what isn't paper covers {:.0f} cm2 "
                           "and is no redder than it ({:.3f}; {} is needed)",
                           area / 100.0, redder, kLeastRedness)
-            : fmt::format("no hand is found beside the card: nothing of {:.0f} cm2 or more is "
-                          "redder than the table by {} (the reddest: {:.3f}); lay hand and "
-                          "card on something that isn't of the colour of skin or wood, best "
-                          "white, grey or blue",
-                          kLeastHand / 100.0, kLeastRedness, redder));
+            : fmt::format(
+                  "no hand is found beside the card: nothing of {:.0f} cm2 or more is redder than "
+                  "the table by {} (the reddest: {:.3f}); place hand and card on something that "
+                  "isn't of the colour of skin or wood, best white, grey or blue",
+                  kLeastHand / 100.0, kLeastRedness, redder));
   }
   // Where half of a cell is skin; dark skin reddens a half cell little, so no less than a third. On
   // a table much darker than skin half a cell is nearly as red as a whole one: there light counts

@@ -17,7 +17,7 @@
 namespace palmar {
 namespace {
 
-/// Vertices with less than this share of the largest vertex force hold nothing worth telling.
+/// Vertices with less than this share of the largest vertex force hold nothing worth reporting.
 constexpr double kLeastForce = 1e-6;
 /// Mobilised friction from which a patch counts as slipping; the interior-point method ends within
 /// 1e-6 of the limit.
@@ -45,7 +45,7 @@ Quat turn_of_skin(const SkinGeometry& skin, const std::vector<Vec3>& posed, int 
   return (onto_product * posed_from_rest).normalized();
 }
 
-/// Fingers and the palm are told apart: 0 the palm, 1 + finger else.
+/// Fingers and the palm are distinguished: 0 the palm, 1 + finger else.
 int body_of(Segment segment) {
   const auto finger = finger_of(segment);
   return finger ? 1 + static_cast<int>(*finger) : 0;
@@ -76,7 +76,7 @@ std::vector<RubbingPatch> rubbing_patches(const PreparedHand::Impl& prepared,
   return patches;
 }
 
-/// The same motion told for another point.
+/// The same motion expressed for another point.
 SmallMotion about(const SmallMotion& motion, const Vec3& point) {
   return {motion.at(point), motion.rotation, point};
 }
@@ -213,10 +213,9 @@ FrictionResult solve_friction(const PreparedHand& hand, const ContactResult& con
   result.slip = about(limit.slip, result.mass_centre);
   if (!limit.has_converged) {
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "what friction can hold is only known to lie between %.4g and %.4g times the load",
-        limit.factor, limit.upper_factor);
+    std::snprintf(text, sizeof text,
+                  "what friction can hold is only known to be between %.4g and %.4g times the load",
+                  limit.factor, limit.upper_factor);
     result.status = FrictionStatus::kNotConverged;
     result.message = text;
     return result;

@@ -81,7 +81,7 @@ struct FrictionResult {
 /// palm, moves as one body; fingers don't move each other.
 ///
 /// Directions: the contact normal of a vertex is that along which it was moved to the surface; its
-/// neighbours at rest and posed tell how it was turned.
+/// neighbours at rest and posed show how it was turned.
 ///
 /// Never throws on a numerical failure: see status. Throws UsageError on bad options.
 FrictionResult solve_friction(const PreparedHand& prepared, const ContactResult& contact,

@@ -126,7 +126,7 @@ TEST(Friction, HeavierIsNeverSafer) {
   }
 }
 
-TEST(Friction, TooHeavySlipsAndTellsHowMuchIsHeld) {
+TEST(Friction, TooHeavySlipsAndReportsHowMuchIsHeld) {
   const FrictionResult slips =
       pinch().hold({.weight = 2.0 * pinch().limit(), .gravity = {1, 0, 0}});
   EXPECT_EQ(slips.status, FrictionStatus::kSlips);

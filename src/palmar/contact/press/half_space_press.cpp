@@ -33,7 +33,7 @@ constexpr int kMaxRounds = 7;
 constexpr double kLayerShare = 0.5;  // largest cell / thickness of a layer, if so many serve
 constexpr double kCoarsestLayerShare = 1.0;  // with coarser cells the force is several per cent off
 /// A rim of cells of uniform pressure carries the force of a punch smaller by this share of such a
-/// cell, as splitting it further shows; so the lattice is laid over a punch that much wider.
+/// cell, as splitting it further shows; so the lattice is placed over a punch that much wider.
 constexpr double kLostRim = 0.125;
 /// A layer lifts skin outside the indenter, which then may touch. Candidates are cells with a gap
 /// below these shares of the depth, tried one after the other until no other skin would enter. A

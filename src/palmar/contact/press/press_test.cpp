@@ -61,7 +61,7 @@ TEST(Press, HertzHoldsAtAnySpacing) {
 }
 
 TEST(Press, PoissonsRatioEntersAsInHertz) {
-  // E* = 2 G / (1 - nu); p0 goes along, the contact radius stays.
+  // E* = 2 G / (1 - nu); p0 changes with it, the contact radius stays.
   PressOptions options = sphere_on_plane(20.0, 1.0);
   const PressStep incompressible = press(options).front();
   options.poisson = 0.3;

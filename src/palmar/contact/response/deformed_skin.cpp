@@ -83,7 +83,7 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
   for (const int v : loaded) motion[v] = skin.sample[v].closest - result.undeformed[v];
   for (const int v : free) {
     motion[v] = result.displacement[v] * direction[v];
-    // Out of the product, as far as its tangent plane tells; the rest is left to push_out().
+    // Out of the product, as far as its tangent plane shows; the rest is left to push_out().
     const DistanceSample& sample = skin.sample[v];
     if (sample.distance >= kNearRange) continue;
     motion[v] += std::max(0.0, -sample.distance - motion[v].dot(sample.normal)) * sample.normal;

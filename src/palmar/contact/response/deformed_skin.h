@@ -20,7 +20,7 @@ namespace palmar {
 /// unloaded skin are then relaxed with their neighbours' (the corner lattice of the contact's edge
 /// would else show as teeth), and skin that is still inside the product is put on its surface.
 /// Afterwards the displacement is the part of each vertex' motion along its direction.
-/// `is_active` tells which vertices may move.
+/// `is_active` says which vertices may move.
 void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
                  const DistanceField& product, const std::vector<char>& is_active,
                  ContactResult& result);

@@ -24,7 +24,7 @@ class BlockMatrix {
   /// To be called once after the last add_block(): allocates and clears.
   void allocate();
   /// Makes this the principal part of another matrix: of its block b the rows kept[b] (ascending);
-  /// blocks without any are left out. To be factored anew.
+  /// blocks without any are left out. To be factored again.
   void take_part(const BlockMatrix& whole, const std::vector<std::vector<int>>& kept);
   /// Where the values of a block (that has been added) stand: entry (i, j), counted within the
   /// block, at [j * stride(row_block) + i].

@@ -348,7 +348,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   if (!skin.collision.empty()) solve_load(skin, load, result);
   const std::vector<double>& covered = coating_.diagonal;
   if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
-    append(result.message, "no skin in contact lies on a coated part of the product");
+    append(result.message, "no skin in contact is on a coated part of the product");
   }
   was_in_contact.assign(n, 0);
   was_force = result.force;

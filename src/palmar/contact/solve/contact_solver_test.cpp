@@ -347,7 +347,7 @@ TEST(Coating, SoftCoverSpreadsTheLoadWhereItIs) {
   options.coatings[0].where = Box3(Vec3(100.0, 100.0, -50.0), Vec3(200.0, 200.0, 50.0));
   const ContactResult elsewhere = on_plane(hand, 3.0, options);
   EXPECT_EQ(elsewhere.total.force, rigid.total.force);
-  EXPECT_THAT(elsewhere.message, HasSubstr("no skin in contact lies on a coated part"));
+  EXPECT_THAT(elsewhere.message, HasSubstr("no skin in contact is on a coated part"));
 }
 
 TEST(Coating, IsChecked) {

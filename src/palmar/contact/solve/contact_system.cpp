@@ -112,7 +112,7 @@ void ContactSystem::assemble_far(const SkinResponse& response) {
   }
 }
 
-/// Adds the far part: add(row, moved) for each of `rows`, whose forces force(row) tells.
+/// Adds the far part: add(row, moved) for each of `rows`, whose forces force(row) shows.
 template <typename Force, typename Add>
 void ContactSystem::add_far(const std::vector<int>& rows, const Force& force,
                             const Add& add) const {
@@ -359,7 +359,7 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
       find_gap();
       const double error = error_on_set() / b_scale;
       const bool is_last = error <= kLast || round == kMostCorrections;
-      // What the solution isn't good enough to tell counts as feasible for now.
+      // What the solution isn't good enough to determine counts as feasible for now.
       const double slack = std::max(10.0 * error, 1e-11);
       const double p_slack = slack * largest(force);
       infeasible.clear();

@@ -179,7 +179,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
   if (deepest_vertex >= 0) {
     const auto too_deep = static_cast<int>(skin.left_out.size()) - far_side;
-    skin.message = std::to_string(too_deep) + " skin vertices lie deeper than " +
+    skin.message = std::to_string(too_deep) + " skin vertices are deeper than " +
                    one_decimal(kMaxContactDepth) + " mm in the product (deepest " +
                    one_decimal(deepest) + " mm, vertex " + std::to_string(deepest_vertex) +
                    ", region " + std::string(name_of(hand.region[deepest_vertex])) +

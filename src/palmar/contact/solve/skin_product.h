@@ -58,7 +58,7 @@ SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& po
                                    const DistanceField& product, std::optional<Region> only);
 
 /// The same into `skin`, whose memory is reused, with a sampler (or none) kept from call to call.
-/// With one, skin farther outside than `wanted` [mm] may be told as if it were kNearRange away.
+/// With one, skin farther outside than `wanted` [mm] may be reported as if it were kNearRange away.
 void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                           const DistanceField& product, std::optional<Region> only,
                           SkinSampler* sampler, SkinOnProduct& skin, double wanted = kNearRange);

@@ -76,7 +76,7 @@ TEST(SkinSampler, ForgetsAnotherProduct) {
   for (Vec3& x : posed) x.z() += 40.0;
   SkinSampler sampler;
   SkinOnProduct found;
-  // The second is made where the first was, so its address tells nothing.
+  // The second is made where the first was, so its address shows nothing.
   auto product = std::make_unique<MeshDistance>(make_icosphere(10.0, 3));
   find_skin_on_product(*hand, posed, *product, std::nullopt, &sampler, found);
   EXPECT_TRUE(found.collision.empty());

@@ -306,7 +306,7 @@ Solved search(const Model& model, const Unknowns& at, const Mask& mask, bool is_
 
 /// Confidence of the free unknowns' logarithms.
 struct Confidence {
-  Eigen::MatrixXd covariance;  ///< infinite on the diagonal where the readings tell nothing
+  Eigen::MatrixXd covariance;  ///< infinite on the diagonal where the readings show nothing
   Eigen::MatrixXd correlation;
   Eigen::VectorXd eigenvalues;
   double quantile = 0.0;  ///< of Student's t, two-sided
@@ -386,7 +386,7 @@ class Fit {
       }
     }
     confidence_ = confidence_of(solved_, options_.confidence);
-    drop_what_cannot_be_told();
+    drop_undetermined();
     report();
     return std::move(fit_);
   }
@@ -452,7 +452,7 @@ class Fit {
     confidence_ = confidence_of(solved_, options_.confidence);
   }
 
-  void drop_what_cannot_be_told() {
+  void drop_undetermined() {
     const double deepest = model_.deepest();
     if (solved_.is_free[kRho] && std::expm1(solved_.x[kRho]) < kLeastStiffening) {
       remark_[kRho] = "the readings show no stiffening: G_lim equals G0";
@@ -556,7 +556,7 @@ class Fit {
           solved_.is_free[k] || k == kG0 ? half_width(k) : std::nullopt;
       if (!mask_[k]) {
         one.status = ParameterStatus::kHeld;
-        one.remark = k == kRho              ? "equal to G0: one modulus was asked for"
+        one.remark = k == kRho              ? "equal to G0: one modulus was requested"
                      : options_.is_constant ? "it has no meaning with one modulus"
                                             : "given, not fitted";
       } else if (!solved_.is_free[k]) {
@@ -568,7 +568,7 @@ class Fit {
           one.status = ParameterStatus::kNotIdentifiable;
           one.remark = k == kThickness && solved_.x[k] > 0.5 * (model_.lower(k) + model_.upper(k))
                            ? "the readings see no bone: a half-space fits as well"
-                           : "it stands at the end of what is tried";
+                           : "it is at the end of the range that is tried";
         } else if (!(*width < std::log(kWidestFactor))) {
           one.status = ParameterStatus::kNotIdentifiable;
           one.remark = "its confidence interval spans more than a factor of three to either side";

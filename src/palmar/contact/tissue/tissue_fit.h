@@ -38,7 +38,7 @@ struct TissueFitOptions {
 enum class ParameterStatus {
   kFitted,
   kHeld,            ///< given, not fitted
-  kNotIdentifiable  ///< the readings can't tell it; see the remark
+  kNotIdentifiable  ///< the readings can't determine it; see the remark
 };
 
 struct FittedParameter {
@@ -96,16 +96,16 @@ struct TissueFit {
 /// fitted; forces and areas are then weighed by their own residuals. Confidence intervals come from
 /// the Jacobian and the residual variance with Student's t, in logarithms (so they are unequal).
 ///
-/// A limit depth that can't be told from the readings is held at the deepest one and the rest
-/// fitted anew; readings without stiffening give a constant modulus. A parameter whose interval
-/// spans more than a factor of three to either side is named as not identifiable.
+/// A limit depth that can't be distinguished from the readings is held at the deepest one and the
+/// rest fitted again; readings without stiffening give a constant modulus. A parameter whose
+/// interval spans more than a factor of three to either side is named as not identifiable.
 ///
 /// Low and high: with two or more subjects the least and greatest G0 and G_lim of them, each
 /// fitted alone with d_lim and h of all; with one, the law times the confidence of its mean
 /// stiffness.
 ///
 /// Throws InputError if there are too few readings or depths for the parameters; UsageError on bad
-/// options or a response that doesn't reach the readings. Not converging is told in `status`.
+/// options or a response that doesn't reach the readings. Not converging is reported in `status`.
 TissueFit fit_tissue(const std::vector<MeasuredPoint>& points, const SpecimenResponse& response,
                      const TissueFitOptions& options = {});
 

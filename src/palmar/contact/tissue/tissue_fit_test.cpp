@@ -196,7 +196,7 @@ TEST(TissueFit, ExponentialStiffeningShowsNoLimitDepth) {
   EXPECT_NEAR(fit.stiffness.nominal.g_limit, exponential(3.0), 0.1 * exponential(3.0));
 }
 
-TEST(TissueFit, AConstantModulusIsToldAsOne) {
+TEST(TissueFit, AConstantModulusIsReportedAsOne) {
   const TissueFit fit =
       fit_tissue(readings(kDepths, [](double) { return 0.02; }), hertz_response(kDepths));
   EXPECT_NEAR(fit.stiffness.nominal.g0, 0.02, 1e-8);
@@ -319,7 +319,7 @@ TEST(TissueFit, ALayerThatIsNotThereIsNotIdentifiable) {
   EXPECT_THAT(remarks(fit), HasSubstr("the readings see no bone"));
 }
 
-TEST(TissueFit, AreasThatDoNotFitTheTestAreToldEvenIfForcesDo) {
+TEST(TissueFit, AreasThatDoNotFitTheTestAreReportedEvenIfForcesDo) {
   auto points = readings(kDepths, [](double d) { return law(kTruth, d); });
   for (MeasuredPoint& point : points) point.area = 1.5 * hertz_area(point.depth);
   const TissueFit fit = fit_tissue(points, hertz_response(kDepths));

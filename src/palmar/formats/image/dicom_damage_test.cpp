@@ -86,7 +86,7 @@ TEST(DicomDamage, MixturesAreNamed) {
       HasSubstr("images of several pixel sizes are mixed"));
   EXPECT_THAT(with_changed_slice(
                   [](DicomTestFile& file) { file.text(0x00200037, "DS", "1\\0\\0\\0\\0\\1"); }),
-              HasSubstr("slices lie in 2 directions, as those of a localiser (0.dcm and 2.dcm)"));
+              HasSubstr("slices are in 2 directions, as those of a localiser (0.dcm and 2.dcm)"));
   EXPECT_THAT(
       with_changed_slice([](DicomTestFile& file) { file.text(0x00200032, "DS", "-10\\20.4\\4"); }),
       HasSubstr("slices are shifted sideways, 2.dcm by 0.40 mm against 0.dcm"));
@@ -203,7 +203,7 @@ TEST(DicomDamage, FuzzedFilesAreReadOrRefusedByName) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(DicomDamage, DroppedDoubledAndShuffledSlicesAreToldApart) {
+TEST(DicomDamage, DroppedDoubledAndShuffledSlicesAreDistinguished) {
   const TestFolder folder;
   std::mt19937 random(3);
   constexpr int kSlices = 12;

@@ -190,7 +190,7 @@ class ElementWalk {
       const auto item = read_head(is_explicit_);
       if (!item || item->tag == kSequenceEnd) return;
       if (item->tag != kItem) {
-        return fail(fmt::format("element {} stands where an item belongs", name_of(item->tag)));
+        return fail(fmt::format("element {} is where an item belongs", name_of(item->tag)));
       }
       take(end_of(*item));
     }
@@ -239,7 +239,7 @@ class ElementWalk {
       if (!item) return;
       if (item->tag == kSequenceEnd) return;
       if (item->tag != kItem) {
-        return fail(fmt::format("element {} stands where an item belongs", name_of(item->tag)));
+        return fail(fmt::format("element {} is where an item belongs", name_of(item->tag)));
       }
       if (item->length != kUndefined) {
         if (item->length > file_bytes_ - position_) return fail("an item ends behind the file");

@@ -64,7 +64,7 @@ std::string mixture_problem(const std::vector<DicomSlice>& slices) {
     }
   }
   if (directions.size() > 1) {
-    return fmt::format("slices lie in {} directions, as those of a localiser ({} and {})",
+    return fmt::format("slices are in {} directions, as those of a localiser ({} and {})",
                        directions.size(), file_name(*directions[0]), file_name(*directions[1]));
   }
   for (const DicomSlice& slice : slices) {
@@ -137,7 +137,7 @@ std::string missing_slices(const std::vector<const DicomSlice*>& at, double step
 std::string position_problem(const std::vector<DicomSlice>& slices) {
   const std::vector<const DicomSlice*> at = positions_of(slices);
   if (at.size() < 2) {
-    return slices.size() > 1 ? "all slices lie at one position; a volume needs two at least"
+    return slices.size() > 1 ? "all slices are at one position; a volume needs two at least"
                              : "has one slice; a volume needs two at least";
   }
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
@@ -180,7 +180,7 @@ void add_notes(DicomStack& stack) {
   if (first.thickness && *first.thickness > 0.0 &&
       std::abs(*first.thickness - step) > 0.02 * step) {
     stack.notes.push_back(
-        fmt::format("slices {:g} mm thick lie {:g} mm apart (from their positions)",
+        fmt::format("slices {:g} mm thick are {:g} mm apart (from their positions)",
                     *first.thickness, std::round(step * 1e4) / 1e4));
   }
   if (first.images_in_acquisition > static_cast<int>(at.size())) {

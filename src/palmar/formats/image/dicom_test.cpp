@@ -172,7 +172,7 @@ TEST(DicomSeries, GapsBetweenSlicesCount) {
   }
   const ImageFile file = read_image(folder / "s");
   EXPECT_NEAR(file.image.grid.spacing[2], 1.5, 1e-12);
-  EXPECT_THAT(file.notes, ElementsAre("slices 1 mm thick lie 1.5 mm apart (from their positions)"));
+  EXPECT_THAT(file.notes, ElementsAre("slices 1 mm thick are 1.5 mm apart (from their positions)"));
 }
 
 TEST(DicomSeries, IdenticalDoublesAreLeftOut) {
@@ -226,7 +226,7 @@ TEST(DicomSeries, OneOfSeveralIsChosen) {
   EXPECT_THAT(message_of<InputError>([&] {
                 read_image(folder.path(), {1, ""});
               }),
-              HasSubstr("series 1 \"scout\": slices lie in 3 directions"));
+              HasSubstr("series 1 \"scout\": slices are in 3 directions"));
   fs::remove_all(folder / "b");  // then the localiser doesn't stand in the way
   EXPECT_EQ(read_image(folder.path()).description, "t1 coronal");
 }

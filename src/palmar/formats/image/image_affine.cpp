@@ -38,7 +38,7 @@ void set_affine(VolumeGrid& grid, const Eigen::Matrix<double, 3, 4>& affine,
   grid.axes.col(2) = handed * grid.axes.col(0).cross(grid.axes.col(1));
   grid.origin = affine.col(3);
   if (grid.origin.cwiseAbs().maxCoeff() > 1e5) {
-    throw InputError(fmt::format("{}: its first voxel lies {:g} mm away from the origin", name,
+    throw InputError(fmt::format("{}: its first voxel is {:g} mm away from the origin", name,
                                  grid.origin.norm()));
   }
 }

@@ -90,7 +90,7 @@ Eigen::Matrix<double, 3, 4> affine_of(const Header& header, ImageFile& file) {
     if (header.at<float>(kPixdim) < 0.0F) axes.col(2) = -axes.col(2);  // qfac
     for (int a = 0; a < 3; ++a) origin[a] = header.at<float>(kQoffset, a);
   } else {
-    file.notes.push_back("the file doesn't say how the image lies in the patient");
+    file.notes.push_back("the file doesn't say how the image is oriented in the patient");
   }
   affine << axes * step.asDiagonal(), origin;
   return affine;

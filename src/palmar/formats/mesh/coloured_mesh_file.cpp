@@ -26,7 +26,7 @@ fs::path neighbour(const fs::path& path, std::string name) {
   if (file.is_absolute() ||
       std::any_of(file.begin(), file.end(), [](const fs::path& part) { return part == ".."; })) {
     throw InputError(path.string() + ": names " + in_quotes(name) +
-                     ", which lies outside its folder");
+                     ", which is outside its folder");
   }
   return path.parent_path() / file;
 }

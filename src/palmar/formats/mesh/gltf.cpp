@@ -109,7 +109,7 @@ class Loader {
     const auto offset = view->value("byteOffset", std::uint64_t{0});
     const auto size = view->value("byteLength", std::uint64_t{0});
     if (offset > glb_.buffer.size() || size > glb_.buffer.size() - offset) {
-      throw InputError(what + " lies outside its buffer");
+      throw InputError(what + " is outside its buffer");
     }
     const auto* start = reinterpret_cast<const char*>(glb_.buffer.data()) + offset;
     return {start, size};
@@ -152,7 +152,7 @@ class Loader {
         file.is_absolute() || uri.find("://") != uri.npos ||
         std::any_of(file.begin(), file.end(), [](const auto& p) { return p == ".."; });
     if (leaves) {
-      throw InputError(what + ": " + in_quotes(uri) + " lies outside the file's own folder");
+      throw InputError(what + ": " + in_quotes(uri) + " is outside the file's own folder");
     }
     try {
       return read_file(folder_ / file);
@@ -369,7 +369,7 @@ class SceneReader {
     if (visited_.empty()) visited_.resize(glb_.json.at("nodes").size(), false);
     if (visited_[static_cast<std::size_t>(index)] || depth > 200) {
       throw InputError(name_ + ": node " + std::to_string(index) +
-                       " is reached twice or lies deeper than 200 levels");
+                       " is reached twice or is deeper than 200 levels");
     }
     visited_[static_cast<std::size_t>(index)] = true;
     const Affine scene_from_node = parent * transform(*node);

@@ -54,7 +54,7 @@ void check_position(const Vec3& position, const std::string& where);
 void check_triangle_count(const std::string& name, std::uint64_t count);
 
 /// Makes the promises of MeshFile true: drops triangles that name a vertex twice and vertices
-/// without triangle, with notes; `colours`, if there are any, go along. Throws InputError
+/// without triangle, with notes; `colours`, if there are any, are kept. Throws InputError
 /// "`name`: ..." if no triangle is left.
 void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colours = nullptr);
 

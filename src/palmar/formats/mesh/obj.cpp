@@ -176,7 +176,7 @@ class ObjReader {
     const long long resolved = *index > 0 ? *index - 1 : count + *index;
     if (*index == 0 || resolved < 0 || resolved >= count) {
       fail("face names texture place " + std::to_string(*index) + "; " + std::to_string(count) +
-           " stand above it");
+           " come before it");
     }
     return static_cast<int>(resolved);
   }
@@ -216,7 +216,7 @@ class ObjReader {
     const long long resolved = *index > 0 ? *index - 1 : count + *index;
     if (*index == 0 || resolved < 0 || resolved >= count) {
       fail("face names vertex " + std::to_string(*index) + "; " + std::to_string(count) +
-           " vertices stand above it");
+           " vertices come before it");
     }
     return static_cast<int>(resolved);
   }

@@ -113,11 +113,11 @@ TEST(Obj, ErrorsNameFileAndLine) {
   EXPECT_EQ(obj_error("v 0 0 0\nv 1 0,5 0\n"),
             "x.obj:2: vertex 2: y is \"0,5\"; a number is required");
   EXPECT_EQ(obj_error(std::string(kThree) + "\nf 1 2 4\n"),
-            "x.obj:5: face names vertex 4; 3 vertices stand above it");
+            "x.obj:5: face names vertex 4; 3 vertices come before it");
   EXPECT_EQ(obj_error(std::string(kThree) + "f 0 1 2\n"),
-            "x.obj:4: face names vertex 0; 3 vertices stand above it");
+            "x.obj:4: face names vertex 0; 3 vertices come before it");
   EXPECT_EQ(obj_error(std::string(kThree) + "f -4 1 2\n"),
-            "x.obj:4: face names vertex -4; 3 vertices stand above it");
+            "x.obj:4: face names vertex -4; 3 vertices come before it");
   EXPECT_EQ(obj_error(std::string(kThree) + "f a b c\n"),
             "x.obj:4: face corner \"a\"; a vertex number is required");
   EXPECT_EQ(obj_error("v 0 0 0\nv inf 0 0\n"),

@@ -132,7 +132,7 @@ class HeaderReader {
   }
 
   void read_property(TextScanner& words, Header& header) const {
-    if (header.elements.empty()) fail("a property stands before the first element");
+    if (header.elements.empty()) fail("a property comes before the first element");
     const auto type = [&](std::string_view word) {
       const auto found = type_named(word);
       if (!found) fail("property type is " + in_quotes(word) + "; char ... double is required");
@@ -285,7 +285,7 @@ class BodyReader {
     if (!(count >= 0.0) || count > static_cast<double>(body_bytes_) || count != std::floor(count)) {
       throw InputError(name_ + ": " + element.name + " " + std::to_string(row + 1) + " (" +
                        source_.place() + "): a list of " + shortest(count) +
-                       " values can't stand in this file");
+                       " values can't be in this file");
     }
     return static_cast<std::size_t>(count);
   }
@@ -323,7 +323,7 @@ class BodyReader {
     return {};
   }
 
-  /// Property that tells which vertices were seen, as `palmar photos mesh` writes it: less than
+  /// Property that says which vertices were seen, as `palmar photos mesh` writes it: less than
   /// `least`, and it is a guess.
   struct Sight {
     std::size_t property = 0;

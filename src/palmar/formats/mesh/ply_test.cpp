@@ -115,7 +115,7 @@ TEST(Ply, HeaderErrorsNameTheLine) {
             "x.ply:2: format is \"text\"; ascii, binary_little_endian or binary_big_endian is "
             "required");
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nproperty float x\nend_header\n"),
-              HasSubstr("x.ply:3: a property stands before the first element"));
+              HasSubstr("x.ply:3: a property comes before the first element"));
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex -3\nend_header\n"),
               HasSubstr("count is \"-3\""));
   EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n"),
@@ -136,7 +136,7 @@ TEST(Ply, BadValuesNameElementAndPlace) {
   EXPECT_THAT(ply_error(ascii_ply("0 0 0\n1 x 0\n")),
               HasSubstr("vertex 2 of 3 (line 12): \"x\" is no number"));
   EXPECT_THAT(ply_error(ascii_ply(std::string(kThreeCorners) + "4000000000 0 1 2\n")),
-              HasSubstr("a list of 4e+09 values can't stand in this file"));
+              HasSubstr("a list of 4e+09 values can't be in this file"));
 }
 
 TEST(Ply, PointCloudsAndStripsAreRefusedByName) {

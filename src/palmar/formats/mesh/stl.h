@@ -13,8 +13,8 @@ namespace palmar {
 /// text that starts with "solid" and goes on with a facet or an end.
 bool is_stl(std::string_view bytes);
 
-/// Reads binary or ASCII STL; told apart by length, since binary files may start with "solid" too.
-/// Corners with identical coordinates become one vertex; stored normals are not used. Throws
+/// Reads binary or ASCII STL; distinguished by length, since binary files may start with "solid"
+/// too. Corners with identical coordinates become one vertex; stored normals are not used. Throws
 /// InputError "`name`: ..." naming the facet (from 1), the line, or the bytes expected and found.
 ///
 /// Source: 3D Systems, StereoLithography Interface Specification, 1989 (80-byte header, 32-bit

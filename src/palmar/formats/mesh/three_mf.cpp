@@ -266,7 +266,7 @@ class Package {
     constexpr int kDeepest = 32;
     constexpr int kMostInstances = 100'000;
     if (depth > kDeepest || ++instances_ > kMostInstances) {
-      throw InputError(name_ + ": components lie deeper than 32 levels or are more than 100000");
+      throw InputError(name_ + ": components are deeper than 32 levels or are more than 100000");
     }
     vertices_seen_ += object.mesh.vertices.size();
     check_triangle_count(name_, vertices_seen_ / 3);

@@ -269,7 +269,7 @@ class Reader {
       if (labels[i].empty()) labels[i] = "point " + std::to_string(i + 1);
       if (!taken.insert(labels[i]).second) {
         recording_.notes.push_back("label " + in_quotes(labels[i]) +
-                                   " stands twice; the first point has it");
+                                   " appears twice; the first point has it");
         labels[i] += " (" + std::to_string(i + 1) + ")";
       }
     }

@@ -112,7 +112,7 @@ TEST(C3d, WhatIsDoubtfulIsNoted) {
   file = sample();
   file.labels[2] = file.labels[0];
   read = parse_c3d(file.bytes(), "x");
-  EXPECT_THAT(read.notes, testing::Contains(HasSubstr("stands twice")));
+  EXPECT_THAT(read.notes, testing::Contains(HasSubstr("appears twice")));
   EXPECT_NE(read.labels[2], read.labels[0]);
   file = sample();
   file.frames[1][0] = {0, 0, 0};

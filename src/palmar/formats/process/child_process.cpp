@@ -139,7 +139,7 @@ class Child {
   pid_t pid_;
 };
 
-/// MB of address space (peak) and of resident memory; 0 if they can't be told.
+/// MB of address space (peak) and of resident memory; 0 if they can't be determined.
 struct Memory {
   double peak = 0.0, resident = 0.0;
 };

@@ -70,16 +70,17 @@ void report_line(const std::string& line, const Progress& progress, std::string&
 }
 
 /// What the child left behind when it ended with an error; nothing if it couldn't.
-void rethrow_told_error(const Worker& worker, const fs::path& folder, const std::string& object) {
+void rethrow_reported_error(const Worker& worker, const fs::path& folder,
+                            const std::string& object) {
   const fs::path path = folder / "error.json";
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return;
   std::string message;
   int code = 0;
   try {
-    const auto told = nlohmann::json::parse(read_file(path, kLargestReply));
-    message = told.at("message").get<std::string>();
-    code = told.at("exit_code").get<int>();
+    const auto reported = nlohmann::json::parse(read_file(path, kLargestReply));
+    message = reported.at("message").get<std::string>();
+    code = reported.at("exit_code").get<int>();
   } catch (const nlohmann::json::exception&) {
     throw InputError(object + ": " + worker.name + " failed and what it says is damaged");
   }
@@ -160,7 +161,7 @@ std::string run_worker(const Worker& worker, const std::string& verb, const std:
   }
   if (result.code == kWorkerOutOfMemory) fail_memory(object, limits);
   if (result.code == 0) return read_file(folder.path() / "reply.json", kLargestReply);
-  rethrow_told_error(worker, folder.path(), object);
+  rethrow_reported_error(worker, folder.path(), object);
   throw InputError(object + ": " + worker.name + " ended with code " + std::to_string(result.code) +
                    " and said nothing");
 }

@@ -27,8 +27,8 @@ std::vector<Vec3> random_points(int count, double half, unsigned seed) {
   return points;
 }
 
-/// What every exact distance obeys: the closest point lies on the surface, at the distance told,
-/// and the normal is the gradient.
+/// What every exact distance obeys: the closest point lies on the surface, at the distance
+/// reported, and the normal is the gradient.
 void expect_is_distance(const DistanceField& field, double half, double kink_share) {
   int off = 0, count = 0;
   for (const Vec3& p : random_points(2000, half, 1)) {

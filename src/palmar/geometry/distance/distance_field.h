@@ -26,7 +26,7 @@ class DistanceField {
   DistanceField& operator=(const DistanceField& other);
   virtual ~DistanceField() = default;
 
-  /// Different for every field ever made in this process: tells whether samples kept from an
+  /// Different for every field ever made in this process: says whether samples kept from an
   /// earlier call are of this field.
   std::uint64_t id() const { return id_; }
 

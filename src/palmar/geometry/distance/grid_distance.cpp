@@ -60,7 +60,7 @@ void GridDistance::Impl::fill() {
   nodes.resize(static_cast<std::size_t>(count.x()) * count.y() * count.z());
   // A cell that a point within the band lies in has all its nodes within this.
   const double reach = band + 1.75 * spacing;
-  // One query per block tells whether any of its nodes can be near enough.
+  // One query per block says whether any of its nodes can be near enough.
   std::vector<Eigen::Vector3i> starts;
   std::vector<Vec3> centres;
   for (int k = 0; k < count.z(); k += kBlock) {
@@ -85,7 +85,7 @@ void GridDistance::Impl::fill() {
       for (int j = starts[b].y(); j < end.y(); ++j) {
         for (int i = starts[b].x(); i < end.x(); ++i) {
           const Vec3 x = position(i, j, k);
-          // The block's centre already tells how far the node is at least.
+          // The block's centre already says how far the node is at least.
           if (is_far || std::abs(found[b].distance) - (x - centres[b]).norm() > reach) {
             nodes[index(i, j, k)].distance = static_cast<float>(found[b].distance);
             continue;

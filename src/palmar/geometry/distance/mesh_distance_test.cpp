@@ -375,9 +375,9 @@ TEST(OrientOutwards, TurnsAnInvertedSolidAndMendsSingleTriangles) {
 
   TriangleMesh mixed = make_icosphere(20.0, 2);
   for (const int t : {5, 6, 100}) std::swap(mixed.triangles[t][0], mixed.triangles[t][1]);
-  const OrientResult mended = orient_outwards(mixed);
-  EXPECT_EQ(mended.mended_patches, 1);
-  EXPECT_THAT(mended.flipped_triangles, testing::ElementsAre(5, 6, 100));
+  const OrientResult repaired_mesh = orient_outwards(mixed);
+  EXPECT_EQ(repaired_mesh.repaired_patches, 1);
+  EXPECT_THAT(repaired_mesh.flipped_triangles, testing::ElementsAre(5, 6, 100));
 }
 
 TEST(OrientOutwards, KeepsACavity) {

@@ -154,7 +154,7 @@ struct GeodesicSolver::Front {
     w.distance_[vertex] = candidate;
     // Beyond the radius a distance is kept, since the wave rule may use it, but not carried on.
     if (candidate > radius) return;
-    // A corner may turn out nearer than the vertex that tells so: not into a bucket that is done.
+    // A corner may turn out nearer than the vertex that shows so: not into a bucket that is done.
     const auto bucket = std::max(current, static_cast<std::size_t>(candidate * buckets_per_length));
     if (bucket >= w.bucket_.size()) w.bucket_.resize(bucket + 1);
     w.bucket_[bucket].push_back(vertex);
@@ -185,7 +185,7 @@ struct GeodesicSolver::Front {
 
 // Candidates for the corners of four of a vertex' triangles, those from `first` on, and in the
 // result what of them is worth an offer: bits 0-3 `to_near`, 8-11 `to_far`, 16-19 `to_across`; bits
-// 24-27 tell that a is the near corner. A corner nearer than the vertex itself can't gain from it.
+// 24-27 show that a is the near corner. A corner nearer than the vertex itself can't gain from it.
 // The wave goes from the vertex and the nearer of the two corners to the farther one; it waits for
 // the later of those two, whose distance is then as good as final.
 template <bool kIsLimited>

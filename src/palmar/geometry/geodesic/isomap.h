@@ -9,7 +9,7 @@
 
 namespace palmar {
 
-/// A patch of skin laid flat.
+/// A patch of skin flattened.
 struct FlatPatch {
   Eigen::MatrixX2d position;  ///< mm; one row per point, about their mean, long direction first
   /// Share of the distances that the flat picture doesn't explain: 1 - R^2, R the correlation

@@ -86,7 +86,7 @@ TEST(Isomap, CylinderPatchUnrolls) {
   const MatrixXd arc = straight_distances(unrolled);
   const FlatPatch flat = flatten_by_isomap(arc);
   EXPECT_LT(largest_difference(flat_distances(flat), arc), 1e-9);
-  // Straight lines through the solid are no isometry of a plane: the residual tells.
+  // Straight lines through the solid are no isometry of a plane: the residual shows.
   EXPECT_GT(flatten_by_isomap(straight_distances(on_cylinder)).residual_variance, 1e-3);
 }
 

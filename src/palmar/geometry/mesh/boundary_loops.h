@@ -26,7 +26,7 @@ struct BoundaryLoops {
   int loose_edges = 0;
 };
 
-/// The holes of a mesh. Where two holes touch in a corner they are told apart: a ring passes a
+/// The holes of a mesh. Where two holes touch in a corner they are distinguished: a ring passes a
 /// corner once. Vertices must be in the list (see build_topology()).
 BoundaryLoops find_boundary_loops(const TriangleMesh& mesh, const MeshTopology& topology);
 

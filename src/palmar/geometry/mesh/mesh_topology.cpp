@@ -232,7 +232,7 @@ void require_closed_manifold(const TriangleMesh& mesh, const std::string& object
   } else if (report.non_manifold_vertices > 0) {
     fault << "the triangles round " << report.non_manifold_vertices << " vertices are not one fan";
   } else if (report.boundary_edges > 0) {
-    fault << report.boundary_edges << " edges lie on " << report.boundary_loops << " open borders";
+    fault << report.boundary_edges << " edges are on " << report.boundary_loops << " open borders";
   } else if (report.inconsistent_edges > 0) {
     fault << "the triangles at " << report.inconsistent_edges << " edges disagree about outside";
   } else {

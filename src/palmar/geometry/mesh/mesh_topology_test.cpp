@@ -163,7 +163,7 @@ TEST(RequireClosedManifold, NamesTheObjectAndItsFault) {
   };
   TriangleMesh mesh = make_icosphere(1.0, 1);
   mesh.triangles.pop_back();
-  EXPECT_THAT(message_of(mesh), HasSubstr("hand skin: 3 edges lie on 1 open borders"));
+  EXPECT_THAT(message_of(mesh), HasSubstr("hand skin: 3 edges are on 1 open borders"));
   EXPECT_THAT(message_of({}), HasSubstr("no triangles"));
 }
 

@@ -31,7 +31,7 @@ Vec3 curve_centre(const SectionCurve& curve);
 /// Extent of points along a unit direction, mm; 0 for none.
 double extent(const std::vector<Vec3>& points, const Vec3& direction);
 
-/// Length of a tape laid round points of a plane with unit normal `normal`: perimeter of their
+/// Length of a tape put round points of a plane with unit normal `normal`: perimeter of their
 /// convex hull, mm. 0 for fewer than two distinct points.
 double girth(const std::vector<Vec3>& points, const Vec3& normal);
 

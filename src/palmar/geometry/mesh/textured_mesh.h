@@ -28,7 +28,7 @@ struct RgbImage {
   std::vector<std::uint8_t> rgb;
 };
 
-/// Colours of a mesh's surface as scanning programs write them: images laid on its triangles,
+/// Colours of a mesh's surface as scanning programs write them: images placed on its triangles,
 /// colours at its vertices, or both.
 struct SurfaceColours {
   std::vector<Srgb> vertex;    ///< per vertex; empty: none

@@ -57,7 +57,7 @@ std::vector<Sample> spread_samples(const TriangleMesh& mesh, int count) {
   return samples;
 }
 
-/// The surface that the other one is laid on.
+/// The surface that the other one is placed on.
 class FixedSurface {
  public:
   explicit FixedSurface(const TriangleMesh& mesh)
@@ -366,7 +366,7 @@ IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed
       surface, spread_samples(moving, std::min(kCoarseSamples, options.samples)), options);
   const Registration fine(surface, spread_samples(moving, options.samples), options);
 
-  // A few steps tell the hopeless starts; more of them the rivals, which all samples decide.
+  // A few steps show the hopeless starts; more of them the rivals, which all samples decide.
   std::vector<Place> places = start_places(
       coarse, start, centre_of(spread_samples(fixed, kCoarseSamples)), options.start_turn);
   for (const auto& [iterations, survivors] :

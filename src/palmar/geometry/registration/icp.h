@@ -19,7 +19,7 @@ struct IcpOptions {
   void check() const;        ///< throws UsageError: field, value, allowed range
 };
 
-/// How a surface was laid on another one.
+/// How a surface was placed on another one.
 struct IcpResult {
   Rigid3 fixed_from_moving;
   double mean = 0.0;         ///< distance of all samples to the fixed surface, mm

@@ -154,7 +154,7 @@ TEST(RegisterRigidly, HoldsWithPartsMissingOnEitherSide) {
   EXPECT_GT(of_part.overlap, 0.99);
 }
 
-TEST(RegisterRigidly, ConditioningTellsWhatTheShapeDoesNotHold) {
+TEST(RegisterRigidly, ConditioningReportsWhatTheShapeDoesNotHold) {
   const TriangleMesh ball = make_icosphere(10.0, 4);
   const Rigid3 truth = some_motion();
   const IcpResult result = register_rigidly(ball, moved(ball, truth));

@@ -35,7 +35,7 @@ TEST(Remesh, MakesEvenTrianglesOfTheWantedSizeOnASphere) {
   }
 }
 
-TEST(Remesh, VerticesLieOnTheInputAtTheTold) {
+TEST(Remesh, VerticesLieOnTheInputAtTheRequestedSpacing) {
   const TriangleMesh torus = make_torus(30.0, 8.0, 90, 30);
   const RemeshResult result = remesh(torus, {.edge_length = 3.0});
   EXPECT_EQ(examine_topology(result.mesh).euler_number, 0);

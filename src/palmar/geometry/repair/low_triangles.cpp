@@ -35,7 +35,7 @@ int longest_edge(const TriangleMesh& mesh, const Triangle& t) {
 }
 
 /// One round over all low triangles; whether anything changed.
-bool mend_round(TriangleMesh& mesh, double height, std::vector<Vec3>& places) {
+bool repair_round(TriangleMesh& mesh, double height, std::vector<Vec3>& places) {
   const MeshTopology topology = build_topology(mesh);
   std::vector<bool> is_touched(mesh.vertices.size(), false);
   std::vector<bool> is_dropped(mesh.triangles.size(), false);
@@ -86,12 +86,12 @@ double least_height(const Vec3& a, const Vec3& b, const Vec3& c) {
   return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
 }
 
-LowTrianglesResult mend_low_triangles(const TriangleMesh& mesh, double height) {
+LowTrianglesResult repair_low_triangles(const TriangleMesh& mesh, double height) {
   LowTrianglesResult result{mesh, {}, {}};
   const auto is_low = [&](const Triangle& t) { return height_of(result.mesh, t) <= height; };
   for (int round = 0; round < kMaxRounds; ++round) {
     if (std::none_of(result.mesh.triangles.begin(), result.mesh.triangles.end(), is_low)) break;
-    if (!mend_round(result.mesh, height, result.places)) break;
+    if (!repair_round(result.mesh, height, result.places)) break;
   }
   for (const Triangle& t : result.mesh.triangles) {
     if (is_low(t)) result.left.push_back(centre_of(result.mesh, t));

@@ -19,7 +19,7 @@ struct LowTrianglesResult {
 /// both new ones), or, if it is a free edge, they are dropped. The surface moves by `height` at
 /// most and no edge gets a third triangle. Left are those whose turn would bring another low one,
 /// and those at edges whose triangles disagree about outside. Corners must be in the list.
-LowTrianglesResult mend_low_triangles(const TriangleMesh& mesh, double height);
+LowTrianglesResult repair_low_triangles(const TriangleMesh& mesh, double height);
 
 /// Least height of a triangle [mm]; 0 if it has no area.
 double least_height(const Vec3& a, const Vec3& b, const Vec3& c);

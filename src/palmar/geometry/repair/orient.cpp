@@ -181,7 +181,7 @@ OrientResult orient_outwards(const TriangleMesh& mesh) {
     if (verdict == Verdict::kUndecided) ++result.undecided_patches;
     if (patch.is_twisted) ++result.twisted_patches;
     const auto turned = std::count(patch.is_turned.begin(), patch.is_turned.end(), true);
-    if (turned > 0) ++result.mended_patches;
+    if (turned > 0) ++result.repaired_patches;
     for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
       if (patch.is_turned[i] == flips) continue;
       Triangle& k = result.mesh.triangles[patch.triangles[i]];

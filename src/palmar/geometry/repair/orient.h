@@ -14,9 +14,9 @@ struct OrientResult {
   std::vector<int> flipped_triangles;  ///< ascending
   int patches = 0;            ///< runs of triangles joined over edges that exactly two share
   int flipped_patches = 0;    ///< turned as a whole
-  int mended_patches = 0;     ///< triangles of one patch disagreed with each other
+  int repaired_patches = 0;   ///< triangles of one patch disagreed with each other
   int twisted_patches = 0;    ///< one-sided (Moebius band): no orientation agrees everywhere
-  int undecided_patches = 0;  ///< rays don't tell outside from inside; left as they were
+  int undecided_patches = 0;  ///< rays don't show outside from inside; left as they were
 };
 
 /// Repairs orientation patch by patch.
@@ -25,7 +25,7 @@ struct OrientResult {
 /// 2. A closed patch must enclose a positive volume unless it lies within another one: there both a
 ///    cavity (negative) and a solid within a solid (positive) are meant by somebody, so it stays.
 /// 3. An open patch is decided by rays from both sides of many of its triangles: outside is where a
-///    ray leaves the mesh after an even number of crossings, and, where parity doesn't tell, where
+///    ray leaves the mesh after an even number of crossings, and, where parity doesn't show, where
 ///    more rays leave without any crossing (Takayama, Jacobson, Kavan, Sorkine-Hornung 2014,
 ///    parity and visibility voting).
 ///

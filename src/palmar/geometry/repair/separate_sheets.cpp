@@ -79,8 +79,8 @@ void join(const TriangleMesh& mesh, int h, int g, Sets& fans) {
 
 }  // namespace
 
-PartSheetsResult part_touching_sheets(const TriangleMesh& mesh, double gap) {
-  PartSheetsResult result;
+SeparatedSheets separate_touching_sheets(const TriangleMesh& mesh, double gap) {
+  SeparatedSheets result;
   result.mesh = mesh;
   const MeshTopology topology = build_topology(mesh);
   const int half_edges = 3 * mesh.triangle_count();
@@ -105,7 +105,7 @@ PartSheetsResult part_touching_sheets(const TriangleMesh& mesh, double gap) {
     const auto pairs = pair_leaves(mesh, topology.edge[e], leaves[e]);
     const Vec3 middle =
         (mesh.vertices[topology.edge[e][0]] + mesh.vertices[topology.edge[e][1]]) / 2.0;
-    (pairs.empty() ? result.left_edges : result.parted_edges).push_back(middle);
+    (pairs.empty() ? result.left_edges : result.separated_edges).push_back(middle);
     for (const auto& pair : pairs) join(mesh, pair[0], pair[1], fans);
     if (!pairs.empty()) continue;
     for (const int h : leaves[e]) join(mesh, leaves[e].front(), h, fans);
@@ -126,7 +126,7 @@ PartSheetsResult part_touching_sheets(const TriangleMesh& mesh, double gap) {
       groups.back().push_back(corner);
     }
     if (groups.size() < 2) continue;
-    result.parted.push_back(mesh.vertices[v]);
+    result.separated.push_back(mesh.vertices[v]);
     std::stable_sort(groups.begin(), groups.end(),
                      [](const auto& x, const auto& y) { return x.size() > y.size(); });
     for (std::size_t i = 1; i < groups.size(); ++i) {

@@ -25,44 +25,44 @@ TriangleMesh two_cubes(const Vec3& shift) {
   return weld(cubes, {.tolerance = 1e-9, .drops_duplicates = false}).mesh;
 }
 
-TEST(PartSheets, CubesThatTouchInAnEdgeBecomeTwo) {
+TEST(SeparateTouchingSheets, CubesThatTouchInAnEdgeBecomeTwo) {
   const TriangleMesh cubes = two_cubes(Vec3(10, 10, 0));
   ASSERT_EQ(examine_topology(cubes).non_manifold_edges, 1);
-  const PartSheetsResult parted = part_touching_sheets(cubes, 1e-3);
-  EXPECT_EQ(parted.parted.size(), 2u);
-  EXPECT_EQ(parted.parted_edges.size(), 1u);
-  EXPECT_TRUE(parted.left_edges.empty());
-  const TopologyReport report = examine_topology(weld(parted.mesh, {.tolerance = 5e-4}).mesh);
+  const SeparatedSheets separated = separate_touching_sheets(cubes, 1e-3);
+  EXPECT_EQ(separated.separated.size(), 2u);
+  EXPECT_EQ(separated.separated_edges.size(), 1u);
+  EXPECT_TRUE(separated.left_edges.empty());
+  const TopologyReport report = examine_topology(weld(separated.mesh, {.tolerance = 5e-4}).mesh);
   EXPECT_EQ(report.components, 2);
   EXPECT_EQ(report.euler_number, 4);
   EXPECT_TRUE(report.is_two_manifold);
-  EXPECT_NEAR(signed_volume(parted.mesh), 2000.0, 0.5);
-  EXPECT_LT(signed_volume(parted.mesh), 2000.0);  // each copy lies inside of its own solid
+  EXPECT_NEAR(signed_volume(separated.mesh), 2000.0, 0.5);
+  EXPECT_LT(signed_volume(separated.mesh), 2000.0);  // each copy lies inside of its own solid
 }
 
-TEST(PartSheets, CubesThatTouchInACornerBecomeTwo) {
-  const PartSheetsResult parted = part_touching_sheets(two_cubes(Vec3(10, 10, 10)), 1e-3);
-  EXPECT_EQ(parted.parted.size(), 1u);
-  const TopologyReport report = examine_topology(parted.mesh);
+TEST(SeparateTouchingSheets, CubesThatTouchInACornerBecomeTwo) {
+  const SeparatedSheets separated = separate_touching_sheets(two_cubes(Vec3(10, 10, 10)), 1e-3);
+  EXPECT_EQ(separated.separated.size(), 1u);
+  const TopologyReport report = examine_topology(separated.mesh);
   EXPECT_EQ(report.components, 2);
   EXPECT_TRUE(report.is_two_manifold);
 }
 
-TEST(PartSheets, AWallBetweenCubesStays) {
+TEST(SeparateTouchingSheets, AWallBetweenCubesStays) {
   // Their common face stands there once: three triangles at each of its edges.
   TriangleMesh cubes = two_cubes(Vec3(10, 0, 0));
   cubes = weld(cubes, {.tolerance = 1e-9}).mesh;
-  const PartSheetsResult parted = part_touching_sheets(cubes, 1e-3);
-  EXPECT_TRUE(parted.parted.empty());
-  EXPECT_EQ(parted.left_edges.size(), 4u);
-  EXPECT_EQ(parted.mesh.triangles, cubes.triangles);
+  const SeparatedSheets separated = separate_touching_sheets(cubes, 1e-3);
+  EXPECT_TRUE(separated.separated.empty());
+  EXPECT_EQ(separated.left_edges.size(), 4u);
+  EXPECT_EQ(separated.mesh.triangles, cubes.triangles);
 }
 
-TEST(PartSheets, AManifoldMeshStays) {
+TEST(SeparateTouchingSheets, AManifoldMeshStays) {
   const TriangleMesh torus = make_torus(20, 5, 24, 12);
-  const PartSheetsResult parted = part_touching_sheets(torus, 1e-3);
-  EXPECT_EQ(parted.mesh.triangles, torus.triangles);
-  EXPECT_EQ(parted.mesh.vertices, torus.vertices);
+  const SeparatedSheets separated = separate_touching_sheets(torus, 1e-3);
+  EXPECT_EQ(separated.mesh.triangles, torus.triangles);
+  EXPECT_EQ(separated.mesh.vertices, torus.vertices);
 }
 
 TEST(LowTriangles, ACornerInTheMiddleOfAnEdgeIsTakenIn) {
@@ -70,25 +70,25 @@ TEST(LowTriangles, ACornerInTheMiddleOfAnEdgeIsTakenIn) {
   const TriangleMesh square{
       {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 2, 0), Vec3(0, 2, 0), Vec3(1, 1, 0)},
       {{0, 1, 2}, {0, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
-  const LowTrianglesResult mended = mend_low_triangles(square, 1e-6);
-  EXPECT_EQ(mended.places.size(), 1u);
-  EXPECT_TRUE(mended.left.empty());
-  EXPECT_DOUBLE_EQ(surface_area(mended.mesh), 4.0);
-  EXPECT_EQ(mended.mesh.triangle_count(), 4);
-  const TopologyReport report = examine_topology(mended.mesh);
+  const LowTrianglesResult repaired = repair_low_triangles(square, 1e-6);
+  EXPECT_EQ(repaired.places.size(), 1u);
+  EXPECT_TRUE(repaired.left.empty());
+  EXPECT_DOUBLE_EQ(surface_area(repaired.mesh), 4.0);
+  EXPECT_EQ(repaired.mesh.triangle_count(), 4);
+  const TopologyReport report = examine_topology(repaired.mesh);
   EXPECT_TRUE(report.is_two_manifold);
   EXPECT_TRUE(report.is_oriented);
-  for (const Triangle& t : mended.mesh.triangles) {
-    EXPECT_GT(triangle_normals(mended.mesh.vertices, std::vector<Triangle>{t})[0].z(), 0.9);
+  for (const Triangle& t : repaired.mesh.triangles) {
+    EXPECT_GT(triangle_normals(repaired.mesh.vertices, std::vector<Triangle>{t})[0].z(), 0.9);
   }
 }
 
 TEST(LowTriangles, AFreeOneIsDropped) {
   const TriangleMesh strip{{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 0)},
                            {{0, 3, 2}, {3, 1, 2}, {0, 1, 3}}};
-  const LowTrianglesResult mended = mend_low_triangles(strip, 1e-6);
-  EXPECT_EQ(mended.mesh.triangle_count(), 2);
-  EXPECT_DOUBLE_EQ(surface_area(mended.mesh), 1.0);
+  const LowTrianglesResult repaired = repair_low_triangles(strip, 1e-6);
+  EXPECT_EQ(repaired.mesh.triangle_count(), 2);
+  EXPECT_DOUBLE_EQ(surface_area(repaired.mesh), 1.0);
 }
 
 TEST(LowTriangles, LeastHeightIsTwiceTheAreaOverTheLongestEdge) {

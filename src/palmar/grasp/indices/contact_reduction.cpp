@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-/// Vertices with less than this share of the largest vertex force hold nothing worth telling.
+/// Vertices with less than this share of the largest vertex force hold nothing worth reporting.
 constexpr double kLeastForce = 1e-6;
 
 struct LoadedVertex {

@@ -18,9 +18,9 @@ struct ReductionOptions {
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
-/// Patches of loaded skin as a few contacts. The loaded vertices of a region are parted into groups
-/// near to each other (k-means of their positions weighted by force, started at the vertex of
-/// largest force and then always at the one farthest from those chosen, so it draws no random
+/// Patches of loaded skin as a few contacts. The loaded vertices of a region are separated into
+/// groups near to each other (k-means of their positions weighted by force, started at the vertex
+/// of largest force and then always at the one farthest from those chosen, so it draws no random
 /// numbers). A contact stands at its group's centre of pressure with the force-weighted mean of its
 /// normals; its normal force is the length of the sum of the group's forces. Its torsion is the
 /// moment about its normal at which the whole patch slides round its centre under the pressure it

@@ -71,7 +71,7 @@ GraspIndices to_indices(const EaseResult& result) {
       "the "
       "principal components that carry 90 % of the variance";
   distance.source = basis.source;
-  distance.remark = what_basis + "; half of such postures lie within " +
+  distance.remark = what_basis + "; half of such postures are within " +
                     number(result.coordination.median, "%.2f");
   rows.push_back(distance);
   GraspIndex outside = row("coordination_residual_deg", "departure from natural coordination",

@@ -89,7 +89,7 @@ GraspIndices to_indices(const StabilityResult& result) {
   GraspIndices rows;
   GraspIndex closure =
       row("force_closure", "force closure", "", Better::kUp,
-          "1 if forces within the friction cones can meet any small disturbance, else 0: 0 lies "
+          "1 if forces within the friction cones can meet any small disturbance, else 0: 0 is "
           "strictly inside the grasp wrench space, which spans all six dimensions",
           "Ferrari and Canny 1992");
   closure.highest = 1.0;

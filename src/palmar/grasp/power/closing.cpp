@@ -225,7 +225,7 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
   const Advance first = advance(0, to);
   stop_of(0).penetration = first.deepest[0];
   stop_of(1).penetration = first.deepest[1];
-  // DIP goes along with PIP. If it brings the tip to the product before the middle phalanx lies on
+  // DIP follows PIP. If it brings the tip to the product before the middle phalanx lies on
   // it, it gives way.
   to = posture;
   to[pip.dof] = pip.upper;

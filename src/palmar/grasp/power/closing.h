@@ -66,7 +66,7 @@ class HandCloser {
 
   /// Closes the four fingers; the thumb stays as in `start`. Fingers begin with the abduction that
   /// `start` gives them and are then spread or drawn together up to `rounds` times, until they lie
-  /// side by side. `stops` tells what stopped them.
+  /// side by side. `stops` says what stopped them.
   Posture close_fingers(const HeldProduct& product, const DepthLimits& limits,
                         const ClosingStyle& style, Posture start, int rounds,
                         std::array<SegmentStop, kSegmentCount>& stops) const;

@@ -17,8 +17,8 @@ constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;            // mm^2 per mm^2 of skin outside the palm in the product
 constexpr double kNoseCredit = 3000.0;    // mm^2 for a working end that points away from the wrist
 constexpr double kStrainCost = 5.0;       // mm^2 per degree
-// Leaving the usual lay costs the square of how far, in these units, times kLeaveCost: small
-// changes of a product then change its grasp a little, not from one lay to another.
+// Leaving the usual pose costs the square of how far, in these units, times kLeaveCost: small
+// changes of a product then change its grasp a little, not from one pose to another.
 constexpr double kLeaveCost = 400.0;   // mm^2
 constexpr double kProximalUnit = 6.0;  // mm
 constexpr double kAlongUnit = 16.0;    // mm
@@ -43,12 +43,12 @@ constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
 constexpr double kAlike = 0.01;         // share of the score within which holds are the same
 constexpr int kTurns = 8;
-// Steps by which a kept lay may be bettered for another hand.
+// Steps by which a kept pose may be improved for another hand.
 constexpr double kNearProximal = 3.0;  // mm
-constexpr double kNearSlant = 3.0 * kDegree;
+constexpr double kNearTilt = 3.0 * kDegree;
 constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
-constexpr double kPromising = 0.6;    // share of the best rank from which a hold is bettered
-constexpr std::size_t kBettered = 3;  // holds that are looked at more finely
+constexpr double kPromising = 0.6;    // share of the best rank from which a hold is improved
+constexpr std::size_t kImproved = 3;  // holds that are looked at more finely
 constexpr std::size_t kKept = 4;      // holds that are given back
 constexpr double kOtherAngle = 30.0 * kDegree;  // beyond which a way of holding is another one
 constexpr double kOtherPlace = 20.0;            // mm; the same
@@ -89,20 +89,20 @@ double strain_of(const Posture& posture) {
   return strain;
 }
 
-double leave_cost(const Lay& lay, const Lay& usual) {
+double leave_cost(const HandlePose& pose, const HandlePose& usual) {
   const auto square = [](double x) { return x * x; };
-  return kLeaveCost * (square((lay.oblique - usual.oblique) / kSlantUnit) +
-                       square((lay.tilt - usual.tilt) / kSlantUnit) +
-                       square((lay.proximal - usual.proximal) / kProximalUnit) +
-                       square((lay.along - usual.along) / kAlongUnit));
+  return kLeaveCost * (square((pose.oblique - usual.oblique) / kSlantUnit) +
+                       square((pose.tilt - usual.tilt) / kSlantUnit) +
+                       square((pose.proximal - usual.proximal) / kProximalUnit) +
+                       square((pose.along - usual.along) / kAlongUnit));
 }
 
 double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
-                const Lay& usual, double hand_length, const Posture& posture) {
+                const HandlePose& usual, double hand_length, const Posture& posture) {
   double score = measure.contact_area + kSegmentCredit * measure.touching +
                  kWrapCredit * measure.wrap - kClash * measure.other_area -
                  200.0 * std::max(0.0, measure.deepest_other - 2.0) -
-                 kStrainCost * strain_of(posture) - leave_cost(placement.lay, usual);
+                 kStrainCost * strain_of(posture) - leave_cost(placement.pose, usual);
   if (site.thickness < kFlat * site.width && site.width < kSpan * hand_length) {
     const Vec3 palm = placement.product_from_hand.rotation * placement.push_in_hand;
     score += kFlatCredit * std::abs(palm.dot(site.axis.cross(site.wide).normalized()));
@@ -120,7 +120,7 @@ struct Trial {
   const DistanceField& product;
   const GripSite& site;
   DepthLimits limits;
-  Lay usual;
+  HandlePose usual;
 
   HeldProduct held(const Placement& placement) const {
     return {&product, placement.product_from_hand, site.point, site.axis,
@@ -137,18 +137,18 @@ struct Trial {
     const HeldProduct at = held(hold.placement);
     const Vec3& axis = hold.placement.axis_in_hand;
     const ThumbCloser& thumb = closer.thumb();
-    hold.thumb = thumb.find_way(at, limits, hold.posture, axis);
+    hold.thumb = thumb.find_pose(at, limits, hold.posture, axis);
     std::array<SegmentStop, kSegmentCount> stops;
     hold.posture = thumb.wrap(at, limits, hold.posture, hold.thumb, stops);
     judge(hold);
     hold.score += kThumbShare * thumb.score(at, hold.posture, axis);
   }
-  Hold run(std::size_t site_index, const ClosingStyle& style, const Lay& lay, const Posture& start,
-           int rounds) const {
+  Hold run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
+           const Posture& start, int rounds) const {
     Hold hold;
     hold.site = site_index;
     hold.style = style;
-    hold.placement = place(closer, product, limits, style, site, lay);
+    hold.placement = place(closer, product, limits, style, site, pose);
     std::array<SegmentStop, kSegmentCount> stops;
     hold.posture = closer.close_fingers(held(hold.placement), limits, style, start, rounds, stops);
     judge(hold);
@@ -169,31 +169,31 @@ Posture start_like(const HandCloser& closer, const Hold& hold) {
 }  // namespace
 
 // A short product moves towards the little finger, so that the thumb meets it and not its rim.
-Lay usual_lay(const Hand& hand, const ClosingStyle& style, const GripSite& site,
-              bool is_place_fixed) {
-  Lay lay;
-  lay.proximal = kUsualProximal * hand.dimensions.hand_length;
+HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+                      bool is_place_fixed) {
+  HandlePose pose;
+  pose.proximal = kUsualProximal * hand.dimensions.hand_length;
   // Round a thin handle the index finger finds room only if the handle leaves its base.
   const double share = site.girth / std::numbers::pi / hand.dimensions.hand_length;
-  lay.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
+  pose.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
   if (style.hook) {
     const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;
     const Vec3& pip = hand.skeleton.joint(JointId::kMiddlePip).centre;
-    lay.proximal = -kHookShare * (pip - mcp).norm();
-    lay.oblique = kHookOblique;
-    lay.tilt = 0.0;
+    pose.proximal = -kHookShare * (pip - mcp).norm();
+    pose.oblique = kHookOblique;
+    pose.tilt = 0.0;
   } else if (!is_place_fixed) {
-    lay.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
+    pose.along = std::clamp(site.ahead - kThumbRoom, -kMostAlong, 0.0);
   }
-  return lay;
+  return pose;
 }
 
 PalmLine palm_line(const Hand& hand) {
   const PalmFrame palm = palm_frame(hand.skeleton);
-  const Lay lay;
+  const HandlePose pose;
   return {palm.heads - kUsualProximal * hand.dimensions.hand_length * palm.distal +
               kPalmToAxis * palm.palmar,
-          std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal};
+          std::cos(pose.oblique) * palm.across + std::sin(pose.oblique) * palm.distal};
 }
 
 bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other) {
@@ -209,29 +209,29 @@ DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
 }
 
 Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
-                const ClosingStyle& style, const GripSite& site, const Lay& lay) {
+                const ClosingStyle& style, const GripSite& site, const HandlePose& pose) {
   const PalmFrame palm = palm_frame(closer.hand().skeleton);
-  Vec3 axis = std::cos(lay.oblique) * palm.across + std::sin(lay.oblique) * palm.distal;
-  axis = std::cos(lay.tilt) * axis + std::sin(lay.tilt) * palm.palmar;
+  Vec3 axis = std::cos(pose.oblique) * palm.across + std::sin(pose.oblique) * palm.distal;
+  axis = std::cos(pose.tilt) * axis + std::sin(pose.tilt) * palm.palmar;
   const Vec3 outward = (palm.palmar - axis * axis.dot(palm.palmar)).normalized();
 
   Eigen::Matrix3d in_hand;  // grip axis, towards the palm, third
   in_hand << axis, -outward, axis.cross(-outward);
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   // A left hand turns its product the other way.
-  const double turn = closer.hand().side == Side::kRight ? lay.turn : -lay.turn;
+  const double turn = closer.hand().side == Side::kRight ? pose.turn : -pose.turn;
   const Vec3 facing = Eigen::AngleAxisd(turn, site.axis) * wide;
   Eigen::Matrix3d in_product;
   in_product << site.axis, facing, site.axis.cross(facing);
 
   Placement placement;
-  placement.lay = lay;
+  placement.pose = pose;
   placement.axis_in_hand = axis;
   placement.push_in_hand = -outward;
   placement.product_from_hand.rotation = Quat(in_product * in_hand.transpose()).normalized();
   const double reach = kStart + 0.5 * site.width;
-  const Vec3 start = palm.heads - lay.proximal * palm.distal + reach * outward;
-  const Vec3 grip = site.point + lay.along * site.axis;
+  const Vec3 start = palm.heads - pose.proximal * palm.distal + reach * outward;
+  const Vec3 grip = site.point + pose.along * site.axis;
   placement.product_from_hand.translation = grip - placement.product_from_hand.rotation * start;
   const HeldProduct held{&product, placement.product_from_hand, site.point, site.axis,
                          site.girth / std::numbers::pi};
@@ -256,7 +256,7 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
   };
   const auto trial_at = [&](std::size_t s, const ClosingStyle& style) {
     return Trial{closer, *distances[s], sites[s], limits_for(limits, sites[s]),
-                 usual_lay(hand, style, sites[s], search.is_place_fixed)};
+                 usual_pose(hand, style, sites[s], search.is_place_fixed)};
   };
   std::vector<Hold> tried;
   for (std::size_t s = 0; s < distances.size(); ++s) {
@@ -266,9 +266,9 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
       const std::size_t first = tried.size();
       for (int k = 0; k < (search.turn ? 1 : kTurns); ++k) {
         progress.throw_if_cancelled();
-        Lay lay = trial.usual;
-        lay.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
-        Hold hold = trial.run(s, style, lay, start, k == 0 ? 2 : 1);
+        HandlePose pose = trial.usual;
+        pose.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
+        Hold hold = trial.run(s, style, pose, start, k == 0 ? 2 : 1);
         finish(hold);
         if (k == 0) start = start_like(closer, hold);
         tried.push_back(std::move(hold));
@@ -292,15 +292,15 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     const Trial trial = trial_at(current.site, current.style);
     const Posture start = start_like(closer, current);
     bool is_changed = false;
-    const auto improve = [&](double Lay::*what, double step, double low, double high) {
-      const Lay from = current.placement.lay;
+    const auto improve = [&](double HandlePose::*what, double step, double low, double high) {
+      const HandlePose from = current.placement.pose;
       for (const double by : {scale * step, -scale * step}) {
         if (found.tried >= search.most) return;
         progress.throw_if_cancelled();
-        Lay lay = from;
-        lay.*what += by;
-        if (lay.*what < low || lay.*what > high) continue;
-        Hold hold = trial.run(current.site, current.style, lay, start, 0);
+        HandlePose pose = from;
+        pose.*what += by;
+        if (pose.*what < low || pose.*what > high) continue;
+        Hold hold = trial.run(current.site, current.style, pose, start, 0);
         finish(hold);
         if (hold.rank <= current.rank) continue;
         current = std::move(hold);
@@ -309,52 +309,52 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     };
     const double usual = trial.usual.proximal;
     const bool is_hook = current.style.hook.has_value();
-    improve(&Lay::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
+    improve(&HandlePose::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
             is_hook ? usual + 8.0 : kMostProximal);
-    improve(&Lay::tilt, 5.0 * kDegree, -15.0 * kDegree, 15.0 * kDegree);
-    improve(&Lay::oblique, 6.0 * kDegree, 2.0 * kDegree, 30.0 * kDegree);
-    if (!search.is_place_fixed) improve(&Lay::along, 8.0, -kMostAlong, kMostAlong);
+    improve(&HandlePose::tilt, 5.0 * kDegree, -15.0 * kDegree, 15.0 * kDegree);
+    improve(&HandlePose::oblique, 6.0 * kDegree, 2.0 * kDegree, 30.0 * kDegree);
+    if (!search.is_place_fixed) improve(&HandlePose::along, 8.0, -kMostAlong, kMostAlong);
     if (!search.turn && site.thickness < 0.98 * site.width) {
-      improve(&Lay::turn, 15.0 * kDegree, -100.0, 100.0);
+      improve(&HandlePose::turn, 15.0 * kDegree, -100.0, 100.0);
     }
     return is_changed;
   };
-  // Fingers fanned out in more than one way leave more to be told apart.
+  // Fingers fanned out in more than one way leave more to be distinguished.
   const std::size_t finest = search.styles.size() > 1 ? 2 : 1;
-  std::vector<Hold> bettered;
-  for (std::size_t k = 0; k < tried.size() && bettered.size() < kBettered + finest - 1; ++k) {
-    if (tried[k].rank < kPromising * tried.front().rank && !bettered.empty()) break;
+  std::vector<Hold> improved_holds;
+  for (std::size_t k = 0; k < tried.size() && improved_holds.size() < kImproved + finest - 1; ++k) {
+    if (tried[k].rank < kPromising * tried.front().rank && !improved_holds.empty()) break;
     Hold current = tried[k];
     better(current, 1.0);
-    bettered.push_back(std::move(current));
+    improved_holds.push_back(std::move(current));
   }
-  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
-  for (std::size_t k = 0; k < std::min(bettered.size(), finest); ++k) {
-    for (const double scale : {0.6, 0.3}) better(bettered[k], scale);
+  std::stable_sort(improved_holds.begin(), improved_holds.end(), by_rank);
+  for (std::size_t k = 0; k < std::min(improved_holds.size(), finest); ++k) {
+    for (const double scale : {0.6, 0.3}) better(improved_holds[k], scale);
   }
-  for (std::size_t k = 0; k < bettered.size(); ++k) {
+  for (std::size_t k = 0; k < improved_holds.size(); ++k) {
     // Once more with the fingers brought side by side, and with the thumb, for which the best are
     // shifted along the product, too.
-    const Hold from = bettered[k];
+    const Hold from = improved_holds[k];
     const Trial trial = trial_at(from.site, from.style);
     const auto with_thumb = [&](double along) {
       progress.throw_if_cancelled();
-      Lay lay = from.placement.lay;
-      lay.along = std::clamp(lay.along + along, -kMostAlong, kMostAlong);
-      Hold hold = trial.run(from.site, from.style, lay, start_like(closer, from), 2);
+      HandlePose pose = from.placement.pose;
+      pose.along = std::clamp(pose.along + along, -kMostAlong, kMostAlong);
+      Hold hold = trial.run(from.site, from.style, pose, start_like(closer, from), 2);
       trial.add_thumb(hold);
       finish(hold);
       return hold;
     };
-    bettered[k] = with_thumb(0.0);
+    improved_holds[k] = with_thumb(0.0);
     if (k >= finest || search.is_place_fixed || from.style.hook) continue;
     for (const double along : {-16.0, -8.0, 8.0}) {
       Hold other = with_thumb(along);
-      if (other.rank > bettered[k].rank) bettered[k] = std::move(other);
+      if (other.rank > improved_holds[k].rank) improved_holds[k] = std::move(other);
     }
   }
-  std::stable_sort(bettered.begin(), bettered.end(), by_rank);
-  for (Hold& hold : bettered) {
+  std::stable_sort(improved_holds.begin(), improved_holds.end(), by_rank);
+  for (Hold& hold : improved_holds) {
     const bool is_new = std::all_of(found.holds.begin(), found.holds.end(), [&](const Hold& other) {
       return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
     });
@@ -368,28 +368,28 @@ Hold hold_like(const HandCloser& closer, const DistanceField& product, const Gri
                int& tried, const Progress& progress) {
   progress.throw_if_cancelled();
   const Hand& hand = closer.hand();
-  const Lay theirs = usual_lay(other, of_other.style, site, !may_shift);
+  const HandlePose theirs = usual_pose(other, of_other.style, site, !may_shift);
   const Trial trial{closer, product, site, limits_for(limits, site),
-                    usual_lay(hand, of_other.style, site, !may_shift)};
-  Lay lay = of_other.placement.lay;
+                    usual_pose(hand, of_other.style, site, !may_shift)};
+  HandlePose pose = of_other.placement.pose;
   const double size = hand.dimensions.hand_length / other.dimensions.hand_length;
-  lay.proximal = trial.usual.proximal + size * (lay.proximal - theirs.proximal);
-  lay.tilt += trial.usual.tilt - theirs.tilt;
-  lay.along += trial.usual.along - theirs.along;
+  pose.proximal = trial.usual.proximal + size * (pose.proximal - theirs.proximal);
+  pose.tilt += trial.usual.tilt - theirs.tilt;
+  pose.along += trial.usual.along - theirs.along;
   Posture start = start_like(closer, of_other);
   for (int f = 1; f < kFingerCount; ++f) {
     const JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<Finger>(f)));
     start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
   }
-  Hold hold = trial.run(of_other.site, of_other.style, lay, start, 2);
+  Hold hold = trial.run(of_other.site, of_other.style, pose, start, 2);
   tried = 1;
   // A few placements near it: what fits one size is a little off for another.
   start = start_like(closer, hold);
-  const auto better = [&](double Lay::*what, double step) {
-    const Lay from = hold.placement.lay;
+  const auto better = [&](double HandlePose::*what, double step) {
+    const HandlePose from = hold.placement.pose;
     for (const double by : {step, -step}) {
       progress.throw_if_cancelled();
-      Lay next = from;
+      HandlePose next = from;
       next.*what += by;
       Hold other_hold = trial.run(of_other.site, of_other.style, next, start, 0);
       ++tried;
@@ -398,9 +398,9 @@ Hold hold_like(const HandCloser& closer, const DistanceField& product, const Gri
       break;
     }
   };
-  better(&Lay::proximal, kNearProximal);
-  better(&Lay::tilt, kNearSlant);
-  better(&Lay::oblique, kNearSlant);
+  better(&HandlePose::proximal, kNearProximal);
+  better(&HandlePose::tilt, kNearTilt);
+  better(&HandlePose::oblique, kNearTilt);
   hold.rank = hold.score;
   hold.thumb = of_other.thumb;
   return hold;

@@ -12,7 +12,7 @@
 namespace palmar {
 
 /// How a handle lies in a hand, as few numbers. The hand frame's z is palmar, y distal.
-struct Lay {
+struct HandlePose {
   double turn = 0.0;  ///< of the product about the grip axis, towards the fingertips for a right
                       ///< hand, rad (0: `wide` faces the palm)
   double oblique = 0.25;  ///< of the grip axis against the line of the metacarpal heads, its ulnar
@@ -24,7 +24,7 @@ struct Lay {
 
 /// Product and hand before fingers close: the product pressed into the palm.
 struct Placement {
-  Lay lay;
+  HandlePose pose;
   Rigid3 product_from_hand;
   Vec3 axis_in_hand = Vec3::UnitX();   ///< grip axis, unit
   Vec3 push_in_hand = -Vec3::UnitZ();  ///< unit direction in which the product meets the palm
@@ -34,7 +34,7 @@ struct Placement {
 /// reaches its limit (HandCloser::free_travel). `product` gives the distance; its transform is not
 /// used. With the fingers open.
 Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
-                const ClosingStyle& style, const GripSite& site, const Lay& lay);
+                const ClosingStyle& style, const GripSite& site, const HandlePose& pose);
 
 /// Where a grip axis usually lies in a hand: a point of it and its direction towards the thumb.
 struct PalmLine {
@@ -42,9 +42,9 @@ struct PalmLine {
 };
 PalmLine palm_line(const Hand& hand);
 
-/// The lay that a grip has of itself on a site, whatever the product's details.
-Lay usual_lay(const Hand& hand, const ClosingStyle& style, const GripSite& site,
-              bool is_place_fixed);
+/// The pose that a grip has of itself on a site, whatever the product's details.
+HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+                      bool is_place_fixed);
 
 /// One way of holding, closed on a sparse skin.
 struct Hold {
@@ -52,7 +52,7 @@ struct Hold {
   ClosingStyle style;
   Placement placement;
   Posture posture;
-  ThumbWay thumb;
+  ThumbPose thumb;
   HoldMeasure measure;
   double score = 0.0;  ///< mm^2 of palmar contact, plus credit for segments and wrap, minus clashes
   double rank = 0.0;   ///< score, less for sites that are less of a handle
@@ -60,7 +60,7 @@ struct Hold {
 
 struct HoldSearch {
   std::vector<ClosingStyle> styles = {ClosingStyle{}};  ///< tried at every site
-  std::optional<double> turn;                           ///< only that turn (see Lay), rad
+  std::optional<double> turn;                           ///< only that turn (see HandlePose), rad
   bool is_place_fixed = false;                          ///< the hand isn't shifted along the axis
   int most = 200;                                       ///< placements to try
 };
@@ -72,15 +72,15 @@ struct HoldsFound {
 
 /// Searches for the holds that most palmar skin takes part in: what distinguishes a power grip
 /// (Napier 1956). Coarse to fine, always in the same order: eight turns at every site, the best of
-/// them bettered one number after the other with shrinking steps, then the thumb. distances[k] is
+/// them improved one number after the other with shrinking steps, then the thumb. distances[k] is
 /// the product's distance as seen near sites[k]; sites beyond distances.size() are not tried.
 HoldsFound find_holds(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
                       const HoldSearch& search, const Progress& progress);
 
-/// The way of holding that another hand found at a site, for this one: its lay stands off the usual
-/// lay as that hand's does (lengths in hand lengths), fingers start as far abducted, the thumb goes
-/// the same way. `tried` counts the placements that were closed.
+/// The way of holding that another hand found at a site, for this one: its pose stands off the
+/// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted, the
+/// thumb goes the same way. `tried` counts the placements that were closed.
 Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
                const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
                int& tried, const Progress& progress);

@@ -26,7 +26,7 @@ constexpr int kSettleRounds = 6;    // product and fingers give way to each othe
 constexpr std::size_t kTriedSites = 2;
 constexpr double kMostSpread = 0.6;  // of the range of abduction, round a large ball
 constexpr double kSmallBall = 0.3, kLargeBall = 0.65;  // hand lengths; none to most
-constexpr double kShownDepth = 0.05;  // mm into the palm of what is only laid on it
+constexpr double kShownDepth = 0.05;  // mm into the palm of what is only placed on it
 constexpr int kGiveWaySteps = 4;
 constexpr int kTrimRounds = 16;
 constexpr double kTrimTolerance = 0.02;  // mm
@@ -41,8 +41,9 @@ std::string format(const char* text, double value) {
 }
 
 // Turn of `facing` from the site's wide direction, for a turn asked for in the product's own frame.
-double lay_turn(const Hand& hand, const GripSite& site, double asked) {
-  // Zero: the coordinate axis that is most square to the grip axis, made square to it.
+double turn_in_pose(const Hand& hand, const GripSite& site, double asked) {
+  // Zero: the coordinate axis that is most nearly perpendicular to the grip axis, made
+  // perpendicular to it.
   int least = 0;
   for (int c = 1; c < 3; ++c) {
     if (std::abs(site.axis[c]) < std::abs(site.axis[least]) - 1e-9) least = c;
@@ -183,7 +184,7 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
     const Dof dof = abduction_of(static_cast<Finger>(f));
     start[dof] = hold.posture[dof];
   }
-  ThumbWay way;
+  ThumbPose thumb_pose;
   for (int round = 0; round < kSettleRounds; ++round) {
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
@@ -191,17 +192,17 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
       if (round == 0) {
         const ThumbCloser& thumb = coarse.thumb();
         const Vec3& axis = placement.axis_in_hand;
-        const ThumbWay first =
-            may_give_way ? hold.thumb : thumb.find_way(held, limits, grasp.posture, axis);
-        way =
-            fine.thumb().best_of({first, thumb.bettered(first, held, limits, grasp.posture, axis)},
+        const ThumbPose first =
+            may_give_way ? hold.thumb : thumb.find_pose(held, limits, grasp.posture, axis);
+        thumb_pose =
+            fine.thumb().best_of({first, thumb.improved(first, held, limits, grasp.posture, axis)},
                                  held, limits, grasp.posture, axis);
       }
-      grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, way, grasp.stops);
+      grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, thumb_pose, grasp.stops);
     }
     double excess = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture) - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;
-    // All the way with the fingers as they are, or a step before they close anew.
+    // All the way with the fingers as they are, or a step before they close again.
     for (int step = 0; step < (gives_way_at_once ? kGiveWaySteps : 1) && excess > 0.0; ++step) {
       held.product_from_hand.translation +=
           held.product_from_hand.rotation * ((1.2 * excess + 0.02) * placement.push_in_hand);
@@ -216,7 +217,7 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
 }
 
 /// Nobody holds it: the hand is shown beside the product, touching nothing.
-void lay_beside(const Hand& hand, const Product& product, Grasp& grasp) {
+void place_beside(const Hand& hand, const Product& product, Grasp& grasp) {
   const Box3 box = product.distance->bounding_box();
   const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
   grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
@@ -240,9 +241,8 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
     product.distance->sample(point, 1e6, sample);
     if (sample.front().distance > kFarPoint) {
       grasp.status = GraspStatus::kNotGraspable;
-      grasp.message =
-          format("the given point lies %.0f mm off the product", sample.front().distance);
-      lay_beside(hand, product, grasp);
+      grasp.message = format("the given point is %.0f mm off the product", sample.front().distance);
+      place_beside(hand, product, grasp);
       return result;
     }
   }
@@ -255,7 +255,7 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
         options.placement.at || options.placement.region
             ? "nothing near the given point or region is bar-like enough for a power grip"
             : "no part of the product is bar-like enough for a power grip";
-    lay_beside(hand, product, grasp);
+    place_beside(hand, product, grasp);
     return result;
   }
 
@@ -290,7 +290,8 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
       styles_for(grasp.grip, sites.front().girth / std::numbers::pi, hand.dimensions.hand_length);
   search.is_place_fixed = options.placement.at || options.placement.region;
   search.most = options.candidates;
-  if (options.placement.turn) search.turn = lay_turn(hand, sites.front(), *options.placement.turn);
+  if (options.placement.turn)
+    search.turn = turn_in_pose(hand, sites.front(), *options.placement.turn);
   Hold hold;
   if (options.placement.product_from_hand) {
     hold.placement.product_from_hand = *options.placement.product_from_hand;
@@ -330,14 +331,14 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
   const DistanceField& quick = *place_found.quick;
   Placement placement = hold.placement;
   if (!place_found.is_fixed) {
-    placement = place(fine, quick, limits, hold.style, site, hold.placement.lay);
+    placement = place(fine, quick, limits, hold.style, site, hold.placement.pose);
   }
   const HoldMeasure measure =
       close_finely(fine, coarse, {&quick, product.distance.get()}, site, limits, hold, placement,
                    !place_found.is_fixed, place_found.is_carried, progress, grasp);
   grasp.product_from_hand = placement.product_from_hand;
   grasp.grip_axis = site.axis;
-  grasp.grip_point = site.point + hold.placement.lay.along * site.axis;
+  grasp.grip_point = site.point + hold.placement.pose.along * site.axis;
   grasp.grip_girth = site.girth;
   finish_stops(measure, limits, grasp);
   judge_hold(fine.hand(), measure, site, grasp);

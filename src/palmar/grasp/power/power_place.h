@@ -35,7 +35,7 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
 Grasp close_at(const PowerPlace& place, const HandCloser& coarse, const HandCloser& fine,
                const Product& product, const PowerGraspOptions& options, const Progress& progress);
 
-/// The same way of holding by another hand (`coarse`): its lay differs from the usual lay as that
+/// The same way of holding by another hand (`coarse`): its pose differs from the usual pose as that
 /// of `reference` does (lengths in hand lengths), the best of a few near it is kept.
 PowerPlace carried_over(const PowerPlace& place, const Hand& reference, const HandCloser& coarse,
                         const PowerGraspOptions& options, const Progress& progress);

@@ -20,16 +20,16 @@ constexpr double kStraightMp = 30.0 * kDegree;  // ... of the MP joint
 }  // namespace
 
 Posture ThumbCloser::wrap(const HeldProduct& product, const DepthLimits& limits,
-                          const Posture& start, const ThumbWay& way,
+                          const Posture& start, const ThumbPose& goal,
                           std::array<SegmentStop, kSegmentCount>& stops) const {
   const std::vector<Obstacle> fingers = obstacles(start);
   // First out of the palm's plane, clear of the product, then across it.
   Posture target = start;
-  target[Dof::kThumbCmcAbduction] = way.cmc_abduction;
+  target[Dof::kThumbCmcAbduction] = goal.cmc_abduction;
   Posture posture =
       advance_skin((*groups_)[2], product, limits, fingers, start, target, care_).posture;
   target = posture;
-  target[Dof::kThumbCmcFlexion] = way.cmc_flexion;
+  target[Dof::kThumbCmcFlexion] = goal.cmc_flexion;
   posture = advance_skin((*groups_)[2], product, limits, fingers, posture, target, care_).posture;
   const std::array<Segment, 2> segments = {Segment::kThumbProximal, Segment::kThumbDistal};
   for (int level = 0; level < 2; ++level) {
@@ -75,7 +75,8 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
       reach += share * group.area[k] * (1.0 + normal.z());
     }
   }
-  // A thumb laid across the handle opposes the fingers; laid along it, it holds next to nothing.
+  // A thumb placed across the handle opposes the fingers; placed along it, it holds next to
+  // nothing.
   const PosedSkeleton pose = pose_skeleton(hand_->skeleton, posture);
   const Vec3 tip = pose.segment[index_of(Segment::kThumbDistal)] *
                    hand_->skeleton.fingertips[index_of(Finger::kThumb)];
@@ -98,35 +99,35 @@ std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
   return list;
 }
 
-ThumbWay ThumbCloser::find_way(const HeldProduct& product, const DepthLimits& limits,
-                               const Posture& start, const Vec3& grip_axis_in_hand) const {
+ThumbPose ThumbCloser::find_pose(const HeldProduct& product, const DepthLimits& limits,
+                                 const Posture& start, const Vec3& grip_axis_in_hand) const {
   const JointDof& flexion = hand_->skeleton.dof(Dof::kThumbCmcFlexion);
   const JointDof& abduction = hand_->skeleton.dof(Dof::kThumbCmcAbduction);
-  std::vector<ThumbWay> ways;
+  std::vector<ThumbPose> goals;
   for (const double f : {0.1, 0.4, 0.7, 1.0}) {
     for (const double a : {0.15, 0.5, 0.85}) {
-      ways.push_back({flexion.lower + f * (flexion.upper - flexion.lower),
-                      abduction.lower + a * (abduction.upper - abduction.lower)});
+      goals.push_back({flexion.lower + f * (flexion.upper - flexion.lower),
+                       abduction.lower + a * (abduction.upper - abduction.lower)});
     }
   }
-  return best_of(ways, product, limits, start, grip_axis_in_hand);
+  return best_of(goals, product, limits, start, grip_axis_in_hand);
 }
 
-ThumbWay ThumbCloser::bettered(const ThumbWay& way, const HeldProduct& product,
-                               const DepthLimits& limits, const Posture& start,
-                               const Vec3& grip_axis_in_hand) const {
+ThumbPose ThumbCloser::improved(const ThumbPose& goal, const HeldProduct& product,
+                                const DepthLimits& limits, const Posture& start,
+                                const Vec3& grip_axis_in_hand) const {
   const JointDof& flexion = hand_->skeleton.dof(Dof::kThumbCmcFlexion);
   const JointDof& abduction = hand_->skeleton.dof(Dof::kThumbCmcAbduction);
   std::array<SegmentStop, kSegmentCount> stops;
-  const auto rated = [&](const ThumbWay& tried) {
+  const auto rated = [&](const ThumbPose& tried) {
     return score(product, wrap(product, limits, start, tried, stops), grip_axis_in_hand);
   };
-  ThumbWay best = way;
-  double best_score = rated(way);
+  ThumbPose best = goal;
+  double best_score = rated(goal);
   for (const double step : {0.15, 0.075}) {
-    const ThumbWay from = best;
+    const ThumbPose from = best;
     for (const auto& [f, a] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
-      const ThumbWay next = {
+      const ThumbPose next = {
           std::clamp(from.cmc_flexion + f * (flexion.upper - flexion.lower), flexion.lower,
                      flexion.upper),
           std::clamp(from.cmc_abduction + a * (abduction.upper - abduction.lower), abduction.lower,
@@ -140,17 +141,18 @@ ThumbWay ThumbCloser::bettered(const ThumbWay& way, const HeldProduct& product,
   return best;
 }
 
-ThumbWay ThumbCloser::best_of(const std::vector<ThumbWay>& ways, const HeldProduct& product,
-                              const DepthLimits& limits, const Posture& start,
-                              const Vec3& grip_axis_in_hand) const {
-  ThumbWay best;
+ThumbPose ThumbCloser::best_of(const std::vector<ThumbPose>& goals, const HeldProduct& product,
+                               const DepthLimits& limits, const Posture& start,
+                               const Vec3& grip_axis_in_hand) const {
+  ThumbPose best;
   double best_score = -std::numeric_limits<double>::infinity();
   std::array<SegmentStop, kSegmentCount> stops;
-  for (const ThumbWay& way : ways) {
-    const double here = score(product, wrap(product, limits, start, way, stops), grip_axis_in_hand);
+  for (const ThumbPose& goal : goals) {
+    const double here =
+        score(product, wrap(product, limits, start, goal, stops), grip_axis_in_hand);
     if (here <= best_score) continue;
     best_score = here;
-    best = way;
+    best = goal;
   }
   return best;
 }

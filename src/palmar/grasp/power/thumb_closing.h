@@ -10,7 +10,7 @@
 namespace palmar {
 
 /// CMC angles that a thumb is asked to go to before its MP and IP joints bend, rad.
-struct ThumbWay {
+struct ThumbPose {
   double cmc_flexion = 0.0;
   double cmc_abduction = 0.0;
 };
@@ -23,26 +23,26 @@ class ThumbCloser {
               const AdvanceCare& care)
       : hand_(&hand), cones_(&cones), groups_(&groups), care_(care) {}
 
-  /// How well the thumb holds, mm^2: its skin in the product on the far side from the palm, laid
+  /// How well the thumb holds, mm^2: its skin in the product on the far side from the palm, placed
   /// across the handle, not hooked over an edge.
   double score(const HeldProduct& product, const Posture& posture,
                const Vec3& grip_axis_in_hand) const;
 
   /// The way for the metacarpal, of a dozen, after which the thumb holds best.
-  ThumbWay find_way(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-                    const Vec3& grip_axis_in_hand) const;
+  ThumbPose find_pose(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
+                      const Vec3& grip_axis_in_hand) const;
   /// A way near another one that is at least as good.
-  ThumbWay bettered(const ThumbWay& way, const HeldProduct& product, const DepthLimits& limits,
-                    const Posture& start, const Vec3& grip_axis_in_hand) const;
+  ThumbPose improved(const ThumbPose& goal, const HeldProduct& product, const DepthLimits& limits,
+                     const Posture& start, const Vec3& grip_axis_in_hand) const;
 
   /// The best of some ways by this hand's own skin.
-  ThumbWay best_of(const std::vector<ThumbWay>& ways, const HeldProduct& product,
-                   const DepthLimits& limits, const Posture& start,
-                   const Vec3& grip_axis_in_hand) const;
+  ThumbPose best_of(const std::vector<ThumbPose>& goals, const HeldProduct& product,
+                    const DepthLimits& limits, const Posture& start,
+                    const Vec3& grip_axis_in_hand) const;
 
   /// Brings the metacarpal as far as it can go, then bends MP and IP.
   Posture wrap(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-               const ThumbWay& way, std::array<SegmentStop, kSegmentCount>& stops) const;
+               const ThumbPose& goal, std::array<SegmentStop, kSegmentCount>& stops) const;
 
  private:
   std::vector<Obstacle> obstacles(const Posture& posture) const;

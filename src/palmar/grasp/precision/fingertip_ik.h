@@ -54,7 +54,7 @@ struct FingertipSolution {
 /// derivatives (finger_motion.h) and active bounds on
 ///
 ///     sum |x_i - (t_i - depth_i m_i)|^2 / s^2          fingertips to their points
-///   + sum |n_i + m_i|^2 / square_i^2                   skin square to the product
+///   + sum |n_i + m_i|^2 / square_i^2                   skin perpendicular to the product
 ///   + |m_thumb + mean m of the others|^2 / 0.3^2       they push against each other (sliding only)
 ///   + sum (q - q_nat)^2 / s_q^2                        near the natural posture of the grip
 ///   + sum (q_DIP - 2/3 q_PIP)^2 / 0.2^2                tendons bend both joints together

@@ -115,7 +115,7 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
   const std::optional<SkinHit> hit = outermost_hit(hand, finger, origin, direction);
   if (!hit) {
     throw Error("fingertip point: no skin of " + std::string(name_of(segment)) +
-                " lies on the side of its " + std::string(name_of(part)));
+                " is on the side of its " + std::string(name_of(part)));
   }
   FingertipPoint result;
   result.finger = finger;

@@ -22,12 +22,12 @@ constexpr double kTiltUnit = 40.0 * kDegree;
 constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
 constexpr double kBalanceUnit = 30.0 * kDegree;
-constexpr double kOffsetUnit = 10.0;          // mm
-constexpr double kBallSlide = 8.0;            // mm
-constexpr double kBallSquare = 0.9;           // rad
-constexpr double kPenLean = 0.4;              // cost of a pen square to the way it likes to lean
-constexpr double kAxisWeight = 2.0;           // of the asked axis
-constexpr double kLikeShift = 12.0;           // mm; holds nearer than that ...
+constexpr double kOffsetUnit = 10.0;  // mm
+constexpr double kBallSlide = 8.0;    // mm
+constexpr double kBallSquare = 0.9;   // rad
+constexpr double kPenLean = 0.4;      // cost of a pen perpendicular to the way it likes to lean
+constexpr double kAxisWeight = 2.0;   // of the asked axis
+constexpr double kLikeShift = 12.0;   // mm; holds nearer than that ...
 constexpr double kLikeTurn = 25.0 * kDegree;  // ... and turned less are the same
 constexpr std::size_t kMostHolds = 8;
 
@@ -46,9 +46,9 @@ HandAxes hand_axes(const Skeleton& skeleton) {
   return axes;
 }
 
-/// Rigid motion that lays the hand's opening on two points, the thumb at `thumb`.
-Rigid3 laid(const GripOpening& opening, const Vec3& radial, const Vec3& thumb, const Vec3& other,
-            const Vec3& zero, double turn) {
+/// Rigid motion that places the hand's opening on two points, the thumb at `thumb`.
+Rigid3 placed_opening(const GripOpening& opening, const Vec3& radial, const Vec3& thumb,
+                      const Vec3& other, const Vec3& zero, double turn) {
   const auto frame = [](const Vec3& z, const Vec3& towards) {
     Eigen::Matrix3d axes;
     axes.col(2) = z;
@@ -67,7 +67,8 @@ Rigid3 laid(const GripOpening& opening, const Vec3& radial, const Vec3& thumb, c
   return result;
 }
 
-/// The product's principal axis that is most square to a direction; turns are counted from it.
+/// The product's principal axis that is most nearly perpendicular to a direction; turns are counted
+/// from it.
 Vec3 zero_for(const PinchShape& shape, const Vec3& direction) {
   int best = 0;
   for (int c = 1; c < 3; ++c) {
@@ -249,8 +250,8 @@ PrecisionSearch Search::run(const Progress& progress) const {
       one.other = is_swapped ? pair.a : pair.b;
       const Vec3 zero = zero_for(shape_, (one.other - one.thumb).normalized());
       for (int turn = 0; turn < kTurns; ++turn) {
-        one.product_from_hand = laid(opening, axes_.radial, one.thumb, one.other, zero,
-                                     2.0 * std::numbers::pi * turn / kTurns);
+        one.product_from_hand = placed_opening(opening, axes_.radial, one.thumb, one.other, zero,
+                                               2.0 * std::numbers::pi * turn / kTurns);
         one.way = turn + (is_swapped ? kTurns : 0);
         const double clash = ik_->clash_of(*product_->distance, opening.posture,
                                            one.product_from_hand, openings_->fingertips());
@@ -314,7 +315,7 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
   for (int turn = 0; turn < 2 * kTurns; ++turn) {
     Candidate one;
     one.product_from_hand =
-        laid(opening, axes.radial, thumb, other, zero, std::numbers::pi * turn / kTurns);
+        placed_opening(opening, axes.radial, thumb, other, zero, std::numbers::pi * turn / kTurns);
     one.cost = 0.1 * kClashRate *
                ik.clash_of(*product.distance, opening.posture, one.product_from_hand,
                            openings.fingertips());

@@ -27,8 +27,8 @@ struct GripOpening {
   double strain = 0.0;         ///< of the posture against natural_posture()
 };
 
-/// Openings from nearly closed to the widest that the hand can do with its fingertips square to the
-/// thing (within 0.5 mm and 40 degrees). In between take the nearest.
+/// Openings from nearly closed to the widest that the hand can do with its fingertips perpendicular
+/// to the thing (within 0.5 mm and 40 degrees). In between take the nearest.
 class GripOpenings {
  public:
   GripOpenings(const FingertipIk& ik, Grip grip);

@@ -195,7 +195,7 @@ std::string message_of(const ButtonReach& reach) {
                ? fmt::format("the {} gets there, but the product or another finger is in its way",
                              words_of(nearest->finger))
                : fmt::format(
-                     "the {} gets there, but not with its pad, which is {:.0f} degrees askew",
+                     "the {} gets there, but not with its pad, which is tilted by {:.0f} degrees",
                      words_of(nearest->finger), nearest->tilt / kDegree);
   }
   return fmt::format("no finger reaches it; the {} comes nearest and misses it by {:.1f} mm",

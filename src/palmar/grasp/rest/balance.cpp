@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
-constexpr double kJointSaid = 0.05;  // the same; more is told
+constexpr double kJointSaid = 0.05;  // the same; more is reported
 constexpr double kLevelAim = 0.005;  // of the grip force asked for
 constexpr int kMostSteps = 60;
 constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
@@ -288,7 +288,7 @@ void Settling::step(const Misfit& misfit, double missing) {
   double longest = std::max(way.segment<3>(kSqueezeJoints).norm(), kReach * way.tail<3>().norm());
   for (int j = 0; j < kSqueezeJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
   double share = std::min(1.0, kLongestStep / longest);
-  // Going to and fro tells that forces change faster than the stiffness says: shorter steps.
+  // Going to and fro says that forces change faster than the stiffness says: shorter steps.
   GripVector scaled = way;
   scaled.head<kSqueezeJoints>() *= kReach;
   scaled.tail<3>() *= kReach;
@@ -418,7 +418,7 @@ Balance Settling::run(const Progress& progress) {
   if (balance.status == BalanceStatus::kBalanced) {
     balance.message = format("in balance at a grip force of %.0f N", mechanics_.grip().force);
     if (now.of_level > 0.05) {
-      balance.message += format("; %.0f N were asked for, which the hand doesn't reach", target_);
+      balance.message += format("; %.0f N were requested, which the hand doesn't reach", target_);
     }
     if (now.of_joints > kJointSaid) {
       balance.message += format("; a finger joint is still %.0f %% off its muscles' moment",

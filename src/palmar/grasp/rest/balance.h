@@ -31,7 +31,7 @@ struct BalanceOptions {
 enum class BalanceStatus {
   kOff,
   kBalanced,      ///< forces and moments add up to less than 1 % of the grip force
-  kSlipsOut,      ///< the product leaves the hand; `slip` tells which way
+  kSlipsOut,      ///< the product leaves the hand; `slip` says which way
   kNoContact,     ///< nothing is touched
   kNotConverged,  ///< neither within the allowed number of steps
   kFailed         ///< the contact couldn't be solved on the way

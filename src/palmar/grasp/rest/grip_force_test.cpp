@@ -30,7 +30,7 @@ TEST(GripForce, OfEvenPressureRoundACylinderIsTheSumOverPi) {
 }
 
 TEST(GripForce, OfThreeJawsIsThatOfOneJaw) {
-  // Across one jaw: (1 + 1/2 + 1/2) / 2; square to it only 2 (sqrt 3 / 2) / 2.
+  // Across one jaw: (1 + 1/2 + 1/2) / 2; perpendicular to it only 2 (sqrt 3 / 2) / 2.
   std::vector<Vec3> forces;
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 3.0 + 0.3;

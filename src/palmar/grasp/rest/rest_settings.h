@@ -10,7 +10,7 @@
 
 namespace palmar {
 
-/// Sex and age, from which grip_strength() tells how strong a person is.
+/// Sex and age, from which grip_strength() says how strong a person is.
 struct PersonOfAge {
   Sex sex = Sex::kMale;
   double age = 30.0;  ///< years

@@ -18,7 +18,7 @@ struct BoneStation {
 struct BoneShape {
   /// Ends of the axis. A grooved head ends short of `to` by up to the depth of the groove.
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-  Vec3 palmar = Vec3::UnitZ();       ///< unit, about square to the axis
+  Vec3 palmar = Vec3::UnitZ();       ///< unit, about perpendicular to the axis
   std::vector<BoneStation> station;  ///< ascending share, at least two; smooth in between
   double base_cap = 0.0;             ///< length over which the base rounds off, mm
   double head_cap = 0.0;             ///< same at the head

@@ -24,7 +24,7 @@ constexpr double kTypicalWristToMcp = 92.5;  // mm; see bones.h
 constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
 constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
 
-// A bone being placed: its mesh and, per vertex, the point of its axis it is drawn in to.
+// A bone being placed: its mesh and, per vertex, the point of its axis it is shrunk towards.
 struct Draft {
   Bone bone;
   std::vector<Vec3> core;

@@ -27,7 +27,7 @@ namespace palmar {
 ///
 /// Bones sit nearer to the dorsal skin than to the palmar skin. Wherever a shape would come nearer
 /// to the skin than `kLeastSkinOverBone`, or to a bone before it than `kLeastJointSpace`, it is
-/// drawn in towards its axis.
+/// shrunk towards its axis.
 std::vector<Bone> make_bones(const TriangleMesh& skin, const Skeleton& skeleton);
 
 inline constexpr double kLeastSkinOverBone = 1.5;  ///< mm; nail bed 1.6 mm

@@ -12,17 +12,19 @@ namespace palmar {
 /// Major dimensions (Xie 2014, fig. 5-3)
 /// - L: from the middle of the wrist crease to the tip of the middle finger, in the palm plane
 ///   (x, y).
-/// - C: tape round the hand in the plane through the heads of metacarpals II and V square to the
+/// - C: tape round the hand in the plane through the heads of metacarpals II and V perpendicular to
+/// the
 ///   palm: perimeter of the section's convex hull. The thumb is another curve of that section, or
 ///   lies proximal of it.
 /// - W: breadth of that section along the line from metacarpal head V to II.
-/// - T: its thickness, square to that line, where it passes metacarpal head III.
+/// - T: its thickness, perpendicular to that line, where it passes metacarpal head III.
 ///
 /// Segments (fig. 4-6, 5-4)
 /// - Length y: from the middle of the palmar proximal crease to that of the next crease, or to the
 ///   fingertip, along the line between the creases' centres.
-/// - Width x and thickness z: extents, along the flexion axis and square to it, of the section half
-///   way, square to that line. The thesis doesn't say where along the segment it measured.
+/// - Width x and thickness z: extents, along the flexion axis and perpendicular to it, of the
+/// section half
+///   way, perpendicular to that line. The thesis doesn't say where along the segment it measured.
 /// - Palm: length from the wrist crease to the base crease of the middle finger, along y; width W,
 ///   thickness T.
 ///

@@ -52,7 +52,7 @@ std::string object_of(Segment segment) {
   return "segment \"" + std::string(name_of(segment)) + "\"";
 }
 
-void lay_wrist(const TriangleMesh& skin, const HandCreases& creases, HandSections& sections) {
+void section_wrist(const TriangleMesh& skin, const HandCreases& creases, HandSections& sections) {
   const CreasePlane& wrist = creases.wrist();
   const SectionCurve curve = curve_round(skin, wrist.point, wrist.normal, "wrist crease");
   double lowest = std::numeric_limits<double>::max(), highest = -lowest;
@@ -65,13 +65,13 @@ void lay_wrist(const TriangleMesh& skin, const HandCreases& creases, HandSection
   const Vec3 outwards = across.cross(wrist.normal);
   const Chord c = chord(curve, sections.wrist_middle, outwards, across);
   if (!(c.highest >= c.lowest)) {
-    throw InputError("wrist crease: its middle lies outside of the skin");
+    throw InputError("wrist crease: its middle is outside the skin");
   }
   sections.wrist_palmar = sections.wrist_middle + c.highest * outwards;
   sections.wrist_dorsal = sections.wrist_middle + c.lowest * outwards;
 }
 
-void lay_heads(const TriangleMesh& skin, const Skeleton& skeleton, HandSections& sections) {
+void section_heads(const TriangleMesh& skin, const Skeleton& skeleton, HandSections& sections) {
   const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
   const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
   sections.radial = (head2 - head5).normalized();
@@ -80,8 +80,8 @@ void lay_heads(const TriangleMesh& skin, const Skeleton& skeleton, HandSections&
   sections.heads = curve_round(skin, 0.5 * (head2 + head5), sections.normal, "metacarpal heads");
 }
 
-void lay_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCreases& creases,
-                Finger finger, HandSections& sections) {
+void section_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCreases& creases,
+                    Finger finger, HandSections& sections) {
   const auto chain = segments_of(finger);
   // Nodes of the finger's ray: the palmar direction turns at the joints.
   const int first_node = finger == Finger::kThumb ? 2 : 1;
@@ -135,10 +135,10 @@ Chord chord(const SectionCurve& curve, const Vec3& point, const Vec3& direction,
 HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases) {
   HandSections sections;
-  lay_wrist(skin, creases, sections);
-  lay_heads(skin, skeleton, sections);
+  section_wrist(skin, creases, sections);
+  section_heads(skin, skeleton, sections);
   for (int f = 0; f < kFingerCount; ++f) {
-    lay_finger(skin, skeleton, creases, static_cast<Finger>(f), sections);
+    section_finger(skin, skeleton, creases, static_cast<Finger>(f), sections);
   }
   return sections;
 }

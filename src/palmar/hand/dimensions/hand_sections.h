@@ -14,10 +14,10 @@ struct SegmentSection {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< centres of its two creases; `to`: or the tip
   Vec3 along = Vec3::UnitY();                   ///< unit, from `from` to `to`
   Vec3 across = Vec3::UnitX();                  ///< unit, along the flexion axis
-  Vec3 palmar = Vec3::UnitZ();                  ///< unit, square to both
+  Vec3 palmar = Vec3::UnitZ();                  ///< unit, perpendicular to both
   Vec3 from_palmar, to_palmar;                  ///< middles of the creases on the palmar skin
   Vec3 from_dorsal, to_dorsal;                  ///< and straight dorsal of their centres
-  SectionCurve middle;                          ///< section half way, square to `along`
+  SectionCurve middle;                          ///< section half way, perpendicular to `along`
 };
 
 /// Where the whole hand is measured.
@@ -25,7 +25,7 @@ struct HandSections {
   Vec3 wrist_middle = Vec3::Zero();                   ///< of the section in the wrist crease
   Vec3 wrist_palmar, wrist_dorsal;                    ///< skin straight palmar and dorsal of it
   Vec3 radial = Vec3::UnitX();                        ///< unit, from metacarpal head V to II
-  Vec3 palmar = Vec3::UnitZ();                        ///< unit, square to it and to `normal`
+  Vec3 palmar = Vec3::UnitZ();                        ///< unit, perpendicular to it and to `normal`
   Vec3 normal = Vec3::UnitY();                        ///< of the plane through the metacarpal heads
   SectionCurve heads;                                 ///< round them, the thumb excluded
   std::array<SegmentSection, kSegmentCount> segment;  ///< of the phalanges
@@ -37,8 +37,8 @@ HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases);
 
 /// Where the line through `point` along `direction` leaves a curve on either side; `across` is
-/// square to it in the plane of the curve. Coordinates along the line, mm; highest < lowest if it
-/// misses the curve.
+/// perpendicular to it in the plane of the curve. Coordinates along the line, mm; highest < lowest
+/// if it misses the curve.
 struct Chord {
   double lowest = 0.0, highest = -1.0;
 };

@@ -32,11 +32,11 @@ struct HandTape {
   std::optional<double> dorsal_hand_length() const;
 };
 
-/// Lays a tape along the skin where measure_hand() measures straight: lengths in the plane through
-/// both ends that holds the palmar direction half way, from crease to crease or to the fingertip
-/// (dorsal ends: straight dorsal of the creases' centres); widths in the same sections as those.
-/// Thickness has no tape. `creases`: as for measure_hand(). Throws InputError naming the segment if
-/// a section misses the skin.
+/// Places a tape along the skin where measure_hand() measures straight: lengths in the plane
+/// through both ends that holds the palmar direction half way, from crease to crease or to the
+/// fingertip (dorsal ends: straight dorsal of the creases' centres); widths in the same sections as
+/// those. Thickness has no tape. `creases`: as for measure_hand(). Throws InputError naming the
+/// segment if a section misses the skin.
 HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases);
 

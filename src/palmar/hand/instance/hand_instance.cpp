@@ -145,7 +145,7 @@ HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets)
   if (!crowded.empty() && !find_self_crossings(instance.hand.skin).empty()) {
     throw UsageError(object + "the skin crosses itself: " + crowded);
   }
-  if (!targets.empty()) instance.hand.provenance += "; " + asked.told();
+  if (!targets.empty()) instance.hand.provenance += "; " + asked.summary();
   return instance;
 }
 

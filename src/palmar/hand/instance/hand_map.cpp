@@ -14,8 +14,8 @@ Vec3 mapped_displacement(const CmcLimit& limit, const Eigen::Matrix3d& stretch) 
   const Vec3& axis = turn.axis();
   const Vec3 along = axis.dot(limit.t) * axis;
   const Vec3 across = limit.t - along;
-  // In the plane square to the axis (I - q) is a turn by (pi - angle) / 2 the other way and a
-  // stretch by 2 sin(angle / 2): a = (t + cot(angle / 2) axis x t) / 2.
+  // In the plane perpendicular to the axis (I - q) is a turn by (pi - angle) / 2 the other way and
+  // a stretch by 2 sin(angle / 2): a = (t + cot(angle / 2) axis x t) / 2.
   const Vec3 arm = 0.5 * (across + axis.cross(across) / std::tan(0.5 * turn.angle()));
   const Vec3 stretched = stretch * arm;
   return stretched - limit.q * stretched + stretch * along;

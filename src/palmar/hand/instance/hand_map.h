@@ -26,8 +26,8 @@ class HandMap {
 
 /// The joints alone. Axes keep their directions, angles and ranges stay; where axes of one joint
 /// don't meet, their offsets stretch with the palm, and so do the limit postures of the thumb:
-/// t = (I - q) a + b, a square to the axis of q and b along it, becomes (I - q) S a + S b, so that
-/// the metacarpal still turns about an axis at the joint.
+/// t = (I - q) a + b, a perpendicular to the axis of q and b along it, becomes (I - q) S a + S b,
+/// so that the metacarpal still turns about an axis at the joint.
 Skeleton mapped_skeleton(const Skeleton& skeleton, const HandMap& map);
 
 /// The hand with every point moved: skin, joints, limit postures of the thumb, bones, markers and

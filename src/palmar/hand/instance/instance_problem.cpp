@@ -38,7 +38,7 @@ constexpr int factor_of(DimensionKind kind, Segment segment) {
 constexpr int kAcross = factor_of(DimensionKind::kSegmentWidth, Segment::kPalm);
 constexpr int kThick = factor_of(DimensionKind::kSegmentThickness, Segment::kPalm);
 
-// Points of the section that measure_hand() lays the tape round.
+// Points of the section that measure_hand() places the tape round.
 std::vector<Vec3> section_at_heads(const TriangleMesh& skin, const Skeleton& skeleton) {
   const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
   const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
@@ -57,7 +57,7 @@ std::vector<Vec3> section_at_heads(const TriangleMesh& skin, const Skeleton& ske
   return points;
 }
 
-// Lays down which factor is driven by what, and which follow.
+// Determines which factor is driven by what, and which follow.
 class ProblemBuilder {
  public:
   explicit ProblemBuilder(const InstanceTargets& targets) : t_(targets) {
@@ -207,16 +207,16 @@ double InstanceTargets::ratio(HandDimension dimension) const {
   return value ? *value / base(dimension) : 1.0;
 }
 
-std::string InstanceTargets::told() const {
-  constexpr int kMostTold = 6;
+std::string InstanceTargets::summary() const {
+  constexpr int kMostListed = 6;
   std::string text;
-  int told = 0;
+  int summary = 0;
   for (const HandDimension dimension : all_hand_dimensions()) {
-    if (!has(dimension) || ++told > kMostTold) continue;
+    if (!has(dimension) || ++summary > kMostListed) continue;
     text += fmt::format("{} {} {:.2f} mm", text.empty() ? "" : ",", name_of(dimension),
                         *get(dimension));
   }
-  if (told > kMostTold) text += fmt::format(" and {} other dimensions", told - kMostTold);
+  if (summary > kMostListed) text += fmt::format(" and {} other dimensions", summary - kMostListed);
   return "scaled segment by segment to" + text;
 }
 

@@ -25,7 +25,7 @@ class InstanceTargets {
   /// Asked over base's own; 1 if it isn't driven.
   double ratio(HandDimension dimension) const;
   /// For the provenance; the same in whatever order they were asked.
-  std::string told() const;
+  std::string summary() const;
 
  private:
   HandDimensions base_;

@@ -12,7 +12,7 @@ namespace palmar {
 
 /// Factors on the size of each segment. Palm: across = x, along = y, thickness = z of the hand
 /// frame. Phalanx: along = from crease to crease, across = along the flexion axis, thickness =
-/// square to both.
+/// perpendicular to both.
 struct SegmentScales {
   struct Factors {
     double along = 1.0, across = 1.0, thickness = 1.0;

@@ -23,7 +23,7 @@ struct DorsalMarker {
 };
 
 /// 25 markers on the back of a hand over joints, bases and nails, from landmarks.h; together they
-/// tell all 23 angles. docs/using/postures.md shows where they sit.
+/// show all 23 angles. docs/using/postures.md shows where they sit.
 const std::vector<DorsalMarker>& dorsal_markers();
 
 /// That set on a hand; markers' centres stand `height` [mm] above the skin. Throws as Landmarks.

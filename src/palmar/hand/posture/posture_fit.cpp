@@ -303,9 +303,8 @@ PostureFit PostureFitter::fit(const Measured& measured, const PostureFit* before
   if (seen < smallest / 3.0 || seen > 3.0 * largest) {
     result.status = PostureFitStatus::kWrongUnit;
     result.message = fmt::format(
-        "the points lie {:.3g} mm from their middle (root mean square), those of the hand {:.3g} "
-        "to "
-        "{:.3g} mm: is the unit right?",
+        "the points are {:.3g} mm from their middle (root mean square), those of the hand {:.3g} "
+        "to {:.3g} mm: is the unit right?",
         seen, smallest, largest);
     return result;
   }
@@ -313,8 +312,8 @@ PostureFit PostureFitter::fit(const Measured& measured, const PostureFit* before
   if (result.status != PostureFitStatus::kPoor) return result;
   // A sequence may have lost its way: look everywhere before giving up.
   if (before != nullptr) {
-    const PostureFit anew = fit_checked(measured, nullptr);
-    if (anew.rms < result.rms) result = anew;
+    const PostureFit again = fit_checked(measured, nullptr);
+    if (again.rms < result.rms) result = again;
     if (result.status != PostureFitStatus::kPoor) return result;
   }
   const PostureFit other = fit_checked(mirrored(measured), nullptr);
@@ -360,7 +359,7 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
       before->status != PostureFitStatus::kWrongUnit) {
     best = {before->posture, before->measured_from_hand, before->scale};
   } else {
-    constexpr int kTries = 25;  // iterations: enough to tell the starts apart
+    constexpr int kTries = 25;  // iterations: enough to distinguishes the starts
     double least = std::numeric_limits<double>::infinity();
     for (const Posture& start : starts_) {
       Place place = place_for(points_.pose(start), measured);
@@ -449,7 +448,7 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
   if (solved.placement_sd > kLostPlacement || result.points < kFewestPoints) {
     result.status = PostureFitStatus::kTooFew;
     result.message = fmt::format(
-        "{} points don't tell how the palm is turned; at least three on palm and back of the hand, "
+        "{} points don't show how the palm is turned; at least three on palm and back of the hand, "
         "not on one line, are needed",
         result.points);
   } else if (result.rms > options_.poor_rms) {

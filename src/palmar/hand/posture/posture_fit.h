@@ -32,7 +32,7 @@ enum class PostureFitStatus {
   kPoor,       ///< residuals above poor_rms; the posture is not to be trusted
   kMirrored,   ///< the points are those of the other hand
   kWrongUnit,  ///< the points' extent can't be that of a hand of this size
-  kTooFew,     ///< too few points to tell where the hand is
+  kTooFew,     ///< too few points to determine where the hand is
 };
 std::string name_of(PostureFitStatus status);  ///< "fitted", "poor", ...
 
@@ -47,7 +47,7 @@ struct PostureFit {
   int points = 0;                               ///< that count
   std::vector<int> outliers;                    ///< points left out because they don't fit
   std::vector<std::pair<int, int>> swapped;     ///< of these: pairs that fit each other's place
-  std::vector<Dof> not_observed;                ///< the points alone don't tell these angles
+  std::vector<Dof> not_observed;                ///< the points alone don't show these angles
   std::vector<Dof> at_limit;                    ///< angles that the range of motion holds back
   /// Standard deviation of each angle if points err by point_sd, rad.
   std::array<double, kDofCount> sd{};

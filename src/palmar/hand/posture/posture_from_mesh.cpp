@@ -21,7 +21,7 @@ using registration::Pose;
 std::optional<MeshFit> fit_vertices(const Hand& hand, const TriangleMesh& mesh,
                                     const MeshFitOptions& options) {
   if (mesh.vertices.size() != hand.skin.vertices.size()) return std::nullopt;
-  constexpr int kPoints = 400;       // more tell no more
+  constexpr int kPoints = 400;       // more show no more
   constexpr double kSameHand = 1.0;  // mm, root mean square
   const int stride = std::max(1, hand.skin.vertex_count() / kPoints);
   std::vector<HandPoint> points;

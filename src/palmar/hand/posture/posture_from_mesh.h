@@ -32,7 +32,7 @@ struct MeshFit {
   // Distance of skin vertices to the mesh, of those with a partner, mm.
   double mean = 0.0, median = 0.0, percentile_95 = 0.0;
   double partner_share = 0.0;     ///< of the skin's area (without the forearm)
-  std::vector<Dof> not_observed;  ///< the mesh doesn't tell these angles
+  std::vector<Dof> not_observed;  ///< the mesh doesn't show these angles
   std::vector<Dof> at_limit;
   int iterations = 0;
 };

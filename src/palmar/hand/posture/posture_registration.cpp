@@ -22,7 +22,7 @@ namespace {
 constexpr double kNormalsAgree = 0.2;  // cosine; 78 degrees: fingers lie side by side
 constexpr double kStep = 1e-4;         // rad; of the numeric Jacobian
 constexpr double kPriorSd = 2.0;       // rad; decides only what the mesh doesn't
-constexpr double kOneOf = 25.0;        // so many neighbouring points tell as much as one
+constexpr double kOneOf = 25.0;        // so many neighbouring points show as much as one
 constexpr double kLargestSd = 0.35;    // rad; as in PostureFitOptions
 
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& vertices,
@@ -238,7 +238,7 @@ class Stage {
   }
 
   /// One round: partners, then the least squares of the linearised distances within the ranges.
-  /// Tells how far the farthest point moved, mm.
+  /// Says how far the farthest point moved, mm.
   double round(Pose& pose, double c, Registration& result) const {
     const std::vector<Pair> pairs = pairs_at(pose, c);
     const int first = fits_scale_ ? 7 : 6;
@@ -546,7 +546,7 @@ Registration run(const Hand& hand, const Target& target, bool fits_scale, int ma
   if (starts.size() > kFollowed) starts.resize(kFollowed);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     progress.update(0.1 + 0.5 * static_cast<double>(i) / static_cast<double>(starts.size()),
-                    "trying ways in which the hand may lie");
+                    "trying placements of the hand");
     run_rounds(coarse, starts[i].pose, {20, 20, 20, 15, 15, 15, 12, 12, 10, 10}, result, progress);
     starts[i].cost = coarse.cost(starts[i].pose, 10.0);
   }

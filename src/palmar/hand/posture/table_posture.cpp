@@ -6,7 +6,7 @@
 
 namespace palmar {
 
-Posture laid_on_table(Posture posture, const FingertipHeights& height) {
+Posture posture_on_table(Posture posture, const FingertipHeights& height) {
   const auto start = height(posture);
   const double table = 0.25 * (start[1] + start[2] + start[3] + start[4]);
   constexpr std::array<Dof, 4> kMcp = {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion,

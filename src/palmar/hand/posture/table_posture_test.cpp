@@ -11,7 +11,7 @@
 namespace palmar {
 namespace {
 
-TEST(LaidOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
+TEST(PostureOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
   // Stiff fingers of 80 mm whose bases lie at 3, 6, 9, 12 mm, a thumb of 50 mm from 20 mm.
   constexpr std::array<Dof, 4> kMcp = {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion,
                                        Dof::kRingMcpFlexion, Dof::kLittleMcpFlexion};
@@ -24,23 +24,23 @@ TEST(LaidOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
   };
   Posture start;
   start[Dof::kIndexPipFlexion] = 0.1;
-  const Posture laid = laid_on_table(start, height);
+  const Posture placed = posture_on_table(start, height);
   for (std::size_t f = 0; f < 4; ++f) {
     const double rise = 7.5 - 3.0 * static_cast<double>(f + 1);  // to the mean
-    EXPECT_NEAR(laid[kMcp[f]], std::asin(rise / 80.0), 1e-6) << f;
+    EXPECT_NEAR(placed[kMcp[f]], std::asin(rise / 80.0), 1e-6) << f;
   }
   // asin((7.5 - 20) / 50) is -14.5 degrees; it turns by whole ones.
-  EXPECT_NEAR(laid[Dof::kThumbCmcAbduction], -15.0 * kDegree, 1e-12);
-  EXPECT_EQ(laid[Dof::kIndexPipFlexion], 0.1);
+  EXPECT_NEAR(placed[Dof::kThumbCmcAbduction], -15.0 * kDegree, 1e-12);
+  EXPECT_EQ(placed[Dof::kIndexPipFlexion], 0.1);
 }
 
-TEST(LaidOnTable, AdductsAThumbThatStaysLowByNoMoreThanFortyDegrees) {
+TEST(PostureOnTable, AdductsAThumbThatStaysLowByNoMoreThanFortyDegrees) {
   const auto height = [](const Posture& p) {
     return std::array<double, kFingerCount>{
         30.0, std::sin(p[Dof::kIndexMcpFlexion]), std::sin(p[Dof::kMiddleMcpFlexion]),
         std::sin(p[Dof::kRingMcpFlexion]), std::sin(p[Dof::kLittleMcpFlexion])};
   };
-  EXPECT_NEAR(laid_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * kDegree, 1e-12);
+  EXPECT_NEAR(posture_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * kDegree, 1e-12);
 }
 
 }  // namespace

@@ -143,12 +143,12 @@ HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
   wrist_ = {wrist + kWristShare * to_mcp, Vec3::UnitY()};
   RayDistances distance(skin, *this);
   for (int k = 0; k + 1 < kFingerCount; ++k) web_[k] = find_web(skin, k, distance);
-  lay_web();
-  lay_finger_creases();
-  lay_palm_creases();
+  place_web();
+  place_finger_creases();
+  place_palm_creases();
 }
 
-void HandCreases::lay_web() {
+void HandCreases::place_web() {
   const Ray& thumb = ray_[0];
   const Ray& index = ray_[1];
   const Vec3 along_thumb = thumb.node[2] - thumb.node[1];
@@ -231,7 +231,7 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
   for (const Vec3& v : skin.vertices) level.push_back(distal.dot(v - foot));
   double best = -std::numeric_limits<double>::max();
   Vec3 web = Vec3::Zero();
-  // What lies proximal of the joints only matters to tell how far it is from being a web.
+  // What lies proximal of the joints only matters to determine how far it is from being a web.
   for (const double least : {0.0, best}) {
     if (best > 0.0) break;
     for (const Triangle& t : skin.triangles) {
@@ -261,7 +261,7 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
   return web;
 }
 
-void HandCreases::lay_finger_creases() {
+void HandCreases::place_finger_creases() {
   for (int f = 0; f < kFingerCount; ++f) {
     const Ray& ray = ray_[f];
     const bool is_thumb = f == 0;
@@ -300,7 +300,7 @@ void HandCreases::lay_finger_creases() {
   }
 }
 
-void HandCreases::lay_palm_creases() {
+void HandCreases::place_palm_creases() {
   const auto mcp = [&](int f) { return in_palm(ray_[f].node[1]); };
   const Vec2 m2 = mcp(1), m3 = mcp(2), m4 = mcp(3), m5 = mcp(4);
   const Vec2 wrist = in_palm(wrist_.point);

@@ -100,9 +100,9 @@ class HandCreases {
   /// Distances of the skin's vertices from the rays, mm; only those asked for are computed.
   class RayDistances;
   Vec3 find_web(const TriangleMesh& skin, int k, RayDistances& distance) const;
-  void lay_web();
-  void lay_finger_creases();
-  void lay_palm_creases();
+  void place_web();
+  void place_finger_creases();
+  void place_palm_creases();
   Eigen::Vector2d in_palm(const Vec3& point) const { return {sign_ * point.x(), point.y()}; }
 
   double sign_ = 1.0;

@@ -228,7 +228,7 @@ Vec3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
 }
 
 // Three vertices moved onto one crease make a sliver: its longest edge is turned, if both triangles
-// gain by that. `is_fixed` tells edges that must stay.
+// gain by that. `is_fixed` shows edges that must stay.
 template <typename IsFixed>
 void turn_slivers(TriangleMesh& skin, const IsFixed& is_fixed) {
   constexpr double kSliver = 25.0 * kDegree;
@@ -359,12 +359,12 @@ std::vector<std::pair<SkinLabel, SkinLabel>> holding_pairs(const CreaseGraph& gr
     for (std::size_t b = a + 1; b < labels.size(); ++b) pairs.emplace_back(labels[a], labels[b]);
   }
   const auto& along = graph.neighbours[vertex];
-  const auto goes_first = [&](int i, int j) {
+  const auto comes_first = [&](int i, int j) {
     const std::size_t a = graph.labels[i].size(), b = graph.labels[j].size();
     return a != b ? a > b : i < j;
   };
   const bool yields = labels.size() > 2 && std::any_of(along.begin(), along.end(), [&](int j) {
-                        return graph.labels[j].size() > 2 && goes_first(j, vertex);
+                        return graph.labels[j].size() > 2 && comes_first(j, vertex);
                       });
   if (!yields) return pairs;
   const auto distance = [&](const std::pair<SkinLabel, SkinLabel>& pair) {
@@ -473,14 +473,14 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
 
 std::vector<Region> triangle_regions(const std::vector<Triangle>& triangles,
                                      const std::vector<Region>& region) {
-  const auto stands_lower = [](Region a, Region b) {
+  const auto is_lower = [](Region a, Region b) {
     const auto key = [](Region r) { return std::tuple(r == Region::kDorsum, r); };
     return key(a) < key(b);
   };
   std::vector<Region> result;
   result.reserve(triangles.size());
   for (const Triangle& t : triangles) {
-    result.push_back(std::max({region[t[0]], region[t[1]], region[t[2]]}, stands_lower));
+    result.push_back(std::max({region[t[0]], region[t[1]], region[t[2]]}, is_lower));
   }
   return result;
 }

@@ -52,7 +52,7 @@ ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMark
   const Eigen::LLT<Eigen::MatrixXd> factor(phi);
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-13) {
     throw NumericalError("thumb ball: two of the " + std::to_string(count) +
-                         " markers coincide or lie too close for beta = " +
+                         " markers coincide or are too close for beta = " +
                          std::to_string(options.beta) + " 1/mm^2");
   }
   for (std::size_t limit = 0; limit < 4; ++limit) {

@@ -55,10 +55,10 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
     for (int column = 0; column < columns; ++column) {
       Vec3 v = place(column, row);
       // Pressed in, let go a little, and uneven.
-      const double stands_off =
+      const double height_above =
           1.6 + 1.9 * std::sin(0.19 * v.y() + 0.6) * std::cos(0.13 * v.x() + 0.4);
       v.z() = std::max(relief[node(column, row)], palmar[node(column, row)]) +
-              std::max(stands_off, -0.1);
+              std::max(height_above, -0.1);
       mesh.vertices.push_back(v);
     }
   }

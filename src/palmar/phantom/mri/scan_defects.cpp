@@ -24,7 +24,7 @@
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kRough = 70, kColour, kPlace, kWaves };
+enum Stream : std::uint64_t { kRough = 70, kColour, kPlace, kRipples };
 
 /// Directions spread evenly over the sphere (Fibonacci lattice).
 std::vector<Vec3> directions(int count) {
@@ -102,7 +102,7 @@ ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
   scan.surface = kept(hand, keep);
   TriangleMesh& mesh = scan.surface.mesh;
   RandomStream rough(defects.seed, kRough), colour(defects.seed, kColour);
-  const Waves longer(defects.seed, kWaves, 8.0), shorter(defects.seed + 1, kWaves, 3.0);
+  const SmoothNoise longer(defects.seed, kRipples, 8.0), shorter(defects.seed + 1, kRipples, 3.0);
   const std::vector<Vec3> normal = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 p = mesh.vertices[v];

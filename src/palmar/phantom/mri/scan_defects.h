@@ -21,8 +21,9 @@ struct ScanDefects {
   void check() const;           ///< throws UsageError: field, value, allowed range
 };
 
-/// A hand's surface as a scan has it: cut at the forearm (square to y), without what was hidden,
-/// rough, and laid anywhere in space. `wrist_y`: where the forearm begins, in the surface's frame.
+/// A hand's surface as a scan has it: cut at the forearm (perpendicular to y), without what was
+/// hidden, rough, and placed anywhere in space. `wrist_y`: where the forearm begins, in the
+/// surface's frame.
 struct ScannedSurface {
   ColouredMesh surface;
   Rigid3 scan_from_hand;

@@ -62,7 +62,7 @@ VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& optio
   const int rows = std::clamp(static_cast<int>(height / options.pixel), 2, most);
   grid.size = {most, rows, options.slices};
 
-  // The middle of what is seen: the forearm goes on, perhaps aslant.
+  // The middle of what is seen: the forearm goes on, perhaps obliquely.
   const double edge = low[1] - kTipMargin + options.pixel * rows;
   Vec3 first_seen = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 last_seen = -first_seen;

@@ -6,7 +6,7 @@
 
 namespace palmar {
 
-/// How an operator lays the slices through a hand.
+/// How an operator places the slices through a hand.
 struct ScanGridOptions {
   double pixel = 0.78;  ///< mm, along both edges of a slice (Xie 2014, section 2.2.1)
   double slice = 1.0;   ///< mm from slice to slice

@@ -26,7 +26,7 @@ TriangleMesh moved(const TriangleMesh& mesh, const Rigid3& by) {
   return result;
 }
 
-TriangleMesh skin_drawn_in(const TriangleMesh& skin, double depth) {
+TriangleMesh shrunk_skin(const TriangleMesh& skin, double depth) {
   TriangleMesh result = skin;
   const std::vector<Vec3> normal = vertex_normals(skin);
   for (std::size_t i = 0; i < normal.size(); ++i) result.vertices[i] -= depth * normal[i];
@@ -194,7 +194,7 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
   const TriangleMesh skin{subject.posed.skin, person.skin.triangles};
   if (has_fixture) parts.push_back({fixture_mesh(skin, wrist), kClay});
   parts.push_back({skin, kSkin});
-  parts.push_back({skin_drawn_in(skin, kSkinThickness), kFat});
+  parts.push_back({shrunk_skin(skin, kSkinThickness), kFat});
   parts.push_back({muscle(subject, skin), kMuscle});
   Tendons(subject, skin).draw(parts, tendons);
   // Ligaments and cartilage between the carpals, then the joints of the fingers.

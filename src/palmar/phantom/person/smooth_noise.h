@@ -14,9 +14,9 @@ namespace palmar {
 
 /// Smooth noise in space: 24 cosines in random directions, wavelengths from 0.7 to 1.3 of that
 /// given [mm]; mean 0, variance 1.
-class Waves {
+class SmoothNoise {
  public:
-  Waves(std::uint64_t seed, std::uint64_t stream, double wavelength) {
+  SmoothNoise(std::uint64_t seed, std::uint64_t stream, double wavelength) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     RandomStream random(seed, stream);
     for (Wave& w : wave_) {

@@ -112,11 +112,11 @@ struct SoftTissue::Impl {
   double size = 1.0;  ///< of the hand, over 180 mm
 
   explicit Impl(const SubjectPerson& p, const std::vector<SubjectBone>& b) : person(&p), bones(&b) {
-    lay_links();
+    place_links();
     find_nearest();
     neighbour = vertex_neighbours(build_topology(p.skin));
     find_shares();
-    lay_bands();
+    place_bands();
     for (const SubjectBone& bone : b) {
       bone_distance.push_back(std::make_unique<MeshDistance>(bone.bone.mesh));
     }
@@ -124,7 +124,7 @@ struct SoftTissue::Impl {
     band_volume = volumes(p.skin.vertices, core_point);
   }
 
-  void lay_links() {
+  void place_links() {
     const SubjectJoints& joints = person->joints;
     const Vec3 wrist = person->skeleton.joint(JointId::kWrist).centre;
     links.push_back({kThumbMetacarpalBody, joints.cmc.centre,
@@ -219,7 +219,7 @@ struct SoftTissue::Impl {
 
   // Bands: for every chain of bones the stations kBand apart along it, with linear hats, times the
   // chain's share in the vertex.
-  void lay_bands() {
+  void place_bands() {
     const std::vector<Vec3>& skin = person->skin.vertices;
     std::array<std::vector<Link>, kChains> chain;
     for (const Link& link : links) {
@@ -370,7 +370,7 @@ struct SoftTissue::Impl {
           }
         }
       }
-      // Neighbouring bands move alike where the volume hardly tells.
+      // Neighbouring bands move alike where the volume hardly shows.
       for (const auto& [b, c] : neighbour_band) {
         const double stiff = kEven * std::min(matrix(b, b), matrix(c, c));
         matrix(b, b) += stiff;

@@ -52,8 +52,8 @@ Posture straightened(const SubjectPerson& person, RandomStream& random) {
   posture[Dof::kThumbCmcAbduction] += kDegree * about_zero(random, 4.0);
   posture[Dof::kThumbMpFlexion] = kDegree * about_zero(random, 4.0);
   posture[Dof::kThumbIpFlexion] = kDegree * about_zero(random, 5.0);
-  return laid_on_table(posture,
-                       [&](const Posture& p) { return tip_heights(subject_skeleton(person, p)); });
+  return posture_on_table(
+      posture, [&](const Posture& p) { return tip_heights(subject_skeleton(person, p)); });
 }
 
 /// Spreads fingers as a hand is spread on a table without force.
@@ -85,7 +85,7 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options) {
         about_zero(random, 1.5) * kDegree * (1.0 - options.together);
   }
   posture[Dof::kThumbCmcFlexion] *= 0.3;
-  posture = laid_on_table(posture, [&](const Posture& p) {
+  posture = posture_on_table(posture, [&](const Posture& p) {
     return tip_heights(skeleton_in_posture(hand.skeleton, p));
   });
   SpreadHand result;

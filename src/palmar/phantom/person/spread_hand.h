@@ -10,11 +10,11 @@ namespace palmar {
 
 struct SpreadOptions {
   std::uint64_t seed = 1;  ///< of the person and of how the fingers lie
-  double together = 0.0;   ///< 0: fingers spread as told; 1: side by side
+  double together = 0.0;   ///< 0: fingers spread as given; 1: side by side
   void check() const;      ///< throws UsageError: field, value, allowed range
 };
 
-/// A hand with straight fingers, spread, to be laid on a sheet. Hand frame: x radial of a right
+/// A hand with straight fingers, spread, to be placed on a sheet. Hand frame: x radial of a right
 /// hand, y distal, z palmar; mm.
 struct SpreadHand {
   Side side = Side::kRight;

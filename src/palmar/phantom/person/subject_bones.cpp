@@ -31,7 +31,7 @@ constexpr double kTypicalWristToMcp = 92.5;
 
 struct Draft {
   SubjectBone bone;
-  std::vector<Vec3> core;  ///< per vertex: where it is drawn in to
+  std::vector<Vec3> core;  ///< per vertex: where it is shrunk towards
   double thickness = 1.2;  ///< of the cortex in the middle, mm
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
 };

@@ -22,7 +22,8 @@ struct SubjectBone {
 /// 29 bones of a person, named and ordered as Hand::bones has them. Heads are surfaces of
 /// revolution about the joints' axes and bases fit on them, carpals fill the room between the
 /// forearm and the metacarpals up to each other. Where bones come nearer to each other than
-/// kLeastBoneGap in any posture, or to the skin than kLeastSkinCover, the later one is drawn in.
+/// kLeastBoneGap in any posture, or to the skin than kLeastSkinCover, the later one is made
+/// smaller.
 std::vector<SubjectBone> make_subject_bones(const SubjectPerson& person, std::uint64_t seed);
 
 }  // namespace palmar

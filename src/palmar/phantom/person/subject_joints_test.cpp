@@ -91,9 +91,9 @@ TEST(SubjectJoints, NoFixedAxisReproducesTheSaddleJoint) {
     posture[Dof::kThumbCmcAbduction] = a * kDegree;
     limit.push_back(joint_motion(cmc, posture).rotation);
   }
-  // Whatever the axis: after the best turn about it a swing square to it is left, which moves the
-  // head of a metacarpal of 45 mm by at least 45 mm times the swing's share square to the bone.
-  // The mean over directions of the swing is bounded here by a quarter of it.
+  // Whatever the axis: after the best turn about it a swing perpendicular to it is left, which
+  // moves the head of a metacarpal of 45 mm by at least 45 mm times the swing's share perpendicular
+  // to the bone. The mean over directions of the swing is bounded here by a quarter of it.
   double least = 1e9;
   constexpr int kDirections = 4000;
   for (int k = 0; k < kDirections; ++k) {

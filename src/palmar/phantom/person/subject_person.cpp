@@ -61,7 +61,7 @@ Hand sized_hand(const Hand& base, std::uint64_t seed) {
   return make_hand_instance(base, targets).hand;
 }
 
-// Angles of the reference scan: a hand laid down relaxed.
+// Angles of the reference scan: a hand placed down relaxed.
 Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
   Posture posture = reference_posture(skeleton);
   constexpr std::array<std::array<double, 3>, 4> kFlexion{
@@ -291,7 +291,7 @@ void make_room(const SubjectPerson& person, Posture& posture) {
 }
 
 // A bar across the palm below the knuckles, a little into the skin.
-HeldBar laid_in_palm(const SubjectPerson& person, double radius) {
+HeldBar placed_in_palm(const SubjectPerson& person, double radius) {
   const auto mcp = [&](Segment s) -> const Vec3& {
     return person.joints.phalanx[index_of(s)].centre;
   };
@@ -356,7 +356,7 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
     turned(p, Dof::kThumbIpFlexion, ip, 2.0);
     return p;
   };
-  // Fingers at rest never come to lie as they lay.
+  // Fingers at rest are never where they were.
   const auto at_rest = [&](Posture p) {
     for (int f = 0; f < 4; ++f) {
       constexpr std::array<double, 4> kDeviation{3.0, 1.5, 3.0, 2.0};
@@ -394,7 +394,7 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   finger(fan, 3, {0, -17, -6, -3});
   all[ScanPosture::kFingerAbduction] = fan;
   Posture grasp = thumb(9.0, 15.0, 0.0, 0.0);
-  person.bar = laid_in_palm(person, 18.5 + spread(random, 1.0));
+  person.bar = placed_in_palm(person, 18.5 + spread(random, 1.0));
   for (int f = 1; f < kFingerCount; ++f) close_on(person, f, grasp);
   make_room(person, grasp);
   // The thumb gives way to the fingers, then closes.

@@ -154,7 +154,7 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
   for (const auto& [segment, place] : result.dots) {
     dot.push_back(place.in(skin.vertices, skin.triangles));
   }
-  const Waves coarse(options.seed, kPattern, 9.0), middle(options.seed + 1, kPattern, 3.0),
+  const SmoothNoise coarse(options.seed, kPattern, 9.0), middle(options.seed + 1, kPattern, 3.0),
       fine(options.seed + 2, kPattern, 1.2);
   result.colour.resize(skin.vertices.size());
   parallel_for(static_cast<int>(skin.vertices.size()), [&](int v) {
@@ -327,7 +327,7 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
       const auto& joint = person.joints.phalanx[body];
       const InstantAxis axis = instant_axis(person.joints, posture, body, joint.flexion);
       const Rigid3& before = motion[*parent_of(body)];
-      // A rotation mirrored turns the other way round; axes tell the same motion.
+      // A rotation mirrored turns the other way round; axes show the same motion.
       const Vec3 direction = side(before.rotation * axis.axis);
       result.joint[static_cast<Segment>(body)] = {is_left ? Vec3(-direction) : direction,
                                                   side(before * axis.point)};

@@ -91,15 +91,15 @@ std::string hand_from_scan_json(const HandFromScan& made) {
   for (const Segment s : made.creases.missing) missing.push_back(text(name_of(s)));
   Json dots = Json::object();
   for (const auto& [segment, count] : made.dots) dots[text(name_of(segment))] = count;
-  Json told = Json::array();
+  Json by_dots = Json::array();
   for (const DottedJoint& joint : made.joints) {
-    told.push_back({{"segment", text(name_of(joint.segment))},
-                    {"posture", text(name_of(joint.posture))},
-                    {"turn_deg", joint.turn * kDegreesPerRadian},
-                    {"residual_mm", joint.residual},
-                    {"axis_change_deg", joint.axis_change * kDegreesPerRadian},
-                    {"centre_change_mm", joint.centre_change},
-                    {"dots", joint.dots}});
+    by_dots.push_back({{"segment", text(name_of(joint.segment))},
+                       {"posture", text(name_of(joint.posture))},
+                       {"turn_deg", joint.turn * kDegreesPerRadian},
+                       {"residual_mm", joint.residual},
+                       {"axis_change_deg", joint.axis_change * kDegreesPerRadian},
+                       {"centre_change_mm", joint.centre_change},
+                       {"dots", joint.dots}});
   }
   const Json json = {{"hand", hand.name},
                      {"side", text(name_of(hand.side))},
@@ -112,7 +112,7 @@ std::string hand_from_scan_json(const HandFromScan& made) {
                      {"proximal_creases", std::move(creases)},
                      {"creases_not_found", std::move(missing)},
                      {"dots", std::move(dots)},
-                     {"joints_by_dots", std::move(told)},
+                     {"joints_by_dots", std::move(by_dots)},
                      {"notes", made.notes}};
   return json.dump(2);
 }

@@ -17,7 +17,7 @@ std::string hand_from_scan_json(const HandFromScan& made);
 /// One row per dimension, straight ones first: name, value_mm.
 CsvTable dimension_csv(const HandDimensions& dimensions, const HandTape& tape);
 
-/// One row per joint and scan that dots told: segment, posture, turn_deg, residual_mm,
+/// One row per joint and scan that dots showed: segment, posture, turn_deg, residual_mm,
 /// axis_change_deg, centre_change_mm, dots.
 CsvTable dotted_joint_csv(const HandFromScan& made);
 

@@ -107,7 +107,7 @@ std::string digest_of(const ScanSurfaces& surfaces) {
 
 namespace {
 
-/// Null for a motion that no image told. Errors that are infinite are null.
+/// Null for a motion that no image showed. Errors that are infinite are null.
 Json image_fit_json(const std::optional<ImageFit>& fit) {
   if (!fit) return nullptr;
   return {{"fixed_from_moving", pose_json(fit->fixed_from_moving)},

@@ -23,7 +23,7 @@ ScanSurfaces one_bone() {
   return surfaces;
 }
 
-TEST(KeptScanResults, DigestTellsWhatLaterStepsUse) {
+TEST(KeptScanResults, DigestReportsWhatLaterStepsUse) {
   const std::string digest = digest_of(one_bone());
   EXPECT_EQ(digest_of(one_bone()), digest);
   ScanSurfaces other = one_bone();

@@ -47,10 +47,10 @@ void describe_by_names(const fs::path& folder, PhotoSet& set) {
   set.is_described = silent.empty();
   if (set.is_described) return;
   if (2 * silent.size() < count) {
-    throw InputError(fmt::format(
-        "{}: the names of {} photographs tell position and camera (as p3_c2.jpg does), that of {} "
-        "doesn't: rename it, take it away, or describe all in photos.json",
-        folder.string(), count - silent.size(), silent.front()));
+    throw InputError(
+        fmt::format("{}: the names of {} photographs give position and camera (as p3_c2.jpg does), "
+                    "that of {} doesn't: rename it, take it away, or describe all in photos.json",
+                    folder.string(), count - silent.size(), silent.front()));
   }
   for (std::size_t i = 0; i < count; ++i) {
     PhotoFile& file = set.photographs[i];

@@ -35,7 +35,7 @@ Json run_photo(const std::string& verb, Json request, const WorkerFolder& folder
   return Json::parse(reply);
 }
 
-/// What can't be used of an answer is told as such.
+/// What can't be used of an answer is reported as such.
 template <typename Take>
 auto taken(const Take& take) {
   try {

@@ -99,7 +99,7 @@ TEST(BoneLabels, SayWhatIsWrongWithThem) {
   EXPECT_THAT(failure({{name, {0, -20, 0}, "l.csv:2"}}),
               HasSubstr("l.csv:2: no bone was found within 3 mm of (0.0, -20.0, 0.0) mm"));
   EXPECT_THAT(failure({{name, {0, 20, 0}, "l.csv:2"}, {name, {10, 0, 0}, "l.csv:3"}}),
-              HasSubstr("l.csv:3: index_distal_phalanx stands twice, first in l.csv:2"));
+              HasSubstr("l.csv:3: index_distal_phalanx appears twice, first in l.csv:2"));
   EXPECT_THAT(
       failure({{name, {0, 20, 0}, "l.csv:2"}, {"index_middle_phalanx", {0, 21, 0}, "l.csv:3"}}),
       HasSubstr("are on the same bone"));

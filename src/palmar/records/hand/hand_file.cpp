@@ -222,7 +222,7 @@ Hand read_exact(const Reader& reader, const PlainJson& json) {
     bone.is_thumb_metacarpal = entry.at("is_thumb_metacarpal").get<bool>();
     if (entry.contains("segment")) {
       bone.segment = segment_named(entry.at("segment").get<std::string>());
-      if (!bone.segment) reader.fail("bone \"" + bone.name + "\" lies in an unknown segment");
+      if (!bone.segment) reader.fail("bone \"" + bone.name + "\" is in an unknown segment");
     }
     bone.mesh = reader.mesh(entry.at("mesh"));
     hand.bones.push_back(std::move(bone));

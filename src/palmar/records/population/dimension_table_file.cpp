@@ -119,7 +119,7 @@ class ColumnReader {
  private:
   std::string hint(const std::string& text) const {
     if (text.find(',') != text.npos && file_.separator == ',') {
-      return " (decimal commas need cells parted by semicolons)";
+      return " (decimal commas need cells separated by semicolons)";
     }
     if (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0 &&
         std::isalpha(static_cast<unsigned char>(text.back())) != 0) {
@@ -185,7 +185,7 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   }
 }
 
-/// A column of the table, or nothing if it is to be left aside (told in the notes).
+/// A column of the table, or nothing if it is to be left aside (reported in the notes).
 std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells, std::size_t place,
                                        const TableReading& reading, DimensionTable& table,
                                        double& factor) {

@@ -54,8 +54,8 @@ TEST(DimensionTable, ReadsUnitsGroupsAndMissingValues) {
 }
 
 TEST(DimensionTable, ReadsWhatSpreadsheetsWrite) {
-  // Byte order mark, separator told, CRLF, decimal comma, quoted heading with the separator in it,
-  // row numbers without a heading, an empty column and empty rows at the end.
+  // Byte order mark, separator reported, CRLF, decimal comma, quoted heading with the separator in
+  // it, row numbers without a heading, an empty column and empty rows at the end.
   const DimensionTable table = parsed(
       "\xEF\xBB\xBFsep=;\r\n;\"Hand length; right [mm]\";Hand length [mm];Geschlecht;\r\n"
       "1;181,5;182;w;\r\n2;193,25;194;m;\r\n3;176;177;w;\r\n;;;;\r\n;;;;\r\n");
@@ -172,7 +172,7 @@ TEST(DimensionTable, OnePersonIsEnough) {
 }
 
 // ANSUR II's palm is 60 % of the hand, the template's 97.2 of 176.1 mm.
-TEST(DimensionTable, APalmMeasuredBetweenOtherPointsIsTold) {
+TEST(DimensionTable, APalmMeasuredBetweenOtherPointsIsReported) {
   EXPECT_THAT(parsed("hand_length_mm,palmlength_mm\n193,115\n181,109\n").notes,
               ElementsAre(AllOf(HasSubstr("column 2 (palmlength_mm)"), HasSubstr("59.9 %"),
                                 HasSubstr("55.2 %"), HasSubstr("fingers too short"))));

@@ -174,14 +174,14 @@ Stratum read_stratum(const TomlSection& section) {
     const DrivingDimension driving = read_driving(one);
     if (driving_index(stratum, driving.dimension) >= 0) {
       one.fail("dimension", "names " + name_of(driving.dimension) +
-                                ", which drives this stratum already; each may stand once");
+                                ", which drives this stratum already; each may appear once");
     }
     stratum.driving.push_back(driving);
   }
   read_correlations(section, stratum);
   for (const TomlSection& one : section.tables("regression")) {
     stratum.regressions.push_back(read_regression(one));
-    // What is wrong with this regression is told where it stands.
+    // What is wrong with this regression is reported where it stands.
     const std::string fault = fault_of(stratum);
     if (!fault.empty() && fault.starts_with("regression")) one.fail(fault);
     if (!fault.empty()) continue;

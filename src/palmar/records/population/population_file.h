@@ -16,7 +16,7 @@ inline constexpr int kPopulationFileVersion = 1;
 ///     name = "our_women"
 ///     title = "Women of our plant"
 ///     source = "who measured whom, when"
-///     cautions = ["told with every result"]
+///     cautions = ["reported with every result"]
 ///
 ///     [[stratum]]                  # people that one normal distribution describes
 ///     name = "women"

@@ -42,7 +42,7 @@ class Builder {
 
   void add(const Entry& entry) {
     if (entry.label.empty()) fail(entry, "a marker has no label");
-    if (!taken_.insert(entry.label).second) fail(entry, "this label stands twice");
+    if (!taken_.insert(entry.label).second) fail(entry, "this label appears twice");
     const int places =
         (entry.landmark.empty() ? 0 : 1) + (entry.vertex ? 1 : 0) + (entry.point ? 1 : 0);
     if (places != 1) {

@@ -18,7 +18,7 @@ constexpr double kRoundingOfFiles = 0.01;  // of a unit length: numbers in files
 
 double finite(const PlainJson& json) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
-    throw InputError(in_quotes(json.dump()) + " stands where a number is needed");
+    throw InputError(in_quotes(json.dump()) + " is where a number is needed");
   }
   return json.get<double>();
 }

@@ -265,7 +265,7 @@ const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
   }
   const int wanted = which.value_or(1);
   if (wanted < 1 || wanted > count) {
-    throw UsageError(path + ": posture " + std::to_string(wanted) + " is asked for; there " +
+    throw UsageError(path + ": posture " + std::to_string(wanted) + " is requested; there " +
                      (count == 1 ? "is one" : "are " + std::to_string(count)));
   }
   return file.frames[wanted - 1];

@@ -77,7 +77,7 @@ TEST_F(PostureFileTest, AnObjectOfAnglesInDegreesOrRadians) {
   EXPECT_EQ(frame.time, 2.5);
 }
 
-TEST_F(PostureFileTest, AnglesBeyondTheRangeAreHeldAndTold) {
+TEST_F(PostureFileTest, AnglesBeyondTheRangeAreClampedAndReported) {
   const PostureFrame frame =
       read(R"({"index_pip_flexion_deg": 120, "index_dip_flexion_deg": 90})").frames.front();
   ASSERT_EQ(frame.clamped.size(), 1U);  // 90 degrees is the limit itself

@@ -21,7 +21,7 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-/// Lines of 80 columns; the letter in column 73 tells the section, a number follows.
+/// Lines of 80 columns; the letter in column 73 shows the section, a number follows.
 bool is_iges_line(std::string_view line, char section) {
   return line.size() >= kIgesLine && line[72] == section &&
          line.substr(73, 7).find_first_not_of(" 0123456789") == line.npos;

@@ -89,9 +89,9 @@ MadeProduct made_from(const std::string& words) {
   TextScanner scanner(std::string_view(words).substr(std::min(kMade.size(), words.size())));
   const auto kind = scanner.next_word();
   if (!is_made(words) || !kind) {
-    throw InputError(in_quotes(words) +
-                     " tells no product that Palmar makes; \"made: cylinder "
-                     "diameter_mm=35\" does");
+    throw InputError(
+        in_quotes(words) +
+        " describes no product that Palmar makes; \"made: cylinder diameter_mm=35\" does");
   }
   MadeProduct product{std::string(*kind), {}};
   while (const auto word = scanner.next_word()) {

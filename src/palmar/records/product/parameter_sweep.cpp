@@ -72,7 +72,7 @@ std::vector<double> parse_sweep(const std::string& parameter, const std::string&
   }
   if (!is_range) {
     if (std::set<double>(numbers.begin(), numbers.end()).size() < numbers.size()) {
-      throw UsageError(parameter + " is " + in_quotes(text) + ": a value stands there twice");
+      throw UsageError(parameter + " is " + in_quotes(text) + ": a value appears twice");
     }
     return numbers;
   }

@@ -27,7 +27,7 @@ struct MadeSweep {
 
 struct MadeVariant {
   MadeProduct product;
-  /// What tells it apart from the others: "diameter 25 mm", "diameter 25 mm taper 2 deg"; "" of
+  /// What distinguishes it from the others: "diameter 25 mm", "diameter 25 mm taper 2 deg"; "" of
   /// the only one.
   std::string suffix;
 };

@@ -76,8 +76,8 @@ TEST(MadeProduct, WordsAreReadBack) {
   EXPECT_FALSE(is_analytic(made_from("made: prism fillet_mm=3 end_fillet_mm=2")));
 }
 
-TEST(MadeProduct, WordsThatTellNothingAreRefused) {
-  EXPECT_THAT(refusal([] { made_from("made: "); }), HasSubstr("tells no product"));
+TEST(MadeProduct, WordsThatDetermineNothingAreRefused) {
+  EXPECT_THAT(refusal([] { made_from("made: "); }), HasSubstr("describes no product"));
   EXPECT_THAT(refusal([] { made_from("made: bottle wide"); }),
               HasSubstr("\"wide\" is no parameter with its value, as diameter_mm=35 is"));
   EXPECT_THAT(refusal([] { made_from("made: botle"); }), HasSubstr("did you mean \"bottle\"?"));

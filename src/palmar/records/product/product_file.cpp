@@ -13,8 +13,8 @@
 namespace palmar {
 namespace {
 
-/// The unit that the file tells, if it is one of Palmar's.
-std::optional<LengthUnit> told_unit(const ImportedCad& cad) {
+/// The unit that the file shows, if it is one of Palmar's.
+std::optional<LengthUnit> stated_unit(const ImportedCad& cad) {
   if (cad.unit == "millimetre" || cad.unit == "mm") return LengthUnit::kMillimetre;
   if (cad.unit == "centimetre" || cad.unit == "cm") return LengthUnit::kCentimetre;
   if (cad.unit == "metre" || cad.unit == "m") return LengthUnit::kMetre;
@@ -26,7 +26,7 @@ std::optional<LengthUnit> told_unit(const ImportedCad& cad) {
 /// already.
 UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
                     const std::string& object) {
-  std::optional<LengthUnit> from_file = told_unit(cad);
+  std::optional<LengthUnit> from_file = stated_unit(cad);
   if (!from_file && !cad.unit.empty() && !options.unit) from_file = LengthUnit::kMillimetre;
   const double per_unit =
       millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));
@@ -35,7 +35,7 @@ UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
   return decide_unit(box, from_file, options.unit, object);
 }
 
-/// read_mesh() for a place that takes CAD as well, which its messages tell.
+/// read_mesh() for a place that takes CAD as well, which its messages show.
 MeshFile read_shape(const std::filesystem::path& path) {
   try {
     return read_mesh(path);
@@ -59,7 +59,7 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   result.cad = import_cad(path, import, options.limits, options.progress);
   UnitDecision decision = decide(result.cad, options, object);
   if (decision.source == UnitSource::kProposed && decision.unit != LengthUnit::kMillimetre) {
-    // A file without a unit whose size doesn't tell mm: once more, so that the chordal error is in
+    // A file without a unit whose size doesn't show mm: once more, so that the chordal error is in
     // mm.
     import.millimetres_per_unit = millimetres_per(decision.unit);
     result.cad = import_cad(path, import, options.limits, options.progress);
@@ -70,10 +70,10 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   Product& product = result.product;
   product = make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
   product.unit = unit;
-  const std::string in_file = cad.unit.empty() ? "not told" : cad.unit;
+  const std::string in_file = cad.unit.empty() ? "not stated" : cad.unit;
   product.notes.push_back(
       cad.format + ", unit " +
-      (options.unit ? name_of(*options.unit) + " as told (file: " + in_file + ")" : in_file) +
+      (options.unit ? name_of(*options.unit) + " as given (file: " + in_file + ")" : in_file) +
       "; chordal error " + significant(cad.chordal_error, 4) + " mm (" + cad.chordal_reason + ")");
   product.notes.insert(product.notes.end(), cad.notes.begin(), cad.notes.end());
   return result;

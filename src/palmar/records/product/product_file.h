@@ -14,18 +14,18 @@ namespace palmar {
 
 struct LoadProductOptions {
   /// Unit of the file. Unset: the format's own unit, else one proposed from the size against a hand
-  /// and told in Product::notes.
+  /// and reported in Product::notes.
   std::optional<LengthUnit> unit = {};
   // Of CAD files (STEP, IGES):
   std::optional<double> chordal_error =
-      {};  ///< mm; unset: from size and smallest radius, told in notes
+      {};  ///< mm; unset: from size and smallest radius, reported in notes
   CadLimits limits = {};
   Progress progress = {};
 };
 
 /// Reads a mesh file (see read_mesh()) or a CAD file (see import_cad()), settles its unit, converts
 /// to mm, checks and repairs it, and prepares its distance field. The file's stem becomes the name.
-/// Of CAD, Product::faces tells the faces. Throws InputError naming the file and what is wrong with
+/// Of CAD, Product::faces shows the faces. Throws InputError naming the file and what is wrong with
 /// it, also when the unit can't be decided.
 Product load_product(const std::filesystem::path& path, const LoadProductOptions& options = {});
 

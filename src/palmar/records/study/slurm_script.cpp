@@ -62,7 +62,7 @@ void SlurmArray::check() const {
   }
   for (const auto* path : {&program, &file, &folder}) {
     if (path->string().find('\n') != std::string::npos) {
-      throw UsageError("submit: a path with a line break can't stand in a batch script");
+      throw UsageError("submit: a path with a line break can't be in a batch script");
     }
   }
 }
@@ -86,19 +86,13 @@ std::string slurm_script(const SlurmArray& array) {
   directive("--output=\"" + folder + "/shard-%a.log\"");
   for (const std::string& option : array.options) directive(option);
   text += fmt::format(
-      "\n# One task per shard. All done: palmar study merge {0} --out study.palmar\n"
-      "set -u\n"
-      "folder={0}\n"
-      "shard=$SLURM_ARRAY_TASK_ID\n"
-      "code=0\n"
-      "{1} study run {2} --quiet{3} \\\n"
-      "  --shard \"$shard/{4}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" \\\n"
-      "  --out \"$folder/shard-$shard-of-{4}.palmar\" || code=$?\n"
-      "# Killed (out of memory, say): into the queue once more, to go on where the store stopped.\n"
-      "if [ \"$code\" = 137 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {5} ]; then\n"
-      "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$shard\" && sleep 60\n"
-      "fi\n"
-      "exit \"$code\"\n",
+      "\n# One task per shard. All done: palmar study merge {0} --out study.palmar\nset "
+      "-u\nfolder={0}\nshard=$SLURM_ARRAY_TASK_ID\ncode=0\n{1} study run {2} --quiet{3} \\\n  "
+      "--shard \"$shard/{4}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" \\\n  --out "
+      "\"$folder/shard-$shard-of-{4}.palmar\" || code=$?\n# Killed (out of memory, say): into the "
+      "queue once more, to continue where the store stopped.\nif [ \"$code\" = 137 ] && [ "
+      "\"${{SLURM_RESTART_COUNT:-0}}\" -lt {5} ]; then\n  scontrol requeue "
+      "\"${{SLURM_ARRAY_JOB_ID}}_$shard\" && sleep 60\nfi\nexit \"$code\"\n",
       quoted(folder), quoted(array.program.string()), quoted(array.file.string()),
       array.seed == 0 ? "" : fmt::format(" --seed {}", array.seed), array.shards, kMostRestarts);
   return text;

@@ -246,8 +246,8 @@ void check_products(const StudyPlan& plan, const std::filesystem::path& folder) 
     }
     if (!is_found || is_same) continue;
     throw UsageError("product \"" + one.name + "\": " + one.file +
-                     " has changed since the study began; without the file resume goes on with the "
-                     "shape it has kept");
+                     " has changed since the study began; without the file resume continues with "
+                     "the shape in the store");
   }
 }
 

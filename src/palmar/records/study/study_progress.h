@@ -27,7 +27,7 @@ struct StudyProgressNote {
 };
 
 std::filesystem::path progress_path(const std::filesystem::path& store);
-/// Fills in time, host and process. Never throws: not being able to tell is no reason to stop.
+/// Fills in time, host and process. Never throws: not being able to determine is no reason to stop.
 void write_study_progress(const std::filesystem::path& store, StudyProgressNote note);
 /// Nothing if there is none or it can't be read.
 std::optional<StudyProgressNote> read_study_progress(const std::filesystem::path& store);

@@ -192,7 +192,7 @@ StudyShard shard_named(const std::string& name) {
   return shard;
 }
 
-/// `body` writes a new file at the draft's path; SQLite's failures are told of `path`.
+/// `body` writes a new file at the draft's path; SQLite's failures are reported for `path`.
 template <typename Body>
 void write_draft(const fs::path& path, const Draft& draft, const Body& body) {
   std::error_code ignored;
@@ -217,8 +217,8 @@ void publish_new(const Draft& draft, const fs::path& path) {
   sync_folder(path);
 }
 
-/// Whether the product is made anew from its words, exact distance, faces and all; others come from
-/// the store.
+/// Whether the product is made again from its words, exact distance, faces and all; others come
+/// from the store.
 bool is_made_again(const StudyProduct& product) {
   return is_made(product.file) && is_analytic(made_from(product.file));
 }
@@ -479,7 +479,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
       const std::size_t rest = store.missing().size();
       throw UsageError(name + ": shard " + name_of(store.shard()) + " is not finished (" +
                        std::to_string(rest) + " grasps are missing); `palmar study resume " + name +
-                       "` goes on with it");
+                       "` continues with it");
     }
     const std::vector<std::string> differences = plan_differences(first.plan(), store.plan());
     if (!differences.empty()) {

@@ -54,7 +54,7 @@ class StudyStore {
   const StudyPlan& plan() const;
   StudyShard shard() const;
   std::string program() const;  ///< version of Palmar that made it
-  /// Hand and products, the very ones the study was begun with; distance fields are made anew.
+  /// Hand and products, the very ones the study was begun with; distance fields are made again.
   StudyInputs inputs() const;
 
   std::vector<std::int64_t> done() const;     ///< numbers of finished grasps, ascending

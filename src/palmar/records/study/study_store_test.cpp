@@ -264,7 +264,7 @@ TEST(StudyStore, GivesBackWhatItWasGiven) {
   EXPECT_EQ(format_plan(store.plan()), format_plan(study.plan));
   EXPECT_EQ(content_hash(*inputs.base), study.plan.hand_hash);
   EXPECT_EQ(inputs.products[1].mesh.vertices, study.inputs.products[1].mesh.vertices);
-  // The cylinder is made anew and so keeps its exact distance; radius 17.5 mm.
+  // The cylinder is made again and so keeps its exact distance; radius 17.5 mm.
   EXPECT_DOUBLE_EQ(inputs.products[0].distance->at(Vec3(10, 0, 0)).distance, -7.5);
 }
 
@@ -391,18 +391,18 @@ TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
       StudyStore store(path, StudyAccess::kWrite);
       for (const std::int64_t number : store.missing()) {
         store.keep(record_for(number));
-        const char told = static_cast<char>(number);
-        if (write(channel[1], &told, 1) != 1) _exit(1);
+        const char number_kept = static_cast<char>(number);
+        if (write(channel[1], &number_kept, 1) != 1) _exit(1);
       }
       close(channel[1]);  // a parent that waits for a second one when one was left
       pause();
       _exit(0);
     }
     close(channel[1]);
-    // Killed right after it told of the second grasp: while it keeps the third.
-    char told = 0;
+    // Killed right after it reported the second grasp: while it keeps the third.
+    char number_kept = 0;
     std::int64_t last = -1;
-    for (int i = 0; i < 2 && read(channel[0], &told, 1) == 1; ++i) last = told;
+    for (int i = 0; i < 2 && read(channel[0], &number_kept, 1) == 1; ++i) last = number_kept;
     if (round % 2 == 1) std::this_thread::sleep_for(std::chrono::microseconds(300 * round));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
@@ -534,7 +534,7 @@ TEST(StudyStore, ExportsEveryTableWithUnits) {
   EXPECT_THAT(read_file(folder / "tables/postures.csv"), HasSubstr("_deg,"));
 }
 
-TEST(StudyPlanJson, ReadsBackAndTellsWhatDiffers) {
+TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
   const Study study = small_study();
   const StudyPlan back = parse_plan(format_plan(study.plan), "plan");
   EXPECT_EQ(format_plan(back), format_plan(study.plan));

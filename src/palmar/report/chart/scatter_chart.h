@@ -31,7 +31,7 @@ struct ScatterChart {
   std::vector<std::string> notes;  ///< below the chart: equation, R2 ...
 };
 
-/// Colours of series one after another; told apart by people with any colour vision (Wong 2011).
+/// Colours of series one after another; distinguished by people with any colour vision (Wong 2011).
 Rgb series_colour(std::size_t place);
 
 /// Points that lie on one another are drawn once and darker. Points that are not finite are left

@@ -10,8 +10,8 @@
 
 namespace palmar {
 
-/// Colour of a product in all charts of a study, by its place in the plan; told apart by every kind
-/// of colour vision up to 7 (after Okabe and Ito 2008), repeated beyond.
+/// Colour of a product in all charts of a study, by its place in the plan; distinguished by every
+/// kind of colour vision up to 7 (after Okabe and Ito 2008), repeated beyond.
 Rgb product_colour(int product);
 
 /// Round axis from at or below `low` to at or above `high`: ticks at multiples of 1, 2 or 5 x 10^n,

@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The page of a study without conditions' contents, told apart by its title.
+/// The page of a study without conditions' contents, distinguished by its title.
 std::string study_of(const std::string& title) {
   return R"({"kind":"study","maker":{"version":"1","build":"b","viewer_licence":""},"title":")" +
          title +

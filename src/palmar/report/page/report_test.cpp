@@ -230,7 +230,7 @@ void add_band(ContactResult& contact, double force_low, double force_high) {
   contact.band = ContactBand{.regions = {row}, .total = row};
 }
 
-TEST_F(ReportFolder, TellsHowSureTheNumbersAre) {
+TEST_F(ReportFolder, ReportsHowSureTheNumbersAre) {
   AssessmentSet set = ball_set();
   add_band(set.assessments[0].assessment.contact, 8.5, 15.5);
   add_band(set.assessments[1].assessment.contact, 8.0, 16.0);

@@ -11,8 +11,8 @@
 namespace palmar {
 
 /// How much of every pixel a shape covers: the exact area of polygons within the pixel, summed
-/// along rows from the signed areas that the edges cut off. Shapes laid over one another must turn
-/// the same way; what they share counts once where they cover it wholly.
+/// along rows from the signed areas that the edges cut off. Shapes placed over one another must
+/// turn the same way; what they share counts once where they cover it wholly.
 class CoverageMask {
  public:
   CoverageMask(int image_width, int image_height);
@@ -20,7 +20,7 @@ class CoverageMask {
   void add_polygon(std::span<const Eigen::Vector2d> points);
   /// Adds a line of a width with round joins, and round ends if wanted.
   void add_line(std::span<const Eigen::Vector2d> points, double width, bool has_round_ends);
-  /// Lays the colour over the picture and empties the mask.
+  /// Places the colour over the picture and empties the mask.
   void paint(Image& image, Rgb colour, double opacity);
 
  private:

@@ -52,8 +52,8 @@ std::string encode_png(const Image& image, PngEffort effort = PngEffort::kFast);
 /// covers. A picture that is not wider comes back as it is.
 Image narrowed(const Image& image, int width);
 
-/// The picture in a PNG file's bytes; grey, palette and 16 bit become RGB, transparency is laid on
-/// white. Throws InputError if they are no PNG.
+/// The picture in a PNG file's bytes; grey, palette and 16 bit become RGB, transparency is placed
+/// on white. Throws InputError if they are no PNG.
 Image decode_png(std::string_view bytes);
 
 }  // namespace palmar

@@ -145,11 +145,12 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
     const auto posed = record.joints.postures.find(scan.posture);
     if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
     const std::string words = plain_words(scan.posture);
-    all.push_back({"error_" + std::string(name_of(scan.posture)) + "_",
-                   "Posed skin, distance to the scan: " + words + ", ",
-                   "The hand in the posture " + words +
-                       ", coloured by how far its skin lies from the scanned one, seen from the ",
-                   error_scene(record, scan, posed->second), error_scale()});
+    all.push_back(
+        {"error_" + std::string(name_of(scan.posture)) + "_",
+         "Posed skin, distance to the scan: " + words + ", ",
+         "The hand in the posture " + words +
+             ", coloured by the distance of its skin from the scanned one, seen from the ",
+         error_scene(record, scan, posed->second), error_scale()});
   }
   for (const RecordedScan& scan : record.scans) {
     const std::string words = plain_words(scan.posture);

@@ -35,7 +35,7 @@ std::vector<int> shown_hands(const StudyPlan& plan, const StudyCondition& condit
 int typical_hand(const StudyPlan& plan, const std::vector<int>& hands);
 
 /// The skin as the report shows it: posed, in the product's frame, what would be inside the product
-/// laid on its surface. The bulge beside the contact isn't shown. mm
+/// placed on its surface. The bulge beside the contact isn't shown. mm
 std::vector<Vec3> displayed_skin(const Hand& hand, const StudyRecord& record,
                                  const Product& product);
 

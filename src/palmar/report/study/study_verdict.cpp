@@ -24,8 +24,8 @@ int lowest_of(const ConditionAnalysis& analysis, const std::string& key) {
   return lowest;
 }
 
-void tell_pairs(const StudyResults& results, const ConditionAnalysis& analysis,
-                const std::string& key, std::vector<std::string>& sentences) {
+void describe_pairs(const StudyResults& results, const ConditionAnalysis& analysis,
+                    const std::string& key, std::vector<std::string>& sentences) {
   const QuantityComparison* comparison = comparison_of(analysis, key);
   const int lowest = lowest_of(analysis, key);
   if (comparison == nullptr || lowest < 0) return;
@@ -98,7 +98,7 @@ std::string excluded_words(const Exclusion& one) {
 std::string standing_words(const StudyResults& results, const ProductPair& first,
                            const ProductPair& other) {
   const auto sign = [](const ProductPair& pair) { return pair.mean_second < pair.mean_first; };
-  const auto is_told = [&](const ProductPair& pair) {
+  const auto is_stated = [&](const ProductPair& pair) {
     return is_drawn_by_chance(results.plan) ? pair.verdict == DifferenceVerdict::kShown
                                             : pair.verdict != DifferenceVerdict::kTooFewPairs &&
                                                   pair.verdict != DifferenceVerdict::kNone;
@@ -109,12 +109,12 @@ std::string standing_words(const StudyResults& results, const ProductPair& first
   if (other.verdict == DifferenceVerdict::kTooFewPairs) return names + " can't be compared";
   const std::string means =
       " (" + short_number(other.mean_first) + " and " + short_number(other.mean_second) + ")";
-  if (is_told(first) && is_told(other)) {
+  if (is_stated(first) && is_stated(other)) {
     return "the difference between " + names +
-           (sign(first) == sign(other) ? " stands" : " is reversed") + means;
+           (sign(first) == sign(other) ? " remains" : " is reversed") + means;
   }
-  if (is_told(first)) return "the difference between " + names + " is not shown" + means;
-  if (is_told(other)) return names + " differ" + means;
+  if (is_stated(first)) return "the difference between " + names + " is not shown" + means;
+  if (is_stated(other)) return names + " differ" + means;
   return "no difference between " + names + " is shown" + means;
 }
 
@@ -152,8 +152,8 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
 }
 
 /// Grasps of a condition that are held though forces are left over.
-void tell_unbalanced(const StudyResults& results, const StudyCondition& condition,
-                     std::vector<std::string>& sentences) {
+void describe_unbalanced(const StudyResults& results, const StudyCondition& condition,
+                         std::vector<std::string>& sentences) {
   const StudyPlan& plan = results.plan;
   if (!plan.settings[static_cast<std::size_t>(condition.setting)].is_balanced) return;
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
@@ -185,7 +185,7 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
                         std::to_string(all.conditions.size()) +
                         " conditions); the others follow at the end.");
   }
-  tell_pairs(results, analysis, "peak_pressure_cells_mpa", sentences);
+  describe_pairs(results, analysis, "peak_pressure_cells_mpa", sentences);
   if (results.plan.products.size() == 1) {
     for (const char* key : {"peak_pressure_cells_mpa", "contact_area_mm2"}) {
       const QuantitySummary* one = summary_of(analysis.products.front(), key);
@@ -223,15 +223,15 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
     }
     sentences.push_back(words + ".");
   }
-  tell_unbalanced(results, analysis.condition, sentences);
-  int told = 0;
+  describe_unbalanced(results, analysis.condition, sentences);
+  int listed = 0;
   for (std::size_t c = 1; c < all.conditions.size(); ++c) {
-    if (told == kMostOthers) {
-      sentences.push_back("Further conditions stand below.");
+    if (listed == kMostOthers) {
+      sentences.push_back("Further conditions are below.");
       break;
     }
     sentences.push_back(other_words(results, analysis, all.conditions[c]));
-    ++told;
+    ++listed;
   }
   return sentences;
 }

@@ -84,7 +84,7 @@ std::string grip_force_words(const StudyResults& results, const StudyCondition& 
   return "They are held at different grip forces (" + short_number(forces->first) + " and " +
          short_number(forces->second) + " N)" +
          (setting.grip_force || setting.strength_share
-              ? ": not every hand comes to the force that was told."
+              ? ": not every hand reaches the requested force."
               : ": set grip_force_n (or strength_share) to compare at equal force.");
 }
 

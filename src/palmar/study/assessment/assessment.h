@@ -69,7 +69,7 @@ struct AssessmentSet {
 };
 
 /// What a given way of holding does to hand and product: contact, friction, footprint. Posture and
-/// placement are taken as they are, from find_grasp() or from a measurement; `balance` tells how
+/// placement are taken as they are, from find_grasp() or from a measurement; `balance` says how
 /// they came to rest, if they did. Throws UsageError,
 /// Cancelled.
 Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,

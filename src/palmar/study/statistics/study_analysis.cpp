@@ -54,7 +54,7 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
   int conditions = 0, unequal = 0;
   double worst = 1.0;
   std::string words;
-  bool is_told = true;
+  bool is_stated = true;
   for (const StudyCondition& condition : conditions_of(plan)) {
     if (condition.population) continue;
     ++conditions;
@@ -71,7 +71,7 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
         words = fmt::format("{} with {:.0f} N, {} with {:.0f} N", plan.products[first].name,
                             forces->first, plan.products[second].name, forces->second);
         const StudySetting& setting = plan.settings[condition.setting];
-        is_told = setting.grip_force || setting.strength_share;
+        is_stated = setting.grip_force || setting.strength_share;
       }
     }
     unequal += is_unequal ? 1 : 0;
@@ -80,8 +80,8 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
   if (conditions > 1) words += fmt::format(" (in {} of {} conditions)", unequal, conditions);
   add(warnings, false, "Grip force",
       "products are held at different grip forces: " + words + ". Pressures differ by that, too; " +
-          (is_told ? "not every hand comes to the force that was told."
-                   : "set grip_force_n (or strength_share) to compare at equal force."));
+          (is_stated ? "not every hand reaches the requested force."
+                     : "set grip_force_n (or strength_share) to compare at equal force."));
 }
 
 void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) {
@@ -181,7 +181,7 @@ void warn_of_outcomes(const StudyResults& results, std::vector<StudyWarning>& wa
                             : task_count(plan) / static_cast<std::int64_t>(plan.products.size());
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
     const std::string& subject = plan.products[p].name;
-    const auto tell = [&](int grasps, const char* what) {
+    const auto add_note = [&](int grasps, const char* what) {
       if (grasps > 0) {
         add(warnings, true, subject,
             fmt::format("{} of {} grasps {}; they don't count in means and tests, but are counted "
@@ -190,11 +190,11 @@ void warn_of_outcomes(const StudyResults& results, std::vector<StudyWarning>& wa
       }
     };
     const auto& of = counts[p].of;
-    tell(of[index_of(StudyOutcome::kSlipsOut)], "slip out of the hand");
-    tell(of[index_of(StudyOutcome::kTooLarge)] + of[index_of(StudyOutcome::kTooSmall)] +
-             of[index_of(StudyOutcome::kNotGraspable)],
-         "find no hold");
-    tell(of[index_of(StudyOutcome::kFailed)], "gave no answer");
+    add_note(of[index_of(StudyOutcome::kSlipsOut)], "slip out of the hand");
+    add_note(of[index_of(StudyOutcome::kTooLarge)] + of[index_of(StudyOutcome::kTooSmall)] +
+                 of[index_of(StudyOutcome::kNotGraspable)],
+             "find no hold");
+    add_note(of[index_of(StudyOutcome::kFailed)], "gave no answer");
     if (unbalanced[p] > 0) {
       add(warnings, false, subject,
           fmt::format("{} of {} grasps are held without coming fully to rest; their figures count.",

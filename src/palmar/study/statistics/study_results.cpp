@@ -50,7 +50,7 @@ void StudyResults::check() const {
     }
     if (i > 0 && records[i - 1].number >= number) {
       throw UsageError("study results: record of task " + std::to_string(number) +
-                       " stands behind that of task " + std::to_string(records[i - 1].number) +
+                       " comes after that of task " + std::to_string(records[i - 1].number) +
                        "; ascending numbers are required");
     }
   }

@@ -69,7 +69,7 @@ RecordedScan finished(RecordedScan scan, const Hand& model, const MriPipelineOpt
   return scan;
 }
 
-/// Surfaces that an earlier run left, or that the user gave, maybe mended.
+/// Surfaces that an earlier run left, or that the user gave, maybe repaired.
 ScanSurfaces read_kept(const std::string& folder, bool is_users) {
   try {
     return read_scan_surfaces(folder);
@@ -181,7 +181,7 @@ void require_same_side(const RecordedScan& scan, Side reference) {
 /// cost the time of all.
 void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_odd_slices,
                           const Progress& progress,
-                          const std::function<void(const std::string&)>& tell) {
+                          const std::function<void(const std::string&)>& on_note) {
   std::string damaged;
   for (std::size_t k = 0; k < plans.size(); ++k) {
     if (plans[k].is_kept) continue;
@@ -190,13 +190,13 @@ void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_od
     const Progress part =
         part_of(progress, static_cast<double>(k) / size, static_cast<double>(k + 1) / size);
     for (const std::string& odd : read_image(selected.path, selected.choice, part).odd_slices) {
-      if (accepts_odd_slices) tell(std::string(name_of(selected.posture)) + ": " + odd);
+      if (accepts_odd_slices) on_note(std::string(name_of(selected.posture)) + ": " + odd);
       damaged += odd + "\n";
     }
   }
   if (damaged.empty() || accepts_odd_slices) return;
   throw InputError(damaged +
-                   "restore them, leave the posture out with setting \"skip\", or go on with "
+                   "restore them, leave the posture out with setting \"skip\", or continue with "
                    "setting \"accept odd slices\" if they look right");
 }
 
@@ -242,7 +242,7 @@ constexpr double kFound = 25.0, kKept = 0.1, kTracked = 4.0, kMade = 15.0, kWrit
 ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
                             const MriPipelineOptions& options, const Progress& progress) {
   ScanRecord result;
-  const auto tell = [&](const std::string& text) {
+  const auto on_note = [&](const std::string& text) {
     result.notes.push_back(with_setting_names(text, options.setting_names));
     note_to(options.note, result.notes.back());
   };
@@ -269,7 +269,7 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
                                    [](const PlannedScan& plan) { return !plan.is_kept; });
   if (found > 0) {
     require_sound_images(plans, options.accepts_odd_slices,
-                         shares.next(progress, kChecked * static_cast<double>(found), ""), tell);
+                         shares.next(progress, kChecked * static_cast<double>(found), ""), on_note);
   }
 
   std::vector<std::string> digests;
@@ -280,10 +280,10 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
     result.scans.push_back(surfaces_of(plan, model, side, options,
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
     const RecordedScan& scan = result.scans.back();
-    for (const std::string& note : scan.surfaces.notes) tell(name + ": " + note);
+    for (const std::string& note : scan.surfaces.notes) on_note(name + ": " + note);
     const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
     if (!doubts.empty()) {
-      tell(fmt::format(
+      on_note(fmt::format(
           "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
           fmt::join(doubts, "; "),
           result.scans.size() == 1 ? ". Joints and lengths of the hand hang on them: scan finer, "
@@ -299,7 +299,7 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
     digests.push_back(digest_of(scan.surfaces));
   }
 
-  // What earlier runs kept first: then the time that is left can be told.
+  // What earlier runs kept first: then the time that is left can be determined.
   const ScanSurfaces& reference = result.scans.front().surfaces;
   std::vector<std::string> keys = {""};
   std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
@@ -340,14 +340,14 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   std::map<ScanPosture, ScanSurfaces> surfaces;
   for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
   result.joints = measure_joints(surfaces, result.motions, sided);
-  for (const std::string& note : result.joints.notes) tell(note);
+  for (const std::string& note : result.joints.notes) on_note(note);
   if (made) {
     result.made = std::move(*made);
   } else {
     result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
     keep_scanned_hand(options.work, made_key, result.made);
   }
-  for (const std::string& note : result.made.notes) tell(note);
+  for (const std::string& note : result.made.notes) on_note(note);
   if (options.product) {
     result.contact = grasp_contact(result, options.product->mesh, options.product->source);
   }

@@ -28,7 +28,7 @@ void require_named(const std::string& value, const char* setting, const char* wh
 void require_sound_slices(const std::vector<std::string>& odd, bool is_accepted) {
   if (odd.empty() || is_accepted) return;
   throw InputError(fmt::format(
-      "{}\nrestore them, or go on with setting \"accept odd slices\" if they look right",
+      "{}\nrestore them, or continue with setting \"accept odd slices\" if they look right",
       fmt::join(odd, "\n")));
 }
 

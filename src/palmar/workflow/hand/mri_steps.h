@@ -16,7 +16,7 @@ namespace palmar {
 
 // Single steps of make_hand_from_mri(): what is in an image, its surfaces, how bones moved.
 
-/// An image and what its intensities tell.
+/// An image and what its intensities show.
 struct MriImageInfo {
   ImageFile file;
   float least = 0.0F, most = 0.0F;  ///< intensities of the file

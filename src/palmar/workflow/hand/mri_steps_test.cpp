@@ -24,7 +24,7 @@ std::string small_image(const TestFolder& folder) {
   return path;
 }
 
-TEST(DescribeMriImage, TellsExtentOfIntensitiesAndItsMiddle) {
+TEST(DescribeMriImage, ReportsExtentOfIntensitiesAndItsMiddle) {
   const TestFolder folder;
   const MriImageInfo info = describe_mri_image(small_image(folder));
   EXPECT_EQ(info.least, 0.0F);

@@ -171,10 +171,10 @@ void note_motion(PosedPhotographs& work, const HandMotion& motion) {
   constexpr double kFarShift = 2.0, kFarTurn = 1.0;  // mm, deg
   constexpr int kFewTracks = 60;
   if (motion.tracks < kFewTracks) {
-    work.warnings.push_back(fmt::format(
-        "only {} points of the skin could be followed from position to position: whether the hand "
-        "moved can't be told",
-        motion.tracks));
+    work.warnings.push_back(
+        fmt::format("only {} points of the skin could be followed from position to position: "
+                    "whether the hand moved can't be determined",
+                    motion.tracks));
   } else if (motion.largest_shift > kFarShift || motion.largest_turn > kFarTurn * kDegree) {
     work.warnings.push_back(fmt::format(
         "the hand moved by up to {:.1f} mm and {:.1f} deg between positions; this was corrected, a "
@@ -202,7 +202,7 @@ PosedPhotographs pose_photographs(const std::string& folder, const PhotoSet& set
     work.warnings = loose_lenses(
         work.lenses,
         with_setting_names(
-            "photographs of the board tilted every way tell them better (setting \"lenses\")",
+            "photographs of the board tilted every way give better ones (setting \"lenses\")",
             options.setting_names));
   }
   find_poses(work, folder);

@@ -18,7 +18,7 @@ namespace palmar {
 /// How a mesh is made of photographs.
 struct PhotoMeshOptions {
   std::string lenses;  ///< file of calibrate_photo_lenses(), or folder of photographs of the tilted
-                       ///< board; empty: from the photographs of the hand, which tell less
+                       ///< board; empty: from the photographs of the hand, which show less
   PhotoModelOptions model;
   bool looks_for_motion = true;  ///< people move between photographs; false: the hand surely didn't
   SettingNames setting_names;    ///< for warnings, which the report keeps

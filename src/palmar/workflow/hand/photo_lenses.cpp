@@ -31,7 +31,7 @@ void check_sizes(const PhotoSet& set, const std::vector<BoardSighting>& seen) {
     const auto& [usual, others] = *std::max_element(sizes.begin(), sizes.end(), fewer);
     throw InputError(fmt::format(
         "{}: {} x {} pixels, as {} of camera \"{}\" {}; {} others have {} x {}: photographs of one "
-        "camera are alike (names like p3_c2.jpg tell cameras apart)",
+        "camera are alike (names like p3_c2.jpg distinguish the cameras)",
         set.photographs[which.front()].path.string(), odd.first, odd.second, which.size(), camera,
         which.size() == 1 ? "has" : "have", others.size(), usual.first, usual.second));
   }

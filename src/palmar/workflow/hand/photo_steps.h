@@ -35,7 +35,7 @@ struct PhotoLensesRequest {
 
 struct PhotoLensesOutcome {
   PhotoLenses lenses;
-  std::vector<std::string> notes;  ///< cameras of which photographs told little
+  std::vector<std::string> notes;  ///< cameras of which photographs reported little
 };
 
 /// Lenses of cameras, written to a file. Throws InputError naming camera or photograph,

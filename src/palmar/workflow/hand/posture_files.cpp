@@ -65,7 +65,7 @@ std::map<ScanPosture, std::string> files_by_posture(
       put(ScanPosture::kReference, path);
     } else {
       throw UsageError(path +
-                       ": its name doesn't tell the posture (reference, finger_flexion, "
+                       ": its name doesn't give the posture (reference, finger_flexion, "
                        "finger_abduction); setting \"posture\" FILE=POSTURE does");
     }
   }

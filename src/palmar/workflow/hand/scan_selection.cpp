@@ -51,7 +51,7 @@ void add_folder(const std::string& path, std::vector<Candidate>& candidates) {
     one.number = series.number;
     one.description = series.description;
     one.folder = fs::path(series.files.front()).parent_path().filename().string();
-    // A folder that holds this series alone is read as it is; else the number tells which.
+    // A folder that holds this series alone is read as it is; else the number says which.
     one.scan.path = fs::path(series.files.front()).parent_path().string();
     one.scan.choice.number = series.number;
     candidates.push_back(std::move(one));
@@ -119,7 +119,7 @@ std::string listed(const std::vector<Candidate>& candidates) {
 }
 
 /// Series that can't be used: one that should show a posture is an error, as the hand would lack
-/// what it tells; a localiser, or a second series of a posture that there is, is passed over.
+/// what it shows; a localiser, or a second series of a posture that there is, is passed over.
 void pass_over(const std::string& path, const std::vector<Candidate>& refused,
                const std::map<ScanPosture, Candidate>& found, bool has_others,
                std::vector<Assignment>& assignments, std::vector<std::string>& notes) {
@@ -208,8 +208,7 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
   for (const Candidate& one : unnamed) {
     selection.notes.push_back(
         one.scan.title +
-        " names no posture and is passed over (setting \"series\" NUMBER=POSTURE says "
-        "what it shows)");
+        " names no posture and is ignored (setting \"series\" NUMBER=POSTURE says what it shows)");
   }
   for (auto& [posture, candidate] : found) {
     candidate.scan.posture = posture;

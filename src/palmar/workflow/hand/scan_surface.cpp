@@ -192,10 +192,10 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
   } else {
     constexpr double kCoarse = 1.3;  // mm
     if (mean_edge(mesh) > kCoarse) {
-      result.notes.push_back(fmt::format(
-          "{}: its colours stand {:.1f} mm apart, too coarse for dots of 3 mm; export it with a "
-          "texture, or with more triangles",
-          path, mean_edge(mesh)));
+      result.notes.push_back(
+          fmt::format("{}: its colours are {:.1f} mm apart, too coarse for dots of 3 mm; export it "
+                      "with a texture, or with more triangles",
+                      path, mean_edge(mesh)));
     }
     result.surface = {std::move(mesh), std::move(file.colours.vertex),
                       std::move(file.colours.is_guess)};
@@ -226,7 +226,7 @@ Srgb colour_near(const ReadSurface& scan, const std::string& setting, const Vec3
   }
   if (count < 1.0F) {
     throw UsageError(fmt::format(
-        "setting \"{}\": {:g},{:g},{:g} lies {:.1f} mm off the scan; a point on it is required",
+        "setting \"{}\": {:g},{:g},{:g} is {:.1f} mm off the scan; a point on it is required",
         setting, point.x(), point.y(), point.z(), nearest));
   }
   return sum / count;

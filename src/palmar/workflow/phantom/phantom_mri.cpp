@@ -49,7 +49,7 @@ std::size_t count_outside(const std::vector<Vec3>& skin, const VolumeGrid& grid)
   return outside;
 }
 
-/// The series of one posture in `folder`, which is written anew.
+/// The series of one posture in `folder`, which is written again.
 void write_posture(const std::filesystem::path& folder, const Volume& image, ScanPosture posture,
                    const MriSubjectOptions& person) {
   // What an earlier run left would be a second series.
@@ -90,9 +90,8 @@ PhantomMriOutcome make_phantom_mri(const PhantomMriRequest& request, const Progr
     const VolumeGrid grid = scan_grid(skin, request.grid);
     const std::size_t outside = count_outside(skin, grid);
     if (outside > 0) {
-      note_to(request.note,
-              fmt::format("{}: {} of {} vertices of the skin lie outside of the image", name,
-                          outside, skin.size()));
+      note_to(request.note, fmt::format("{}: {} of {} vertices of the skin are outside the image",
+                                        name, outside, skin.size()));
     }
     ScannerOptions scanner = request.scanner;
     scanner.seed = person.seed * kScanPostureCount + static_cast<std::uint64_t>(postures[p]);

@@ -121,7 +121,7 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
   });
   if (hot.size() > kMostFaces) hot.resize(kMostFaces);
 
-  // What the original's CAD gives as it is: gains are told from it.
+  // What the original's CAD gives as it is: gains are reported from it.
   run.settings.clear();
   SearchStory::Beside beside;
   const SearchOutcome before = run.assess({}, beside, progress);

@@ -215,7 +215,7 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   }
   story.result.history = {only};
   story.result.best = only.is_feasible ? std::optional(0) : std::nullopt;
-  story.result.method = "as told";
+  story.result.method = "as given";
   story.result.ending = "one candidate";
   story.original = as_it_is(progress).figure;
   return story;

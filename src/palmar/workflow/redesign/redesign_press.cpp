@@ -44,13 +44,13 @@ HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>&
         result.palm += held.product_from_hand.rotation * Vec3::UnitZ();
       },
       progress);
-  // Hands lie a little aslant on a handle: its own axis is taken if one is near theirs.
+  // Hands lie a little obliquely on a handle: its own axis is taken if one is near theirs.
   if (axis) {
     result.axis = *axis;
   } else {
-    constexpr double kAslant = 0.8;  // cosine of 37 degrees
+    constexpr double kOblique = 0.8;  // cosine of 37 degrees
     const Vec3 across = result.axis.normalized();
-    double nearest = kAslant;
+    double nearest = kOblique;
     for (const GripSite& site : find_grip_sites(original.product().mesh)) {
       const double cosine = site.axis.dot(across);
       if (std::abs(cosine) <= nearest) continue;

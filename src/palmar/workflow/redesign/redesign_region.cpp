@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
 /// is exact.
 Vec3 handle_axis(const RedesignRequest& request, const HeldOriginal& original) {
   if (request.axis) return request.axis->normalized();
-  constexpr double kAslant = 0.8, kSame = 0.998;  // cosines of 37 and 3.6 degrees
+  constexpr double kOblique = 0.8, kSame = 0.998;  // cosines of 37 and 3.6 degrees
   Vec3 across = Vec3::Zero();
   for (const StudyRecord& record : original.records) {
     if (is_in_hand(record)) across += record.product_from_hand.rotation * Vec3::UnitX();
@@ -43,7 +43,7 @@ Vec3 handle_axis(const RedesignRequest& request, const HeldOriginal& original) {
   const PrincipalFrame frame = principal_frame(mesh);
   if (!(across.norm() > 1e-9)) return frame.axes.col(0);
   Vec3 axis = across.normalized();
-  double nearest = kAslant;
+  double nearest = kOblique;
   for (const GripSite& site : find_grip_sites(mesh)) {
     const double cosine = std::abs(site.axis.dot(across.normalized()));
     if (cosine <= nearest) continue;

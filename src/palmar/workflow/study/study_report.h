@@ -15,7 +15,7 @@
 
 namespace palmar {
 
-/// The page of a study's store; write_study_report() tells what it writes and throws. Gives back
+/// The page of a study's store; write_study_report() says what it writes and throws. Gives back
 /// the page's path. Throws UsageError also if no grasp was run yet.
 std::filesystem::path report_study(const std::filesystem::path& store, const std::string& folder,
                                    const StudyReportOptions& options = {},

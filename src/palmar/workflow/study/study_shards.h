@@ -21,7 +21,7 @@ struct StudyMergeOutcome {
 };
 
 /// Joins finished shards, given as files or as folders that hold them, to the store that one
-/// process would have written: merge_studies(), which tells what it throws.
+/// process would have written: merge_studies(), which says what it throws.
 StudyMergeOutcome merge_shards(const std::vector<std::filesystem::path>& shards,
                                const std::filesystem::path& out, const Progress& progress = {});
 
@@ -44,8 +44,8 @@ struct StudyStatus {
   bool is_sound() const;                         ///< no store is damaged or unreadable
 };
 
-/// How far a study is, over stores and folders that hold some. What is wrong with a store is told
-/// in its state. Throws InputError if there is none.
+/// How far a study is, over stores and folders that hold some. What is wrong with a store is
+/// reported in its state. Throws InputError if there is none.
 StudyStatus study_status(const std::vector<std::filesystem::path>& stores);
 
 }  // namespace palmar

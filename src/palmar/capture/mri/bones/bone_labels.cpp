@@ -33,7 +33,7 @@ void check_names(const std::vector<BoneLabel>& labels, const Hand& model) {
     }
     for (std::size_t j = 0; j < k; ++j) {
       if (labels[j].name == label.name) {
-        throw InputError(label.place + ": " + label.name + " stands twice, first in " +
+        throw InputError(label.place + ": " + label.name + " appears twice, first in " +
                          labels[j].place);
       }
     }

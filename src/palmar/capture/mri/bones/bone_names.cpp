@@ -17,10 +17,10 @@ namespace palmar {
 namespace {
 
 constexpr double kLargestUnnamed = 5.0e3;  // mm^3
-// One size for the whole hand doesn't tell how long a slender one is.
+// One size for the whole hand doesn't show how long a slender one is.
 constexpr std::array<double, 4> kStretches = {1.0, 0.94, 1.06, 1.12};
 
-/// Where the model's bones are, laid into the skin.
+/// Where the model's bones are, fitted into the skin.
 struct Expected {
   std::vector<BoneOutline> bones;
   Vec3 along = Vec3::UnitY();  ///< the hand, towards the fingers

@@ -28,12 +28,12 @@ struct KnownSide {
   double doubted_below = 0.0;
 };
 
-/// Names bones after those of a model and tells the side.
+/// Names bones after those of a model and shows the side.
 ///
-/// The model, and its mirror image, are laid into the skin (fit_posture_to_mesh()); that tells
+/// The model, and its mirror image, are fitted into the skin (fit_posture_to_mesh()); that shows
 /// where every bone must roughly be. Bones of the scan and of the model are paired (pair_bones()),
 /// with the model as long as it came out and 6 % shorter, 6 % and 12 % longer: skin of a slender
-/// hand doesn't tell its length and its size. Whatever costs least is taken; so is the side, unless
+/// hand doesn't show its length and its size. Whatever costs least is taken; so is the side, unless
 /// it is known.
 ///
 /// Regions that no bone of the model wants are left out unless they are larger than 150 mm^3 and

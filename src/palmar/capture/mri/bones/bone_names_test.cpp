@@ -12,7 +12,7 @@
 namespace palmar {
 namespace {
 
-TEST(OutlineOf, TellsAnEllipsoidsAxisAndLength) {
+TEST(OutlineOf, ReportsAnEllipsoidsAxisAndLength) {
   TriangleMesh mesh = make_icosphere(1.0, 3);
   for (Vec3& v : mesh.vertices) v = Vec3(4.0 * v.x() + 10.0, 20.0 * v.y(), 5.0 * v.z());
   const BoneOutline outline = outline_of(mesh);

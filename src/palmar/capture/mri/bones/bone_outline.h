@@ -8,7 +8,7 @@
 
 namespace palmar {
 
-/// What a bone looks like from far: enough to tell which one it is.
+/// What a bone looks like from far: enough to determine which one it is.
 struct BoneOutline {
   Vec3 centre = Vec3::Zero();  ///< of the volume, mm
   Vec3 axis = Vec3::UnitX();   ///< unit, along the bone; either way round

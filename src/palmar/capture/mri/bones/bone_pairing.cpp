@@ -242,7 +242,7 @@ void choose_along(const std::vector<std::vector<int>>& rays,
   }
 }
 
-/// Costs of hypotheses for bones that are expected somewhere, and what they are told by.
+/// Costs of hypotheses for bones that are expected somewhere, and what they are recognised by.
 class Pairer {
  public:
   Pairer(BoneHypotheses hypotheses, const ScanLevels& levels, const TriangleMesh& skin,
@@ -257,7 +257,7 @@ class Pairer {
         beside_(expected_.size()),
         shift_(expected_.size(), Vec3::Zero()),
         ahead_(expected_.size(), Vec3::Zero()),
-        may_be_parted_(expected_.size()),
+        may_be_split_(expected_.size()),
         is_forearm_(expected_.size()) {
     for (const auto& [a, b] : links_) {
       if (rays_.empty() || rays_.back().back() != a) rays_.push_back({a});
@@ -270,7 +270,7 @@ class Pairer {
     }
     for (std::size_t e = 0; e < expected_.size(); ++e) {
       const std::string& name = model.bones[e].name;
-      may_be_parted_[e] = is_long(expected_[e]) || name.ends_with("_phalanx") ? 1 : 0;
+      may_be_split_[e] = is_long(expected_[e]) || name.ends_with("_phalanx") ? 1 : 0;
       is_forearm_[e] = name == "radius" || name == "ulna" ? 1 : 0;
     }
   }
@@ -330,7 +330,7 @@ class Pairer {
     for (int f = 0; f < count; ++f) {
       double least = kForbidden;
       for (std::size_t e = 0; e < expected_.size(); ++e) {
-        if (f >= all_.single && may_be_parted_[e] == 0) continue;
+        if (f >= all_.single && may_be_split_[e] == 0) continue;
         cost_[e][f] = all_.cost[f] + cost_of(e, all_.outlines[f], all_.regions[f].is_cut);
         least = std::min(least, cost_[e][f]);
       }
@@ -347,7 +347,7 @@ class Pairer {
     choose_along(rays_, cost_, all_, link_costs_, found_);
   }
 
-  /// What a bone is off by tells the same of itself and, by half, of its neighbours.
+  /// What a bone is off by shows the same of itself and, by half, of its neighbours.
   void shift_expected() {
     std::vector<Vec3> sum(expected_.size(), Vec3::Zero());
     std::vector<double> weight(expected_.size(), 0.5);
@@ -400,7 +400,7 @@ class Pairer {
     for (int round = 0; round < 3; ++round) {
       for (std::size_t e = 0; e < expected_.size(); ++e) {
         const int f = found_[e];
-        if (f < 0 || may_be_parted_[e] == 0) continue;
+        if (f < 0 || may_be_split_[e] == 0) continue;
         const int part = best_part(e, f);
         if (part < 0) continue;
         const MarrowRegion both = joined(all_.regions[f], all_.regions[part]);
@@ -447,7 +447,7 @@ class Pairer {
   std::vector<std::vector<int>> beside_;  // in the same ray
   std::vector<Vec3> shift_;
   std::vector<Vec3> ahead_;  // where a finger's last bone points to
-  std::vector<char> may_be_parted_, is_forearm_;
+  std::vector<char> may_be_split_, is_forearm_;
   std::vector<std::vector<double>> cost_;  // of the model's bones, of hypotheses
   std::vector<int> found_;
   std::vector<char> is_used_;

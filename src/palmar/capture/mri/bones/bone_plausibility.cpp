@@ -65,7 +65,7 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
         const double apart = gap(last->mesh, bone->mesh);
         if (apart > kFar) {
           doubts.push_back(
-              fmt::format("{} and {} lie {:.0f} mm apart", last->name, bone->name, apart));
+              fmt::format("{} and {} are {:.0f} mm apart", last->name, bone->name, apart));
         }
       }
       last = bone;

@@ -48,13 +48,13 @@ TEST(BonePlausibility, AnotherSizeIsFine) {
   EXPECT_THAT(doubtful_bones(ScanSurfaces{}, model()), IsEmpty());
 }
 
-TEST(BonePlausibility, HalfABoneIsTold) {
+TEST(BonePlausibility, HalfABoneIsReported) {
   ScanSurfaces surfaces = larger_hand();
   surfaces.bones[1].mesh = rod(1.2 * 72.0, 1.2 * 92.0);
   EXPECT_THAT(doubtful_bones(surfaces, model()),
               ElementsAre("index_proximal_phalanx is 24 mm long, where about 48 mm are expected",
-                          "index_proximal_phalanx and index_middle_phalanx lie 26 mm apart"));
-  surfaces.bones[1].is_cut = true;  // by the image: told elsewhere
+                          "index_proximal_phalanx and index_middle_phalanx are 26 mm apart"));
+  surfaces.bones[1].is_cut = true;  // by the image: reported elsewhere
   EXPECT_EQ(doubtful_bones(surfaces, model()).size(), 1U);
   surfaces.bones.erase(surfaces.bones.begin() + 1);
   EXPECT_THAT(doubtful_bones(surfaces, model()), IsEmpty());

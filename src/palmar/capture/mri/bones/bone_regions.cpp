@@ -20,8 +20,8 @@
 namespace palmar {
 namespace {
 
-// Films that part regions, from thin ones on: one bone may be parted by a film that is darker than
-// another's leaky shell.
+// Films that separate regions, from thin ones on: one bone may be separated by a film that is
+// darker than another's leaky shell.
 constexpr std::array<double, 2> kFilmDepths = {0.22, 0.35};
 constexpr double kFloor = 0.15;         // share of the way from dark to bright
 constexpr double kCore = 0.65;          // share of the way from dark to the region's own level
@@ -195,7 +195,7 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
 
 MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
   const double dark = scan.levels.dark, contrast = scan.levels.bright - dark;
-  const auto parted = [&](double depth) {
+  const auto regions_at = [&](double depth) {
     return bright_regions(scan.smooth, inner,
                           {.dark = dark,
                            .floor = dark + kFloor * contrast,
@@ -205,7 +205,7 @@ MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
   std::array<BrightRegions, kFilmDepths.size()> at_depth;
   std::array<std::vector<MarrowRegion>, kFilmDepths.size()> enclosed;
   parallel_for(static_cast<int>(at_depth.size()), [&](int d) {
-    at_depth[d] = parted(kFilmDepths[d]);
+    at_depth[d] = regions_at(kFilmDepths[d]);
     enclosed[d] = enclosed_regions(scan, at_depth[d]);
   });
   MarrowRegions found;

@@ -36,8 +36,8 @@ struct MarrowRegions {
 
 /// Bright regions (bright_regions.h) inside the mask that are enclosed like marrow: not near the
 /// skin, nor as large as the fat below it, and with something darker than marrow and muscle round
-/// most of them. Regions are parted by films of two depths: those that only deep films part hold
-/// several of the others, and overlap with them as candidates.
+/// most of them. Regions are separated by films of two depths: those that only deep films separate
+/// hold several of the others, and overlap with them as candidates.
 MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner);
 
 /// Whether two candidates hold the same region.

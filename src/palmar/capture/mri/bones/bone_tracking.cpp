@@ -31,7 +31,8 @@ constexpr double kLargestGap = 7.0;    // mm that a joint may come apart between
 constexpr double kLargestHead = 10.0;  // mm; radius of a metacarpal's head
 constexpr double kLargestShift = 7.0;  // mm that a bone of the palm may shift against the others
 constexpr double kLargestTurn = 0.6;   // rad; likewise
-// Of intensities: a bone in its right place, and the least that tells one from its surroundings.
+// Of intensities: a bone in its right place, and the least that distinguishes one from its
+// surroundings.
 constexpr double kSureCorrelation = 0.93;
 constexpr double kLeastCorrelation = 0.8;
 constexpr double kLeastOverlap = 0.7;  // share of a bone that the other image shows
@@ -183,8 +184,9 @@ const Target* BoneTracker::target_at(const ScannedBone& bone, const Rigid3& moti
   return nearest;
 }
 
-/// What surfaces told, laid on the posture's image; what they didn't tell or what doesn't look
-/// alike there, searched for from `starts`. `gap_of` tells how far a motion takes the joint apart.
+/// What surfaces showed, aligned with the posture's image; what they didn't show or what doesn't
+/// look alike there, searched for from `starts`. `gap_of` says how far a motion takes the joint
+/// apart.
 std::optional<Found> BoneTracker::seen_in_image(
     const ScannedBone& bone, std::optional<Found> found,
     const std::function<double(const Rigid3&)>& gap_of,

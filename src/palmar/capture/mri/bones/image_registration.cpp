@@ -204,7 +204,7 @@ BoneImage::BoneImage(const TriangleMesh& bone, const ImageLevels& image,
   }
   constexpr std::size_t kLeast = 30;
   if (samples_.size() < kLeast) {
-    throw InputError(fmt::format("image of a bone: {} voxels lie in it; {} or more are required",
+    throw InputError(fmt::format("image of a bone: {} voxels are in it; {} or more are required",
                                  samples_.size(), kLeast));
   }
   share_ = grid.spacing.prod();

@@ -33,7 +33,7 @@ struct ImageFitOptions {
   void check() const;       ///< throws UsageError: field, value, allowed range
 };
 
-/// How a bone of one image was laid on another image.
+/// How a bone of one image was placed on another image.
 struct ImageFit {
   Rigid3 fixed_from_moving;
   /// Of the two images' intensities over the samples that have a weight, [-1, 1]: what lies wrong
@@ -64,7 +64,7 @@ struct ImageFit {
 ///
 /// Starts within about 3 mm and 10 degrees reach the right place; farther ones need
 /// find(). What isn't held by the intensities (a turn about the axis of a round shaft)
-/// stays as it starts, and turn_error tells. Deterministic.
+/// stays as it starts, and turn_error says so. Deterministic.
 class BoneImage {
  public:
   /// Throws InputError for a surface that holds no voxel of the image.
@@ -102,8 +102,8 @@ class BoneImage {
 /// By the bones' names.
 using BoneImages = std::map<std::string, BoneImage>;
 /// Of all bones that have a name and hold enough voxels. A bone of less than 150 mm^3 (a distal
-/// phalanx of which a part was cut out) can't tell its turn by itself: the tissue round it, 2 mm,
-/// counts as well, most of which goes with it.
+/// phalanx of which a part was cut out) can't determine its turn by itself: the tissue round it, 2
+/// mm, counts as well, most of which goes with it.
 BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& image,
                            const ImageFitOptions& options = {});
 

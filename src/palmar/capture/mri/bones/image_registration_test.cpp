@@ -219,7 +219,7 @@ TEST_F(ImageRegistration, WrongUseIsNamed) {
   };
   TriangleMesh away = bone_mesh();
   for (Vec3& v : away.vertices) v.x() += 200.0;
-  EXPECT_THAT(message([&] { BoneImage(away, levels); }), HasSubstr("0 voxels lie in it; 30"));
+  EXPECT_THAT(message([&] { BoneImage(away, levels); }), HasSubstr("0 voxels are in it; 30"));
   EXPECT_THAT(message([&] { BoneImage(bone_mesh(), levels, {.layer = -1.0}); }),
               HasSubstr("layer is -1; 0 to 5 mm is required"));
   EXPECT_THAT(message([&] { BoneImage(bone_mesh(), levels).find(levels, {}); }),

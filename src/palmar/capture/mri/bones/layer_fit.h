@@ -13,7 +13,7 @@ namespace palmar {
 struct LayerProfile {
   double first = 0.0;         ///< place of the first sample, mm along the normal from the vertex
   double step = 0.25;         ///< between samples, mm
-  std::vector<double> value;  ///< samples; none: this vertex tells nothing
+  std::vector<double> value;  ///< samples; none: this vertex shows nothing
   double blur = 0.4;          ///< standard deviation of the image's blur along the normal, mm
   double known = 0.0;         ///< signal of the layer itself
 };
@@ -49,7 +49,7 @@ struct LayerFit {
 ///
 /// with P the normal distribution, I_1 the inside, I_2 the layer, I_3 the outside, a and b the
 /// inner and outer side of the layer and h the blur. A layer thinner than a voxel shows as a dip
-/// whose depth, not its width, tells its thickness; knowing I_2, both sides are still found. I_1
+/// whose depth, not its width, shows its thickness; knowing I_2, both sides are still found. I_1
 /// and I_3 are solved for each (a, b) (linear, tied weakly to what is expected), the misfit is
 /// tabulated over a grid of (a, b), summed over a vertex and its neighbours, and its least value
 /// taken; the thickness is found twice, first nearly free, then near the median of the

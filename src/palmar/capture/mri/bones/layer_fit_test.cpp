@@ -78,7 +78,7 @@ TEST(FitLayers, SignalsOfInsideAndOutsideMayDifferFromTheExpectedOnes) {
   EXPECT_NEAR(most, 10.4, 0.15);
 }
 
-TEST(FitLayers, VerticesThatTellNothingFollowTheirNeighbours) {
+TEST(FitLayers, VerticesThatDetermineNothingFollowTheirNeighbours) {
   const ShelledBall ball;
   const TriangleMesh near = make_icosphere(10.0, 3);
   const LayerFit fit = fit_layers(near, {}, [&](int v, const Vec3& normal) {

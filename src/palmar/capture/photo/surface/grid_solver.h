@@ -25,9 +25,9 @@ struct GridSolution {
 };
 
 /// Conjugate gradients, preconditioned by a multigrid V-cycle: red-black Gauss-Seidel, cells halved
-/// along each axis, values handed down as means and up as they are. Not converging is told, never
-/// thrown. The same for any number of threads.
-/// Source: Tatebe 1993, "The multigrid preconditioned conjugate gradient method".
+/// along each axis, values handed down as means and up as they are. Not converging is reported,
+/// never thrown. The same for any number of threads. Source: Tatebe 1993, "The multigrid
+/// preconditioned conjugate gradient method".
 GridSolution solve_grid(const GridProblem& problem, double tolerance, int max_iterations,
                         const Progress& progress = {});
 

@@ -10,7 +10,8 @@
 
 namespace palmar {
 
-/// body(i) for each of `count` views, several at once, with the share that is done told as `what`.
+/// body(i) for each of `count` views, several at once, with the share that is done reported as
+/// `what`.
 template <typename Body>
 void over_views(std::size_t count, const Progress& progress, const char* what, Body&& body) {
   std::atomic<int> done{0};

@@ -307,7 +307,7 @@ class Matcher {
       const float along = plane.normal.dot(ray);
       if (along > -0.05F) continue;
       plane.depth *= plane.normal.dot(ray_of(nx, ny)) / along;
-      // The same plane but for what can't be told apart is no news.
+      // The same plane but for what can't be distinguished is no news.
       constexpr float kSameDepth = 0.02F, kSameNormal = 4e-4F;  // mm, square of a tangent
       const Plane& own = plane_[at];
       if (std::abs(plane.depth - own.depth) < kSameDepth &&

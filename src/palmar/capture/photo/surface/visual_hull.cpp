@@ -107,11 +107,11 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
   const double volume =
       parts.count() == 0 ? 0.0 : voxel * static_cast<double>(parts.voxels[parts.largest()]);
   if (volume < kLeastVolume) {
-    throw InputError(fmt::format(
-        "the outlines of the hand in the photographs meet in {:.0f} mm3 only: the hand can't be "
-        "told from what is behind it, stands outside of the box above the middle of the board, or "
-        "moved; a plain blue or grey backdrop helps",
-        volume));
+    throw InputError(
+        fmt::format("the outlines of the hand in the photographs meet in {:.0f} mm3 only: the hand "
+                    "can't be distinguished from what is behind it, is outside the box above the "
+                    "middle of the board, or moved; a plain blue or grey backdrop helps",
+                    volume));
   }
   inside = mask_of(parts, parts.largest());
   VisualHull hull;
