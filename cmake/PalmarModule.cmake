@@ -1,7 +1,7 @@
 # Copyright the Palmar authors.
 # SPDX-License-Identifier: Apache-2.0
 #
-# palmar_module(NAME [BATCHED] SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
+# palmar_module(NAME [WITH_JSON] SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
 #
 # One static library palmar_NAME (alias palmar::NAME) per folder of src/palmar and one test program
 # NAME_tests from the *_test.cpp files beside the sources. A module can only link modules that were
@@ -21,7 +21,7 @@ function(palmar_add_tests program)
   add_test(NAME ${program} COMMAND ${program})
   set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
   palmar_use_headers(${program} palmar_test_headers)
-  palmar_batches(${program})
+  palmar_batches(${program} 6)
 endfunction()
 
 # With PALMAR_PRECOMPILE: half of what a module's source costs to compile is reading Eigen and the standard
@@ -66,17 +66,22 @@ if(PALMAR_PRECOMPILE)
   endif()
 endif()
 
-# Sources of tests, commands and BATCHED modules are compiled six at a time, in the order of their list:
-# what GoogleTest, nlohmann_json and CLI11 put into each is made once for all of them, which halves their
-# time. Names in the anonymous namespaces of a batch have to differ.
-function(palmar_batches target)
+# Sources are compiled some at a time, in the order of their list: what Eigen, GoogleTest, nlohmann_json and
+# CLI11 put into each is made once for all of them, which halves the time of tests and commands. Names in the
+# anonymous namespaces of a batch have to differ. Few to a batch where each takes long: both processors stay
+# busy, and a change of one source doesn't compile many others.
+function(palmar_batches target size)
   if(PALMAR_PRECOMPILE)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    # A batch includes its sources, so that GCC takes what they keep to themselves for a header's.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    endif()
   endif()
 endfunction()
 
 function(palmar_module name)
-  cmake_parse_arguments(ARG "BATCHED" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "WITH_JSON" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LINKS" ${ARGN})
   foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
     if(dependency MATCHES "^palmar::" AND NOT TARGET ${dependency})
       message(FATAL_ERROR "Module ${name} links ${dependency}, which stands below it (or does not exist). "
@@ -106,11 +111,14 @@ function(palmar_module name)
   if(NOT name MATCHES "^(cad|board)$")  # of the programs palmar-cad and palmar-photo alone
     palmar_export(palmar_${name} ${name})
   endif()
-  if(ARG_BATCHED)
+  if(ARG_WITH_JSON)
     palmar_use_headers(palmar_${name} palmar_json_headers)
-    palmar_batches(palmar_${name})
+    palmar_batches(palmar_${name} 6)
   elseif(NOT name STREQUAL core)  # knows no Eigen
     palmar_use_headers(palmar_${name} palmar_module_headers)
+    if(NOT name MATCHES "^(cad|board|capture)$")  # of programs that ./demo doesn't build
+      palmar_batches(palmar_${name} 4)
+    endif()
   endif()
   if(PALMAR_TESTS AND ARG_TESTS)
     add_executable(${name}_tests ${ARG_TESTS})

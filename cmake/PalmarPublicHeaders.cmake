@@ -3,8 +3,8 @@
 #
 # palmar_public_headers(VARIABLE FOLDER): the headers of FOLDER (src) that are installed, as paths in it.
 #
-# Public is a header of the layer workflow, and one that another module includes; and what a public one
-# includes. A header that only its own module includes is internal, and so is one that includes a library
+# Public is a header of the layer workflow that stands in its own folder or that a program (apps beside FOLDER)
+# includes, and one that another module includes; and what a public one includes. A header that only its own module includes is internal, and so is one that includes a library
 # other than Eigen: fails if a public one includes such a header.
 cmake_policy(VERSION 3.22)
 
@@ -33,6 +33,12 @@ function(palmar_public_headers variable folder)
         list(APPEND public ${file})
       endif()
     endif()
+  endforeach()
+  file(GLOB_RECURSE programs ${folder}/../apps/*.h ${folder}/../apps/*.cpp)
+  foreach(file IN LISTS programs)
+    file(STRINGS ${file} lines REGEX "^#include \"palmar/workflow/")
+    string(REGEX MATCHALL "palmar/workflow/[^\"]+" ours "${lines}")
+    list(APPEND public ${ours})
   endforeach()
   list(REMOVE_DUPLICATES public)
   foreach(header IN LISTS public)

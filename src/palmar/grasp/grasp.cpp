@@ -2,29 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/grasp.h"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/power/power_place.h"
 
 namespace palmar {
-namespace {
-
-std::string format(const char* text, double value) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), text, value);
-  return buffer.data();
-}
-
-}  // namespace
 
 void PowerGraspOptions::check() const {
   const auto depth = [](const char* name, double value, double most) {
     if (!(value > 0.0) || value > most) {
-      throw UsageError(std::string(name) + format(" is %g mm; ", value) +
-                       format("above 0 and at most %g mm is allowed", most));
+      throw UsageError(std::string(name) + fmt::format(" is {:g} mm; ", value) +
+                       fmt::format("above 0 and at most {:g} mm is allowed", most));
     }
   };
   depth("palm limit depth", palm_limit_depth, 15.0);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/grasp_verdict.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,6 @@ constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
 constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans from thumb to fingertip
 constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
 constexpr double kAtLimit = 0.1;          // mm; that near to the limit depth counts as there
-
-std::string format(const char* text, double value) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), text, value);
-  return buffer.data();
-}
 
 std::string words_of(Segment segment) {
   static constexpr std::array<const char*, 3> kPart = {"base", "middle part", "tip"};
@@ -83,19 +78,20 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
 
 void judge_hold(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp) {
   const std::string open = open_segments(grasp);
-  const std::string girth = format("its girth at the grip is %.0f mm", site.girth);
+  const std::string girth = fmt::format("its girth at the grip is {:.0f} mm", site.girth);
   if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
     grasp.status = GraspStatus::kTooLarge;
-    grasp.message = girth +
-                    format("; the hand reaches %.0f degrees round it", 360.0 * measure.wrap) +
-                    format(", %.0f degrees are needed to hold it", 360.0 * kHalfRound);
+    grasp.message =
+        girth + fmt::format("; the hand reaches {:.0f} degrees round it", 360.0 * measure.wrap) +
+        fmt::format(", {:.0f} degrees are needed to hold it", 360.0 * kHalfRound);
   } else if (measure.fingers >= 3 && measure.wrap >= kHalfRound) {
     grasp.status = GraspStatus::kHeld;
     grasp.message = "held by " + count_words(measure.fingers) + open;
   } else if (measure.fingers > 0) {
     grasp.status = GraspStatus::kPartlyHeld;
     grasp.message = "touched by " + count_words(measure.fingers) +
-                    format(", which reach %.0f degrees round it", 360.0 * measure.wrap) + open;
+                    fmt::format(", which reach {:.0f} degrees round it", 360.0 * measure.wrap) +
+                    open;
   } else if (site.girth < kLargeGirth * hand.dimensions.hand_length) {
     grasp.status = GraspStatus::kTooSmall;
     grasp.message = girth + "; the fingers close without meeting it";
@@ -107,10 +103,10 @@ void judge_hold(const Hand& hand, const HoldMeasure& measure, const GripSite& si
 
 bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Grasp& grasp) {
   if (site.thickness >= options.finger_limit_depth) return false;
-  const std::string thin = format("it is %.1f mm thick at the best place", site.thickness) +
-                           format(" and %.1f mm wide", site.width);
-  const std::string give = format("thinner than the %.1f mm that the skin of a finger gives",
-                                  options.finger_limit_depth);
+  const std::string thin = fmt::format("it is {:.1f} mm thick at the best place", site.thickness) +
+                           fmt::format(" and {:.1f} mm wide", site.width);
+  const std::string give = fmt::format("thinner than the {:.1f} mm that the skin of a finger gives",
+                                       options.finger_limit_depth);
   if (site.width < kSheetWidth * options.finger_limit_depth) {
     grasp.status = GraspStatus::kTooSmall;
     grasp.message = thin + ", " + give + ": the fist closes on itself";

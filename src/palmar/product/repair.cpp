@@ -312,13 +312,13 @@ class Repairer {
 
   void part_solids() {
     SeparatedSheets separated = separate_touching_sheets(mesh(), kGap * limits().weld);
-    if (separated.separated.empty()) return;
-    const int count = size_of(separated.separated);
+    if (separated.doubled.empty()) return;
+    const int count = size_of(separated.doubled);
     if (find_self_crossings(separated.mesh).size() > find_self_crossings(mesh()).size()) {
       add(touching_left_, "touching", count,
           "what touches in " + counted(count, "corner", "corners") +
               " would go through itself if taken apart",
-          std::move(separated.separated));
+          std::move(separated.doubled));
       return;
     }
     add(result_.done, "touching", count,
@@ -327,7 +327,7 @@ class Repairer {
                  ? std::string()
                  : " and " + counted(size_of(separated.separated_edges), "edge", "edges")) +
             ", by " + significant(kGap * limits().weld, 4) + " mm",
-        std::move(separated.separated));
+        std::move(separated.doubled));
     mesh() = std::move(separated.mesh);
   }
 

@@ -33,7 +33,7 @@ void check_some(const List& list, const std::string& what) {
   if (list.empty()) throw UsageError("study: has no " + what + "; at least one is required");
 }
 
-/// Names that people show things by must not be given twice.
+/// Names that people recognise things by must not be given twice.
 template <typename List>
 void check_names(const List& list, const std::string& what) {
   std::set<std::string> seen;

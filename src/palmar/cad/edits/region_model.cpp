@@ -220,14 +220,14 @@ TopoDS_Face make_face(const NamedSurface& given, SurfaceReport& report) {
   }
   if (u2 - u1 < 1e-6) u2 = u1 + 1e-6;
   if (v2 - v1 < 1e-6) v2 = v1 + 1e-6;
-  const bool surrounds = is_round_u && u2 - u1 > 1.9 * kPi;
-  if (surrounds) {
+  const bool wraps_around = is_round_u && u2 - u1 > 1.9 * kPi;
+  if (wraps_around) {
     u1 = 0.0;
     u2 = 2.0 * kPi;
   }
   const TopoDS_Face whole = BRepBuilderAPI_MakeFace(surface, u1, u2, v1, v2, 1e-6).Face();
   TopoDS_Face face;
-  if (!given.outline.empty() && !surrounds) {
+  if (!given.outline.empty() && !wraps_around) {
     std::vector<gp_Pnt2d> outline;
     for (const Vec3& x : given.outline) outline.push_back(place(x));
     // The outline runs a little outside of the points: a region's border crosses triangles.

@@ -25,7 +25,7 @@ struct ReadCadOptions {
 struct CadFile {
   CadModel model;      ///< mm, bodies where the assembly has them
   std::string format;  ///< "STEP AP214", "IGES 5.3"
-  std::string unit;    ///< as the file calls it: "millimetre", "inch"; "" if it shows none
+  std::string unit;    ///< as the file calls it: "millimetre", "inch"; "" if it states none
   double millimetres_per_unit = 1.0;  ///< by which lengths were multiplied
   int solids = 0;
   int open_shells = 0;             ///< bodies that enclose nothing

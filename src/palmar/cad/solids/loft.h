@@ -14,7 +14,7 @@ namespace palmar {
 double smoother_step(double t);
 
 /// A curve through points of given abscissa, ascending, with no slope at any of them: what is
-/// reported by its highest and lowest points. Constant before the first and behind the last.
+/// defined by its highest and lowest points. Constant before the first and behind the last.
 class Undulation {
  public:
   struct Point {

@@ -10,14 +10,13 @@
 
 #include "palmar/capture/photo/photo_camera.h"
 #include "palmar/capture/photo/photo_view.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/hand_outline.h"
 #include "palmar/core/parallel.h"
 
 // Drawn photographs of a flat hand, for tests.
 
 namespace palmar {
-
-using Vec2 = Eigen::Vector2d;
 
 /// A flat hand made of strips with round ends on an A4 sheet, seen by a pinhole: what it measures
 /// is what it is drawn with.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/rotation.h"
 
@@ -15,7 +16,6 @@ namespace palmar {
 namespace {
 
 using Corners = std::vector<BoardCorner>;
-using Vec2 = Eigen::Vector2d;
 
 constexpr std::size_t kFewestCorners = 8;
 constexpr int kLensSize = 6;  // f_x, f_y, c_x, c_y, k1, k2

@@ -82,11 +82,11 @@ TEST(CalibrateLens, WhatTheCameraSaysHoldsWhatPhotographsDoNotDetermine) {
   for (int n = 0; n < 3; ++n)
     shots.push_back(seen(camera_at(10.0 * n, 80.0, 500.0, 0.0), 0.3, random));
   const LensCalibration alone = calibrate_lens(1080, 1440, shots, "test");
-  const LensCalibration with_stated =
+  const LensCalibration with_expectation =
       calibrate_lens(1080, 1440, shots, "test", {.focal = 1800.0, .focal_deviation = 0.01});
-  EXPECT_LT(with_stated.focal_deviation, 0.5 * alone.focal_deviation);
-  EXPECT_NEAR(with_stated.lens.focal_x, 1795.0, 40.0);  // two deviations of what was reported
-  EXPECT_NEAR(with_stated.lens.centre_y, 712.0, 30.0);
+  EXPECT_LT(with_expectation.focal_deviation, 0.5 * alone.focal_deviation);
+  EXPECT_NEAR(with_expectation.lens.focal_x, 1795.0, 40.0);  // two deviations of what was stated
+  EXPECT_NEAR(with_expectation.lens.centre_y, 712.0, 30.0);
 }
 
 TEST(CalibrateLens, ItsDeviationsAreThoseOfItsErrors) {

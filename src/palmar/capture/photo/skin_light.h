@@ -24,7 +24,7 @@ struct SkinLight {
   /// Change of its own light from photograph to photograph, deviation over mean: 0 if lamps and
   /// hand stand still.
   double change = 0.0;
-  std::size_t spots = 0;  ///< that reported; few of them show nothing
+  std::size_t spots = 0;  ///< that were compared; few of them show nothing
 };
 
 /// Skin mirrors lamps in their own colour, white, and sends back light of its own in its colour

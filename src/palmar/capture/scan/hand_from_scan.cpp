@@ -142,7 +142,7 @@ class DotReader {
         taken[seen] = dots_[of_expected[k]].segment;
       }
     };
-    // Whose segment somebody reported first: they may lie farther off.
+    // Those whose segment the user named come first: they may be farther off.
     for (int s = 0; s < kSegmentCount; ++s) match(static_cast<Segment>(s), 25.0, 12.0);
     match({}, 10.0, 4.0);
     std::map<Segment, int> again;
@@ -210,9 +210,9 @@ class DotReader {
     report.dots = static_cast<int>(x.size());
     result_.joints.push_back(report);
     // A turn of 20 degrees or more shows an axis; the largest one shows most.
-    constexpr double kDetermines = 20.0 * kDegree;
+    constexpr double kLeastTurn = 20.0 * kDegree;
     double& most = found_by_[index_of(joint.id)];
-    if (std::abs(hinge.turn) > std::max(kDetermines, most)) {
+    if (std::abs(hinge.turn) > std::max(kLeastTurn, most)) {
       most = std::abs(hinge.turn);
       JointDof& dof = joint.dofs.back();
       dof.axis = hinge.axis;

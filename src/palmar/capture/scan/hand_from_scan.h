@@ -26,13 +26,13 @@ struct SurfaceScan {
   SkinMarks marks;    ///< in the same frame; empty without colours
 };
 
-/// What the dots describe one joint.
+/// What the dots show of one joint.
 struct DottedJoint {
   Segment segment{};           ///< distal of it
   ScanPosture posture{};       ///< against the reference posture
   double turn = 0.0;           ///< rad, from the reference
   double residual = 0.0;       ///< rms of the dots that a fixed axis leaves, mm
-  double axis_change = 0.0;    ///< of the axis against that recognised by the skin, rad
+  double axis_change = 0.0;    ///< of the axis against that found from the skin, rad
   double centre_change = 0.0;  ///< of the joint's centre, mm
   int dots = 0;
 };

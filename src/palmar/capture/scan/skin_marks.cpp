@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -17,8 +18,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 double linear(float coded) {
   const double c = coded;

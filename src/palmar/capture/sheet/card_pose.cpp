@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/capture/sheet/sheet_view.h"
 #include "palmar/geometry/degrees.h"
@@ -17,7 +18,6 @@
 namespace palmar {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kEdgeDeviation = 0.3;             // pixels, of an edge's ends

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "palmar/capture/photo/photo_view.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/card_pose.h"
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/capture/sheet/sheet_grid.h"
@@ -20,9 +21,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Vec3f = Eigen::Vector3f;
 
 constexpr int kSmallCardSide = 900;      // pixels: of the picture in which the card is looked for
 constexpr double kLeastCard = 0.004;     // of the picture

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/line_fit.h"
 #include "palmar/core/parallel.h"
 
 namespace palmar {
-
-using Vec2 = Eigen::Vector2d;
 
 SoftMask::SoftMask(const SheetGrid& grid, const VoxelMask& mask)
     : grid_(&grid), value_(mask.size()) {

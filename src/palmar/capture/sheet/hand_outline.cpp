@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/finger_axis.h"
 #include "palmar/capture/sheet/line_fit.h"
 #include "palmar/capture/sheet/outline_curve.h"
@@ -14,8 +15,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 constexpr double kAboveWeb = 1.5;                          // mm; as HandCreases draws base creases
 constexpr double kIndexSlope = 0.12, kLittleSlope = 0.35;  // of base creases, likewise

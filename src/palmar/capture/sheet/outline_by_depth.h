@@ -9,10 +9,10 @@
 
 namespace palmar {
 
-/// Masks of a hand whose colour doesn't show it from what is behind it, narrowed by where things
-/// are: stereo in the photographs reduced to three times the pixels of the fine one, all through
-/// the box; what lies behind the hand is far off or agrees nowhere. Throws InputError if hardly
-/// anything in the box agrees.
+/// Masks of a hand whose colour doesn't distinguish it from what is behind it, narrowed by where
+/// things are: stereo in the photographs reduced to three times the pixels of the fine one, all
+/// through the box; what lies behind the hand is far off or agrees nowhere. Throws InputError if
+/// hardly anything in the box agrees.
 void narrow_by_depth(const std::vector<Photograph>& photographs,
                      const std::vector<PhotoView>& views, const PhotoModelOptions& options,
                      std::vector<PhotoMask>& masks, const Progress& progress = {});

@@ -9,12 +9,11 @@
 #include <cmath>
 #include <limits>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 constexpr double kWidestGap = 6.0;  // mm, of the forearm on the edge: folds, hair
 constexpr double kLeastForearm = 25.0, kMostForearm = 110.0;  // mm

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "palmar/capture/photo/surface/silhouette.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/line_fit.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/dimensions.h"
@@ -19,8 +20,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 constexpr std::array<std::array<Segment, 3>, 5> kChain = {
     {{Segment::kThumbProximal, Segment::kThumbDistal, Segment::kThumbDistal},

@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "palmar/capture/photo/photo_view.h"
+#include "palmar/capture/picture_vectors.h"
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 /// Homography from the unit square ((0,0), (1,0), (1,1), (0,1)) to four points (Heckbert 1989).
 Eigen::Matrix3d from_unit_square(const std::array<Vec2, 4>& q) {

@@ -8,13 +8,11 @@
 #include <cmath>
 
 #include "palmar/capture/photo/photo_view.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/parallel.h"
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
-using Vec3f = Eigen::Vector3f;
 
 constexpr double kBlurredBorder = 1.5;  // mm
 constexpr double kBeside = 270.0;       // mm: as far as a hand beside a card reaches to either side

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "palmar/capture/photo/photo_view.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/picture_edges.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
@@ -19,8 +20,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec2 = Eigen::Vector2d;
 
 constexpr int kSmallSide = 700;       // pixels: of the picture in which the sheet is looked for
 constexpr double kLeastShare = 0.06;  // of the picture that the sheet fills

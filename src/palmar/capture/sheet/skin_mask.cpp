@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/imaging/connected_parts.h"
 #include "palmar/imaging/otsu.h"
@@ -14,8 +15,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec3f = Eigen::Vector3f;
 
 constexpr double kLeastRedness = 0.05;  // of skin over paper or table
 constexpr double kLeastHand = 3000.0;   // mm2

@@ -96,7 +96,7 @@ struct TissueFit {
 /// fitted; forces and areas are then weighed by their own residuals. Confidence intervals come from
 /// the Jacobian and the residual variance with Student's t, in logarithms (so they are unequal).
 ///
-/// A limit depth that can't be distinguished from the readings is held at the deepest one and the
+/// A limit depth that can't be determined from the readings is held at the deepest one and the
 /// rest fitted again; readings without stiffening give a constant modulus. A parameter whose
 /// interval spans more than a factor of three to either side is named as not identifiable.
 ///

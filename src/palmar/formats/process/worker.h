@@ -9,7 +9,7 @@
 
 namespace palmar {
 
-/// What a child process may use. Beyond it, it is ended and the user reported which limit it was.
+/// What a child process may use. Beyond it, it is ended and the user is told which limit it was.
 struct WorkerLimits {
   double seconds = 60.0;    ///< of wall clock
   double memory_mb = 4096;  ///< of address space

@@ -126,7 +126,7 @@ SeparatedSheets separate_touching_sheets(const TriangleMesh& mesh, double gap) {
       groups.back().push_back(corner);
     }
     if (groups.size() < 2) continue;
-    result.separated.push_back(mesh.vertices[v]);
+    result.doubled.push_back(mesh.vertices[v]);
     std::stable_sort(groups.begin(), groups.end(),
                      [](const auto& x, const auto& y) { return x.size() > y.size(); });
     for (std::size_t i = 1; i < groups.size(); ++i) {

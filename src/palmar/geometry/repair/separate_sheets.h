@@ -9,8 +9,8 @@
 namespace palmar {
 
 struct SeparatedSheets {
-  TriangleMesh mesh;            ///< same triangles in the same order; new vertices at the end
-  std::vector<Vec3> separated;  ///< corners that were doubled, mm
+  TriangleMesh mesh;          ///< same triangles in the same order; new vertices at the end
+  std::vector<Vec3> doubled;  ///< corners that became two, mm
   std::vector<Vec3>
       separated_edges;           ///< middles of edges of more than two triangles that are no more
   std::vector<Vec3> left_edges;  ///< middles of those that stay

@@ -29,7 +29,7 @@ TEST(SeparateTouchingSheets, CubesThatTouchInAnEdgeBecomeTwo) {
   const TriangleMesh cubes = two_cubes(Vec3(10, 10, 0));
   ASSERT_EQ(examine_topology(cubes).non_manifold_edges, 1);
   const SeparatedSheets separated = separate_touching_sheets(cubes, 1e-3);
-  EXPECT_EQ(separated.separated.size(), 2u);
+  EXPECT_EQ(separated.doubled.size(), 2u);
   EXPECT_EQ(separated.separated_edges.size(), 1u);
   EXPECT_TRUE(separated.left_edges.empty());
   const TopologyReport report = examine_topology(weld(separated.mesh, {.tolerance = 5e-4}).mesh);
@@ -42,7 +42,7 @@ TEST(SeparateTouchingSheets, CubesThatTouchInAnEdgeBecomeTwo) {
 
 TEST(SeparateTouchingSheets, CubesThatTouchInACornerBecomeTwo) {
   const SeparatedSheets separated = separate_touching_sheets(two_cubes(Vec3(10, 10, 10)), 1e-3);
-  EXPECT_EQ(separated.separated.size(), 1u);
+  EXPECT_EQ(separated.doubled.size(), 1u);
   const TopologyReport report = examine_topology(separated.mesh);
   EXPECT_EQ(report.components, 2);
   EXPECT_TRUE(report.is_two_manifold);
@@ -53,7 +53,7 @@ TEST(SeparateTouchingSheets, AWallBetweenCubesStays) {
   TriangleMesh cubes = two_cubes(Vec3(10, 0, 0));
   cubes = weld(cubes, {.tolerance = 1e-9}).mesh;
   const SeparatedSheets separated = separate_touching_sheets(cubes, 1e-3);
-  EXPECT_TRUE(separated.separated.empty());
+  EXPECT_TRUE(separated.doubled.empty());
   EXPECT_EQ(separated.left_edges.size(), 4u);
   EXPECT_EQ(separated.mesh.triangles, cubes.triangles);
 }

@@ -14,8 +14,6 @@
 namespace palmar {
 namespace {
 
-using Wrench6 = Eigen::Matrix<double, 6, 1>;
-
 std::string direction(const Vec3& v) {
   char text[64];
   const Vec3 u = v.normalized();

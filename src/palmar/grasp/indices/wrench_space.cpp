@@ -12,8 +12,6 @@
 namespace palmar {
 namespace {
 
-using Wrench6 = Eigen::Matrix<double, 6, 1>;
-
 [[noreturn]] void fail(std::size_t contact, const std::string& what) {
   throw UsageError("grasp: contact " + std::to_string(contact) + ": " + what);
 }

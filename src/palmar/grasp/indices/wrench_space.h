@@ -14,6 +14,7 @@
 namespace palmar {
 
 using Vec2 = Eigen::Vector2d;
+using Wrench6 = Eigen::Matrix<double, 6, 1>;  ///< force and moment
 
 /// One place where the hand holds the product.
 struct GraspContact {

@@ -17,7 +17,6 @@
 namespace palmar {
 namespace {
 
-using Wrench6 = Eigen::Matrix<double, 6, 1>;
 using ::testing::HasSubstr;
 
 constexpr double kTight = 1e-6;

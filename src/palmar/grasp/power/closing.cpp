@@ -23,13 +23,13 @@ constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coa
 constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
-constexpr double kWideOpen = -20.0 * kDegree;  // MCP when the hand reaches out
-constexpr double kPreshape = 0.8;              // of the bend that fits the handle, before closing
-constexpr double kCoupling = 2.0 / 3.0;        // DIP / PIP; Rijkpema & Girard 1991
-constexpr double kDipLag = 10.0 * kDegree;     // DIP behind that while PIP closes
-constexpr double kDipLeave = 25.0 * kDegree;   // DIP may be off that to lie on
-constexpr double kHookGive = 20.0 * kDegree;   // that a hook's MCP may flex
-constexpr double kReleaseMcp = 8.0 * kDegree;  // opened to move a finger aside
+constexpr double kWideOpen = -20.0 * kDegree;    // MCP when the hand reaches out
+constexpr double kPreshape = 0.8;                // of the bend that fits the handle, before closing
+constexpr double kDipPerPipFlexion = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
+constexpr double kDipLag = 10.0 * kDegree;       // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * kDegree;     // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * kDegree;     // that a hook's MCP may flex
+constexpr double kReleaseMcp = 8.0 * kDegree;    // opened to move a finger aside
 constexpr double kReleasePip = 20.0 * kDegree;
 constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
 constexpr double kShareRange = 0.3;   // over which that fades
@@ -175,9 +175,9 @@ Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& lim
     const JointDof& pip = skeleton.dof(flexion_of(finger, 1));
     const JointDof& dip = skeleton.dof(flexion_of(finger, 2));
     posture[pip.dof] = std::clamp(share * (turn[0] + turn[1]), pip.lower, pip.upper);
-    posture[dip.dof] =
-        std::clamp(std::min(share * (turn[1] + turn[2]), kCoupling * posture[pip.dof] + kDipLeave),
-                   dip.lower, dip.upper);
+    posture[dip.dof] = std::clamp(
+        std::min(share * (turn[1] + turn[2]), kDipPerPipFlexion * posture[pip.dof] + kDipLeave),
+        dip.lower, dip.upper);
     if (is_free(product, limits, finger, posture)) return posture;
   }
   return start;
@@ -207,7 +207,7 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
   const JointDof& pip = hand_->skeleton.dof(flexion_of(finger, 1));
   const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
   const auto coupled = [&](double off) {
-    return std::clamp(kCoupling * posture[pip.dof] + off, dip.lower, dip.upper);
+    return std::clamp(kDipPerPipFlexion * posture[pip.dof] + off, dip.lower, dip.upper);
   };
   const auto advance = [&](std::size_t level, const Posture& to) {
     const SkinGroup& group = groups_[index_of(finger)][level];
@@ -229,8 +229,8 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
   // it, it gives way.
   to = posture;
   to[pip.dof] = pip.upper;
-  to[dip.dof] =
-      std::max(posture[dip.dof], std::clamp(kCoupling * pip.upper - kDipLag, dip.lower, dip.upper));
+  to[dip.dof] = std::max(posture[dip.dof],
+                         std::clamp(kDipPerPipFlexion * pip.upper - kDipLag, dip.lower, dip.upper));
   Advance way = advance(1, to);
   if (way.is_stopped && way.by_product && way.segment == *segments[2] &&
       way.deepest[1] < limits.finger) {
@@ -239,8 +239,8 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
       posture[dip.dof] = back;
       to = posture;
       to[pip.dof] = pip.upper;
-      to[dip.dof] =
-          std::max(back, std::clamp(kCoupling * pip.upper - kDipLeave, dip.lower, dip.upper));
+      to[dip.dof] = std::max(
+          back, std::clamp(kDipPerPipFlexion * pip.upper - kDipLeave, dip.lower, dip.upper));
       advance(1, to);
     }
   }

@@ -11,7 +11,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kThinShare = 0.8;        // of half the thickness may be filled with skin
+constexpr double kThinBoxShare = 0.8;     // of half the thickness may be filled with skin
 constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
 constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;            // mm^2 per mm^2 of skin outside the palm in the product
@@ -41,7 +41,7 @@ constexpr double kFlat = 0.35;          // thickness / width up to which a secti
 constexpr double kSpan = 0.55;          // hand lengths between its edges that a hand spans
 constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
-constexpr double kAlike = 0.01;         // share of the score within which holds are the same
+constexpr double kEquallyGood = 0.01;   // share of the score within which holds are the same
 constexpr int kTurns = 8;
 // Steps by which a kept pose may be improved for another hand.
 constexpr double kNearProximal = 3.0;  // mm
@@ -204,7 +204,7 @@ bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& oth
 
 DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
   const double thickness = std::min(site.thickness, site.wall);
-  const double most = kThinShare * 0.5 * thickness;
+  const double most = kThinBoxShare * 0.5 * thickness;
   return {std::min(asked.palm, most), std::min(asked.finger, most)};
 }
 
@@ -274,7 +274,8 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
         tried.push_back(std::move(hold));
         // Round: it lies the same whichever way it is turned.
         const auto is_alike = [&](const Hold& other) {
-          return std::abs(other.score - tried[first].score) < kAlike * std::abs(tried[first].score);
+          return std::abs(other.score - tried[first].score) <
+                 kEquallyGood * std::abs(tried[first].score);
         };
         if (k == 2 && is_alike(tried[first + 1]) && is_alike(tried[first + 2])) {
           tried.resize(first + 1);

@@ -78,7 +78,7 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
                       const HoldSearch& search, const Progress& progress);
 
-/// The way of holding that another hand found at a site, for this one: its pose stands off the
+/// The way of holding that another hand found at a site, for this one: its pose differs from the
 /// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted, the
 /// thumb goes the same way. `tried` counts the placements that were closed.
 Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/power/power_place.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -33,12 +33,6 @@ constexpr double kTrimTolerance = 0.02;  // mm
 constexpr double kTrimArm = 18.0;        // mm from a finger joint to the skin it presses
 constexpr double kGridError = 1.0;       // mm; the quick distance is never that wrong
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
-
-std::string format(const char* text, double value) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), text, value);
-  return buffer.data();
-}
 
 // Turn of `facing` from the site's wide direction, for a turn asked for in the product's own frame.
 double turn_in_pose(const Hand& hand, const GripSite& site, double asked) {
@@ -241,7 +235,8 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
     product.distance->sample(point, 1e6, sample);
     if (sample.front().distance > kFarPoint) {
       grasp.status = GraspStatus::kNotGraspable;
-      grasp.message = format("the given point is %.0f mm off the product", sample.front().distance);
+      grasp.message =
+          fmt::format("the given point is {:.0f} mm off the product", sample.front().distance);
       place_beside(hand, product, grasp);
       return result;
     }

@@ -11,8 +11,8 @@
 namespace palmar {
 namespace {
 
-constexpr double kPulp = 11.0;   // mm round a fingertip point that can touch
-constexpr double kRange = 10.0;  // mm; farther skin needn't know how far
+constexpr double kPulpReach = 11.0;  // mm round a fingertip point that can touch
+constexpr double kRange = 10.0;      // mm; farther skin needn't know how far
 constexpr int kRounds = 8;
 constexpr double kTolerance = 0.05;  // mm
 constexpr double kMissed = 0.3;      // mm; a goal missed by more isn't pressed on
@@ -58,7 +58,7 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
     std::vector<int> pulp;
     for (int v = 0; v < hand.skin.vertex_count(); ++v) {
       if (hand.segment[v] != goal.fingertip.segment) continue;
-      if ((hand.skin.vertices[v] - goal.fingertip.point).norm() < kPulp) pulp.push_back(v);
+      if ((hand.skin.vertices[v] - goal.fingertip.point).norm() < kPulpReach) pulp.push_back(v);
     }
     std::vector<Vec3> posed;
     PosableSkin(hand, std::move(pulp)).pose(solution.posture, posed);

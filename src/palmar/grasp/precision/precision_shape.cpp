@@ -16,12 +16,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kReached = 0.5;  // mm
+constexpr double kShapeReached = 0.5;  // mm
 constexpr double kSquare = 40.0 * kDegree;
 constexpr double kSquareOnBall = 65.0 * kDegree;  // fingertips touch a ball with their sides, too
-constexpr double kBallSlide = 8.0;                // mm
-constexpr double kBallSquare = 0.9;   // rad; fingers spread round a ball touch with their sides
-constexpr double kSideBySide = 17.0;  // mm between the pads of index and middle finger
+constexpr double kSideBySide = 17.0;              // mm between the pads of index and middle finger
 constexpr std::array<double, 12> kWidths = {2, 8, 14, 20, 28, 36, 45, 55, 65, 75, 85, 95};
 
 Posture named(const Skeleton& skeleton, const char* name) {
@@ -147,7 +145,7 @@ GripOpenings::GripOpenings(const FingertipIk& ik, Grip grip)
     problem.product = ball.get();
     const FingertipSolution solution = ik.solve(problem);
     const double tilt = *std::max_element(solution.tilt.begin(), solution.tilt.end());
-    if (solution.worst_miss > kReached || tilt > (is_ball ? kSquareOnBall : kSquare)) {
+    if (solution.worst_miss > kShapeReached || tilt > (is_ball ? kSquareOnBall : kSquare)) {
       if (openings_.empty()) continue;
       break;
     }

@@ -9,6 +9,10 @@
 
 namespace palmar {
 
+/// Round a ball, fingers slide up to this far and touch with their sides.
+inline constexpr double kBallSlide = 8.0;   // mm
+inline constexpr double kBallSquare = 0.9;  // rad
+
 /// The fingers that take part in a precision or lateral grip, thumb first, and what of them
 /// touches.
 std::vector<FingertipPoint> fingertips_of(const Hand& hand, Grip grip);

@@ -22,7 +22,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kReached = 1.0;              // mm
+constexpr double kPlaceReached = 1.0;         // mm
 constexpr double kOffSurface = 2.0;           // mm
 constexpr double kPadOffset = 3.0;            // mm off the surface, where its distance is smooth
 constexpr double kMostTilt = 60.0 * kDegree;  // a pad pressed over its edge presses no more
@@ -154,7 +154,7 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, 
       one.tightest = d;
     }
     one.is_blocked = solution.clash > kMostClash;
-    one.is_reached = one.miss <= kReached && one.tilt <= kMostTilt && !one.is_blocked;
+    one.is_reached = one.miss <= kPlaceReached && one.tilt <= kMostTilt && !one.is_blocked;
     const double bend = finger == Finger::kThumb
                             ? 0.0
                             : std::abs(solution.posture[flexion_of(finger, 2)] -
@@ -190,7 +190,7 @@ std::string message_of(const ButtonReach& reach) {
   const auto nearest =
       std::min_element(reach.fingers.begin(), reach.fingers.end(),
                        [](const FingerReach& a, const FingerReach& b) { return a.miss < b.miss; });
-  if (nearest->miss <= kReached) {
+  if (nearest->miss <= kPlaceReached) {
     return nearest->is_blocked
                ? fmt::format("the {} gets there, but the product or another finger is in its way",
                              words_of(nearest->finger))
@@ -324,7 +324,7 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
       const auto finger = static_cast<Finger>(f);
       if (!reacher.may_leave(finger, -places[place].normal)) continue;
       const FingerReach one = reacher.send(finger, places[place].point, places[place].normal,
-                                           -places[place].normal, kReached);
+                                           -places[place].normal, kPlaceReached);
       value.miss = std::min(value.miss, std::max(0.0, one.miss));
       if (one.is_reached && (!best || is_preferred(one, *best))) best = one;
     }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/rest/balance.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "palmar/core/enum_index.h"
@@ -34,18 +35,12 @@ constexpr double kOut = 25.0;        // mm; a product that went farther has left
 constexpr double kOutTurn = 0.8;     // rad
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // Passive coupling of DIP and PIP (Rijkpema & Girard 1991; tolerance: joint_coupling table of
-// modelling rules, 15 deg): beyond it a moment of kCoupling per radian.
+// modelling rules, 15 deg): beyond it a moment of kCouplingStiffness per radian.
 constexpr double kDipPerPip = 2.0 / 3.0;
 constexpr double kCouplingFree = 10.0 * kDegree;  // rad
-constexpr double kCoupling = 1500.0;              // N mm/rad; our choice
+constexpr double kCouplingStiffness = 1500.0;     // N mm/rad; our choice
 constexpr double kMostMuscles = 1.5;  // of flexion_strength(); its figures are the lowest measured
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
-
-std::string format(const char* text, double a, double b = 0.0) {
-  std::array<char, 200> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), text, a, b);
-  return buffer.data();
-}
 
 /// The main direction of a way in the hand, in words.
 std::string way_words(const Hand& hand, Vec3 way) {
@@ -137,12 +132,12 @@ void Settling::add_coupling(GripVector& residual, GripMatrix& stiffness) const {
         state_.posture[kSqueezeDofs[dip]] - kDipPerPip * state_.posture[kSqueezeDofs[pip]];
     const double excess = off - std::clamp(off, -kCouplingFree, kCouplingFree);
     if (excess == 0.0) continue;
-    residual[dip] -= kCoupling * excess;
-    residual[pip] += kDipPerPip * kCoupling * excess;
-    stiffness(dip, dip) += kCoupling;
-    stiffness(pip, pip) += kDipPerPip * kDipPerPip * kCoupling;
-    stiffness(dip, pip) -= kDipPerPip * kCoupling;
-    stiffness(pip, dip) -= kDipPerPip * kCoupling;
+    residual[dip] -= kCouplingStiffness * excess;
+    residual[pip] += kDipPerPip * kCouplingStiffness * excess;
+    stiffness(dip, dip) += kCouplingStiffness;
+    stiffness(pip, pip) += kDipPerPip * kDipPerPip * kCouplingStiffness;
+    stiffness(dip, pip) -= kDipPerPip * kCouplingStiffness;
+    stiffness(pip, dip) -= kDipPerPip * kCouplingStiffness;
   }
 }
 
@@ -372,10 +367,10 @@ Balance Settling::run(const Progress& progress) {
     if (is_lost || judge_way(balance)) {
       balance.status = BalanceStatus::kSlipsOut;
       balance.slip = moved_.norm() > 0.0 ? Vec3(moved_.normalized()) : Vec3(Vec3::UnitY());
-      balance.message =
-          balance.turned > kOutTurn && balance.moved < kOut
-              ? format("turns by more than %.0f degrees in the hand", kOutTurn * kDegreesPerRadian)
-              : "slips out, towards " + way_words(*hand_, *balance.slip);
+      balance.message = balance.turned > kOutTurn && balance.moved < kOut
+                            ? fmt::format("turns by more than {:.0f} degrees in the hand",
+                                          kOutTurn * kDegreesPerRadian)
+                            : "slips out, towards " + way_words(*hand_, *balance.slip);
       break;
     }
 
@@ -410,24 +405,26 @@ Balance Settling::run(const Progress& progress) {
     balance.status = BalanceStatus::kSlipsOut;
     const Vec3 pull = state_.product_from_hand.rotation.conjugate() * load_.force;
     if (pull.norm() > 0.0) balance.slip = pull.normalized();
-    balance.message = format(
-        "slips out under its load: the hand reaches a grip force of %.0f N, "
-        "%.0f N are needed",
+    balance.message = fmt::format(
+        "slips out under its load: the hand reaches a grip force of {:.0f} N, "
+        "{:.0f} N are needed",
         mechanics_.grip().force, target_);
   }
   if (balance.status == BalanceStatus::kBalanced) {
-    balance.message = format("in balance at a grip force of %.0f N", mechanics_.grip().force);
+    balance.message =
+        fmt::format("in balance at a grip force of {:.0f} N", mechanics_.grip().force);
     if (now.of_level > 0.05) {
-      balance.message += format("; %.0f N were requested, which the hand doesn't reach", target_);
+      balance.message +=
+          fmt::format("; {:.0f} N were requested, which the hand doesn't reach", target_);
     }
     if (now.of_joints > kJointSaid) {
-      balance.message += format("; a finger joint is still %.0f %% off its muscles' moment",
-                                100.0 * now.of_joints);
+      balance.message += fmt::format("; a finger joint is still {:.0f} % off its muscles' moment",
+                                     100.0 * now.of_joints);
     }
   } else if (balance.status == BalanceStatus::kNotConverged) {
-    balance.message = format("not in balance after %.0f steps: ", kMostSteps) +
-                      format("%.1f N are left over at a grip force of %.0f N",
-                             balance.residual_force, mechanics_.grip().force);
+    balance.message = fmt::format("not in balance after {} steps: ", kMostSteps) +
+                      fmt::format("{:.1f} N are left over at a grip force of {:.0f} N",
+                                  balance.residual_force, mechanics_.grip().force);
   }
   finish(balance);
   return balance;
@@ -437,14 +434,14 @@ Balance Settling::run(const Progress& progress) {
 
 void BalanceOptions::check() const {
   if (!(friction >= 0.0 && friction <= 5.0)) {
-    throw UsageError(format("balance: friction is %g; 0 to 5 is allowed", friction));
+    throw UsageError(fmt::format("balance: friction is {:g}; 0 to 5 is allowed", friction));
   }
   if (grip_force && !(*grip_force > 0.0 && *grip_force <= 2000.0)) {
-    throw UsageError(format(
-        "balance: grip force is %g N; more than 0 and at most 2000 N is allowed", *grip_force));
+    throw UsageError(fmt::format(
+        "balance: grip force is {:g} N; more than 0 and at most 2000 N is allowed", *grip_force));
   }
   if (!(aim >= 1e-4 && aim <= kBalanced)) {
-    throw UsageError(format("balance: aim is %g; 0.0001 to 0.01 is allowed", aim));
+    throw UsageError(fmt::format("balance: aim is {:g}; 0.0001 to 0.01 is allowed", aim));
   }
   FrictionOptions with_load;
   with_load.coefficient = 1.0;

@@ -23,7 +23,7 @@ constexpr double kLeastRest = 0.4, kMostRest = 2.5;
 // longer look like a hand's.
 constexpr double kLeastBow = -0.5, kMostBow = 1.0;
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
+constexpr HandDimension kHandLength{DimensionKind::kHandLength};
 constexpr HandDimension kGirth{DimensionKind::kHandCircumference};
 constexpr HandDimension kWidth{DimensionKind::kHandWidth};
 constexpr HandDimension kThickness{DimensionKind::kHandThickness};
@@ -65,7 +65,7 @@ class ProblemBuilder {
     for (const HandDimension d : {kThickness, kWidth, kGirth}) {
       if (t_.has(d)) girth_ = std::log(t_.ratio(d));
     }
-    length_ = t_.has(kLength) ? std::log(t_.ratio(kLength)) : girth_;
+    length_ = t_.has(kHandLength) ? std::log(t_.ratio(kHandLength)) : girth_;
     if (!has_girth) girth_ = length_;
   }
 
@@ -117,7 +117,7 @@ class ProblemBuilder {
   }
 
   void lengths() {
-    double rest_asked = t_.get(kLength).value_or(0.0), rest_own = t_.base(kLength);
+    double rest_asked = t_.get(kHandLength).value_or(0.0), rest_own = t_.base(kHandLength);
     int free_parts = 0;
     for (const Segment s : kParts) {
       const HandDimension d{DimensionKind::kSegmentLength, s};
@@ -128,15 +128,15 @@ class ProblemBuilder {
       rest_asked -= *t_.get(d);
       rest_own -= t_.base(d);
     }
-    problem_.meets_length = !t_.has(kLength) || free_parts > 0;
-    const bool shares = t_.has(kLength) && free_parts > 0;
+    problem_.meets_length = !t_.has(kHandLength) || free_parts > 0;
+    const bool shares = t_.has(kHandLength) && free_parts > 0;
     const double rest = shares ? rest_asked / rest_own : 1.0;
     if (!(rest >= kLeastRest && rest <= kMostRest)) {
       throw UsageError(fmt::format(
           "hand_length is {:.1f} mm, which leaves {:.1f} mm for the parts of it that are not given "
           "(palm, segments of the middle finger); {:.1f} to {:.1f} mm is allowed ({:.1f} mm in the "
           "hand that is scaled)",
-          *t_.get(kLength), rest_asked, kLeastRest * rest_own, kMostRest * rest_own, rest_own));
+          *t_.get(kHandLength), rest_asked, kLeastRest * rest_own, kMostRest * rest_own, rest_own));
     }
     // With the palm alone driven, the whole finger is the rest, and the other fingers grow as it.
     const bool is_of_fingers = t_.has(kPalmLength) && free_parts == 3;
@@ -152,7 +152,7 @@ class ProblemBuilder {
       } else if (!shares || !is_of_rest) {
         follow(factor, length_);
       } else if (of_rest < 0) {
-        drive(factor, kLength, std::log(rest));
+        drive(factor, kHandLength, std::log(rest));
         of_rest = problem_.rule[factor].unknown;
       } else {
         problem_.rule[factor].unknown = of_rest;
@@ -210,13 +210,13 @@ double InstanceTargets::ratio(HandDimension dimension) const {
 std::string InstanceTargets::summary() const {
   constexpr int kMostListed = 6;
   std::string text;
-  int summary = 0;
+  int named = 0;
   for (const HandDimension dimension : all_hand_dimensions()) {
-    if (!has(dimension) || ++summary > kMostListed) continue;
+    if (!has(dimension) || ++named > kMostListed) continue;
     text += fmt::format("{} {} {:.2f} mm", text.empty() ? "" : ",", name_of(dimension),
                         *get(dimension));
   }
-  if (summary > kMostListed) text += fmt::format(" and {} other dimensions", summary - kMostListed);
+  if (named > kMostListed) text += fmt::format(" and {} other dimensions", named - kMostListed);
   return "scaled segment by segment to" + text;
 }
 
@@ -281,7 +281,7 @@ Eigen::MatrixXd InstanceShape::sensitivity(const InstanceProblem& problem) const
       if (unknown >= 0) result(i, unknown) += slope;
     };
     const auto& [d, value] = problem.equation[i];
-    if (d == kLength) {
+    if (d == kHandLength) {
       double fingers = 0.0;
       const auto chain = segments_of(Finger::kMiddle);
       for (std::size_t s = 0; s < 3; ++s) {

@@ -39,9 +39,9 @@ namespace {
 
 using Measured = std::vector<std::optional<Vec3>>;
 
-constexpr double kPriorSd = 10.0;       // rad; decides only what nothing else does
+constexpr double kWeakPriorSd = 10.0;   // rad; decides only what nothing else does
 constexpr double kPlaceSd = 1e5;        // mm; likewise
-constexpr double kStep = 1e-5;          // rad; of the numeric Jacobian, error 1e-10 of a lever arm
+constexpr double kJacobianStep = 1e-5;  // rad; of the numeric Jacobian, error 1e-10 of a lever arm
 constexpr int kFewestPoints = 4;        // three give a place and no angle
 constexpr double kLostPlacement = 0.5;  // rad; the hand's orientation is not determined
 constexpr double kMedianOfChi3 = 1.5382;  // median length of a 3-vector of unit normal errors
@@ -221,7 +221,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     r.resize(m + n);
     r.head(m) = points_at(place_at(x)) - wanted;
-    Eigen::VectorXd prior = Eigen::VectorXd::Constant(n, 1.0 / kPriorSd);
+    Eigen::VectorXd prior = Eigen::VectorXd::Constant(n, 1.0 / kWeakPriorSd);
     prior.segment<3>(3).setConstant(1.0 / kPlaceSd);
     Eigen::VectorXd middle = Eigen::VectorXd::Zero(n);
     for (std::size_t k = 0; k < free.size(); ++k) {
@@ -230,7 +230,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
     r.tail(n) = prior.cwiseProduct(x - middle);
   };
   problem.evaluate = with_numeric_jacobian(residual, [](Eigen::Index j, double) {
-    return j >= 3 && j < 6 ? 1e-2 : kStep;  // mm: linear, any step will do
+    return j >= 3 && j < 6 ? 1e-2 : kJacobianStep;  // mm: linear, any step will do
   });
   problem.lower = Eigen::VectorXd::Constant(n, -4.0);  // rad
   problem.upper = Eigen::VectorXd::Constant(n, 4.0);
@@ -261,7 +261,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
       (found.jacobian.transpose() * found.jacobian).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const auto sd_of = [&](Eigen::Index j) {
     const double variance = covariance(j, j);
-    return std::isfinite(variance) && variance >= 0.0 ? std::sqrt(variance) : kPriorSd;
+    return std::isfinite(variance) && variance >= 0.0 ? std::sqrt(variance) : kWeakPriorSd;
   };
   for (Eigen::Index j = 0; j < 3; ++j) {
     solved.placement_sd = std::max(solved.placement_sd, sd_of(j));
@@ -312,8 +312,8 @@ PostureFit PostureFitter::fit(const Measured& measured, const PostureFit* before
   if (result.status != PostureFitStatus::kPoor) return result;
   // A sequence may have lost its way: look everywhere before giving up.
   if (before != nullptr) {
-    const PostureFit again = fit_checked(measured, nullptr);
-    if (again.rms < result.rms) result = again;
+    const PostureFit refitted = fit_checked(measured, nullptr);
+    if (refitted.rms < result.rms) result = refitted;
     if (result.status != PostureFitStatus::kPoor) return result;
   }
   const PostureFit other = fit_checked(mirrored(measured), nullptr);
@@ -359,7 +359,7 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
       before->status != PostureFitStatus::kWrongUnit) {
     best = {before->posture, before->measured_from_hand, before->scale};
   } else {
-    constexpr int kTries = 25;  // iterations: enough to distinguishes the starts
+    constexpr int kTries = 25;  // iterations: enough to distinguish the starts
     double least = std::numeric_limits<double>::infinity();
     for (const Posture& start : starts_) {
       Place place = place_for(points_.pose(start), measured);

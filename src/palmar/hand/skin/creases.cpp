@@ -14,16 +14,16 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr double kWristShare = 0.15;    // of wrist to third MCP: 13.5 of about 90 mm
-constexpr double kPipShare = 0.06;      // of the proximal phalanx: 2.5 of about 42 mm
-constexpr double kDipShare = 0.31;      // of the middle phalanx: 7.5 of about 24 mm
-constexpr double kThumbIpShare = 0.13;  // of the thumb's proximal phalanx: 4 of about 32 mm
-constexpr double kTransverse = 9.0;     // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
-constexpr double kAboveWeb = 1.5;       // mm; keeps the base crease a loop around one finger
-constexpr double kHighestWeb = 0.7;     // of the proximal phalanx; webs reach 0.35 to 0.5
-constexpr double kBehindWeb = 6.0;      // mm; where palmar skin ends on the first web
-constexpr double kWebWeight = 0.3;      // against the rays; small: the border bends gently
-constexpr double kTypicalWristToMcp = 90.0;  // mm, hand of 185 mm
+constexpr double kWristShare = 0.15;       // of wrist to third MCP: 13.5 of about 90 mm
+constexpr double kPipShare = 0.06;         // of the proximal phalanx: 2.5 of about 42 mm
+constexpr double kDipShare = 0.31;         // of the middle phalanx: 7.5 of about 24 mm
+constexpr double kThumbIpShare = 0.13;     // of the thumb's proximal phalanx: 4 of about 32 mm
+constexpr double kTransverse = 9.0;        // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
+constexpr double kAboveWeb = 1.5;          // mm; keeps the base crease a loop around one finger
+constexpr double kHighestWeb = 0.7;        // of the proximal phalanx; webs reach 0.35 to 0.5
+constexpr double kBehindWeb = 6.0;         // mm; where palmar skin ends on the first web
+constexpr double kWebWeight = 0.3;         // against the rays; small: the border bends gently
+constexpr double kWristToMcpOf185 = 90.0;  // mm, hand of 185 mm
 
 constexpr std::array<std::array<JointId, 3>, kFingerCount> kJoints{{
     {JointId::kThumbCmc, JointId::kThumbMp, JointId::kThumbIp},
@@ -139,7 +139,7 @@ HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
     }
   }
   const Vec3 to_mcp = ray_[static_cast<int>(Finger::kMiddle)].node[1] - wrist;
-  scale_ = to_mcp.norm() / kTypicalWristToMcp;
+  scale_ = to_mcp.norm() / kWristToMcpOf185;
   wrist_ = {wrist + kWristShare * to_mcp, Vec3::UnitY()};
   RayDistances distance(skin, *this);
   for (int k = 0; k + 1 < kFingerCount; ++k) web_[k] = find_web(skin, k, distance);

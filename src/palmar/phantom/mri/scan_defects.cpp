@@ -24,7 +24,7 @@
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kRough = 70, kColour, kPlace, kRipples };
+enum DefectStream : std::uint64_t { kRough = 70, kColour, kPlace, kRipples };
 
 /// Directions spread evenly over the sphere (Fibonacci lattice).
 std::vector<Vec3> directions(int count) {

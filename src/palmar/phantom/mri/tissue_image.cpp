@@ -135,7 +135,7 @@ std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const Vol
 }
 
 // Share by which the receive field is weaker at a place of the image, 0 to 1: a ramp with a slow
-// wave on it, in directions that the seed shows.
+// wave on it, in directions that follow from the seed.
 class ReceiveField {
  public:
   ReceiveField(const VolumeGrid& grid, double bias, std::uint64_t seed) : bias_(bias) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
@@ -15,8 +16,6 @@
 
 namespace palmar {
 namespace {
-
-using Vec3f = Eigen::Vector3f;
 
 float linear_of(float srgb) {
   return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);

@@ -87,7 +87,7 @@ class PhotographsStage {
   PhotographsStage(const ColouredMesh& hand, const PrintedBoard& board,
                    const PhotographsOptions& options);
   ~PhotographsStage();
-  /// `number` shows photographs' noise apart. The same for any number of threads.
+  /// `number` distinguishes photographs' noise. The same for any number of threads.
   RgbImage take(const PhotoShot& shot, const Rigid3& board_from_hand, int number) const;
 
   struct Impl;

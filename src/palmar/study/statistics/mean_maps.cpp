@@ -57,7 +57,7 @@ class FieldSums {
   std::vector<double> mean_, scatter_;
 };
 
-struct Sums {
+struct MapSums {
   int hands = 0;
   FieldSums skin, on_product;
 };
@@ -80,7 +80,7 @@ std::vector<StudyMaps> mean_maps(const StudyPlan& plan, const RecordSource& reco
                      " products for a plan of " + std::to_string(plan.products.size()));
   }
   const std::vector<StudyCondition> conditions = conditions_of(plan);
-  std::vector<Sums> sums;
+  std::vector<MapSums> sums;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (const int vertices : product_vertices) {
       sums.push_back({0, FieldSums(skin_vertices), FieldSums(vertices)});
@@ -97,7 +97,7 @@ std::vector<StudyMaps> mean_maps(const StudyPlan& plan, const RecordSource& reco
           (condition.population && *condition.population != population)) {
         continue;
       }
-      Sums& one = sums[c * plan.products.size() + static_cast<std::size_t>(task.product)];
+      MapSums& one = sums[c * plan.products.size() + static_cast<std::size_t>(task.product)];
       ++one.hands;
       one.skin.add(record.skin_pressure, options.threshold, record.number);
       one.on_product.add(record.product_pressure, options.threshold, record.number);

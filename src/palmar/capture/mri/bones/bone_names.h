@@ -28,7 +28,7 @@ struct KnownSide {
   double doubted_below = 0.0;
 };
 
-/// Names bones after those of a model and shows the side.
+/// Names bones after those of a model and finds the side.
 ///
 /// The model, and its mirror image, are fitted into the skin (fit_posture_to_mesh()); that shows
 /// where every bone must roughly be. Bones of the scan and of the model are paired (pair_bones()),

@@ -56,11 +56,12 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
   constexpr double kFar = 8.0;  // mm
   constexpr std::array<const char*, 4> kChain = {"_metacarpal", "_proximal_phalanx",
                                                  "_middle_phalanx", "_distal_phalanx"};
-  for (const std::string finger : {"thumb", "index", "middle", "ring", "little"}) {
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
     const ScannedBone* last = nullptr;
     for (const char* kind : kChain) {
-      if (finger == "thumb" && std::string_view(kind) == "_middle_phalanx") continue;
-      const ScannedBone* bone = bone_named(surfaces, finger + kind);
+      if (finger == Finger::kThumb && std::string_view(kind) == "_middle_phalanx") continue;
+      const ScannedBone* bone = bone_named(surfaces, std::string(name_of(finger)) + kind);
       if (last != nullptr && bone != nullptr) {
         const double apart = gap(last->mesh, bone->mesh);
         if (apart > kFar) {

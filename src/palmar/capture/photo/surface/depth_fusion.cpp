@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "palmar/capture/photo/pinhole.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/degrees.h"
 
 namespace palmar {
 namespace {
-
-using Vec3f = Eigen::Vector3f;
 
 /// A depth map that can be asked about points of the world.
 struct PosedMap {

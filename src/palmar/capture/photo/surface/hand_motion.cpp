@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/statistics/median.h"
@@ -16,7 +17,6 @@
 namespace palmar {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat63 = Eigen::Matrix<double, 6, 3>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "palmar/capture/photo/pinhole.h"
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
@@ -18,7 +19,6 @@ namespace palmar {
 namespace {
 
 using Mat3f = Eigen::Matrix3f;
-using Vec3f = Eigen::Vector3f;
 
 constexpr int kMostSources = 12;
 constexpr int kMostSide = 15;

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "palmar/capture/picture_vectors.h"
 #include "palmar/capture/sheet/line_fit.h"
 
 namespace palmar {
 
 VoxelMask silhouette(const TriangleMesh& body, const Vec3& eye, const SheetGrid& grid) {
-  using Vec2 = Eigen::Vector2d;
   std::vector<Vec2> place(body.vertices.size());
   std::vector<char> is_below(body.vertices.size(), 0);
   for (std::size_t v = 0; v < place.size(); ++v) {
