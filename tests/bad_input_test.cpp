@@ -176,5 +176,68 @@ TEST_F(BadInput, OptionsOutsideTheirRange) {
   }
 }
 
+TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
+  file("part.stl", tetrahedron(60));
+  const std::string part = " part.stl --unit mm ";
+  const std::string prism = " 'made: prism' --out made ";
+  const struct {
+    std::string arguments, said;
+  } cases[] = {
+      {"assess" + part + "--mass-kg 0", "palmar: --mass-kg is 0; more than 0"},
+      {"assess" + part + "--strength-n 300",
+       "palmar: --strength-n and --person say how strong the user is; --strength-share is "
+       "required"},
+      {"assess" + part + "--strength-share 0.5 --person male,95",
+       "palmar: --person: no grip strength is known for 95 years; 17 to 90 is allowed, or give "
+       "--strength-n\n"},
+      {"assess" + part + "--no-balance --grip-force-n 20", "palmar: --no-balance keeps the hand"},
+      {"assess" + part + "--fingertip thumb:1,2,3",
+       "palmar: --fingertip: grip power holds with the whole hand; a precision grip is required, "
+       "such as --grip tripod\n"},
+      {"assess" + part + "--grip tripod --region 0,0,0,9,9,9",
+       "takes fingertips to points; --at or --fingertip says where\n"},
+      // There is a --strength of the muscles, too.
+      {"effort grasp" + part + "--strength-share 0.5",
+       "palmar: --strength-share needs --person or --strength-n\n"},
+      {"grasp evaluate" + part +
+           "--posture p.json --placement 0,0,0,1,0,0,0 --measured-from-product 0,0,0,1,0,0,0",
+       "palmar: --placement and --measured-from-product exclude each other\n"},
+      {"contact press --indenter sphere:5 --depth-mm 1 --out curve.xls",
+       "palmar: --out: \"curve.xls\" ends with none of"},
+      {"contact fit curves.csv --indenter sphere:5 --group thumbs",
+       "palmar: --group: \"thumbs\" is not known"},
+      {"validate --out table.pdf", "palmar: --out: \"table.pdf\" ends with none of"},
+      {"study plan --product part.stl --population hands.csv --hands 5",
+       "palmar: --hands has no meaning with the given hands of hands.csv\n"},
+      {"product convert" + part + "--out part.step", "--out with .stl, .obj or .ply is required\n"},
+      {"product make sphere --out ball.pdf", "palmar: --out is ball.pdf; .step"},
+      {"product make sphere --format pdf --out balls/", "palmar: --format is \"pdf\"; step"},
+      {"redesign press" + prism + "--grip-force-n 20",
+       "palmar: --grip-force-n: in a kept posture the shape decides the force; --posture new goes"},
+      {"redesign press" + prism + "--over most", "palmar: --over is \"most\"; mean"},
+      {"redesign press" + prism + "--depth-limit-mm 99", "--depth-limit-mm is 99 mm; 0.1 to 50"},
+      {"redesign press" + prism + "--rim-mm 99", "--rim-mm is 99 mm; 0.5 to 50"},
+      {"redesign press" + prism + "--edge-mm 99", "--edge-mm is 99 mm; 0.3 to 10"},
+      {"redesign press" + prism + "--keep-blend-mm 999", "--keep-blend-mm is 999 mm; 0 to 100"},
+      {"redesign features" + prism, "palmar: --vary is needed"},
+      {"redesign features" + prism, "fillet:long=1:15; or --propose\n"},
+      {"redesign features" + prism + "--propose --largest-offset-mm 0",
+       "palmar: --largest-offset-mm is 0; above 0"},
+      {"redesign features" + prism + "--propose --lost-hands 2", "palmar: --lost-hands is 2; 0 to"},
+      {"redesign features" + prism +
+           "--vary groove:at=0=1 --groove-radius-mm 2 "
+           "--smallest-groove-radius-mm 3",
+       "palmar: --groove-radius-mm is 2 mm; at least --smallest-groove-radius-mm, 3 mm"},
+      {"redesign fillet" + prism + "--radius-mm 9:2",
+       "palmar: --edges with --radius-mm \"9:2\": from 9 to 2"},
+  };
+  for (const auto& one : cases) {
+    const ProgramRun run = run_palmar(one.arguments, folder_);
+    EXPECT_EQ(run.exit_code, 2) << one.arguments << run.err;
+    EXPECT_THAT(run.err, HasSubstr(one.said)) << one.arguments;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/made"));
+}
+
 }  // namespace
 }  // namespace palmar::testing

@@ -62,7 +62,7 @@ TEST_F(GraspPlaces, OtherHandsHoldTheSameSideAsFirmlyAsAfterASearch) {
     EXPECT_LT(kept.product_from_hand.rotation.angularDistance(
                   place.reference_grasp().product_from_hand.rotation),
               0.2);  // rad; poses differ by the tilt of thin handles only
-    // A search of its own may find a little more skin to place.
+    // A search of its own may find a little more skin to lie on.
     const double searched = contact_area(other, product, find_grasp(*other, product));
     EXPECT_GT(contact_area(other, product, kept), 0.8 * searched);
   }

@@ -40,7 +40,7 @@ class QuickCommand : public ::testing::Test {
     EXPECT_EQ(run.exit_code, code) << run.err;
     EXPECT_THAT(run.err, HasSubstr(words));
   }
-  /// Most of what is reported holds, and hand length is as near as given.
+  /// Most of what is reported holds, and hand length is as near as reported.
   static void expect_true(const Json& reported, const std::string& name) {
     const Json truth = Json::parse(read_text(folder() + "/" + name + "/truth.json"));
     int held = 0, all = 0;

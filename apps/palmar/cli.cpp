@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
 #include <charconv>
@@ -22,8 +23,12 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 bool progress_line_open = false;
-/// Long names of the options of the verb that runs: they outlive the parser.
+/// Options of the verb that runs, as typed ("--box-mm", "PRODUCT"): they outlive the parser.
 std::vector<std::string> running_options;
+SettingOptions running_setting_options;
+/// Ends of options that say in which unit a number is.
+constexpr std::array kUnitEnds = {"-mm", "-mm2", "-mm3", "-deg", "-px",    "-mb",  "-n",
+                                  "-kg", "-kpa", "-mpa", "-s",   "-g-cm3", "-n-mm"};
 
 void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
@@ -46,6 +51,20 @@ double parse_number(const std::string& option, const std::string& text) {
     throw UsageError(option + ": \"" + text + "\" is not a number");
   }
   return value;
+}
+
+/// The running verb's option of this name, perhaps with a unit behind it, or its argument; "" if it
+/// has none.
+std::string running_option(const std::string& name) {
+  std::vector<std::string> candidates = {"--" + name};
+  for (const char* const unit : kUnitEnds) candidates.push_back("--" + name + unit);
+  candidates.push_back(name);
+  for (char& c : candidates.back()) {
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  const auto found = std::find_first_of(candidates.begin(), candidates.end(),
+                                        running_options.begin(), running_options.end());
+  return found == candidates.end() ? "" : *found;
 }
 
 }  // namespace
@@ -89,26 +108,26 @@ std::optional<LengthUnit> parse_unit(const std::string& text) {
   throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
 }
 
-void name_settings_by(const CLI::App& verb) {
+void name_settings_by(const CLI::App& verb, const SettingOptions& others) {
   running_options.clear();
   for (const CLI::Option* option : verb.get_options()) {
-    for (const std::string& name : option->get_lnames()) running_options.push_back(name);
+    for (const std::string& name : option->get_lnames()) running_options.push_back("--" + name);
+    if (option->get_positional()) running_options.push_back(option->get_name(true));
   }
+  running_setting_options = others;
 }
 
 std::string option_named(const std::string& setting) {
+  const auto other = running_setting_options.find(setting);
+  if (other != running_setting_options.end()) return other->second;
   std::string name = setting;
   std::replace(name.begin(), name.end(), ' ', '-');
-  std::string found;  // with a unit behind it
-  int count = 0;
-  for (const std::string& option : running_options) {
-    if (option == name) return "--" + name;
-    if (!option.starts_with(name + "-")) continue;
-    found = option;
-    ++count;
+  std::string option = running_option(name);
+  // A list's option is given once per value: it is not plural.
+  if (option.empty() && name.ends_with('s')) {
+    option = running_option(name.substr(0, name.size() - 1));
   }
-  if (count == 0) return "setting \"" + setting + "\"";  // a study's, say
-  return "--" + (count == 1 ? found : name);
+  return option.empty() ? "setting \"" + setting + "\"" : option;  // a study's, say
 }
 
 Progress make_progress(const CommonOptions& common) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,11 +26,15 @@ struct CommonOptions {
   std::uint64_t seed = 0;  ///< written into results
 };
 
+/// Settings whose words aren't those of their option: "product from hand" -> "--placement".
+using SettingOptions = std::map<std::string, std::string>;
+
 /// What the parsed command line asks for: the chosen verb sets `run`, which returns the exit code.
 struct Context {
   CommonOptions common;
   std::string command_line;
-  char** arguments = nullptr;  ///< of main(), for a command that another program takes over
+  char** arguments = nullptr;      ///< of main(), for a command that another program takes over
+  SettingOptions setting_options;  ///< of the chosen verb, for messages of the library
   std::function<int()> run;
 };
 
@@ -64,11 +69,11 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
 std::optional<LengthUnit> parse_unit(const std::string& text);
 
 /// Messages of the library name settings in words; from now on they get the names of this verb's
-/// options.
-void name_settings_by(const CLI::App& verb);
+/// options: those in `others`, else the ones that have the same words.
+void name_settings_by(const CLI::App& verb, const SettingOptions& others);
 /// The option of a setting of the running verb: "accept odd slices" -> "--accept-odd-slices", "box"
-/// -> "--box-mm" (the only one that begins so). What is no option of it stays: a study's setting
-/// "default".
+/// -> "--box-mm", "populations" -> "--population", "product" -> "PRODUCT" if it is an argument.
+/// What is no option of it stays: a study's setting "default".
 std::string option_named(const std::string& setting);
 
 /// Progress for this command: a line on a terminal's stderr (none with --quiet, --json or a pipe),

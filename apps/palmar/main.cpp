@@ -109,7 +109,7 @@ int run(int argc, char** argv) {
   }
   signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
   set_thread_count(context.common.threads);
-  name_settings_by(*deepest_parsed(&app));
+  name_settings_by(*deepest_parsed(&app), context.setting_options);
   const int code = context.run();
   finish_progress();
   return code;

@@ -34,12 +34,6 @@ std::string equation(const TableRegression& r) {
 
 }  // namespace
 
-std::string p_text(double p_value) {
-  if (p_value < 1e-300) return "< 1e-300";
-  if (p_value < 1e-3) return fmt::format("{:.1e}", p_value);
-  return fmt::format("{:.3f}", p_value);
-}
-
 std::string descriptions_text(const Descriptions& descriptions) {
   std::string text;
   for (const auto& group : descriptions.groups) {

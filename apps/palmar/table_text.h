@@ -15,7 +15,4 @@ std::string descriptions_text(const Descriptions& descriptions);
 std::string correlations_text(const Correlations& correlations);
 std::string regressions_text(const Regressions& regressions);
 
-/// "0.012", "1.5e-07", "< 1e-300".
-std::string p_text(double p_value);
-
 }  // namespace palmar::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "cli.h"
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/records/validation_json.h"
 #include "palmar/workflow/validate.h"
@@ -34,7 +33,7 @@ int run_validate(const ValidateArguments& arguments, const CommonOptions& common
     throw UsageError("--json and --markdown exclude each other");
   }
   const ValidateRequest& request = arguments.request;
-  check_as_options([&] { request.check(); }, {{"out:", "--out:"}});
+  request.check();
   const ValidationReport report = run_validation(request, make_progress(common));
   finish_progress();
   if (common.json) {

@@ -6,21 +6,11 @@
 
 #include <cstdlib>
 
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
-
-const OptionNames kBalanceNames = {
-    {"is_balanced is false, which", "--no-balance"},
-    {"strength_share", "--strength-share"},
-    {"strength and person", "--strength-n and --person"},
-    {"person or strength", "--person or --strength-n"},
-    {"person", "--person"},
-    {"give strength", "give --strength-n"},
-};
 
 /// "male,30" or "female,64". Throws UsageError.
 PersonOfAge parse_person(const std::string& text) {
@@ -60,7 +50,7 @@ RestSettings BalanceArguments::settings() const {
   RestSettings result = settings_;
   result.is_balanced = !no_balance_;
   if (!person_.empty()) result.person = parse_person(person_);
-  check_as_options([&] { result.check(); }, kBalanceNames);
+  result.check();
   return result;
 }
 

@@ -4,16 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "option_names.h"
 #include "palmar/report/page/friction_words.h"
 
 namespace palmar::cli {
 namespace {
-
-const OptionNames kFrictionNames = {
-    {"friction", "--friction"}, {"density", "--density-g-cm3"}, {"mass", "--mass-kg"},
-    {"weight", "--weight-n"},   {"gravity", "--gravity"},
-};
 
 void take(const char* option, const std::string& text, std::optional<Vec3>& value) {
   if (!text.empty()) value = parse_vector(option, text);
@@ -52,7 +46,7 @@ FrictionSettings FrictionArguments::settings() const {
   take("--load-n", load_n_, result.force);
   take("--torque-n-mm", torque_n_mm_, result.torque);
   take("--load-at", load_at_, result.force_at);
-  check_as_options([&] { result.check(); }, kFrictionNames);
+  result.check();
   return result;
 }
 

@@ -8,7 +8,6 @@
 #include "contact/contact_fit_command.h"
 #include "contact/press_specimen.h"
 #include "grasp/grasp_options.h"
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/press.h"
 #include "text.h"
@@ -114,7 +113,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   request.model = parse_model(arguments, !hand_name.empty());
   request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
   request.out = arguments.out;
-  check_as_options([&] { request.check(); }, {{"out:", "--out:"}});
+  request.check();
   if (!hand_name.empty() && arguments.spacing) {
     note(common, "--spacing-mm is left out: a hand has its own vertices");
   }

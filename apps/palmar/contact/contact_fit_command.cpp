@@ -6,7 +6,6 @@
 
 #include "contact/press_specimen.h"
 #include "grasp/grasp_options.h"
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/records/tissue_fit_json.h"
 #include "palmar/workflow/fit_tissue.h"
@@ -181,7 +180,7 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   request.description = describe(arguments, setup);
   request.out = arguments.out;
   request.note = [&common](const std::string& text) { note(common, text); };
-  check_as_options([&] { request.check(); }, {{"group:", "--group:"}});
+  request.check();
   const auto [fit, group] = fit_tissue(request);
   if (!arguments.out.empty()) note(common, "wrote " + arguments.out + " (" + group + ")");
   print(common.json ? tissue_fit_json(fit, request.description, request.fit.confidence) + "\n"

@@ -4,15 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "contact/press_specimen.h"
-#include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/error.h"
-#include "palmar/formats/file.h"
-#include "palmar/hand/tissue_block.h"
-#include "palmar/records/fe/inp_file.h"
-#include "palmar/records/fe/tetgen.h"
+#include "palmar/workflow/press_deck.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -56,32 +50,23 @@ int run_press_deck(const PressDeckArguments& arguments, const std::string& hand_
     throw UsageError("--region: \"" + arguments.region +
                      "\" is no region; one like middle_distal is required with --format inp");
   }
-  PressOptions press;
-  press.specimen = {.kind = PressSpecimen::Kind::kHandRegion, .region = *region};
-  press.indenter = parse_indenter(arguments.indenter);
-  press.tilt = radians(arguments.tilt_deg);
-  press.depths = parse_list("--depth-mm", arguments.depths);
-  const auto hand = load_hand(hand_name);
-
-  PressDeck deck;
-  deck.title = fmt::format("{} of hand {}, {} at {} deg", arguments.region, hand->name,
-                           arguments.indenter, arguments.tilt_deg);
-  deck.depths = press.depths;
-  deck.shear_modulus = arguments.shear_modulus_kpa / 1000.0;
-  deck.poisson = arguments.poisson;
-  deck.material = arguments.is_large_strain ? DeckMaterial::kNeoHooke : DeckMaterial::kLinear;
-  const Rigid3 frame = indenter_at_first_touch(press, PreparedHand(hand));
-  deck.indenter = indenter_surface(press.indenter, frame);
-  deck.direction = -(frame.rotation * Vec3::UnitZ());
-  const std::filesystem::path folder(out);
-  deck.block = mesh_by_tetgen(
-      make_tissue_block(*hand, {.region = *region, .cut_offset = arguments.cut, .cut_normal = {}}),
-      folder, arguments.largest_tet);
-  const std::filesystem::path file = folder / "press.inp";
-  write_file(file, inp_deck(deck));
+  PressDeckRequest request;
+  request.hand.name = hand_name;
+  request.region = *region;
+  request.indenter = parse_indenter(arguments.indenter);
+  request.tilt = radians(arguments.tilt_deg);
+  request.depths = parse_list("--depth-mm", arguments.depths);
+  request.shear_modulus = arguments.shear_modulus_kpa / 1000.0;
+  request.poisson = arguments.poisson;
+  if (arguments.is_large_strain) request.material = DeckMaterial::kNeoHooke;
+  request.largest_tet = arguments.largest_tet;
+  request.cut_offset = arguments.cut;
+  request.indenter_words = fmt::format("{} at {} deg", arguments.indenter, arguments.tilt_deg);
+  request.out = out;
+  const auto [file, deck] = write_press_deck(request);
   note(common, fmt::format("wrote {} ({} nodes, {} tetrahedra); solve it with `ccx -i {}`",
                            file.string(), deck.block.mesh.nodes.size(), deck.block.mesh.tets.size(),
-                           (folder / "press").string()));
+                           (file.parent_path() / file.stem()).string()));
   return 0;
 }
 

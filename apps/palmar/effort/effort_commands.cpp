@@ -12,35 +12,13 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/effort/effort.h"
-#include "palmar/effort/fingertip_force.h"
 #include "palmar/records/effort_json.h"
 #include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort_fingertip.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
-
-struct AngleKey {
-  const char* key;
-  Dof dof;
-};
-
-/// The names of a digit's angles on the command line.
-std::vector<AngleKey> angle_keys(Finger finger) {
-  if (finger == Finger::kThumb) {
-    return {{"cmc-flexion", Dof::kThumbCmcFlexion},
-            {"cmc-abduction", Dof::kThumbCmcAbduction},
-            {"mp", Dof::kThumbMpFlexion},
-            {"ip", Dof::kThumbIpFlexion}};
-  }
-  const auto dof = [&](const char* joint) {
-    return *dof_named(fmt::format("{}_{}", name_of(finger), joint));
-  };
-  return {{"mcp", dof("mcp_flexion")},
-          {"abduction", dof("mcp_abduction")},
-          {"pip", dof("pip_flexion")},
-          {"dip", dof("dip_flexion")}};
-}
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -67,44 +45,32 @@ double parse_angle(const std::string& item, const std::string& value) {
   return angle;
 }
 
-/// "mcp=40,pip=55,dip=35": an angle that isn't named is 0, or where its range begins.
-Posture parse_posture(const Hand& hand, Finger finger, const std::string& text) {
-  const std::vector<AngleKey> keys = angle_keys(finger);
-  std::vector<std::string> names;
-  for (const AngleKey& key : keys) names.emplace_back(key.key);
-  Posture posture = reference_posture(hand.skeleton);
-  for (const AngleKey& key : keys) {
-    const JointDof& dof = hand.skeleton.dof(key.dof);
-    posture[key.dof] = std::clamp(0.0, dof.lower, dof.upper);
-  }
-  if (text.empty()) return posture;
-  std::vector<std::string> given;
+/// "mcp=40,pip=55,dip=35" as angles of that finger.
+std::vector<DigitAngle> parse_posture(Finger finger, const std::string& text) {
+  if (text.empty()) return {};
+  const std::vector<DigitAngleName> known = angle_names_of(finger);
+  std::vector<DigitAngle> angles;
   for (const std::string& item : split(text, ',')) {
     const std::size_t equals = item.find('=');
     const std::string name = item.substr(0, equals);
-    const auto key =
-        std::find_if(keys.begin(), keys.end(), [&](const AngleKey& k) { return k.key == name; });
-    if (key == keys.end()) {
+    const auto own =
+        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+    if (own == known.end()) {
+      std::vector<std::string> names;
+      for (const DigitAngleName& one : known) names.emplace_back(one.name);
       const std::string nearest = nearest_name(name, names);
       throw UsageError(fmt::format(
           "--posture: the {} has no angle \"{}\"{}; it has {}", name_of(finger), name,
           nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
     }
-    if (std::find(given.begin(), given.end(), name) != given.end()) {
+    if (std::any_of(angles.begin(), angles.end(),
+                    [&](const DigitAngle& given) { return given.dof == own->dof; })) {
       throw UsageError(fmt::format("--posture: {} is given twice", name));
     }
-    given.push_back(name);
     const double angle = parse_angle(item, equals == item.npos ? "" : item.substr(equals + 1));
-    const JointDof& dof = hand.skeleton.dof(key->dof);
-    const double lower = degrees(dof.lower), upper = degrees(dof.upper);
-    if (angle < lower - 1e-9 || angle > upper + 1e-9) {
-      throw UsageError(
-          fmt::format("--posture: {} is {:g} deg; the range of {} is {:.1f} to {:.1f} deg", name,
-                      angle, plain_name_of(key->dof), lower, upper));
-    }
-    posture[key->dof] = radians(angle);
+    angles.push_back({own->dof, radians(angle)});
   }
-  return posture;
+  return angles;
 }
 
 Finger parse_finger(const std::string& text) {
@@ -113,10 +79,10 @@ Finger parse_finger(const std::string& text) {
       "--finger: \"{}\" is not known; thumb, index, middle, ring or little is allowed", text));
 }
 
-/// One tendon, or with "all" every one of the finger.
+/// One tendon, or none for "all".
 std::vector<Tendon> parse_tendons(Finger finger, const std::string& text) {
+  if (text == "all") return {};
   const auto own = tendons_of(finger);
-  if (text == "all") return {own.begin(), own.end()};
   std::vector<std::string> names;
   for (const Tendon tendon : own) names.emplace_back(name_of(tendon));
   const auto tendon = tendon_named(text);
@@ -204,20 +170,14 @@ void add_fingertip(CLI::App& effort, Context& context) {
   o->model.add_to(*verb);
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      const Finger finger = parse_finger(o->finger);
-      const std::vector<Tendon> which = parse_tendons(finger, o->tendon);
-      if (!(o->force_n > 0.0) || o->force_n > kLargestTendonForce) {
-        throw UsageError(fmt::format("--force-n is {:g}; above 0 and at most {:g} N is allowed",
-                                     o->force_n, kLargestTendonForce));
-      }
-      const TendonModel model = tendon_model(o->model.points, o->model.hood);
-      const auto hand = load_hand(o->hand);
-      const Posture posture = parse_posture(*hand, finger, o->posture);
-      const DigitTendons tendons = route_tendons(*hand, finger, model);
-      std::vector<FingertipForce> forces;
-      for (const Tendon tendon : which) {
-        forces.push_back(fingertip_force(*hand, tendons, posture, tendon, o->force_n));
-      }
+      FingertipRequest request;
+      request.hand.name = o->hand;
+      request.finger = parse_finger(o->finger);
+      request.tendons = parse_tendons(request.finger, o->tendon);
+      request.posture = parse_posture(request.finger, o->posture);
+      request.force = o->force_n;
+      request.model = tendon_model(o->model.points, o->model.hood);
+      const auto [forces, posture] = fingertip_forces(request);
       print(context.common.json ? fingertip_json(forces, posture) + "\n" : fingertip_text(forces));
       return 0;
     };
@@ -278,6 +238,7 @@ void add_grasp(CLI::App& effort, Context& context) {
                    "Strength of the person's muscles over that of the model's")
       ->capture_default_str();
   verb->callback([&context, o] {
+    context.setting_options = {{"strength", "--strength-n"}};  // of the grip; not the muscles' own
     context.run = [&context, o] {
       EffortRequest request;
       request.grasp = o->grasp.settings();

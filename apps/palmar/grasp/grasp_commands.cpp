@@ -20,18 +20,18 @@ struct GraspVerb {
 };
 
 // A verb that finds a grasp of a product and describes it.
-void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& words) {
+void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& kind) {
   struct Options {
     std::string product, out;
     GraspArguments grasp;
   };
   const auto o = std::make_shared<Options>();
-  CLI::App* verb = add_verb(grasp, words.name, words.about, words.example);
+  CLI::App* verb = add_verb(grasp, kind.name, kind.about, kind.example);
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   o->grasp.add_to(*verb);
-  verb->add_option("--out", o->out, words.out);
-  verb->callback([&context, o, words] {
-    context.run = [&context, o, words] {
+  verb->add_option("--out", o->out, kind.out);
+  verb->callback([&context, o, kind] {
+    context.run = [&context, o, kind] {
       GraspRequest request;
       request.grasp = o->grasp.settings();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
@@ -39,8 +39,8 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& words) {
       request.note = [&context](const std::string& text) { note(context.common, text); };
       const Grasp found = grasp_product(request, make_progress(context.common)).grasp;
       finish_progress();
-      if (!o->out.empty()) write_file(o->out, words.json(found) + "\n");
-      print(context.common.json ? words.json(found) + "\n" : words.text(found));
+      if (!o->out.empty()) write_file(o->out, kind.json(found) + "\n");
+      print(context.common.json ? kind.json(found) + "\n" : kind.text(found));
       return 0;
     };
   });

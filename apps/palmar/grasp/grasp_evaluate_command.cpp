@@ -5,7 +5,6 @@
 #include "assess/friction_arguments.h"
 #include "grasp/grasp_options.h"
 #include "hand/posture_notes.h"
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
@@ -22,13 +21,6 @@ struct EvaluateArguments {
   ContactArguments contact;
   FrictionArguments friction;
   bool no_pictures = false;
-};
-
-const OptionNames kEvaluateNames = {
-    {"product_from_hand or measured_from_product is needed",
-     "--placement X,Y,Z,QW,QX,QY,QZ or --measured-from-product is needed"},
-    {"product_from_hand and measured_from_product", "--placement and --measured-from-product"},
-    {"measured_from_product", "--measured-from-product"},
 };
 
 EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& context) {
@@ -61,9 +53,7 @@ EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& co
 
 int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
   const EvaluateRequest request = request_of(arguments, context);
-  EvaluateOutcome outcome;
-  check_as_options([&] { outcome = evaluate_grasp(request, make_progress(context.common)); },
-                   kEvaluateNames);
+  const EvaluateOutcome outcome = evaluate_grasp(request, make_progress(context.common));
   finish_progress();
   const Assessment& assessment = outcome.set.assessments.front().assessment;
   if (context.common.json) {
@@ -105,8 +95,10 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
                    "CSV of measured grasp postures: basis of the index of ease");
   verb->add_option("--out", o->out, "Folder of the report; none by default");
   verb->add_flag("--no-pictures", o->no_pictures, "Leave out the PNG pictures");
-  verb->callback(
-      [&context, o] { context.run = [&context, o] { return run_evaluate(*o, context); }; });
+  verb->callback([&context, o] {
+    context.setting_options = {{"product from hand", "--placement"}};
+    context.run = [&context, o] { return run_evaluate(*o, context); };
+  });
 }
 
 }  // namespace palmar::cli

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "text.h"
@@ -104,12 +103,7 @@ GraspSettings GraspArguments::settings() const {
   if (!axis_.empty()) placement.axis = parse_vector("--axis", axis_);
   if (turn_deg_) placement.turn = radians(*turn_deg_);
   for (const std::string& text : fingertips_) result.fingertips.push_back(parse_fingertip(text));
-  const std::string name = result.grip ? std::string(name_of(*result.grip)) : "power";
-  check_as_options([&] { result.check(); },
-                   {{"fingertips: grip " + name, "--fingertip: grip " + grip_},
-                    {"region: grip " + name, "--region: grip " + grip_},
-                    {"at or fingertips", "--at or --fingertip"},
-                    {"such as tripod", "as in --grip tripod"}});
+  result.check();
   return result;
 }
 

@@ -8,12 +8,11 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "palmar/formats/file.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/hand_profile.h"
-#include "palmar/population/hand_sample.h"
 #include "palmar/records/population/hand_sample_table.h"
 #include "palmar/records/population/population_file.h"
+#include "palmar/workflow/population/population_sample.h"
 
 namespace palmar::cli {
 namespace {
@@ -124,15 +123,16 @@ void add_show(CLI::App& noun, Context& context) {
 }
 
 struct SampleArguments {
-  std::string population, design = name_of(SamplingOptions{}.design), percentiles, out;
-  SamplingOptions sampling;
+  PopulationSampleRequest request;
+  std::string design = name_of(SamplingOptions{}.design), percentiles;
   bool without_residuals = false, as_csv = false;
 };
 
-SamplingDesign design_named(const std::string& name) {
+SamplingDesign parse_design(const std::string& name) {
   if (const auto design = sampling_design_named(name)) return *design;
-  const std::string nearest =
-      nearest_name(name, {"random", "latin_hypercube", "boundary", "percentiles"});
+  std::vector<std::string> known;
+  for (const SamplingDesign one : kSamplingDesigns) known.push_back(name_of(one));
+  const std::string nearest = nearest_name(name, known);
   throw UsageError("--design " + name + ": " +
                    (nearest.empty() ? "random, latin_hypercube, boundary or percentiles is allowed"
                                     : "did you mean " + nearest + "?"));
@@ -140,16 +140,17 @@ SamplingDesign design_named(const std::string& name) {
 
 void add_sample(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<SampleArguments>();
+  SamplingOptions& sampling = o->request.sampling;
   CLI::App* verb = add_verb(noun, "sample", "Sample hands of a population, one row each",
                             "palmar population sample ansur2 --hands 30 --out hands.csv");
-  verb->add_option("POPULATION", o->population, kNameOrFile)->required();
-  verb->add_option("--hands", o->sampling.hands, "Number of hands (random, latin_hypercube)")
+  verb->add_option("POPULATION", o->request.population, kNameOrFile)->required();
+  verb->add_option("--hands", sampling.hands, "Number of hands (random, latin_hypercube)")
       ->capture_default_str();
   verb->add_option("--design", o->design, "random, latin_hypercube, boundary or percentiles")
       ->capture_default_str();
-  verb->add_option("--boundary", o->sampling.boundary, "Share of people inside the boundary hands")
+  verb->add_option("--boundary", sampling.boundary, "Share of people inside the boundary hands")
       ->capture_default_str();
-  verb->add_option("--points", o->sampling.boundary_points,
+  verb->add_option("--points", sampling.boundary_points,
                    "Number of boundary hands beside the mean one")
       ->capture_default_str();
   verb->add_option("--percentiles", o->percentiles,
@@ -157,30 +158,24 @@ void add_sample(CLI::App& noun, Context& context) {
   verb->add_flag("--no-residuals", o->without_residuals,
                  "Leave out the scatter of regressed dimensions about their regressions");
   verb->add_flag("--csv", o->as_csv, "Table on stdout (as without --json)");
-  verb->add_option("--out", o->out, "File to write: .csv, or .json");
+  verb->add_option("--out", o->request.out, "File to write: .csv, or .json");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      if (!o->out.empty() && !o->out.ends_with(".csv") && !o->out.ends_with(".json")) {
-        throw UsageError("--out " + o->out + ": a name ending in .csv or .json is required");
+      PopulationSampleRequest request = o->request;
+      request.sampling.design = parse_design(o->design);
+      request.sampling.seed = context.common.seed;
+      request.sampling.residuals = !o->without_residuals;
+      if (!o->percentiles.empty()) {
+        request.sampling.percentiles = parse_list("--percentiles", o->percentiles);
       }
-      const Population population = load_population(o->population);
-      SamplingOptions options = o->sampling;
-      options.design = design_named(o->design);
-      options.seed = context.common.seed;
-      options.residuals = !o->without_residuals;
-      if (!o->percentiles.empty())
-        options.percentiles = parse_list("--percentiles", o->percentiles);
-      const std::vector<HandSample> hands = sample_hands(population, options);
-      for (const std::string& caution : population.cautions) note(context.common, caution);
-      const bool is_json =
-          o->out.empty() ? context.common.json && !o->as_csv : o->out.ends_with(".json");
-      const std::string text = is_json ? hand_sample_json(population, options, hands)
-                                       : format_csv(hand_sample_table(hands));
-      if (o->out.empty()) {
-        print(text);
+      request.note = [&context](const std::string& text) { note(context.common, text); };
+      const auto [population, hands] = sample_population(request);
+      if (!request.out.empty()) {
+        note(context.common, fmt::format("wrote {} ({} hands)", request.out, hands.size()));
+      } else if (context.common.json && !o->as_csv) {
+        print(hand_sample_json(population, request.sampling, hands));
       } else {
-        write_file(o->out, text);
-        note(context.common, fmt::format("wrote {} ({} hands)", o->out, hands.size()));
+        print(format_csv(hand_sample_table(hands)));
       }
       return 0;
     };

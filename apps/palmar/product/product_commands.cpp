@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.h"
-#include "option_names.h"
 #include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/product/check.h"
@@ -129,8 +128,7 @@ int convert(const FileArguments& o, const Context& context) {
       .out = o.out,
       .reading = o.cad.options(o.unit),
       .note = [&context](const std::string& text) { note(context.common, text); }};
-  check_as_options([&] { convert_product(request, make_progress(context.common)); },
-                   {{"out with", "--out"}});
+  convert_product(request, make_progress(context.common));
   note(context.common, "wrote " + o.out + " (unit: mm)");
   return 0;
 }

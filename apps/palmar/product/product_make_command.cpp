@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "option_names.h"
 #include "output_guard.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
@@ -26,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-const OptionNames kMakeOptions = {{"files", "--out"}, {"formats", "--format"}};
+const SettingOptions kMakeOptions = {{"files", "--out"}};
 
 struct MakeArguments {
   std::string kind;
@@ -214,11 +213,10 @@ void add_kind(CLI::App& make, Context& context, const ParametricKind& kind) {
       ->allow_extra_args(false);
   add_output(*verb, o);
   verb->callback([&context, o] {
+    context.setting_options = kMakeOptions;
     context.run = [&context, o] {
-      return naming_options(kMakeOptions, [&] {
-        make_files(*o, context);
-        return 0;
-      });
+      make_files(*o, context);
+      return 0;
     };
   });
 }
@@ -273,11 +271,12 @@ void add_product_make_command(CLI::App& product, Context& context) {
   add_plane(*make, context);
   make->callback([&context, make, o, list, from] {
     if (!make->get_subcommands().empty()) return;
+    context.setting_options = kMakeOptions;
     context.run = [&context, o, list, from] {
       if (*list) {
         print(context.common.json ? list_json().dump(2) + "\n" : list_text());
       } else if (!from->empty()) {
-        naming_options(kMakeOptions, [&] { make_from_list(*from, *o, context); });
+        make_from_list(*from, *o, context);
       } else {
         std::string kinds;
         for (const std::string& name : parametric_kind_names()) kinds += name + ", ";

@@ -50,17 +50,6 @@ RedesignRequest RedesignArguments::read(const Context& context) const {
   return result;
 }
 
-OptionNames redesign_options(OptionNames names) {
-  for (const char* field : {"hands", "hand", "at", "axis", "posture", "out"}) {
-    names.emplace_back(field, std::string("--") + field);
-  }
-  names.insert(names.end(), {{"product", "PRODUCT"},
-                             {"populations", "--population"},
-                             {"grips", "--grip"},
-                             {"grip_force", "--grip-force-n"}});
-  return names;
-}
-
 void print_redesign(const std::string& json, const std::optional<RedesignComparison>& comparison,
                     const Context& context) {
   finish_progress();

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli.h"
-#include "option_names.h"
 #include "palmar/workflow/redesign/held_original.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
@@ -29,9 +28,6 @@ struct RedesignArguments {
   /// Read; notes go to stderr. Throws UsageError.
   RedesignRequest read(const Context& context) const;
 };
-
-/// Options by fields of a RedesignRequest, with those of its command put before.
-OptionNames redesign_options(OptionNames names);
 
 /// What a redesign prints in the end: the comparison in words and where it was written, or with
 /// --json the one object, with the comparison in it.

@@ -10,18 +10,6 @@
 namespace palmar::cli {
 namespace {
 
-const OptionNames kFeatureOptions =
-    redesign_options({{"vary", "--vary"},
-                      {"proposes", "--propose"},
-                      {"groove_radius", "--groove-radius-mm"},
-                      {"smallest_groove_radius", "--smallest-groove-radius-mm"},
-                      {"largest_offset", "--largest-offset-mm"},
-                      {"smallest_radius", "--smallest-radius-mm"},
-                      {"smallest_volume", "--smallest-volume"},
-                      {"largest_volume", "--largest-volume"},
-                      {"least_grip_force", "--least-grip-force"},
-                      {"lost_hands", "--lost-hands"}});
-
 struct FeatureArguments {
   RedesignArguments redesign;
   RedesignFeatureRequest request;
@@ -97,9 +85,10 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
                      "Range as 1:15, or one radius that is made without a search")
         ->capture_default_str();
     verb->callback([a, &context] {
+      context.setting_options = {{"vary", "--edges with --radius-mm"}};
       context.run = [a, &context] {
         a->request.vary = {"fillet:" + a->edges + "=" + a->radius};
-        return naming_options(kFeatureOptions, [&] { return run_features(*a, context); });
+        return run_features(*a, context);
       };
     });
   }
@@ -127,11 +116,8 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
   verb->add_flag("--propose", a->request.proposes,
                  "Don't search: list the features that carry the peaks, try one change of each, "
                  "and rank the changes by their gain");
-  verb->callback([a, &context] {
-    context.run = [a, &context] {
-      return naming_options(kFeatureOptions, [&] { return run_features(*a, context); });
-    };
-  });
+  verb->callback(
+      [a, &context] { context.run = [a, &context] { return run_features(*a, context); }; });
 }
 
 }  // namespace palmar::cli

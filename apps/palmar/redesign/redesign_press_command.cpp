@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "palmar/core/error.h"
 #include "redesign/redesign_arguments.h"
 #include "redesign/redesign_text.h"
 
@@ -96,10 +97,8 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
   verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
   verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
   verb->callback([a, &context] {
-    context.run = [a, &context] {
-      return naming_options(redesign_options({{"over", "--over"}, {"formats", "--format"}}),
-                            [&] { return run_press(*a, context); });
-    };
+    context.setting_options = {{"rim width", "--rim-mm"}, {"edge length", "--edge-mm"}};
+    context.run = [a, &context] { return run_press(*a, context); };
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "palmar/core/error.h"
 #include "redesign/redesign_arguments.h"
 #include "redesign/redesign_text.h"
 
@@ -101,16 +102,8 @@ void add_redesign_region_command(CLI::App& noun, Context& context) {
       ->capture_default_str();
   verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
   verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
-  verb->callback([a, &context] {
-    context.run = [a, &context] {
-      return naming_options(redesign_options({{"share", "--share"},
-                                              {"threshold", "--threshold-mpa"},
-                                              {"pressed_share", "--pressed-share"},
-                                              {"relief_share", "--relief-share"},
-                                              {"junction_radius", "--junction-radius-mm"}}),
-                            [&] { return run_region(*a, context); });
-    };
-  });
+  verb->callback(
+      [a, &context] { context.run = [a, &context] { return run_region(*a, context); }; });
 }
 
 }  // namespace palmar::cli

@@ -6,16 +6,10 @@
 
 #include <cmath>
 
-#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
 namespace palmar::cli {
-namespace {
-
-const OptionNames kStudyNames = {{"hands has", "--hands has"}};
-
-}  // namespace
 
 void StudyArguments::add_to(CLI::App& verb) {
   CLI::Option* toml = verb.add_option("FILE", file_, "Study file (docs/using/studies.md)");
@@ -53,7 +47,7 @@ StudyRequest StudyArguments::request(const Context& context) const {
     }
     quick.unit = parse_unit(unit_);
     if (!populations_.empty()) quick.populations = populations_;
-    check_as_options([&] { request = study_of(quick); }, kStudyNames);
+    request = study_of(quick);
   }
   if (context.common.seed != 0) request.seed = context.common.seed;
   return request;

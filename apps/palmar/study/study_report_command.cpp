@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_report_command.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "palmar/core/error.h"
 #include "palmar/workflow/study/study_report.h"
 #include "study/study_comparison_text.h"
 
@@ -42,17 +39,11 @@ void add_report(CLI::App& noun, Context& context) {
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      if (!(o->threshold >= 0.0 && o->threshold <= 1e5)) {
-        throw UsageError(
-            fmt::format("--threshold-kpa is {:g} kPa; 0 to 100000 kPa are allowed", o->threshold));
-      }
-      StudyReportOptions options = o->report;
-      options.threshold = o->threshold / 1000.0;
-      options.pictures = !o->no_pictures;
-      options.figure_files = !o->no_figures;
-      options.check();
-      const std::string page =
-          report_study(o->store, o->out, options, make_progress(context.common)).string();
+      StudyReportRequest request{.store = o->store, .folder = o->out, .report = o->report};
+      request.report.threshold = o->threshold / 1000.0;
+      request.report.pictures = !o->no_pictures;
+      request.report.figure_files = !o->no_figures;
+      const std::string page = report_study(request, make_progress(context.common)).string();
       finish_progress();
       print(context.common.json ? Json({{"report", page}}).dump() + "\n" : page + "\n");
       return 0;

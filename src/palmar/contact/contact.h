@@ -67,6 +67,16 @@ std::string name_of(const ContactModel& model);
 std::string_view name_of(Kernel kernel);            ///< "patch", "point"
 std::string_view name_of(TissueModel tissue);       ///< "halfspace", "layered"
 std::string_view name_of(RegionCoupling coupling);  ///< "coupled", "independent"
+std::string_view name_of(SkinDistance distance);    ///< "surface", "isomap"
+std::string_view name_of(BulgeLaw bulge);           ///< "held", "printed"
+
+// All that have a name.
+inline constexpr std::array kKernels{Kernel::kPatch, Kernel::kPoint};
+inline constexpr std::array kTissueModels{TissueModel::kHalfSpace, TissueModel::kLayered};
+inline constexpr std::array kRegionCouplings{RegionCoupling::kCoupled,
+                                             RegionCoupling::kIndependent};
+inline constexpr std::array kSkinDistances{SkinDistance::kSurface, SkinDistance::kIsomap};
+inline constexpr std::array kBulgeLaws{BulgeLaw::kHeld, BulgeLaw::kPrinted};
 
 /// Elastic cover of a product (rubber sleeve, foam), bonded to a rigid core. The skin meets its
 /// outside; skin and cover give way in series.

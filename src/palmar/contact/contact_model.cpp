@@ -28,6 +28,12 @@ std::string_view name_of(RegionCoupling coupling) {
   return coupling == RegionCoupling::kCoupled ? "coupled" : "independent";
 }
 
+std::string_view name_of(SkinDistance distance) {
+  return distance == SkinDistance::kSurface ? "surface" : "isomap";
+}
+
+std::string_view name_of(BulgeLaw bulge) { return bulge == BulgeLaw::kHeld ? "held" : "printed"; }
+
 std::string name_of(const ContactModel& model) {
   const ContactModel palmar;
   if (model == xie2014_model()) return "xie2014";
@@ -38,9 +44,8 @@ std::string name_of(const ContactModel& model) {
   add(model.kernel != palmar.kernel, name_of(model.kernel));
   add(model.tissue != palmar.tissue, name_of(model.tissue));
   add(model.coupling != palmar.coupling, name_of(model.coupling));
-  add(model.distance != palmar.distance,
-      model.distance == SkinDistance::kSurface ? "surface distances" : "isomap distances");
-  add(model.bulge != palmar.bulge, model.bulge == BulgeLaw::kHeld ? "held bulge" : "printed bulge");
+  add(model.distance != palmar.distance, std::string(name_of(model.distance)) + " distances");
+  add(model.bulge != palmar.bulge, std::string(name_of(model.bulge)) + " bulge");
   return name;
 }
 

@@ -26,12 +26,14 @@ GraspOptions options_of(const GraspSettings& settings) {
 void GraspSettings::check() const {
   const std::string name = grip ? std::string(name_of(*grip)) : "power";
   if (!fingertips.empty() && (!grip || is_power(*grip))) {
-    throw UsageError("fingertips: grip " + name +
-                     " holds with the whole hand; a precision grip is required, such as tripod");
+    throw UsageError("setting \"fingertips\": grip " + name +
+                     " holds with the whole hand; a precision grip is required, such as setting "
+                     "\"grip\" tripod");
   }
   if (placement.region && grip && !is_power(*grip)) {
-    throw UsageError("region: grip " + name +
-                     " takes fingertips to points; at or fingertips says where");
+    throw UsageError("setting \"region\": grip " + name +
+                     " takes fingertips to points; setting \"at\" or setting \"fingertips\" says "
+                     "where");
   }
   options_of(*this).check();
 }

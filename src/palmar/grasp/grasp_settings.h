@@ -18,7 +18,7 @@ struct GraspSettings {
   double fingertip_depth = PrecisionGripOptions{}.fingertip_depth;     ///< precision grips, mm
   std::vector<FingertipTarget> fingertips;  ///< precision grips only; empty: found from the shape
 
-  /// Throws UsageError: field, value, what is allowed. Fingertips go with precision grips only, a
+  /// Throws UsageError: setting, value, what is allowed. Fingertips go with precision grips only, a
   /// region of the surface with power grips only.
   void check() const;
   GraspOptions options() const;  ///< throws UsageError as check()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ enum class SamplingDesign {
   kBoundary,        ///< mean and points of an ellipse of two driving dimensions
   kPercentiles      ///< hands whose driving dimensions all stand at a percentile of their stratum
 };
+inline constexpr std::array kSamplingDesigns{
+    SamplingDesign::kRandom, SamplingDesign::kLatinHypercube, SamplingDesign::kBoundary,
+    SamplingDesign::kPercentiles};
 /// "random", "latin_hypercube", "boundary", "percentiles".
 std::string name_of(SamplingDesign design);
 std::optional<SamplingDesign> sampling_design_named(std::string_view name);

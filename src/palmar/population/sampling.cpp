@@ -300,8 +300,7 @@ std::string name_of(SamplingDesign design) {
 }
 
 std::optional<SamplingDesign> sampling_design_named(std::string_view name) {
-  for (const SamplingDesign one : {SamplingDesign::kRandom, SamplingDesign::kLatinHypercube,
-                                   SamplingDesign::kBoundary, SamplingDesign::kPercentiles}) {
+  for (const SamplingDesign one : kSamplingDesigns) {
     if (name_of(one) == name) return one;
   }
   return std::nullopt;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/table_results.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/text.h"
@@ -230,6 +232,12 @@ CsvTable regressions_csv(const Regressions& regressions) {
     }
   }
   return table;
+}
+
+std::string p_text(double p_value) {
+  if (p_value < 1e-300) return "< 1e-300";
+  if (p_value < 1e-3) return fmt::format("{:.1e}", p_value);
+  return fmt::format("{:.3f}", p_value);
 }
 
 }  // namespace palmar

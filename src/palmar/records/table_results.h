@@ -38,6 +38,9 @@ CsvTable descriptions_csv(const Descriptions& descriptions);
 CsvTable correlations_csv(const Correlations& correlations);
 CsvTable regressions_csv(const Regressions& regressions);
 
+/// A p value for people: "0.012", "1.5e-07", "< 1e-300".
+std::string p_text(double p_value);
+
 /// Holm's adjustment of Pearson's p values over the pairs of one group, in their order.
 std::vector<double> adjusted_p_values(const TableCorrelation& correlation);
 

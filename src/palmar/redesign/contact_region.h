@@ -14,7 +14,7 @@
 
 namespace palmar {
 
-/// Parts of the hand that a product's designer shows apart (Xie 2014, fig. 5-16: red and blue).
+/// Parts of the hand that a product's designer distinguishes (Xie 2014, fig. 5-16: red and blue).
 enum class HandPart { kFingers, kThumb, kPalm };
 inline constexpr int kHandParts = 3;
 std::string name_of(HandPart part);  ///< "fingers", "thumb", "palm"

@@ -116,7 +116,7 @@ class Candidates {
   }
 
   double over(const SearchTrial& trial, size_t constraint) const {
-    // What can't be made has no value: the optimiser is recognised by the goal alone.
+    // What can't be made has no value: the optimiser learns of it by the goal alone.
     if (!trial.outcome.failure.empty()) return 0.0;
     return excess(problem_.constraints[constraint], trial.outcome.constraint[constraint]);
   }

@@ -35,7 +35,7 @@ constexpr double kEnoughInward = 0.5, kLeastInward = 0.15;
 
 void require(bool holds, const char* field, double value, const std::string& allowed) {
   if (holds) return;
-  throw UsageError(fmt::format("pressed shape: {} is {}{}; {} is allowed", field, value,
+  throw UsageError(fmt::format("pressed shape: setting \"{}\" is {}{}; {} is allowed", field, value,
                                allowed.ends_with(" mm") ? " mm" : "", allowed));
 }
 
@@ -147,22 +147,19 @@ void measure_shape(PressedShape& shape, const PressRegion& region, const std::ve
 }  // namespace
 
 void PressedShapeOptions::check() const {
-  require(share >= 0.0 && share <= 1.0, "share (--share)", share, "0 to 1");
+  require(share >= 0.0 && share <= 1.0, "share", share, "0 to 1");
   combine.check();
-  require(depth_limit >= 0.1 && depth_limit <= 50.0, "depth limit (--depth-limit-mm)", depth_limit,
-          "0.1 to 50 mm");
-  require(wall >= 0.0 && wall <= 50.0, "wall (--wall-mm)", wall, "0 to 50 mm");
-  require(smoothing >= 0.0 && smoothing <= 20.0, "smoothing (--smoothing-mm)", smoothing,
-          "0 to 20 mm");
-  require(rim_width >= 0.5 && rim_width <= 50.0, "rim width (--rim-mm)", rim_width, "0.5 to 50 mm");
-  require(edge_length >= 0.3 && edge_length <= 10.0, "edge length (--edge-mm)", edge_length,
-          "0.3 to 10 mm");
-  require(keep_out.blend >= 0.0 && keep_out.blend <= 100.0, "keep-out blend (--keep-blend-mm)",
-          keep_out.blend, "0 to 100 mm");
+  require(depth_limit >= 0.1 && depth_limit <= 50.0, "depth limit", depth_limit, "0.1 to 50 mm");
+  require(wall >= 0.0 && wall <= 50.0, "wall", wall, "0 to 50 mm");
+  require(smoothing >= 0.0 && smoothing <= 20.0, "smoothing", smoothing, "0 to 20 mm");
+  require(rim_width >= 0.5 && rim_width <= 50.0, "rim width", rim_width, "0.5 to 50 mm");
+  require(edge_length >= 0.3 && edge_length <= 10.0, "edge length", edge_length, "0.3 to 10 mm");
+  require(keep_out.blend >= 0.0 && keep_out.blend <= 100.0, "keep blend", keep_out.blend,
+          "0 to 100 mm");
   require(align_limit >= 0.0 && align_limit <= 50.0, "align limit", align_limit, "0 to 50 mm");
-  if (align_along) {
-    require(std::abs(align_along->norm() - 1.0) < 1e-6, "length of the axis to align along",
-            align_along->norm(), "1");
+  if (align_along && !(std::abs(align_along->norm() - 1.0) < 1e-6)) {
+    throw UsageError(fmt::format(
+        "pressed shape: the axis to align along has length {}; 1 is allowed", align_along->norm()));
   }
 }
 

@@ -284,9 +284,9 @@ TEST(PressShape, RefusesWhatCantBe) {
   const Product product = plate();
   PressedShapeOptions options;
   options.share = 1.2;
-  EXPECT_THAT(
-      [&] { press(product, {ball_on_top()}, options); },
-      ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("share (--share) is 1.2; 0 to 1")));
+  EXPECT_THAT([&] { press(product, {ball_on_top()}, options); },
+              ::testing::ThrowsMessage<UsageError>(
+                  ::testing::HasSubstr("setting \"share\" is 1.2; 0 to 1")));
   EXPECT_THAT([&] { press(product, {}, {}); },
               ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("no hands")));
   options = {};

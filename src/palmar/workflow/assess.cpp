@@ -59,7 +59,9 @@ AssessOptions options_of(const AssessRequest& request, const Skeleton& skeleton)
 }  // namespace
 
 void AssessRequest::check() const {
-  if (products.empty()) throw UsageError("products: none is given; at least one is required");
+  if (products.empty()) {
+    throw UsageError("setting \"products\": none is given; at least one is required");
+  }
   for (const ProductChoice& product : products) product.check();
   grasp.check();
   contact.check();

@@ -38,7 +38,7 @@ struct AssessRequest {
   std::uint64_t seed = 0;    ///< written into the results
   std::string command_line;  ///< for provenance
   NoteSink note = {};        ///< early notes: what was found in a product, why one has no solution
-  void check() const;        ///< throws UsageError: field, value, what is allowed
+  void check() const;        ///< throws UsageError: setting, value, what is allowed
 };
 
 struct AssessOutcome {

@@ -124,12 +124,12 @@ TEST(AssessProducts, HandThatIsNotThereIsNamed) {
 }
 
 TEST(AssessRequest, CheckNamesFieldValueAndWhatIsAllowed) {
-  EXPECT_THAT(refusal(request_for({})), HasSubstr("products: none is given"));
+  EXPECT_THAT(refusal(request_for({})), HasSubstr("setting \"products\": none is given"));
   EXPECT_THAT(refusal(request_for({ProductChoice()})), HasSubstr("a file or a value is required"));
   AssessRequest request = request_for({handle(40.0)});
   EXPECT_EQ(refusal(request), "accepted");
   request.friction.friction = 7.0;
-  EXPECT_THAT(refusal(request), HasSubstr("friction is 7; 0 to 5 is required"));
+  EXPECT_THAT(refusal(request), HasSubstr("setting \"friction\" is 7; 0 to 5 is required"));
   request = request_for({handle(40.0)});
   request.rest.grip_force = -3.0;
   EXPECT_THAT(refusal(request), HasSubstr("grip force is -3 N; more than 0"));

@@ -36,7 +36,7 @@ std::vector<Region> regions_of(const std::string& name) {
   }
   if (group) return regions;
   const std::string nearest = nearest_name(name, known);
-  throw UsageError("group: \"" + name + "\" is not known; " +
+  throw UsageError("setting \"group\": \"" + name + "\" is not known; " +
                    (nearest.empty() ? "finger, palm, dorsum or a region is allowed"
                                     : "did you mean " + nearest + "?"));
 }

@@ -28,7 +28,7 @@ struct TissueFitRequest {
   std::string description;  ///< of the test, for the tissue file: "plane pressed by sphere:5"
   std::string out;          ///< tissue file to write, *.toml; "": none
   NoteSink note = {};       ///< columns and rows that are left out
-  void check() const;       ///< throws UsageError: field, value, what is allowed
+  void check() const;       ///< throws UsageError: setting, value, what is allowed
 };
 
 struct TissueFitOutcome {

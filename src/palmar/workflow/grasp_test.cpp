@@ -51,7 +51,8 @@ TEST(GraspProduct, FingertipsGoWithPrecisionGripsOnly) {
     grasp_product(request);
     FAIL() << "a power grip took a fingertip's place";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("fingertips: grip power holds with the whole hand"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("setting \"fingertips\": grip power holds with the whole hand"));
   }
 }
 
@@ -72,7 +73,7 @@ TEST(EvaluateGrasp, HandFarFromTheProductTouchesNothing) {
     evaluate_grasp(request);
     FAIL() << "a posture alone says where the product is";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("measured_from_product is needed"));
+    EXPECT_THAT(error.what(), HasSubstr("setting \"measured from product\" is needed"));
   }
   request.product_from_hand = Rigid3{Quat::Identity(), Vec3(0.0, 0.0, 1000.0)};
   const EvaluateOutcome outcome = evaluate_grasp(request);

@@ -22,7 +22,7 @@ struct HandFromMriRequest {
   /// made. The description of a series, or the name of its folder, shows the posture; the reference
   /// is needed.
   std::vector<std::string> images;
-  std::vector<SeriesPosture> series;  ///< what series show whose names don't show it
+  std::vector<SeriesPosture> series;  ///< what series show whose names don't give it
   std::vector<ScanPosture> skip;      ///< postures to leave out, for a spoilt series
   std::string out;                    ///< the hand, *.hand.glb
   std::string work;     ///< folder for the report and for what each step makes, which another run

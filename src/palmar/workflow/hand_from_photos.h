@@ -20,7 +20,7 @@ struct HandFromPhotosRequest {
   /// the posture: reference (or natural), finger_flexion, finger_abduction; the reference is
   /// needed, a single folder is taken for it.
   std::vector<std::string> folders;
-  std::map<std::string, ScanPosture> posture;  ///< of folders whose names don't show it
+  std::map<std::string, ScanPosture> posture;  ///< of folders whose names don't give it
   PhotoMeshOptions mesh;                       ///< how surfaces are made of the photographs
   ScanHandOptions hand;  ///< `work`: folder for the report and for the meshes, which another run
                          ///< takes up; empty: beside the hand, *.photos

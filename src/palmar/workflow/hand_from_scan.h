@@ -21,7 +21,7 @@ struct HandFromScanRequest {
   /// shows it: reference (or natural), finger_flexion, finger_abduction; the reference is needed, a
   /// single file is taken for it.
   std::vector<std::string> scans;
-  std::map<std::string, ScanPosture> posture;  ///< of files whose names don't show it
+  std::map<std::string, ScanPosture> posture;  ///< of files whose names don't give it
   std::optional<LengthUnit> unit;  ///< of files that carry none; nothing: the one that makes
                                    ///< a hand of the reference, which holds for all
   /// Points of the reference scan, in its own coordinates and unit, that have an ink's colour;

@@ -41,7 +41,7 @@ void PressRequest::check() const {
   asked.check();
   const std::string format = std::filesystem::path(out).extension().string();
   if (out.empty() || format == ".json" || format == ".csv" || format == ".svg") return;
-  throw UsageError("out: \"" + out + "\" ends with none of .json, .csv, .svg");
+  throw UsageError("setting \"out\": \"" + out + "\" ends with none of .json, .csv, .svg");
 }
 
 PressOutcome run_press(const PressRequest& request) {

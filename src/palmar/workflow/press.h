@@ -17,7 +17,7 @@ struct PressRequest {
   HandChoice hand;     ///< whose region is pressed; its tissue file also serves plane and ellipsoid
   ContactModel model;  ///< the equations; a plane or ellipsoid takes the kernel
   std::string out;     ///< file to write, .json, .csv or .svg (the curve); "": none
-  void check() const;  ///< throws UsageError: field, value, what is allowed
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 struct PressOutcome {

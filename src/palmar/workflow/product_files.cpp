@@ -52,8 +52,8 @@ void convert_product(const ConvertRequest& request, const Progress& progress) {
   if (cad_format_of_name(request.out) == CadFormat::kStep) {
     if (!is_cad_file(request.file)) {
       throw UsageError(request.file +
-                       ": a mesh has no surfaces that STEP could hold; out with .stl, .obj or "
-                       ".ply is required");
+                       ": a mesh has no surfaces that STEP could hold; setting \"out\" with .stl, "
+                       ".obj or .ply is required");
     }
     const auto& unit = request.reading.unit;
     convert_to_step(request.file, request.out,

@@ -91,7 +91,8 @@ TEST(RunPress, RigidSphereOnTissueWithoutEndObeysHertz) {
     request.check();
     FAIL() << "a curve can't be written as PNG";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("out: \"curve.png\" ends with none of .json, .csv, .svg"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("setting \"out\": \"curve.png\" ends with none of .json, .csv, .svg"));
   }
 }
 

@@ -43,7 +43,7 @@ void check_suffixes(const ProductVariantsRequest& files) {
     for (const std::string& path : entry.files) {
       const std::string suffix = suffix_of(path);
       if (!is_step(path) && suffix != ".stl" && suffix != ".obj" && suffix != ".ply") {
-        throw UsageError("`files` is " + path +
+        throw UsageError("setting \"files\" is " + path +
                          "; .step, .stp, .stl, .obj or .ply is allowed, or a "
                          "folder that ends with /");
       }
@@ -143,7 +143,7 @@ std::vector<std::string> files_in_folder(const std::string& folder, const std::s
     const std::string format = formats.substr(begin, end - begin);
     if (format != "step" && format != "stp" && format != "stl" && format != "obj" &&
         format != "ply") {
-      throw UsageError("`formats` is \"" + formats +
+      throw UsageError("setting \"formats\" is \"" + formats +
                        "\"; step, stl, obj and ply are allowed, as "
                        "step,stl");
     }

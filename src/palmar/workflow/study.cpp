@@ -116,7 +116,7 @@ void check_same(const StudyStore& store, const StudyPlan& plan, StudyShard shard
   if (differences.empty()) return;
   std::string text = name + ": holds another study than the requested one:";
   for (const std::string& one : differences) text += "\n  " + one;
-  throw UsageError(text + "\nGive another --out, or delete the file to start again.");
+  throw UsageError(text + "\nGive another setting \"out\", or delete the file to start again.");
 }
 
 void check_program(const StudyStore& store) {
@@ -128,10 +128,13 @@ void check_program(const StudyStore& store) {
 }  // namespace
 
 void QuickStudy::check() const {
-  if (products.empty()) throw UsageError("products: none is given; at least one is required");
+  if (products.empty()) {
+    throw UsageError("setting \"products\": none is given; at least one is required");
+  }
   if (!(hands >= 0 && hands <= kMostHands)) {
-    throw UsageError(fmt::format("hands is {}; 1 to {} is allowed, 0 for the population's own",
-                                 hands, kMostHands));
+    throw UsageError(
+        fmt::format("setting \"hands\" is {}; 1 to {} is allowed, 0 for the population's own",
+                    hands, kMostHands));
   }
 }
 
@@ -150,7 +153,7 @@ StudyRequest study_of(const QuickStudy& quick) {
   }
   for (PopulationRequest& one : request.populations) {
     if (quick.hands > 0 && !one.table.empty()) {
-      throw UsageError("hands has no meaning with the given hands of " + one.table);
+      throw UsageError("setting \"hands\" has no meaning with the given hands of " + one.table);
     }
     if (quick.hands > 0) one.sampling.hands = quick.hands;
   }

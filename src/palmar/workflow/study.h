@@ -30,7 +30,7 @@ struct QuickStudy {
   std::vector<std::string> profiles;  ///< "none", "reduced_range", ...; empty: none
   std::vector<std::string> grips;     ///< "auto", "tripod", ...; empty: auto
   std::string hand;                   ///< that is scaled; "": the template
-  void check() const;                 ///< throws UsageError: field, value, what is allowed
+  void check() const;                 ///< throws UsageError: setting, value, what is allowed
 };
 /// Throws UsageError also for names that aren't known. read_study_file() reads one from a file.
 StudyRequest study_of(const QuickStudy& quick);
@@ -57,7 +57,7 @@ struct StudyRunRequest {
   std::filesystem::path out;  ///< store; "": the study's name in the working folder
   StudyShard shard;
   NoteSink note = {};  ///< as above, and where a store goes on
-  void check() const;  ///< throws UsageError: field, value, what is allowed
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 struct StudyRunOutcome {
   StudyPlan plan;

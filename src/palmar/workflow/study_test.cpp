@@ -8,6 +8,7 @@
 #include <atomic>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 #include "palmar/workflow/study/study_report.h"
@@ -112,6 +113,24 @@ TEST_F(StudyWorkflow, StoreOfAnotherStudyIsLeftAlone) {
   EXPECT_EQ(study_status({*folder_ / "whole.palmar"}).done, 3);
 }
 
+TEST_F(StudyWorkflow, PageNamesTheResultsThatItIsMadeOf) {
+  StudyReportRequest request;
+  request.store = *folder_ / "whole.palmar";
+  request.folder = (*folder_ / "report").string();
+  request.report.most_grasps = 0;
+  request.report.pictures = request.report.figure_files = false;
+  const fs::path page = report_study(request);
+  EXPECT_EQ(page, *folder_ / "report" / "report.html");
+  EXPECT_THAT(read_file(page), HasSubstr(whole_->digest));
+  request.report.threshold = -0.001;
+  try {
+    report_study(request);
+    FAIL() << "a pressure below nothing was taken";
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(), "setting \"threshold\" is -1 kPa; 0 to 100000 kPa are allowed");
+  }
+}
+
 TEST_F(StudyWorkflow, ComparisonCountsTheHandsThatHold) {
   const StudyCompareOutcome outcome = compare_study(
       {.store = *folder_ / "whole.palmar", .quantities = {"force_n"}, .comparison = {}});
@@ -143,7 +162,8 @@ TEST(StudyOf, UnknownNamesAndWhatDoesNotGoTogetherAreRefused) {
     study_of(quick);
     FAIL() << "given hands were drawn";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("hands has no meaning with the given hands of hands.csv"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("setting \"hands\" has no meaning with the given hands of hands.csv"));
   }
   quick.hands = 0;
   quick.grips = {"tripot"};

@@ -11,7 +11,7 @@ namespace palmar {
 void ValidateRequest::check() const {
   if (!out.empty() && (out.size() < 4 || !out.ends_with(".md")) &&
       (out.size() < 6 || !out.ends_with(".json"))) {
-    throw UsageError("out: \"" + out + "\" ends with none of .md, .json");
+    throw UsageError("setting \"out\": \"" + out + "\" ends with none of .md, .json");
   }
   options.check();
 }

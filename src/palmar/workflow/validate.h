@@ -15,7 +15,7 @@ struct ValidateRequest {
   ValidationOptions options;
   HandChoice hand;
   std::string out;     ///< file to write, .md or .json; "": none
-  void check() const;  ///< throws UsageError: field, value, what is allowed
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 /// Runs the cases and writes the table. Misses are rows of the report. Throws UsageError,

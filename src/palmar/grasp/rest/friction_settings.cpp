@@ -15,23 +15,27 @@ namespace {
 void require_positive(std::string_view field, const std::optional<double>& value,
                       std::string_view unit) {
   if (!value || (*value > 0.0 && *value <= 1e4)) return;
-  throw UsageError(
-      fmt::format("{} is {}; more than 0 and at most 10000 {} is required", field, *value, unit));
+  throw UsageError(fmt::format("setting \"{}\" is {}; more than 0 and at most 10000 {} is required",
+                               field, *value, unit));
 }
 
 }  // namespace
 
 void FrictionSettings::check() const {
   if (friction && !(*friction >= 0.0 && *friction <= 5.0)) {
-    throw UsageError(fmt::format("friction is {}; 0 to 5 is required", *friction));
+    throw UsageError(fmt::format("setting \"friction\" is {}; 0 to 5 is required", *friction));
   }
   require_positive("density", density, "g/cm3");
   require_positive("mass", mass, "kg");
   require_positive("weight", weight, "N");
   if (int(mass.has_value()) + int(weight.has_value()) + int(density.has_value()) > 1) {
-    throw UsageError("more than one of mass, weight and density is given; one is allowed");
+    throw UsageError(
+        "more than one of setting \"mass\", setting \"weight\" and setting \"density\" is given; "
+        "one is allowed");
   }
-  if (gravity.isZero(0.0)) throw UsageError("gravity is 0,0,0; a direction is required");
+  if (gravity.isZero(0.0)) {
+    throw UsageError("setting \"gravity\" is 0,0,0; a direction is required");
+  }
 }
 
 FrictionOptions FrictionSettings::options() const {

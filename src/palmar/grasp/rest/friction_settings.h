@@ -29,7 +29,7 @@ struct FrictionSettings {
 
   bool has_weight() const { return mass || weight || density; }
   bool has_load() const { return has_weight() || force || torque; }
-  void check() const;  ///< throws UsageError: field, value, allowed range
+  void check() const;  ///< throws UsageError: setting, value, allowed range
 
   /// Without the weight that a density gives. Throws UsageError as check().
   FrictionOptions options() const;

@@ -11,30 +11,37 @@ namespace palmar {
 
 void RestSettings::check() const {
   if (strength && person) {
-    throw UsageError("strength and person both say how strong the user is; one is allowed");
+    throw UsageError(
+        "setting \"strength\" and setting \"person\" both say how strong the user is; one is "
+        "allowed");
   }
   const bool has_strength = strength || person;
   if (has_strength != strength_share.has_value()) {
-    throw UsageError(has_strength ? "strength and person say how strong the user is; "
-                                    "strength_share is required with them"
-                                  : "strength_share needs person or strength");
+    throw UsageError(
+        has_strength ? "setting \"strength\" and setting \"person\" say how strong the user is; "
+                       "setting \"strength share\" is required with them"
+                     : "setting \"strength share\" needs setting \"person\" or setting "
+                       "\"strength\"");
   }
   if (grip_force && strength_share) {
-    throw UsageError("grip_force and strength_share both say how firmly to grip; one is allowed");
+    throw UsageError(
+        "setting \"grip force\" and setting \"strength share\" both say how firmly to grip; one is "
+        "allowed");
   }
   if (!is_balanced && (grip_force || strength_share)) {
     throw UsageError(
-        "is_balanced is false, which keeps the hand at its limit depths; a grip force can't be "
-        "given with it");
+        "setting \"no balance\" keeps the hand at its limit depths; a grip force can't be given "
+        "with it");
   }
   if (strength_share && !(*strength_share > 0.0 && *strength_share <= 1.0)) {
-    throw UsageError(fmt::format("strength_share is {}; more than 0 and at most 1 is required",
-                                 *strength_share));
+    throw UsageError(
+        fmt::format("setting \"strength share\" is {}; more than 0 and at most 1 is required",
+                    *strength_share));
   }
   if (person && !palmar::grip_strength(person->sex, person->age)) {
     throw UsageError(
-        fmt::format("person: no grip strength is known for {:g} years; 17 to 90 is "
-                    "allowed, or give strength",
+        fmt::format("setting \"person\": no grip strength is known for {:g} years; 17 to 90 is "
+                    "allowed, or give setting \"strength\"",
                     person->age));
   }
 }

@@ -28,7 +28,7 @@ struct RestSettings {
   std::optional<double> strength;                    ///< N
   std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
 
-  /// Throws UsageError: field, value, what is allowed.
+  /// Throws UsageError: setting, value, what is allowed.
   void check() const;
   /// `friction`: coefficient while it settles; unset: kUsualFriction. `grip` turns a share of the
   /// grip strength into that of a pinch; unset: a power grip. Throws UsageError.

@@ -57,13 +57,14 @@ TEST(FrictionSettings, CheckNamesFieldValueAndWhatIsAllowed) {
   EXPECT_EQ(refusal(FrictionSettings{}), "accepted");
   FrictionSettings settings;
   settings.mass = -1.0;
-  EXPECT_EQ(refusal(settings), "mass is -1; more than 0 and at most 10000 kg is required");
+  EXPECT_EQ(refusal(settings),
+            "setting \"mass\" is -1; more than 0 and at most 10000 kg is required");
   settings.mass = 1.0;
   settings.weight = 10.0;
-  EXPECT_THAT(refusal(settings), HasSubstr("mass, weight and density"));
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"weight\" and setting \"density\""));
   settings = {};
   settings.gravity = Vec3::Zero();
-  EXPECT_THAT(refusal(settings), HasSubstr("gravity is 0,0,0"));
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"gravity\" is 0,0,0"));
 }
 
 TEST(RestSettings, ShareOfAStrengthIsTheGripForce) {
@@ -80,11 +81,14 @@ TEST(RestSettings, CheckNamesFieldValueAndWhatIsAllowed) {
   EXPECT_EQ(refusal(RestSettings{}), "accepted");
   RestSettings settings;
   settings.strength_share = 0.3;
-  EXPECT_THAT(refusal(settings), HasSubstr("strength_share needs person or strength"));
+  EXPECT_THAT(
+      refusal(settings),
+      HasSubstr(R"(setting "strength share" needs setting "person" or setting "strength")"));
   settings.strength = 300.0;
   EXPECT_EQ(refusal(settings), "accepted");
   settings.strength_share = 1.5;
-  EXPECT_THAT(refusal(settings), HasSubstr("strength_share is 1.5; more than 0 and at most 1"));
+  EXPECT_THAT(refusal(settings),
+              HasSubstr("setting \"strength share\" is 1.5; more than 0 and at most 1"));
   settings = {};
   settings.strength_share = 0.3;
   settings.person = PersonOfAge{Sex::kFemale, 12.0};
@@ -92,7 +96,8 @@ TEST(RestSettings, CheckNamesFieldValueAndWhatIsAllowed) {
   settings = {};
   settings.is_balanced = false;
   settings.grip_force = 20.0;
-  EXPECT_THAT(refusal(settings), HasSubstr("is_balanced is false"));
+  EXPECT_THAT(refusal(settings),
+              HasSubstr("setting \"no balance\" keeps the hand at its limit depths"));
 }
 
 TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {
@@ -100,7 +105,8 @@ TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {
   settings.placement.region = Box3(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0));
   EXPECT_EQ(refusal(settings), "accepted");
   settings.grip = Grip::kTripod;
-  EXPECT_THAT(refusal(settings), HasSubstr("region: grip tripod takes fingertips to points"));
+  EXPECT_THAT(refusal(settings),
+              HasSubstr("setting \"region\": grip tripod takes fingertips to points"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct PaintedHandPlace {
 void write_painted_hand(const std::string& folder, const PaintedHand& hand, std::uint64_t seed,
                         const std::map<ScanPosture, PaintedHandPlace>& places);
 
-/// What such a folder's subject.json (and reference.ply beside it, if there) describes the person.
+/// What such a folder's subject.json (and reference.ply beside it, if there) says of the person.
 /// Throws InputError naming the file and what is wrong or lacks.
 ScanTruth read_scan_truth(const std::string& path);
 

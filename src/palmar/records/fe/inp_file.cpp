@@ -16,6 +16,8 @@ namespace {
 constexpr double kPenaltyPerYoung = 300.0;  // 1/mm
 constexpr double kIndenterThickness = 1.0;  // mm; rigid, so it doesn't matter
 
+[[noreturn]] void refuse(const std::string& what) { throw UsageError("finite elements: " + what); }
+
 void append_ids(std::string& text, const std::vector<int>& ids, int offset) {
   constexpr std::size_t kPerLine = 10;  // CalculiX takes at most 16
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -55,7 +57,6 @@ TriangleMesh grid(int columns, int rows, const std::function<Vec3(double, double
 }  // namespace
 
 void PressDeck::check() const {
-  const auto refuse = [](const std::string& what) { throw UsageError("finite elements: " + what); };
   if (block.mesh.tets.empty()) refuse("the tissue has no elements");
   if (smallest_jacobian(block.mesh) <= 0.0) refuse("an element of the tissue is inside out");
   if (block.pressed.empty()) refuse("no skin is to be pressed");
@@ -64,6 +65,10 @@ void PressDeck::check() const {
   if (std::abs(direction.norm() - 1.0) > 1e-6) {
     refuse(fmt::format("the direction has length {}; a unit vector is required", direction.norm()));
   }
+  check_test();
+}
+
+void PressDeck::check_test() const {
   if (depths.empty()) refuse("no depth is given");
   double last = 0.0;
   for (const double d : depths) {

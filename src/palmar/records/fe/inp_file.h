@@ -34,7 +34,8 @@ struct PressDeck {
   /// modulus per mm, which at the usual pressures of a tenth of it means less than 0.001 mm.
   std::optional<double> penalty;
   double young() const { return 2.0 * shear_modulus * (1.0 + poisson); }
-  void check() const;  ///< throws UsageError
+  void check() const;       ///< throws UsageError
+  void check_test() const;  ///< the same of depths, tissue and penalty alone
 };
 
 /// The deck as text. Units mm, N, MPa. Sets: nodes BONE, CUT, INDENTER; elements TISSUE, RIGID;

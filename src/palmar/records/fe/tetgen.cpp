@@ -9,14 +9,15 @@
 
 namespace palmar {
 
+void check_largest_tet(double largest_volume) {
+  if (largest_volume > 0.0) return;
+  throw UsageError(fmt::format(
+      "finite elements: largest tetrahedron {} mm3; more than 0 is required", largest_volume));
+}
+
 BlockMesh mesh_by_tetgen(const TissueBlock& block, const std::filesystem::path& folder,
                          double largest_volume) {
-  if (!(largest_volume > 0.0)) {
-    throw UsageError(
-        fmt::format("finite elements: largest tetrahedron {} mm3; more than 0 is "
-                    "required",
-                    largest_volume));
-  }
+  check_largest_tet(largest_volume);
   create_folder(folder);
   const std::filesystem::path surface = folder / "tissue.poly";
   write_file(surface, tetgen_poly(block));

@@ -14,9 +14,13 @@ namespace palmar {
 /// linked). Writes tissue.poly and the mesher's files to `folder`. Facets of skin and bone stay as
 /// they are, so skin nodes are those of the hand; tetrahedra are at most `largest_volume` [mm^3].
 ///
-/// Throws ProgramMissing if `tetgen` isn't on PATH (tissue.poly is there then), NumericalError if
-/// it finds no mesh: facets that cut each other, such as bones that overlap.
+/// Throws UsageError as check_largest_tet(); ProgramMissing if `tetgen` isn't on PATH (tissue.poly
+/// is there then); NumericalError if it finds no mesh: facets that cut each other, such as bones
+/// that overlap.
 BlockMesh mesh_by_tetgen(const TissueBlock& block, const std::filesystem::path& folder,
                          double largest_volume);
+
+/// Throws UsageError unless the largest volume of a tetrahedron [mm^3] is above 0.
+void check_largest_tet(double largest_volume);
 
 }  // namespace palmar

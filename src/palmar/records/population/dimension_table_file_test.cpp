@@ -54,7 +54,7 @@ TEST(DimensionTable, ReadsUnitsGroupsAndMissingValues) {
 }
 
 TEST(DimensionTable, ReadsWhatSpreadsheetsWrite) {
-  // Byte order mark, separator reported, CRLF, decimal comma, quoted heading with the separator in
+  // Byte order mark, separator stated, CRLF, decimal comma, quoted heading with the separator in
   // it, row numbers without a heading, an empty column and empty rows at the end.
   const DimensionTable table = parsed(
       "\xEF\xBB\xBFsep=;\r\n;\"Hand length; right [mm]\";Hand length [mm];Geschlecht;\r\n"

@@ -24,7 +24,7 @@ struct ImportCadOptions {
 struct ImportedCad {
   FaceMesh mesh;
   std::string format;                 ///< "STEP AP214", "IGES"
-  std::string unit;                   ///< as the file calls it; "" if it shows none
+  std::string unit;                   ///< as the file calls it; "" if it states none
   double millimetres_per_unit = 1.0;  ///< what lengths were multiplied by
   std::vector<std::string> bodies;    ///< names
   int solids = 0, open_shells = 0;

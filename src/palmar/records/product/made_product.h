@@ -13,8 +13,8 @@
 
 namespace palmar {
 
-/// A product made from parameters as a study shows it: a kind of product/parametric_kinds.h and the
-/// values that were given; the others have their defaults.
+/// A product made from parameters as a study describes it: a kind of product/parametric_kinds.h and
+/// the values that were given; the others have their defaults.
 struct MadeProduct {
   std::string kind;                                   ///< "cylinder", "bottle", ...
   std::vector<std::pair<std::string, double>> given;  ///< "diameter_mm", 35
@@ -29,7 +29,7 @@ MadeProduct made_from(const std::string& words);
 /// "cylinder diameter 35 mm": the kind and what was given, for people.
 std::string title_of(const MadeProduct& product);
 
-/// Along the grip to the thumb's side if the kind shows it (ParametricKind::thumb_side): how it is
+/// Along the grip to the thumb's side if the kind states it (ParametricKind::thumb_side): how it is
 /// held unless something else is asked for. Product frame, unit.
 std::optional<Vec3> thumb_side_of(const MadeProduct& product);
 

@@ -13,7 +13,7 @@
 namespace palmar {
 namespace {
 
-/// The unit that the file shows, if it is one of Palmar's.
+/// The unit that the file states, if it is one of Palmar's.
 std::optional<LengthUnit> stated_unit(const ImportedCad& cad) {
   if (cad.unit == "millimetre" || cad.unit == "mm") return LengthUnit::kMillimetre;
   if (cad.unit == "centimetre" || cad.unit == "cm") return LengthUnit::kCentimetre;
@@ -35,7 +35,7 @@ UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
   return decide_unit(box, from_file, options.unit, object);
 }
 
-/// read_mesh() for a place that takes CAD as well, which its messages show.
+/// read_mesh() for a place that takes CAD as well, and whose messages say so.
 MeshFile read_shape(const std::filesystem::path& path) {
   try {
     return read_mesh(path);
@@ -59,8 +59,8 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   result.cad = import_cad(path, import, options.limits, options.progress);
   UnitDecision decision = decide(result.cad, options, object);
   if (decision.source == UnitSource::kProposed && decision.unit != LengthUnit::kMillimetre) {
-    // A file without a unit whose size doesn't show mm: once more, so that the chordal error is in
-    // mm.
+    // A file without a unit whose size doesn't suggest mm: once more, so that the chordal error is
+    // in mm.
     import.millimetres_per_unit = millimetres_per(decision.unit);
     result.cad = import_cad(path, import, options.limits, options.progress);
   }

@@ -3,6 +3,7 @@
 #include "palmar/records/study/study_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -238,18 +239,19 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   return requests;
 }
 
+/// The word under `key`, if there is one: the name of one of `allowed`.
 template <typename Enum, std::size_t kCount>
-void read_word(const TomlSection& section, const char* key,
-               const std::array<const char*, kCount>& words, Enum& value) {
+void read_word(const TomlSection& section, const char* key, const std::array<Enum, kCount>& allowed,
+               Enum& value) {
   const auto word = section.text(key);
   if (!word) return;
   std::string list;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    if (*word == words[i]) {
-      value = static_cast<Enum>(i);
+  for (const Enum one : allowed) {
+    if (*word == name_of(one)) {
+      value = one;
       return;
     }
-    list += (i == 0 ? "" : " or ") + std::string(words[i]);
+    list += (list.empty() ? "" : " or ") + std::string(name_of(one));
   }
   section.fail(key, "is " + in_quotes(*word) + "; " + list + " is allowed");
 }
@@ -281,13 +283,18 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
     // The thesis leaves the hand as it was closed.
     if (*preset == "xie2014") setting.is_balanced = false;
   }
-  read_word(section, "kernel", std::array{"patch", "point"}, setting.model.kernel);
-  read_word(section, "tissue_model", std::array{"halfspace", "layered"}, setting.model.tissue);
-  read_word(section, "regions", std::array{"coupled", "independent"}, setting.model.coupling);
+  read_word(section, "kernel", kKernels, setting.model.kernel);
+  read_word(section, "tissue_model", kTissueModels, setting.model.tissue);
+  read_word(section, "regions", kRegionCouplings, setting.model.coupling);
   setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
   setting.indices = section.boolean("indices").value_or(setting.indices);
   setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);
-  read_word(section, "place", std::array{"shared", "per_hand"}, setting.is_place_per_hand);
+  if (const auto place = section.text("place")) {
+    setting.is_place_per_hand = *place == "per_hand";
+    if (!setting.is_place_per_hand && *place != "shared") {
+      section.fail("place", "is " + in_quotes(*place) + "; shared or per_hand is allowed");
+    }
+  }
   return setting;
 }
 
@@ -339,11 +346,7 @@ PopulationRequest population_request(const std::string& words) {
 }
 
 std::optional<SamplingDesign> design_named(const std::string& name) {
-  if (name == "random") return SamplingDesign::kRandom;
-  if (name == "latin_hypercube" || name == "lhs") return SamplingDesign::kLatinHypercube;
-  if (name == "boundary") return SamplingDesign::kBoundary;
-  if (name == "percentiles") return SamplingDesign::kPercentiles;
-  return std::nullopt;
+  return name == "lhs" ? SamplingDesign::kLatinHypercube : sampling_design_named(name);
 }
 
 std::optional<Grip> asked_grip_named(const std::string& name) {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/population/population_file.h"
@@ -17,19 +16,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Words by the numbers of their enumerators.
-constexpr std::array kDesigns = {"random", "latin_hypercube", "boundary", "percentiles"};
-constexpr std::array kKernels = {"patch", "point"};
-constexpr std::array kTissues = {"halfspace", "layered"};
-constexpr std::array kCouplings = {"coupled", "independent"};
-constexpr std::array kDistances = {"surface", "isomap"};
-constexpr std::array kBulges = {"held", "printed"};
-
-template <typename Enum, typename Words>
-Enum word_from(const Json& json, const Words& words) {
+/// Which of `known` a word names.
+template <typename Enum, std::size_t kCount>
+Enum word_from(const Json& json, const std::array<Enum, kCount>& known) {
   const std::string word = json;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (word == words[i]) return static_cast<Enum>(i);
+  for (const Enum one : known) {
+    if (word == name_of(one)) return one;
   }
   throw InputError("its plan has an unknown word: " + in_quotes(word));
 }
@@ -61,7 +53,7 @@ Json population_json(const StudyPopulation& one) {
           {"cautions", one.population.cautions},
           // Given hands have no distribution.
           {"toml", one.population.strata.empty() ? "" : population_toml(one.population)},
-          {"design", kDesigns[index_of(sampling.design)]},
+          {"design", name_of(sampling.design)},
           {"hands", sampling.hands},
           {"seed", sampling.seed},
           {"residuals", sampling.residuals},
@@ -79,7 +71,7 @@ StudyPopulation population_from(const Json& json, const std::string& name) {
   one.population.source = json.at("source");
   one.population.cautions = json.at("cautions").get<std::vector<std::string>>();
   SamplingOptions& sampling = one.sampling;
-  sampling.design = word_from<SamplingDesign>(json.at("design"), kDesigns);
+  sampling.design = word_from(json.at("design"), kSamplingDesigns);
   sampling.hands = json.at("hands");
   sampling.seed = json.at("seed");
   sampling.residuals = json.at("residuals");
@@ -180,11 +172,11 @@ Json setting_json(const StudySetting& setting) {
           {"strength_share", optional_json(setting.strength_share)},
           {"friction", setting.friction},
           {"is_balanced", setting.is_balanced},
-          {"kernel", kKernels[index_of(model.kernel)]},
-          {"tissue_model", kTissues[index_of(model.tissue)]},
-          {"coupling", kCouplings[index_of(model.coupling)]},
-          {"skin_distance", kDistances[index_of(model.distance)]},
-          {"bulge", kBulges[index_of(model.bulge)]},
+          {"kernel", name_of(model.kernel)},
+          {"tissue_model", name_of(model.tissue)},
+          {"coupling", name_of(model.coupling)},
+          {"skin_distance", name_of(model.distance)},
+          {"bulge", name_of(model.bulge)},
           {"indices", setting.indices},
           {"wrench_volume", setting.wrench_volume},
           {"place_per_hand", setting.is_place_per_hand}};
@@ -199,11 +191,11 @@ StudySetting setting_from(const Json& json) {
   setting.strength_share = optional_from(json.at("strength_share"));
   setting.friction = json.at("friction");
   setting.is_balanced = json.at("is_balanced");
-  setting.model.kernel = word_from<Kernel>(json.at("kernel"), kKernels);
-  setting.model.tissue = word_from<TissueModel>(json.at("tissue_model"), kTissues);
-  setting.model.coupling = word_from<RegionCoupling>(json.at("coupling"), kCouplings);
-  setting.model.distance = word_from<SkinDistance>(json.at("skin_distance"), kDistances);
-  setting.model.bulge = word_from<BulgeLaw>(json.at("bulge"), kBulges);
+  setting.model.kernel = word_from(json.at("kernel"), kKernels);
+  setting.model.tissue = word_from(json.at("tissue_model"), kTissueModels);
+  setting.model.coupling = word_from(json.at("coupling"), kRegionCouplings);
+  setting.model.distance = word_from(json.at("skin_distance"), kSkinDistances);
+  setting.model.bulge = word_from(json.at("bulge"), kBulgeLaws);
   setting.indices = json.at("indices");
   setting.wrench_volume = json.at("wrench_volume");
   setting.is_place_per_hand = json.at("place_per_hand");

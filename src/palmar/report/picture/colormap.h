@@ -38,7 +38,7 @@ inline constexpr Rgb kBoneColour{240, 232, 208};
 std::vector<Rgb> field_colours(std::span<const double> field, double upper, Colormap map,
                                Rgb neutral = kNeutralColour, double threshold = 0.0);
 
-/// 20 colours that distinguishes the regions: one hue per finger (after Okabe and Ito 2008, chosen
+/// 20 colours that distinguish the regions: one hue per finger (after Okabe and Ito 2008, chosen
 /// for colour-blind readers), lighter towards the tip; the palm's pads in greys and earth colours.
 /// Neighbouring regions differ in lightness, too.
 Rgb region_colour(Region region);

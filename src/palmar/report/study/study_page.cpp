@@ -260,20 +260,6 @@ PageJson scene_json(const StudyPage& page, Attachments& attachments) {
           {"data", attached(attachments, "scene", script_escaped(page.scene))}};
 }
 
-std::string design_of(const SamplingOptions& sampling) {
-  switch (sampling.design) {
-    case SamplingDesign::kRandom:
-      return "random";
-    case SamplingDesign::kLatinHypercube:
-      return "latin_hypercube";
-    case SamplingDesign::kBoundary:
-      return "boundary";
-    case SamplingDesign::kPercentiles:
-      return "percentiles";
-  }
-  return "random";
-}
-
 PageJson populations_json(const StudyPlan& plan) {
   PageJson list = PageJson::array();
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
@@ -284,7 +270,7 @@ PageJson populations_json(const StudyPlan& plan) {
     list.push_back({{"name", one.population.name},
                     {"title", one.population.title},
                     {"hands", hands},
-                    {"design", design_of(one.sampling)},
+                    {"design", name_of(one.sampling.design)},
                     {"boundary_share", one.sampling.boundary},
                     {"seed", one.sampling.seed},
                     {"source", one.population.source},

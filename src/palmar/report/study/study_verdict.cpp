@@ -98,7 +98,7 @@ std::string excluded_words(const Exclusion& one) {
 std::string standing_words(const StudyResults& results, const ProductPair& first,
                            const ProductPair& other) {
   const auto sign = [](const ProductPair& pair) { return pair.mean_second < pair.mean_first; };
-  const auto is_stated = [&](const ProductPair& pair) {
+  const auto is_shown = [&](const ProductPair& pair) {
     return is_drawn_by_chance(results.plan) ? pair.verdict == DifferenceVerdict::kShown
                                             : pair.verdict != DifferenceVerdict::kTooFewPairs &&
                                                   pair.verdict != DifferenceVerdict::kNone;
@@ -109,12 +109,12 @@ std::string standing_words(const StudyResults& results, const ProductPair& first
   if (other.verdict == DifferenceVerdict::kTooFewPairs) return names + " can't be compared";
   const std::string means =
       " (" + short_number(other.mean_first) + " and " + short_number(other.mean_second) + ")";
-  if (is_stated(first) && is_stated(other)) {
+  if (is_shown(first) && is_shown(other)) {
     return "the difference between " + names +
            (sign(first) == sign(other) ? " remains" : " is reversed") + means;
   }
-  if (is_stated(first)) return "the difference between " + names + " is not shown" + means;
-  if (is_stated(other)) return names + " differ" + means;
+  if (is_shown(first)) return "the difference between " + names + " is not shown" + means;
+  if (is_shown(other)) return names + " differ" + means;
   return "no difference between " + names + " is shown" + means;
 }
 

@@ -22,15 +22,15 @@ Grasp given_in(const EvaluateRequest& request, const Hand& hand, const Product& 
       request.product_from_hand ? request.product_from_hand : frame.product_from_hand;
   if (request.measured_from_product) {
     if (!frame.measured_from_hand) {
-      throw UsageError("measured_from_product: " + path +
+      throw UsageError("setting \"measured from product\": " + path +
                        " doesn't say where the hand is (measured_from_hand)");
     }
     product_from_hand = request.measured_from_product->inverse() * *frame.measured_from_hand;
   }
   if (!product_from_hand) {
     throw UsageError(path +
-                     " doesn't say where the product is (product_from_hand); product_from_hand or "
-                     "measured_from_product is needed");
+                     " doesn't say where the product is (product_from_hand); setting "
+                     "\"product from hand\" or setting \"measured from product\" is needed");
   }
   Grasp grasp = given_grasp(hand, product, frame.posture, *product_from_hand);
   if (frame.grip) grasp.grip = *frame.grip;
@@ -41,9 +41,12 @@ Grasp given_in(const EvaluateRequest& request, const Hand& hand, const Product& 
 
 void EvaluateRequest::check() const {
   product.check();
-  if (posture_file.empty()) throw UsageError("posture_file: is empty; a file is required");
+  if (posture_file.empty()) {
+    throw UsageError("setting \"posture file\" is empty; a file is required");
+  }
   if (product_from_hand && measured_from_product) {
-    throw UsageError("product_from_hand and measured_from_product exclude each other");
+    throw UsageError(
+        "setting \"product from hand\" and setting \"measured from product\" exclude each other");
   }
   contact.check();
   friction.check();

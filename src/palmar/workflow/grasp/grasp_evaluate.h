@@ -37,7 +37,7 @@ struct EvaluateRequest {
   std::uint64_t seed = 0;        ///< written into the results
   std::string command_line;      ///< for provenance
   NoteSink note = {};            ///< what was found in product and posture
-  void check() const;            ///< throws UsageError: field, value, what is allowed
+  void check() const;            ///< throws UsageError: setting, value, what is allowed
 };
 
 struct EvaluateOutcome {

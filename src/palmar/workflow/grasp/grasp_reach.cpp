@@ -11,7 +11,7 @@ namespace palmar {
 
 void ReachRequest::check() const {
   if (buttons.empty() && map.empty()) {
-    throw UsageError("grasp reach: buttons or map is needed; neither is given");
+    throw UsageError("setting \"buttons\" or setting \"map\" is needed; neither is given");
   }
   grasp.check();
 }

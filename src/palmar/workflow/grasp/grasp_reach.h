@@ -17,7 +17,7 @@ struct ReachRequest {
   std::vector<Button> buttons;
   std::string map;       ///< VTP file to write: who reaches every point of the surface; "": none
   int map_points = 500;  ///< places of the surface that the map tries
-  void check() const;    ///< throws UsageError: field, value, what is allowed
+  void check() const;    ///< throws UsageError: setting, value, what is allowed
 };
 
 struct ReachOutcome {

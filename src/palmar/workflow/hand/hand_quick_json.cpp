@@ -1,6 +1,5 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "palmar/workflow/hand_quick.h"
@@ -10,22 +9,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 5> kFingers = {"thumb", "index", "middle", "ring", "little"};
-
 Json photograph_json(const PhotographedHand& photo, const OutlinePerson& person) {
   const SheetView& sheet = photo.scene.sheet;
   const HandOutline& outline = person.outline;
   const auto point = [](const Eigen::Vector2d& p) { return Json{p.x(), p.y()}; };
   Json fingers = Json::object();
-  for (std::size_t f = 0; f < 5; ++f) {
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
     const OutlineFinger& one = outline.finger[f];
+    Json& finger = fingers[std::string(name_of(static_cast<Finger>(f)))];
     Json widths = Json::array();
     for (const double w : one.width) {
       if (w > 0.0) widths.push_back(w);
     }
-    fingers[kFingers[f]] = {
-        {"tip_mm", point(one.tip)}, {"base_mm", point(one.base)}, {"widths_mm", widths}};
-    if (f > 0 && one.length > 0.0) fingers[kFingers[f]]["length_mm"] = one.length;
+    finger = {{"tip_mm", point(one.tip)}, {"base_mm", point(one.base)}, {"widths_mm", widths}};
+    if (f > 0 && one.length > 0.0) finger["length_mm"] = one.length;
   }
   Json corners = Json::array();
   for (const Eigen::Vector2d& c : sheet.corner) corners.push_back(point(c));

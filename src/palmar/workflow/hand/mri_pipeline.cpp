@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "palmar/capture/hand_plausibility.h"
@@ -141,13 +140,12 @@ void require_whole(const RecordedScan& scan) {
 
 /// Refuses scans that no hand can be made of, before the long work on the others.
 void require_bones(const RecordedScan& scan, const Hand& model) {
-  constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring",
-                                                        "little"};
   constexpr int kLeastPerFinger = 2;
   constexpr std::size_t kMostMissing = 5;  // of the 19 of fingers and palm
   std::vector<std::string> missing;
   std::string poor;
-  for (const std::string_view finger : kFingers) {
+  for (int f = 0; f < kFingerCount; ++f) {
+    const std::string_view finger = name_of(static_cast<Finger>(f));
     int seen = 0;
     for (const Bone& bone : model.bones) {
       if (!bone.name.starts_with(finger)) continue;

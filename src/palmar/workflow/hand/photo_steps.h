@@ -35,7 +35,7 @@ struct PhotoLensesRequest {
 
 struct PhotoLensesOutcome {
   PhotoLenses lenses;
-  std::vector<std::string> notes;  ///< cameras of which photographs reported little
+  std::vector<std::string> notes;  ///< cameras that photographs showed little of
 };
 
 /// Lenses of cameras, written to a file. Throws InputError naming camera or photograph,

@@ -29,7 +29,9 @@ std::optional<Vec3> thumb_side_of(const Product& product) {
 std::string ProductChoice::name() const { return value ? value->name : file.string(); }
 
 void ProductChoice::check() const {
-  if (!value && file.empty()) throw UsageError("product: is empty; a file or a value is required");
+  if (!value && file.empty()) {
+    throw UsageError("setting \"product\" is empty; a file or a value is required");
+  }
   reading.limits.check();
 }
 

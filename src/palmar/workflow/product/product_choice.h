@@ -34,8 +34,8 @@ Product load_product(const ProductChoice& choice, const Progress& progress = {})
 /// Adds what a check of its mesh finds to the product's notes, unless they say so already.
 void add_findings(Product& product);
 
-/// How the product is held, where a solid made by Palmar shows by itself which side the thumb is on
-/// and nothing else is asked for.
+/// How the product is held, where a solid made by Palmar states by itself which side the thumb is
+/// on and nothing else is asked for.
 GraspOptions options_for(const GraspSettings& settings, const Product& product);
 
 }  // namespace palmar

@@ -29,23 +29,24 @@ Progress silent(const Progress& progress) {
 
 void FeatureLimits::check() const {
   const auto require = [](bool holds, const char* field, double value, const char* allowed) {
-    if (!holds) throw UsageError(fmt::format("{} is {:g}; {} is allowed", field, value, allowed));
+    if (holds) return;
+    throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
   };
   if (largest_offset) {
-    require(*largest_offset > 0.0, "`largest_offset`", *largest_offset, "above 0");
+    require(*largest_offset > 0.0, "largest offset", *largest_offset, "above 0");
   }
-  require(smallest_radius >= 0.0, "`smallest_radius`", smallest_radius, "0 or more");
+  require(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 or more");
   if (smallest_volume) {
-    require(*smallest_volume > 0.0, "`smallest_volume`", *smallest_volume, "above 0");
+    require(*smallest_volume > 0.0, "smallest volume", *smallest_volume, "above 0");
   }
   if (largest_volume) {
-    require(*largest_volume > 0.0, "`largest_volume`", *largest_volume, "above 0");
+    require(*largest_volume > 0.0, "largest volume", *largest_volume, "above 0");
   }
   if (least_grip_force) {
-    require(*least_grip_force >= 0.0 && *least_grip_force <= 1.0, "`least_grip_force`",
+    require(*least_grip_force >= 0.0 && *least_grip_force <= 1.0, "least grip force",
             *least_grip_force, "0 to 1");
   }
-  require(lost_hands >= 0.0 && lost_hands <= 1.0, "`lost_hands`", lost_hands, "0 to 1");
+  require(lost_hands >= 0.0 && lost_hands <= 1.0, "lost hands", lost_hands, "0 to 1");
 }
 
 void FeatureRun::find_starts(const Progress& progress) {

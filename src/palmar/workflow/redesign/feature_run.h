@@ -21,7 +21,7 @@ struct FeatureLimits {
   std::optional<double> smallest_volume, largest_volume;  ///< shares of the original's
   std::optional<double> least_grip_force;                 ///< share of the original's
   double lost_hands = 0.1;  ///< share of the hands that hold the original
-  void check() const;       ///< throws UsageError: `field`, value, allowed range
+  void check() const;       ///< throws UsageError: setting, value, allowed range
 };
 
 /// What hands say of one shape.

@@ -19,8 +19,8 @@ double number_in(const std::string& text, const std::string& words) {
   const std::optional<double> value = parse_double(text);
   if (!value || !std::isfinite(*value)) {
     throw UsageError(
-        fmt::format("`vary` \"{}\": \"{}\" is no number; a value as 8, or a range as 1:15, "
-                    "is required",
+        fmt::format("setting \"vary\" \"{}\": \"{}\" is no number; a value as 8, or a range as "
+                    "1:15, is required",
                     words, text));
   }
   return *value;
@@ -33,9 +33,9 @@ void read_range(const std::string& words, FeatureSetting& setting) {
   setting.highest =
       colon == std::string::npos ? setting.lowest : number_in(words.substr(colon + 1), words);
   if (setting.lowest > setting.highest) {
-    throw UsageError(
-        fmt::format("`vary` \"{}\": from {:g} to {:g}; from the smaller to the larger one", words,
-                    setting.lowest, setting.highest));
+    throw UsageError(fmt::format(
+        "setting \"vary\" \"{}\": from {:g} to {:g}; from the smaller to the larger one", words,
+        setting.lowest, setting.highest));
   }
 }
 
@@ -63,8 +63,8 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
   const size_t equals = words.rfind('=');
   if (equals == std::string::npos || equals == 0) {
     throw UsageError(
-        fmt::format("`vary` \"{}\": FEATURE:WHERE=VALUE or PARAMETER=VALUE is required, as "
-                    "fillet:long=1:15",
+        fmt::format("setting \"vary\" \"{}\": FEATURE:WHERE=VALUE or PARAMETER=VALUE is required, "
+                    "as fillet:long=1:15",
                     words));
   }
   FeatureSetting setting;
@@ -84,18 +84,17 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
                         feature.feature == "taper" || feature.feature == "groove";
   if (!is_known || feature.where.empty()) {
     throw UsageError(
-        fmt::format("`vary` \"{}\": fillet:EDGES, offset:FACES, taper:FACES, groove:at=MM, "
-                    "groove:FILE.csv and the "
-                    "parameters of made products are allowed",
+        fmt::format("setting \"vary\" \"{}\": fillet:EDGES, offset:FACES, taper:FACES, "
+                    "groove:at=MM, groove:FILE.csv and the parameters of made products are allowed",
                     words));
   }
   if (feature.feature == "fillet" && setting.lowest < 0.0) {
-    throw UsageError(fmt::format("`vary` \"{}\": a radius below 0", words));
+    throw UsageError(fmt::format("setting \"vary\" \"{}\": a radius below 0", words));
   }
   if (feature.feature != "groove") return setting;
   if (setting.lowest < 0.0 || setting.highest > grooves.radius) {
     throw UsageError(
-        fmt::format("`vary` \"{}\": a depth of 0 to the groove's radius of {:g} mm is "
+        fmt::format("setting \"vary\" \"{}\": a depth of 0 to the groove's radius of {:g} mm is "
                     "allowed",
                     words, grooves.radius));
   }

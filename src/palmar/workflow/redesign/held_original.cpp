@@ -110,8 +110,8 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
     throw NumericalError(
         request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
         (reason.empty() ? "" : " (" + reason + ")") +
-        "; a redesign starts from hands that do (`at`, `axis` and `grips` say where and how it is "
-        "held)");
+        "; a redesign starts from hands that do (setting \"at\", setting \"axis\" and setting "
+        "\"grips\" say where and how it is held)");
   }
   return original;
 }

@@ -44,9 +44,8 @@ std::vector<FeatureSetting> settings_of(const RedesignFeatureRequest& request,
     FeatureSetting& setting = settings.back();
     if (!setting.parameter.empty() && !source.made) {
       throw UsageError(
-          fmt::format("`vary` \"{}\": only products made from parameters have them; "
-                      "fillet:EDGES, offset:FACES, taper:FACES and groove:... change "
-                      "a CAD file",
+          fmt::format("setting \"vary\" \"{}\": only products made from parameters have them; "
+                      "fillet:EDGES, offset:FACES, taper:FACES and groove:... change a CAD file",
                       words));
     }
     if (setting.feature.feature == "fillet" && setting.varies()) {
@@ -56,8 +55,8 @@ std::vector<FeatureSetting> settings_of(const RedesignFeatureRequest& request,
     if (setting.feature.feature == "groove" &&
         request.grooves.radius < request.smallest_groove_radius) {
       throw UsageError(
-          fmt::format("`groove_radius` is {:g} mm; at least `smallest_groove_radius`, {:g} mm, can "
-                      "be made",
+          fmt::format("setting \"groove radius\" is {:g} mm; at least setting \"smallest groove "
+                      "radius\", {:g} mm, can be made",
                       request.grooves.radius, request.smallest_groove_radius));
     }
   }
@@ -90,7 +89,8 @@ void RedesignFeatureRequest::check() const {
   limits.check();
   if (vary.empty() && !proposes) {
     throw UsageError(
-        "`vary` is needed: which feature may change, as fillet:long=1:15; or `proposes`");
+        "setting \"vary\" is needed: which feature may change, as fillet:long=1:15; or setting "
+        "\"proposes\"");
   }
 }
 

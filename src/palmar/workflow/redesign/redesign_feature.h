@@ -38,7 +38,7 @@ struct RedesignFeatureRequest {
   /// again; json and comparison of the outcome are still empty.
   std::function<void(const RedesignFeatureOutcome&)> on_search;
 
-  /// Throws UsageError: `field` in backquotes, value, what is allowed.
+  /// Throws UsageError: setting, value, what is allowed.
   void check() const;
 };
 

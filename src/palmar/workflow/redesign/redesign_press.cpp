@@ -153,7 +153,8 @@ CombineOptions combine_options(const std::string& words) {
   if (text == "mean") return combine;
   const std::optional<double> percentile = parse_double(text);
   if (!percentile || !std::isfinite(*percentile)) {
-    throw UsageError("`over` is \"" + words + "\"; mean or a percentile, 0 to 100, is allowed");
+    throw UsageError("setting \"over\" is \"" + words +
+                     "\"; mean or a percentile, 0 to 100, is allowed");
   }
   combine.statistic = ImprintStatistic::kPercentile;
   combine.percentile = *percentile;
@@ -163,10 +164,11 @@ CombineOptions combine_options(const std::string& words) {
 void RedesignPressRequest::check() const {
   redesign.check();
   shape.check();
-  if (formats.empty()) throw UsageError("`formats` is empty; stl, obj or ply is required");
+  if (formats.empty())
+    throw UsageError("setting \"formats\" is empty; stl, obj or ply is required");
   for (const std::string& format : formats) {
     if (format != "stl" && format != "obj" && format != "ply") {
-      throw UsageError("`formats` has \"" + format + "\"; stl, obj and ply are allowed");
+      throw UsageError("setting \"formats\" has \"" + format + "\"; stl, obj and ply are allowed");
     }
   }
 }

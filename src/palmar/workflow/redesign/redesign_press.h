@@ -31,7 +31,7 @@ struct RedesignPressRequest {
   /// the outcome are still empty.
   std::function<void(const RedesignPressOutcome&)> on_shape;
 
-  /// Throws UsageError: `field` in backquotes, value, what is allowed.
+  /// Throws UsageError: setting, value, what is allowed.
   void check() const;
 };
 

@@ -107,8 +107,8 @@ RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRe
   }
   if (findings.regions.front().patches.empty()) {
     throw UsageError(fmt::format(
-        "redesign region: {} touch nowhere above {:g} MPa; a smaller `share` or threshold has a "
-        "region",
+        "redesign region: {} touch nowhere above {:g} MPa; a smaller setting \"share\" or setting "
+        "\"threshold\" has a region",
         findings.regions.front().title, request.threshold));
   }
   const std::vector<Vec3> normals = vertex_normals(map);
@@ -193,16 +193,17 @@ Json run_region_cad(const RedesignRegionRequest& asked, const RegionFindings& fi
 
 void RedesignRegionRequest::check() const {
   const auto require = [](bool holds, const char* field, double value, const char* allowed) {
-    if (!holds) throw UsageError(fmt::format("{} is {:g}; {} is allowed", field, value, allowed));
+    if (holds) return;
+    throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
   };
   redesign.check();
   region.check();
   relief.check();
-  require(threshold >= 0.0, "`threshold`", threshold, "0 MPa or more");
-  require(pressed_share >= 0.0 && pressed_share <= 1.0, "`pressed_share`", pressed_share, "0 to 1");
-  require(smallest_patch >= 0.0, "`smallest_patch`", smallest_patch, "0 mm2 or more");
-  require(relief_share >= 0.0 && relief_share <= 1.0, "`relief_share`", relief_share, "0 to 1");
-  require(junction_radius >= 0.0 && junction_radius <= 50.0, "`junction_radius`", junction_radius,
+  require(threshold >= 0.0, "threshold", threshold, "0 MPa or more");
+  require(pressed_share >= 0.0 && pressed_share <= 1.0, "pressed share", pressed_share, "0 to 1");
+  require(smallest_patch >= 0.0, "smallest patch", smallest_patch, "0 mm2 or more");
+  require(relief_share >= 0.0 && relief_share <= 1.0, "relief share", relief_share, "0 to 1");
+  require(junction_radius >= 0.0 && junction_radius <= 50.0, "junction radius", junction_radius,
           "0 to 50 mm");
 }
 

@@ -39,7 +39,7 @@ struct RedesignRegionRequest {
   /// still empty.
   std::function<void(const RedesignRegionOutcome&)> on_region;
 
-  /// Throws UsageError: `field` in backquotes, value, what is allowed.
+  /// Throws UsageError: setting, value, what is allowed.
   void check() const;
 };
 

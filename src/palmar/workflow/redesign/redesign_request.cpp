@@ -16,27 +16,34 @@ RedesignPosture redesign_posture(const std::string& name) {
   for (const RedesignPosture posture : {RedesignPosture::kKept, RedesignPosture::kNew}) {
     if (name == name_of(posture)) return posture;
   }
-  throw UsageError("`posture` is \"" + name + "\"; kept or new is allowed");
+  throw UsageError("setting \"posture\" is \"" + name + "\"; kept or new is allowed");
 }
 
 void RedesignRequest::check() const {
   if (product.empty()) {
-    throw UsageError("`product` is empty; a file or \"made: KIND PARAMETER=VALUE\" is required");
+    throw UsageError(
+        "setting \"product\" is empty; a file or \"made: KIND PARAMETER=VALUE\" is required");
   }
-  if (out.empty()) throw UsageError("`out` is empty; a folder is required");
-  if (populations.empty()) throw UsageError("`populations` is empty; one or more are required");
+  if (out.empty()) throw UsageError("setting \"out\" is empty; a folder is required");
+  if (populations.empty()) {
+    throw UsageError("setting \"populations\" is empty; one or more are required");
+  }
   constexpr int kMostHands = 100'000;
   if (hands < 1 || hands > kMostHands) {
-    throw UsageError(fmt::format("`hands` is {}; 1 to {} are allowed", hands, kMostHands));
+    throw UsageError(
+        fmt::format("setting \"hands\" is {}; 1 to {} are allowed", hands, kMostHands));
   }
   constexpr double kMostForce = 500.0;  // N; about the strongest grip measured
   if (!(grip_force >= 0.0 && grip_force <= kMostForce)) {
-    throw UsageError(fmt::format("`grip_force` is {:g} N; 0 (as closed) to {:g} N are allowed",
-                                 grip_force, kMostForce));
+    throw UsageError(
+        fmt::format("setting \"grip force\" is {:g} N; 0 (as closed) to {:g} N are allowed",
+                    grip_force, kMostForce));
   }
   if (grip_force > 0.0 && posture == RedesignPosture::kKept) {
     throw UsageError(
-        "`grip_force`: in a kept posture the shape decides the force; `posture` new goes with it");
+        "setting \"grip force\": in a kept posture the shape decides the force; setting "
+        "\"posture\" "
+        "new goes with it");
   }
 }
 

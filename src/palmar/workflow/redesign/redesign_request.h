@@ -45,7 +45,7 @@ struct RedesignRequest {
   /// Called with every note as it arises (a proposed unit, say); they are in the outcome, too.
   std::function<void(const std::string& note)> on_note;
 
-  /// Throws UsageError: `field` in backquotes, value, what is allowed.
+  /// Throws UsageError: setting, value, what is allowed.
   void check() const;
 };
 

@@ -44,33 +44,36 @@ TEST(RedesignRequest, NamesTheFieldItsValueAndWhatIsAllowed) {
     change(request);
     EXPECT_THAT([&] { request.check(); }, ThrowsMessage<UsageError>(HasSubstr(message)));
   };
-  refuses([](RedesignRequest& r) { r.product.clear(); }, "`product` is empty");
-  refuses([](RedesignRequest& r) { r.out.clear(); }, "`out` is empty; a folder is required");
-  refuses([](RedesignRequest& r) { r.populations.clear(); }, "`populations` is empty");
-  refuses([](RedesignRequest& r) { r.hands = 0; }, "`hands` is 0; 1 to 100000 are allowed");
+  refuses([](RedesignRequest& r) { r.product.clear(); }, "setting \"product\" is empty");
+  refuses([](RedesignRequest& r) { r.out.clear(); },
+          "setting \"out\" is empty; a folder is required");
+  refuses([](RedesignRequest& r) { r.populations.clear(); }, "setting \"populations\" is empty");
+  refuses([](RedesignRequest& r) { r.hands = 0; },
+          "setting \"hands\" is 0; 1 to 100000 are allowed");
   refuses(
       [](RedesignRequest& r) {
         r.posture = RedesignPosture::kNew;
         r.grip_force = 501.0;
       },
-      "`grip_force` is 501 N; 0 (as closed) to 500 N are allowed");
-  refuses([](RedesignRequest& r) { r.grip_force = 20.0; }, "`posture` new goes with it");
+      "setting \"grip force\" is 501 N; 0 (as closed) to 500 N are allowed");
+  refuses([](RedesignRequest& r) { r.grip_force = 20.0; }, "setting \"posture\" new goes with it");
 }
 
 TEST(RedesignRequest, PosturesHaveNames) {
   EXPECT_EQ(redesign_posture("kept"), RedesignPosture::kKept);
   EXPECT_EQ(redesign_posture(name_of(RedesignPosture::kNew)), RedesignPosture::kNew);
-  EXPECT_THAT([] { redesign_posture("other"); },
-              ThrowsMessage<UsageError>("`posture` is \"other\"; kept or new is allowed"));
+  EXPECT_THAT(
+      [] { redesign_posture("other"); },
+      ThrowsMessage<UsageError>("setting \"posture\" is \"other\"; kept or new is allowed"));
 }
 
 TEST(RedesignPressRequest, RefusesWhatNoShapeCanBe) {
   using Request = RedesignPressRequest;
   expect_refused<Request>([](Request& r) { r.shape.share = 1.5; }, "1.5; 0 to 1");
   expect_refused<Request>([](Request& r) { r.formats = {"step"}; },
-                          "`formats` has \"step\"; stl, obj and ply are allowed");
-  expect_refused<Request>([](Request& r) { r.formats.clear(); }, "`formats` is empty");
-  expect_refused<Request>([](Request& r) { r.redesign.hands = -1; }, "`hands` is -1");
+                          "setting \"formats\" has \"step\"; stl, obj and ply are allowed");
+  expect_refused<Request>([](Request& r) { r.formats.clear(); }, "setting \"formats\" is empty");
+  expect_refused<Request>([](Request& r) { r.redesign.hands = -1; }, "setting \"hands\" is -1");
 }
 
 TEST(RedesignPressRequest, SaysHowHandsAreCombinedInWords) {
@@ -80,22 +83,26 @@ TEST(RedesignPressRequest, SaysHowHandsAreCombinedInWords) {
   EXPECT_EQ(combine_options("90").percentile, 90.0);
   EXPECT_TRUE(combine_options("90-of-touching").is_among_touching);
   EXPECT_THAT([] { combine_options("most"); },
-              ThrowsMessage<UsageError>(HasSubstr("`over` is \"most\"")));
+              ThrowsMessage<UsageError>(HasSubstr("setting \"over\" is \"most\"")));
 }
 
 TEST(RedesignRegionRequest, RefusesSharesAndLengthsThatCantBe) {
   using Request = RedesignRegionRequest;
-  expect_refused<Request>([](Request& r) { r.threshold = -0.1; }, "`threshold` is -0.1; 0 MPa");
-  expect_refused<Request>([](Request& r) { r.pressed_share = 2; }, "`pressed_share` is 2; 0 to 1");
-  expect_refused<Request>([](Request& r) { r.relief_share = -1; }, "`relief_share` is -1; 0 to 1");
-  expect_refused<Request>([](Request& r) { r.smallest_patch = -5; }, "`smallest_patch` is -5");
+  expect_refused<Request>([](Request& r) { r.threshold = -0.1; },
+                          "setting \"threshold\" is -0.1; 0 MPa");
+  expect_refused<Request>([](Request& r) { r.pressed_share = 2; },
+                          "setting \"pressed share\" is 2; 0 to 1");
+  expect_refused<Request>([](Request& r) { r.relief_share = -1; },
+                          "setting \"relief share\" is -1; 0 to 1");
+  expect_refused<Request>([](Request& r) { r.smallest_patch = -5; },
+                          "setting \"smallest patch\" is -5");
   expect_refused<Request>([](Request& r) { r.junction_radius = 60; },
-                          "`junction_radius` is 60; 0 to 50 mm is allowed");
+                          "setting \"junction radius\" is 60; 0 to 50 mm is allowed");
 }
 
 TEST(RedesignFeatureRequest, RefusesLimitsThatCantBe) {
   using Request = RedesignFeatureRequest;
-  expect_refused<Request>([](Request&) {}, "`vary` is needed");
+  expect_refused<Request>([](Request&) {}, "setting \"vary\" is needed");
   const auto refuses = [](const auto& change, const std::string& message) {
     expect_refused<Request>(
         [&](Request& r) {
@@ -104,12 +111,17 @@ TEST(RedesignFeatureRequest, RefusesLimitsThatCantBe) {
         },
         message);
   };
-  refuses([](Request& r) { r.limits.largest_offset = 0; }, "`largest_offset` is 0; above 0");
-  refuses([](Request& r) { r.limits.smallest_radius = -1; }, "`smallest_radius` is -1; 0 or more");
-  refuses([](Request& r) { r.limits.smallest_volume = 0; }, "`smallest_volume` is 0; above 0");
-  refuses([](Request& r) { r.limits.largest_volume = -1; }, "`largest_volume` is -1; above 0");
-  refuses([](Request& r) { r.limits.least_grip_force = 2; }, "`least_grip_force` is 2; 0 to 1");
-  refuses([](Request& r) { r.limits.lost_hands = 1.1; }, "`lost_hands` is 1.1; 0 to 1");
+  refuses([](Request& r) { r.limits.largest_offset = 0; },
+          "setting \"largest offset\" is 0; above 0");
+  refuses([](Request& r) { r.limits.smallest_radius = -1; },
+          "setting \"smallest radius\" is -1; 0 or more");
+  refuses([](Request& r) { r.limits.smallest_volume = 0; },
+          "setting \"smallest volume\" is 0; above 0");
+  refuses([](Request& r) { r.limits.largest_volume = -1; },
+          "setting \"largest volume\" is -1; above 0");
+  refuses([](Request& r) { r.limits.least_grip_force = 2; },
+          "setting \"least grip force\" is 2; 0 to 1");
+  refuses([](Request& r) { r.limits.lost_hands = 1.1; }, "setting \"lost hands\" is 1.1; 0 to 1");
   refuses([](Request& r) { r.search.evaluations = 1; }, "evaluations is 1");
 }
 
@@ -123,8 +135,9 @@ TEST(FeatureSetting, ReadsRangesAndSingleValues) {
   EXPECT_EQ(ring.feature.ring_at, 40.0);
   EXPECT_EQ(ring.feature.section_radius, 8.0);
   EXPECT_FALSE(ring.varies());
-  EXPECT_THAT([] { feature_setting("groove:at=0=9", {.radius = 8.0}); },
-              ThrowsMessage<UsageError>(HasSubstr("`vary` \"groove:at=0=9\": a depth of 0 to")));
+  EXPECT_THAT(
+      [] { feature_setting("groove:at=0=9", {.radius = 8.0}); },
+      ThrowsMessage<UsageError>(HasSubstr("setting \"vary\" \"groove:at=0=9\": a depth of 0 to")));
   EXPECT_THAT([] { feature_setting("fillet:long=15:1"); },
               ThrowsMessage<UsageError>(HasSubstr("from the smaller to the larger one")));
 }

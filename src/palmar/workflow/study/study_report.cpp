@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/workflow/study/study_report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -34,10 +36,19 @@ std::vector<StudyQuantity> quantities_named(const StudyResults& results,
 
 }  // namespace
 
-std::filesystem::path report_study(const std::filesystem::path& path, const std::string& folder,
-                                   const StudyReportOptions& options, const Progress& progress) {
-  options.check();
-  const StudyStore store(path);
+void StudyReportRequest::check() const {
+  constexpr double kMostThreshold = 1e5;               // kPa
+  const double threshold = 1000.0 * report.threshold;  // kPa
+  if (!(threshold >= 0.0 && threshold <= kMostThreshold)) {
+    throw UsageError(fmt::format("setting \"threshold\" is {:g} kPa; 0 to {:.0f} kPa are allowed",
+                                 threshold, kMostThreshold));
+  }
+  report.check();
+}
+
+std::filesystem::path report_study(const StudyReportRequest& request, const Progress& progress) {
+  request.check();
+  const StudyStore store(request.store);
   const StudyResults results = results_of(store);
   const StudyInputs inputs = store.inputs();
   const StudyReportInput input{results, inputs,
@@ -45,8 +56,8 @@ std::filesystem::path report_study(const std::filesystem::path& path, const std:
                                  store.for_each(true, visit);
                                },
                                store.program(), store.digest()};
-  write_study_report(folder, input, options, progress);
-  return std::filesystem::path(folder) / "report.html";
+  write_study_report(request.folder, input, request.report, progress);
+  return std::filesystem::path(request.folder) / "report.html";
 }
 
 void StudyCompareRequest::check() const {

@@ -15,10 +15,16 @@
 
 namespace palmar {
 
-/// The page of a study's store; write_study_report() says what it writes and throws. Gives back
-/// the page's path. Throws UsageError also if no grasp was run yet.
-std::filesystem::path report_study(const std::filesystem::path& store, const std::string& folder,
-                                   const StudyReportOptions& options = {},
+/// The page of a study.
+struct StudyReportRequest {
+  std::filesystem::path store;
+  std::string folder;         ///< for page, tables and figures; made if missing
+  StudyReportOptions report;  ///< its threshold at most 100 MPa
+  void check() const;         ///< throws UsageError: setting, value, what is allowed
+};
+/// Writes what write_study_report() says and gives back the path of the page. Throws as it does;
+/// UsageError also if no grasp was run yet; InputError naming the store.
+std::filesystem::path report_study(const StudyReportRequest& request,
                                    const Progress& progress = {});
 
 /// Differences between the products of a study over the same hands.

@@ -1,0 +1,129 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/population/table_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "palmar/formats/file.h"
+#include "palmar/report/chart/correlation_chart.h"
+#include "palmar/report/chart/scatter_chart.h"
+#include "palmar/report/page/plain_words.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kLinePlaces = 60;        // at which the line and its bands are drawn
+constexpr double kSignificant = 0.05;  // p value
+
+void write_chart(const std::string& folder, const std::string& name, const Figure& figure) {
+  const std::filesystem::path path(folder);
+  write_file(path / (name + ".svg"), to_svg(figure));
+  write_file(path / (name + ".png"), to_png(figure));
+  write_file(path / (name + ".pdf"), to_pdf(figure));
+}
+
+std::string label_of(const DimensionTable& table, const std::string& name) {
+  const TableColumn& column = table.column(name);
+  std::string label = name;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  return column.unit.empty() ? label : label + ", " + column.unit;
+}
+
+ScatterSeries series_of(const TableGroup& group, const TableRegression& r, double level) {
+  ScatterSeries series;
+  series.name = group.name;
+  const auto [xs, ys] =
+      complete_pairs(group.table.column(r.predictors[0]).values, group.table.column(r.name).values);
+  for (std::size_t i = 0; i < xs.size(); ++i) series.points.emplace_back(xs[i], ys[i]);
+  const auto [low, high] = std::minmax_element(xs.begin(), xs.end());
+  for (int i = 0; i <= kLinePlaces; ++i) {
+    const double x = *low + (*high - *low) * i / kLinePlaces;
+    const Band mean = confidence_band(r.fit, x, level);
+    const Band single = prediction_band(r.fit, x, level);
+    series.line.x.push_back(x);
+    series.line.value.push_back(mean.value);
+    series.line.low.push_back(mean.low);
+    series.line.high.push_back(mean.high);
+    series.line.outer_low.push_back(single.low);
+    series.line.outer_high.push_back(single.high);
+  }
+  return series;
+}
+
+/// "men: y = 12.300 + 0.4000 x, n = 40, ...", the group's name only if there are groups.
+std::string equation_note(const std::string& group, const LinearFit& fit) {
+  const double slope = fit.slopes[0].estimate;
+  const std::string p = p_text(fit.f_p_value);
+  return fmt::format("{}y = {:.3f} {} {:.4f} x, n = {}, R² = {:.3f}, residual sd {:.2f}, p {}{}",
+                     group.empty() ? "" : group + ": ", fit.intercept.estimate,
+                     slope < 0.0 ? "-" : "+", std::abs(slope), fit.n, fit.r2, fit.residual_sd,
+                     p.starts_with('<') ? "" : "= ", p);
+}
+
+/// One dimension on one predictor.
+ScatterChart scatter_of(const TableRegression& wanted, const std::vector<TableGroup>& groups,
+                        const Regressions& results) {
+  ScatterChart chart;
+  const DimensionTable& table = groups.front().table;
+  chart.x_label = label_of(table, wanted.predictors[0]);
+  chart.y_label = label_of(table, wanted.name);
+  chart.title = capitalised(chart.y_label.substr(0, chart.y_label.find(',')) + " on " +
+                            chart.x_label.substr(0, chart.x_label.find(',')));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const TableRegression& r : results.groups[g].result) {
+      if (r.name != wanted.name || r.predictors != wanted.predictors) continue;
+      ScatterSeries series = series_of(groups[g], r, results.level);
+      series.colour = series_colour(g);
+      chart.series.push_back(std::move(series));
+      chart.notes.push_back(equation_note(results.by.empty() ? "" : groups[g].name, r.fit));
+    }
+  }
+  chart.notes.push_back(fmt::format("Shaded: {:g} % of the mean; dashed: {:g} % of people.",
+                                    100.0 * results.level, 100.0 * results.level));
+  return chart;
+}
+
+}  // namespace
+
+std::string file_part(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                          (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+    result += is_plain ? c : '_';
+  }
+  return result;
+}
+
+void write_correlation_charts(const std::string& folder, const Correlations& results) {
+  for (const auto& group : results.groups) {
+    const bool is_one_of_several = !results.by.empty();
+    CorrelationChart chart;
+    chart.title = "Correlations" + (is_one_of_several ? ", " + results.by + " " + group.name : "");
+    chart.names = group.result.names;
+    chart.r = group.result.r;
+    chart.is_significant.setConstant(chart.r.rows(), chart.r.cols(), true);
+    for (const auto& pair : group.result.pairs) {
+      const bool is_significant = pair.pearson.p_value < kSignificant;
+      chart.is_significant(pair.a, pair.b) = chart.is_significant(pair.b, pair.a) = is_significant;
+    }
+    write_chart(folder, "correlation" + (is_one_of_several ? "_" + file_part(group.name) : ""),
+                correlation_chart(chart));
+  }
+}
+
+void write_scatter_charts(const std::string& folder, const std::vector<TableGroup>& groups,
+                          const Regressions& results) {
+  for (const TableRegression& one : results.groups.front().result) {
+    if (one.predictors.size() != 1) continue;
+    write_chart(folder, file_part(one.name + "_on_" + one.predictors[0]),
+                scatter_chart(scatter_of(one, groups, results)));
+  }
+}
+
+}  // namespace palmar
