@@ -6,7 +6,8 @@
 
 # palmar_tidy all | palmar_tidy changed SECONDS: every source, or those that changed since the last
 # release (the newest tag; without one, the commit named in .ci/tidy-base), the most recently changed
-# first, for as long as the seconds last. Prints what it finds, and how much.
+# first, for as long as the seconds last. Prints what it finds, and how much. Ends with 1 if a name breaks the
+# rules (what .clang-tidy takes for an error).
 palmar_tidy() {
   local base files list log; list=$(mktemp) log=$(mktemp)
   if [ "$1" = all ]; then
@@ -36,5 +37,11 @@ palmar_tidy() {
     cat "$log.found" >&2
     echo "clang-tidy: $(grep -cE '(warning|error): ' "$log.found") findings, above" >&2
   fi
+  local outcome=0
+  if grep -qsF -- ',-warnings-as-errors]' "$log.found"; then
+    echo "clang-tidy: names that break the rules (\"warnings-as-errors\") have to be put right" >&2
+    outcome=1
+  fi
   rm -f "$list" "$log" "$log".*
+  return "$outcome"
 }
