@@ -10,6 +10,7 @@
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/instance/scaled_hand.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
@@ -87,6 +88,22 @@ TEST_F(GraspPlaces, LeftHandsHoldAMirroredProductInTheMirroredWay) {
                 1e-4)  // the quick distance is in single precision
         << name_of(static_cast<Dof>(d));
   }
+}
+
+// The span of a small child's hand, 106 mm long, can't reach a third round a pipe of 346 mm of
+// girth: 115 mm of arc from the thumb to the fingertips.
+TEST_F(GraspPlaces, AHandThatCantHoldItThereIsAResult) {
+  CylinderProductOptions pipe;
+  pipe.diameter = 110.0;
+  const Product product = make_cylinder_product(pipe);
+  const GraspPlace place(hand(), product);
+  ASSERT_EQ(place.reference_grasp().status, GraspStatus::kHeld);
+  const auto child = std::make_shared<const Hand>(scaled(hand(), 0.6));
+  const Grasp kept = place.hold(GraspingHand(child));
+  EXPECT_NE(kept.status, GraspStatus::kHeld);
+  EXPECT_THAT(kept.message,
+              ::testing::StartsWith("cannot hold it where the reference hand does: "));
+  EXPECT_THAT(kept.message, ::testing::EndsWith("nor did it find another place"));
 }
 
 TEST_F(GraspPlaces, ThreadsShareAPlace) {

@@ -14,9 +14,11 @@
 extern "C" {
 
 // The C library's own, under the names that it keeps for programs that stand in between.
+// NOLINTBEGIN(readability-identifier-naming)
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
+// NOLINTEND(readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   void* const memory = __libc_malloc(size);

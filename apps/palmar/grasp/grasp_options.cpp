@@ -86,6 +86,9 @@ void GraspArguments::add_to(CLI::App& verb) {
                   "Hold the product by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners "
                   "in mm in the product's frame (power grips)");
   verb.add_option("--turn-deg", turn_deg_, "Turn of the hand about the grip axis, deg");
+  verb.add_flag("--place-per-hand", settings_.is_place_per_hand,
+                "Let this hand search where to hold the product, instead of holding it where the "
+                "built-in hand does");
   verb.add_option("--palm-limit-depth-mm", settings_.palm_limit_depth,
                   "Deepest penetration of the palm, mm")
       ->capture_default_str();

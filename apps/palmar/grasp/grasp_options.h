@@ -17,8 +17,8 @@ class GraspArguments {
  public:
   std::string hand = "template", unit;
 
-  /// Adds --hand, --grip, --unit, --at, --axis, --region, --turn-deg, --fingertip and the depths to
-  /// a verb.
+  /// Adds --hand, --grip, --unit, --at, --axis, --region, --turn-deg, --fingertip, --place-per-hand
+  /// and the depths to a verb.
   void add_to(CLI::App& verb);
   GraspSettings settings() const;  ///< throws UsageError naming the option
 

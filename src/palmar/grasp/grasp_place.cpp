@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/grasp_place.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
@@ -11,8 +13,6 @@
 
 namespace palmar {
 namespace {
-
-constexpr const char* kOwnPlace = "; not where the reference hand holds it: at its own place";
 
 bool is_held(const Grasp& grasp) { return grasp.status == GraspStatus::kHeld; }
 
@@ -101,10 +101,19 @@ Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const
   Grasp grasp = impl_->place ? impl_->hold_power(hand, progress)
                              : impl_->hold_precisely(hand.hand(), progress);
   if (is_held(grasp) || !is_held(impl_->grasp)) return grasp;
-  Grasp own = find_grasp(hand.hand(), *impl_->product, impl_->options, progress);
-  if (!is_held(own)) return grasp;
-  own.message += kOwnPlace;
-  return own;
+  // Never silently another way of holding: it is told, and stands first among the runners-up.
+  const Grasp own = find_grasp(hand.hand(), *impl_->product, impl_->options, progress);
+  grasp.message = "cannot hold it where the reference hand does: " + grasp.message;
+  if (!is_held(own)) {
+    grasp.message += "; nor did it find another place";
+    return grasp;
+  }
+  grasp.message += fmt::format("; {:.0f} mm from there it would hold it ({})",
+                               (own.grip_point - grasp.grip_point).norm(), own.message);
+  grasp.runners_up = own.runners_up;
+  grasp.runners_up.insert(grasp.runners_up.begin(),
+                          {own.grip, own.posture, own.product_from_hand, own.score});
+  return grasp;
 }
 
 }  // namespace palmar

@@ -45,9 +45,10 @@ class GraspPlace {
   /// As the reference hand holds the product.
   const Grasp& reference_grasp() const;
 
-  /// How `hand` holds it there. A hand that can't hold it that way (while the reference hand can),
-  /// or a product that the reference hand found no place on, gets a search of its own; the message
-  /// says so. The reference hand itself gets reference_grasp(). Throws Cancelled.
+  /// How `hand` holds it there. A hand that can't hold it that way, while the reference hand can,
+  /// is a result like others: its message says what it would do by itself, and that stands first
+  /// among the runners-up. On a product that the reference hand found no place on, each hand
+  /// searches by itself. The reference hand gets reference_grasp(). Throws Cancelled.
   Grasp hold(const GraspingHand& hand, const Progress& progress = {}) const;
 
   struct Impl;

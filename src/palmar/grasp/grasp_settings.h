@@ -17,6 +17,9 @@ struct GraspSettings {
   double finger_limit_depth = PowerGraspOptions{}.finger_limit_depth;  ///< power grips, mm
   double fingertip_depth = PrecisionGripOptions{}.fingertip_depth;     ///< precision grips, mm
   std::vector<FingertipTarget> fingertips;  ///< precision grips only; empty: found from the shape
+  /// Each hand searches where to hold the product, instead of holding it where the built-in hand
+  /// does.
+  bool is_place_per_hand = false;
 
   /// Throws UsageError: setting, value, what is allowed. Fingertips go with precision grips only, a
   /// region of the surface with power grips only.

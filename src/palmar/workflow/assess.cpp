@@ -9,6 +9,7 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/records/posture/coordination_file.h"
 #include "palmar/report/page/assessment_report.h"
+#include "palmar/workflow/grasp/hold_product.h"
 
 namespace palmar {
 namespace {
@@ -90,8 +91,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     options.friction = task.friction;
     options.balance.load = task.friction.load;
     try {
-      Assessment assessment = assess(prepared, task.product, options,
-                                     part_of(progress, start, start + step, task.product.name));
+      Assessment assessment =
+          assess(prepared, task.product, options,
+                 part_of(progress, start, start + step, task.product.name), [&](const Progress& p) {
+                   return hold_product(hand, task.product, request.grasp, options.grasp, p);
+                 });
       outcome.set.assessments.push_back({std::move(task.product), std::move(assessment)});
     } catch (const Cancelled&) {
       outcome.is_cancelled = true;

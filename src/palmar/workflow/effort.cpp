@@ -4,6 +4,7 @@
 
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/hold_product.h"
 
 namespace palmar {
 
@@ -32,7 +33,10 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   const PreparedHand prepared(hand, request.model);
   Assessment held =
       request.grasp_file.empty()
-          ? assess(prepared, product, options, progress)
+          ? assess(prepared, product, options, progress,
+                   [&](const Progress& p) {
+                     return hold_product(hand, product, request.grasp, options.grasp, p);
+                   })
           : evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product), options,
                      progress);
   // Friction of the grasp at rest, as in assess; of a given grasp that of the load.

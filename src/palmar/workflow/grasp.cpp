@@ -5,6 +5,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/given_grasp.h"
 #include "palmar/records/posture/posture_file.h"
+#include "palmar/workflow/grasp/hold_product.h"
 
 namespace palmar {
 
@@ -20,9 +21,10 @@ GraspOutcome grasp_product(const GraspRequest& request, const Progress& progress
   const GraspOptions options = options_for(request.grasp, outcome.product);
   for (const std::string& text : outcome.product.notes) note_to(request.note, text);
   outcome.hand = load_hand(request.hand);
-  outcome.grasp = request.grasp_file.empty()
-                      ? find_grasp(*outcome.hand, outcome.product, options, progress)
-                      : read_grasp(request.grasp_file, *outcome.hand, outcome.product);
+  outcome.grasp =
+      request.grasp_file.empty()
+          ? hold_product(outcome.hand, outcome.product, request.grasp, options, progress)
+          : read_grasp(request.grasp_file, *outcome.hand, outcome.product);
   return outcome;
 }
 

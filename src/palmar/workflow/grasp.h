@@ -29,7 +29,7 @@ struct GraspOutcome {
   Grasp grasp;  ///< the best way of holding, with its runners-up
 };
 
-/// Reads product and hand and holds the product: find_grasp(), or as the file says. Throws
+/// Reads product and hand and holds the product: hold_product(), or as the file says. Throws
 /// UsageError, InputError naming the file, Cancelled.
 GraspOutcome grasp_product(const GraspRequest& request, const Progress& progress = {});
 

@@ -74,7 +74,7 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
 }
 
 Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
-                  const Progress& progress) {
+                  const Progress& progress, const std::function<Grasp(const Progress&)>& hold) {
   options.grasp.check();
   options.balance.check();
   options.contact.check();
@@ -82,7 +82,7 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
 
   progress.update(0.0, "closing the hand");
   const Stopwatch watch;
-  Grasp grasp = find_grasp(hand.hand(), product, options.grasp, progress);
+  Grasp grasp = hold ? hold(progress) : find_grasp(hand.hand(), product, options.grasp, progress);
   const double seconds = watch.seconds();
   progress.update(0.5, "letting the grasp come to rest");
   const Stopwatch balance_watch;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -78,9 +79,10 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
 
 /// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
 /// an assessment whose grasp says why; one that slips out is partly held and shown as the hand was
-/// closed. Throws
-/// UsageError, Cancelled.
+/// closed. `hold` finds the grasp; unset: find_grasp() with the options. Throws UsageError,
+/// Cancelled.
 Assessment assess(const PreparedHand& hand, const Product& product,
-                  const AssessOptions& options = {}, const Progress& progress = {});
+                  const AssessOptions& options = {}, const Progress& progress = {},
+                  const std::function<Grasp(const Progress&)>& hold = {});
 
 }  // namespace palmar
