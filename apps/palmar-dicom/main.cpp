@@ -67,7 +67,15 @@ std::string unpacked(const Json& frame, gdcm::TransferSyntax syntax, std::string
   if (image.GetBufferLength() != needed)
     throw InputError(name + ": its compressed image has another size");
   std::string bytes(needed, '\0');
-  if (!image.GetBuffer(bytes.data())) {
+  bool is_unpacked = false;
+  try {
+    is_unpacked = image.GetBuffer(bytes.data());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {  // of the standard library within a decoder
+    throw InputError(name + ": its compressed image is damaged: " + error.what());
+  }
+  if (!is_unpacked) {
     throw InputError(name + ": its compressed image is damaged, cut off or of another size");
   }
   return bytes;

@@ -117,7 +117,8 @@ void add_from_mri(CLI::App& hand, Context& context) {
                             "palmar hand from-mri scans/ --out anna.hand.glb");
   verb->add_option(
           "IMAGE", a->request.images,
-          "Folders of DICOM series, NIfTI files, or folders that palmar mri surfaces made. The "
+          "Folders of DICOM series, DICOM files of several frames, NIfTI files, or folders that "
+          "palmar mri surfaces made. The "
           "description of a series (or the name of its folder) gives the posture: reference, "
           "thumb_flexion, thumb_extension, thumb_abduction, thumb_adduction, finger_flexion, "
           "finger_abduction, grasp; the reference is needed")

@@ -110,9 +110,11 @@ void add_mri_commands(CLI::App& app, Context& context) {
   mri->fallthrough();
 
   const auto folder = std::make_shared<std::string>();
-  CLI::App* series = add_verb(*mri, "series", "Series in a folder of DICOM files",
+  CLI::App* series = add_verb(*mri, "series", "Series in a folder of DICOM files, or in one file",
                               "palmar mri series subject3/mri");
-  series->add_option("FOLDER", *folder, "Folder to search, with the folders in it")->required();
+  series
+      ->add_option("FOLDER", *folder, "Folder to search, with the folders in it; or one DICOM file")
+      ->required();
   series->callback([&context, folder] {
     context.run = [&context, folder] { return run_series(*folder, context); };
   });
@@ -120,7 +122,9 @@ void add_mri_commands(CLI::App& app, Context& context) {
   const auto o = std::make_shared<InfoArguments>();
   CLI::App* info = add_verb(*mri, "info", "Size, place and intensities of one image",
                             "palmar mri info subject3/mri --series 1");
-  info->add_option("IMAGE", o->image, "Folder of DICOM files, .nii or .nii.gz")->required();
+  info->add_option("IMAGE", o->image,
+                   "Folder of DICOM files, DICOM file of several frames, .nii or .nii.gz")
+      ->required();
   info->add_option("--series", o->choice.number, "Number of the series, if there are several");
   info->add_option("--description", o->choice.description,
                    "Part of its description, instead of the number");

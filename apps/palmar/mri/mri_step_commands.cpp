@@ -78,7 +78,9 @@ void add_surfaces(CLI::App& mri, Context& context) {
   const auto a = std::make_shared<SurfacesArguments>();
   CLI::App* verb = add_verb(mri, "surfaces", "Skin, bones and markers of one MR image as meshes",
                             "palmar mri surfaces scans/reference --out reference");
-  verb->add_option("IMAGE", a->request.image, "Folder of DICOM files, NIfTI file")->required();
+  verb->add_option("IMAGE", a->request.image,
+                   "Folder of DICOM files, DICOM file of several frames, NIfTI file")
+      ->required();
   verb->add_option("--out", a->request.out, "Folder to write: skin.ply, bones/*.ply, scan.json")
       ->required();
   verb->add_option("--series", a->request.choice.number,
@@ -134,7 +136,7 @@ void add_motion(CLI::App& mri, Context& context) {
       ->required();
   verb->add_option("POSTURE", a->request.posture, "Another one, of another posture")->required();
   verb->add_option("--images", a->images,
-                   "Images of both (DICOM folder or NIfTI): bones are aligned by their "
+                   "Images of both (DICOM or NIfTI): bones are aligned by their "
                    "intensities, which is more accurate than by their surfaces")
       ->expected(2);
   verb->callback(

@@ -11,7 +11,7 @@
 
 namespace palmar {
 
-/// One series of a folder of DICOM files.
+/// One series of DICOM files.
 struct DicomSeries {
   std::string uid;
   int number = 0;           ///< Series Number, 0 if it has none
@@ -24,12 +24,15 @@ struct DicomSeries {
   std::string refusal;
 };
 
-/// Every series below `folder` (looked through with what lies in it), by number, then by UID. Files
-/// that aren't DICOM are passed over. Throws InputError for a folder that is missing or has none.
-std::vector<DicomSeries> find_dicom_series(const std::string& folder);
+/// Every series of a folder (looked through with the folders in it), by number, then by UID; or
+/// that of one file. Files of a folder that aren't DICOM are passed over. Throws InputError for a
+/// folder that is missing or has none, and for a file that isn't DICOM.
+std::vector<DicomSeries> find_dicom_series(const std::string& path);
 
-/// Which series of a folder is meant: its number, or part of its description. Nothing: the only
-/// one.
+/// Whether `path` is a file that begins as DICOM files do.
+bool is_dicom_file(const std::string& path);
+
+/// Which series is meant: its number, or part of its description. Nothing: the only one.
 struct SeriesChoice {
   std::optional<int> number;
   std::string description;
@@ -46,9 +49,10 @@ struct ImageFile {
   std::vector<std::string> odd_slices;
 };
 
-/// Reads a folder of DICOM files, or a NIfTI file (.nii, .nii.gz). Throws InputError naming
-/// file and place for: missing or doubled slices, mixed series, several that fit the choice (all
-/// named), colour, compression that can't be read, a truncated slice, axes that aren't square.
+/// Reads a folder of DICOM files, a DICOM file of several frames, or a NIfTI file (.nii, .nii.gz).
+/// Throws InputError naming file and place for: missing or doubled slices, mixed series, several
+/// that fit the choice (all named), colour, compression that can't be read, a truncated slice, axes
+/// that aren't square.
 ImageFile read_image(const std::string& path, const SeriesChoice& choice = {},
                      const Progress& progress = {});
 

@@ -21,6 +21,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kRle = "1.2.840.10008.1.2.5";
 
+bool is_jpeg_ls(std::string_view transfer_syntax) {
+  return transfer_syntax == "1.2.840.10008.1.2.4.80" || transfer_syntax == "1.2.840.10008.1.2.4.81";
+}
+
+// JPEG-LS and JPEG 2000 say "all the same" in a few bytes, whatever the size: without this a file
+// of some hundred bytes would take minutes and gigabytes. MR images, noisy as they are, have a few
+// pixels for a byte; images with loss up to about a hundred.
+constexpr double kMostPixelsPerByte = 1000.0;
+constexpr double kAlwaysUnpacked = 16e6;  // pixels; small enough to be unpacked whatever they are
+
 /// The fragments of a file: a table of offsets, then those of all frames.
 struct Fragments {
   std::string_view table;
@@ -64,6 +74,12 @@ std::string packed_frame(const DicomSlice& slice, const Fragments& fragments) {
       const auto offset = read_value<std::uint32_t>(fragments.table, 4 * f);
       const auto found =
           std::lower_bound(fragments.start.begin(), fragments.start.end(), std::uint64_t{offset});
+      if (found == fragments.start.end() || *found != offset) {
+        throw InputError(
+            fmt::format("{}: its table of offsets says that frame {} begins at byte {} of the "
+                        "compressed pixels; no piece begins there",
+                        slice.path, f + 1, offset));
+      }
       return static_cast<std::size_t>(found - fragments.start.begin());
     };
     from = piece_at(frame);
@@ -123,7 +139,15 @@ std::optional<StreamSize> stream_size(std::string_view stream) {
   return std::nullopt;
 }
 
-/// GDCM trusts that a stream has the size that the file says.
+/// Whether a stream of JPEG-LS ends with the marker of an image's end (ITU-T T.87, C.1), behind
+/// which DICOM may have put filling.
+bool is_complete(std::string_view stream) {
+  const std::size_t last = stream.find_last_not_of('\0');
+  return last != std::string_view::npos && stream.substr(0, last + 1).ends_with("\xFF\xD9");
+}
+
+/// GDCM trusts that a stream has the size that the file says, and half of the JPEG-LS streams that
+/// are cut off keep its decoder busy for ever.
 void check_stream(const DicomSlice& slice, std::string_view stream) {
   const auto size = stream_size(stream);
   if (!size) {
@@ -136,6 +160,9 @@ void check_stream(const DicomSlice& slice, std::string_view stream) {
     throw InputError(
         fmt::format("{}: its compressed image has {} x {} pixels; the file says {} x {}",
                     slice.name(), size->columns, size->rows, slice.columns, slice.rows));
+  }
+  if (is_jpeg_ls(slice.transfer_syntax) && !is_complete(stream)) {
+    throw InputError(slice.name() + ": its compressed image is cut off: the end marker is missing");
   }
   const int allocated = size->bits <= 8 ? 8 : size->bits <= 16 ? 16 : 32;
   if (size->components != 1 || allocated != slice.bits_allocated) {
@@ -217,6 +244,16 @@ class PackedFrames {
   Fragments fragments_;
 };
 
+/// What messages call these slices: the slice, the file of several frames, or the folder.
+std::string object_of(const std::vector<DicomSlice>& slices) {
+  const DicomSlice& first = slices.front();
+  if (slices.size() == 1) return first.name();
+  const bool is_one_file = std::all_of(slices.begin(), slices.end(), [&](const DicomSlice& slice) {
+    return slice.path == first.path;
+  });
+  return is_one_file ? first.path : std::filesystem::path(first.path).parent_path().string();
+}
+
 /// Runs the child on slices of one transfer syntax.
 void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
             std::map<std::string, std::string>& result) {
@@ -232,7 +269,7 @@ void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
   Json frames = Json::array();
   std::string packed;
   double pixels = 0.0;
-  const std::string folder_name = std::filesystem::path(slices.front().path).parent_path().string();
+  const std::string object = object_of(slices);
   PackedFrames packed_frames;
   for (const DicomSlice& slice : slices) {
     const std::string bytes = packed_frames.of(slice);
@@ -247,10 +284,17 @@ void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
                       {"is_signed", slice.is_signed}});
     packed += bytes;
     pixels += static_cast<double>(slice.columns) * slice.rows;
-    check_image_size(folder_name, pixels, 1.0, 1.0);
+    check_image_size(object, pixels, 1.0, 1.0);
     if (packed.size() > kMaxImageBytes) {
-      throw InputError(folder_name + ": has more than 2 GB of compressed pixels");
+      throw InputError(object + ": has more than 2 GB of compressed pixels");
     }
+  }
+  if (pixels > kAlwaysUnpacked &&
+      pixels > kMostPixelsPerByte * static_cast<double>(packed.size())) {
+    throw InputError(
+        fmt::format("{}: says it has {:g} million pixels in {} compressed bytes; up to {:g} pixels "
+                    "for a byte are read",
+                    object, 1e-6 * pixels, packed.size(), kMostPixelsPerByte));
   }
   const WorkerFolder folder;
   write_file(folder.path() / "packed.bin", packed);
@@ -258,7 +302,6 @@ void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
       .seconds = 30.0 + 1e-5 * pixels,
       .memory_mb = 1024.0 + 16e-6 * pixels + 2e-6 * static_cast<double>(packed.size()),
       .is_fixed = true};
-  const std::string object = slices.size() == 1 ? slices[0].name() : folder_name;
   run_worker(
       kDicom, "unpack",
       Json{{"transfer_syntax", slices[0].transfer_syntax}, {"frames", std::move(frames)}}.dump(),

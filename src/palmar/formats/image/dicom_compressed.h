@@ -22,7 +22,8 @@ std::string unread_compression(std::string_view transfer_syntax);
 /// GDCM unpacks them in a child process, palmar-dicom, with limits of time and memory: some damaged
 /// streams crash its decoders. Throws InputError naming the file if pixels are damaged, cut off or
 /// of another size, if the child crashes on them or needs more than its limits (30 s and 10 s for a
-/// million pixels; 1 GB and four times the pixels); ProgramMissing if the program isn't there. Run
+/// million pixels; 1 GB and 16 bytes for a pixel), or if more than 16 million pixels have more than
+/// 1000 for a compressed byte; ProgramMissing if the program isn't there. Run
 /// lengths are unpacked here: GDCM crashes on more damaged ones than on any other kind.
 ///
 /// Source: DICOM PS3.5, A.4 (fragments), annex G (RLE).

@@ -41,11 +41,12 @@ TEST(DicomDamage, FoldersWithoutASeriesAreNamed) {
   std::ofstream(folder / "empty/a.txt") << "text";
   EXPECT_THAT(message_for(folder / "empty"), HasSubstr("none of its 1 file is DICOM"));
   EXPECT_THAT(message_for(folder / "none"), HasSubstr("none: no such file or folder"));
-  EXPECT_THAT(message_of<InputError>([&] { find_dicom_series(folder / "empty/a.txt"); }),
-              HasSubstr("is a file; the folder with the series is required"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { find_dicom_series(folder / "empty/a.txt"); }),
+      HasSubstr("is no DICOM file; a folder of them, or one of several frames, is required"));
   write_test_series(folder / "s");
   EXPECT_THAT(message_for(folder / "s/1.dcm"),
-              HasSubstr("is one DICOM file; the folder with its series is required"));
+              HasSubstr("is one DICOM file of one slice; the folder with its series is required"));
 }
 
 TEST(DicomDamage, MissingSlicesAreNamedByPosition) {

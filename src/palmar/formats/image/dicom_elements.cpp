@@ -17,11 +17,24 @@ constexpr DicomTag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xF
 constexpr DicomTag kPixelData = 0x7FE00010;
 constexpr DicomTag kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 constexpr int kDeepestSequence = 32;
+constexpr std::size_t kLongestNumbers = 17 * kMostDicomFrames;  // one number for each frame
 
-/// Sequences within the groups that say something of a frame's place or values: plane position and
-/// orientation, pixel measures, pixel value transformation.
+/// Sequences within the groups that say something of a frame's place, values or kind.
 bool is_group_read(DicomTag tag) {
-  return tag == 0x00209113 || tag == 0x00209116 || tag == 0x00289110 || tag == 0x00289145;
+  switch (tag) {
+    case 0x00209113:  // plane position
+    case 0x00209116:  // plane orientation
+    case 0x00289110:  // pixel measures
+    case 0x00289145:  // pixel value transformation
+    case 0x00209071:  // frame anatomy
+    case 0x00209111:  // frame content
+    case 0x00189114:  // MR echo
+    case 0x00189117:  // MR diffusion
+    case 0x00189226:  // MR image frame type
+      return true;
+    default:
+      return false;
+  }
 }
 
 std::string name_of(DicomTag tag) {
@@ -356,7 +369,7 @@ std::optional<std::vector<double>> DicomAttributes::numbers(DicomTag tag) const 
   const auto found = value.find(tag);
   if (found == value.end() || trimmed(found->second).empty()) return std::nullopt;
   std::vector<double> result;
-  std::string_view rest = found->second.substr(0, 4096);
+  std::string_view rest = found->second.substr(0, kLongestNumbers);
   while (true) {
     const std::size_t end = rest.find('\\');
     const auto number = parse_double(trimmed(rest.substr(0, end)));
@@ -376,6 +389,25 @@ std::optional<int> DicomAttributes::integer(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || found->second.size() < 2) return std::nullopt;
   return read_value<std::uint16_t>(found->second, 0);
+}
+
+std::optional<std::uint32_t> DicomAttributes::integer32(DicomTag tag) const {
+  const auto found = value.find(tag);
+  if (found == value.end() || found->second.size() < 4) return std::nullopt;
+  return read_value<std::uint32_t>(found->second, 0);
+}
+
+std::optional<double> DicomAttributes::float64(DicomTag tag) const {
+  const auto found = value.find(tag);
+  if (found == value.end() || found->second.size() < 8) return std::nullopt;
+  const auto number = read_value<double>(found->second, 0);
+  return std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
+}
+
+std::optional<DicomTag> DicomAttributes::named_tag(DicomTag tag) const {
+  const auto bits = integer32(tag);
+  if (!bits) return std::nullopt;
+  return *bits << 16 | *bits >> 16;
 }
 
 bool looks_like_dicom(std::string_view head) {

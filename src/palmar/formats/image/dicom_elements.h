@@ -29,15 +29,20 @@ struct DicomAttributes {
   std::optional<double> number(DicomTag tag) const;
   /// A 16-bit integer.
   std::optional<int> integer(DicomTag tag) const;
+  /// A 32-bit integer, a 64-bit floating-point number, the tag that an element names.
+  std::optional<std::uint32_t> integer32(DicomTag tag) const;
+  std::optional<double> float64(DicomTag tag) const;
+  std::optional<DicomTag> named_tag(DicomTag tag) const;
 };
 
 /// The attributes at the first level of a DICOM file, looked at without trusting any length in it.
-/// Of sequences only those are looked into that say where the frames of a multi-frame file lie.
+/// Of sequences only those are looked into that say where the frames of a multi-frame file lie and
+/// what they are.
 ///
 /// Source: DICOM PS3.5 (2023), section 7.1 (data elements), A.4 (fragments); PS3.10, section 7;
 /// PS3.3, C.7.6.16 (functional groups).
 struct DicomElements : DicomAttributes {
-  DicomAttributes shared;              ///< of all frames: place, pixel size, rescaling
+  DicomAttributes shared;              ///< of all frames: place, pixel size, rescaling, kind
   std::vector<DicomAttributes> frame;  ///< of each frame, where it says something by itself
   std::string transfer_syntax;
   std::uint64_t pixel_offset = 0, pixel_length = 0;  ///< of native Pixel Data, if any

@@ -58,6 +58,7 @@ DicomStack& chosen(std::vector<DicomStack>& stacks, const std::string& folder,
   // A damaged file that doesn't say where it belongs may be a slice of any series.
   for (const DicomStack& stack : stacks) {
     if (stack.series.uid.empty()) {
+      if (is_dicom_file(folder)) throw InputError(stack.series.refusal);
       throw InputError(
           fmt::format("{} (it may be a slice of the series: restore it, or move it out of {})",
                       stack.series.refusal, folder));
@@ -79,6 +80,10 @@ DicomStack& chosen(std::vector<DicomStack>& stacks, const std::string& folder,
   if (candidates.size() == 1) {
     const DicomSeries& series = candidates[0]->series;
     if (series.refusal.empty()) return *candidates[0];
+    if (series.refusal.starts_with(folder + ":") ||
+        series.refusal.starts_with(folder + " (frame")) {
+      throw InputError(series.refusal);
+    }
     throw InputError(fmt::format("{}: series {} \"{}\": {}", folder, series.number,
                                  series.description, series.refusal));
   }
@@ -90,6 +95,18 @@ DicomStack& chosen(std::vector<DicomStack>& stacks, const std::string& folder,
       fmt::format("{}: several series{}; choose one by its number or a part of its "
                   "description:{}",
                   folder, is_choice ? " fit" + text_of(choice) : "", listing(stacks)));
+}
+
+/// What tells two images apart by what their files say: "; they differ in echo time (2 ms, 4 ms)".
+std::string differences(const DicomSlice& a, const DicomSlice& b) {
+  std::string text;
+  for (const auto& [name, value] : a.kind) {
+    const auto other = b.kind.find(name);
+    if (other == b.kind.end() || other->second == value) continue;
+    text += fmt::format("{} {} ({}, {})", text.empty() ? "; they differ in" : ",", name, value,
+                        other->second);
+  }
+  return text.empty() ? text : text + ": an image of one of them alone is required";
 }
 
 /// Of slices at one position the first is kept; the others must show the same.
@@ -114,8 +131,8 @@ std::vector<DicomSlice> without_doubles(const DicomStack& stack, std::vector<std
     }
     if (pixels.values(slice) != pixels.values(kept.back())) {
       throw InputError(fmt::format(
-          "{} and {}: two different images at one position ({:.2f} mm along the slices' normal)",
-          kept.back().name(), slice.name(), slice.along_normal()));
+          "{} and {}: two different images at one position ({:.2f} mm along the slices' normal){}",
+          kept.back().name(), slice.name(), slice.along_normal(), differences(kept.back(), slice)));
     }
     doubles.push_back(std::filesystem::path(slice.name()).filename().string());
   }
@@ -153,10 +170,13 @@ double stored_value(const DicomSlice& slice, std::string_view bytes, std::size_t
 
 DicomPixels::DicomPixels(const std::vector<DicomSlice>& slices, const Progress& progress) {
   std::vector<DicomSlice> packed;
+  double packed_pixels = 0.0;
   for (const DicomSlice& slice : slices) {
     check_image_size(slice.path, slice.columns, slice.rows, slice.frames);
     if (slice.is_encapsulated) {
       packed.push_back(slice);
+      packed_pixels += static_cast<double>(slice.columns) * slice.rows;
+      check_image_size(slice.path, packed_pixels, 1.0, 1.0);
     } else if (slice.frames > 1 && !file_.contains(slice.path)) {
       file_[slice.path] = read_file(slice.path, kMaxImageBytes);
     }
@@ -192,17 +212,17 @@ std::vector<float> DicomPixels::values(const DicomSlice& slice) const {
   return values;
 }
 
-ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choice,
-                            const Progress& progress) {
-  std::vector<DicomStack> stacks = find_dicom_stacks(folder, {});
-  const DicomStack& stack = chosen(stacks, folder, choice);
+ImageFile read_dicom(const std::string& path, const SeriesChoice& choice,
+                     const Progress& progress) {
+  std::vector<DicomStack> stacks = find_dicom_stacks(path, {});
+  const DicomStack& stack = chosen(stacks, path, choice);
   ImageFile file;
   file.description = stack.series.description;
   file.laterality = stack.series.laterality;
   file.notes = stack.notes;
   const std::vector<DicomSlice> slices = without_doubles(stack, file.notes);
   const DicomSlice& first = slices.front();
-  check_image_size(folder, first.columns, first.rows, static_cast<double>(slices.size()));
+  check_image_size(path, first.columns, first.rows, static_cast<double>(slices.size()));
 
   VolumeGrid& grid = file.image.grid;
   grid.size = {first.columns, first.rows, static_cast<int>(slices.size())};
@@ -211,13 +231,14 @@ ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choic
       Vec3(first.pixel_width, first.pixel_height, last / static_cast<double>(slices.size() - 1));
   grid.axes << first.row, first.column, first.row.cross(first.column);
   grid.origin = first.position;
-  file.image.value.resize(grid.count());
   const std::size_t plane = grid.at(0, 0, 1);
+  // Unpacked first: a small file that claims an enormous image is refused before memory is taken.
   const DicomPixels stored(slices, progress);
+  file.image.value.resize(grid.count());
   constexpr std::size_t kAtOnce = 16;  // slices between two looks at the user's wish to stop
   for (std::size_t start = 0; start < slices.size(); start += kAtOnce) {
     progress.update(static_cast<double>(start) / static_cast<double>(slices.size()),
-                    "reading " + folder);
+                    "reading " + path);
     const std::size_t count = std::min(kAtOnce, slices.size() - start);
     parallel_for(static_cast<int>(count), [&](int i) {
       const std::size_t s = start + static_cast<std::size_t>(i);

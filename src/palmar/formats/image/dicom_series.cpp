@@ -10,7 +10,9 @@
 #include <tuple>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/image/dicom_compressed.h"
+#include "palmar/formats/image/dicom_elements.h"
 #include "palmar/formats/image/dicom_slice.h"
 
 namespace palmar {
@@ -41,7 +43,9 @@ std::string mixture_problem(const std::vector<DicomSlice>& slices) {
     const auto more = std::count_if(damaged + 1, slices.end(),
                                     [](const DicomSlice& slice) { return !slice.damage.empty(); });
     return fmt::format("{}: {}{}", damaged->name(), damaged->damage,
-                       more > 0 ? fmt::format(" ({} more files have errors)", more) : "");
+                       more > 0 ? fmt::format(" ({} more {} have errors)", more,
+                                              damaged->frames > 1 ? "frames" : "files")
+                                : "");
   }
   for (const DicomSlice& slice : slices) {
     if (slice.samples != 1 || slice.photometric == "RGB" ||
@@ -177,6 +181,13 @@ void add_notes(DicomStack& stack) {
   const auto at = positions_of(stack.slices);
   const double step =
       (at.back()->along_normal() - at.front()->along_normal()) / static_cast<double>(at.size() - 1);
+  if (first.has_assumed_order) {
+    stack.notes.push_back(fmt::format(
+        "{} says where its first frame lies, not on which side of it the others do: they are taken "
+        "to follow along the normal, {:g} mm apart (Spacing Between Slices). If they don't, the "
+        "image is mirrored and shows the other hand",
+        fs::path(first.path).filename().string(), std::round(step * 1e4) / 1e4));
+  }
   if (first.thickness && *first.thickness > 0.0 &&
       std::abs(*first.thickness - step) > 0.02 * step) {
     stack.notes.push_back(
@@ -210,7 +221,8 @@ std::vector<fs::path> files_below(const std::string& folder) {
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) throw InputError(folder + ": no such folder");
   if (!fs::is_directory(status)) {
-    throw InputError(folder + ": is a file; the folder with the series is required");
+    throw InputError(folder +
+                     ": is no DICOM file; a folder of them, or one of several frames, is required");
   }
   std::vector<fs::path> files;
   fs::recursive_directory_iterator entries(folder, fs::directory_options::skip_permission_denied,
@@ -240,6 +252,33 @@ DicomSlice not_dicom(const fs::path& path) {
   slice.damage = fs::file_size(path, ignored) == 0 ? "is empty (0 bytes)"
                                                    : "doesn't begin as a DICOM file does";
   return slice;
+}
+
+void require_uid(DicomSeries& series) {
+  if (!series.uid.empty() || !series.refusal.empty()) return;
+  series.refusal = series.files.front() + ": has no Series Instance UID (0020,000E)";
+}
+
+/// One file with all its frames.
+DicomStack stack_of_file(const std::string& path) {
+  std::vector<DicomSlice> slices = read_dicom_headers(path);
+  if (slices.empty()) throw InputError(path + ": is an index of DICOM files (DICOMDIR), no image");
+  const bool is_slice =
+      slices.size() == 1 && slices.front().frames == 1 && slices.front().damage.empty();
+  const int parts = slices.front().parts;
+  DicomStack stack = order_slices(std::move(slices));
+  if (is_slice) {
+    stack.series.refusal =
+        path + ": is one DICOM file of one slice; the folder with its series is required";
+  } else if (parts > 1 && stack.series.refusal.empty()) {
+    stack.series.refusal = fmt::format(
+        "{}: is one of {} files of one image (In-concatenation Total Number (0020,9163)); the "
+        "folder "
+        "with all of them is required",
+        path, parts);
+  }
+  require_uid(stack.series);
+  return stack;
 }
 
 }  // namespace
@@ -286,6 +325,7 @@ DicomStack order_slices(std::vector<DicomSlice> slices) {
 }
 
 std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progress& progress) {
+  if (is_dicom_file(folder)) return {stack_of_file(folder)};
   const std::vector<fs::path> files = files_below(folder);
   std::map<std::string, std::vector<DicomSlice>> by_uid;
   std::vector<fs::path> others;
@@ -314,10 +354,7 @@ std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progr
   std::vector<DicomStack> stacks;
   for (auto& [uid, slices] : by_uid) {
     stacks.push_back(order_slices(std::move(slices)));
-    if (uid.empty() && stacks.back().series.refusal.empty()) {
-      stacks.back().series.refusal =
-          stacks.back().series.files.front() + ": has no Series Instance UID (0020,000E)";
-    }
+    if (uid.empty()) require_uid(stacks.back().series);
   }
   std::stable_sort(stacks.begin(), stacks.end(), [](const DicomStack& a, const DicomStack& b) {
     return a.series.number < b.series.number;
@@ -325,10 +362,15 @@ std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progr
   return stacks;
 }
 
-std::vector<DicomSeries> find_dicom_series(const std::string& folder) {
+std::vector<DicomSeries> find_dicom_series(const std::string& path) {
   std::vector<DicomSeries> result;
-  for (DicomStack& stack : find_dicom_stacks(folder, {})) result.push_back(std::move(stack.series));
+  for (DicomStack& stack : find_dicom_stacks(path, {})) result.push_back(std::move(stack.series));
   return result;
+}
+
+bool is_dicom_file(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) && looks_like_dicom(read_ends(path, 512).head);
 }
 
 }  // namespace palmar

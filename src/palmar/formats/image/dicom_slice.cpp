@@ -10,79 +10,18 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/image/dicom_elements.h"
+#include "palmar/formats/image/dicom_frames.h"
+#include "palmar/formats/image/dicom_plane.h"
 
 namespace palmar {
 namespace {
 
 constexpr std::size_t kHeadBytes = 16384;  // most headers; longer ones are read again, whole
-constexpr double kSquare = 1e-3;           // cosine between axes that still counts as square
 
 int whole_number(const DicomElements& elements, DicomTag tag, int missing) {
   const auto value = elements.number(tag);
   if (!value || std::abs(*value) > 1e9) return missing;
   return static_cast<int>(std::lround(*value));
-}
-
-/// Where the slice is; the reason if the file doesn't say it rightly.
-std::string read_plane(const DicomAttributes& elements, DicomSlice& slice) {
-  const auto orientation = elements.numbers(0x00200037);
-  if (!orientation || orientation->size() != 6) {
-    return "has no Image Orientation (0020,0037) of six numbers";
-  }
-  const auto position = elements.numbers(0x00200032);
-  if (!position || position->size() != 3) {
-    return "has no Image Position (0020,0032) of three numbers";
-  }
-  const auto spacing = elements.numbers(0x00280030);
-  if (!spacing || spacing->size() != 2) return "has no Pixel Spacing (0028,0030) of two numbers";
-  const std::vector<double>& o = *orientation;
-  slice.row = Vec3(o[0], o[1], o[2]);
-  slice.column = Vec3(o[3], o[4], o[5]);
-  slice.position = Vec3((*position)[0], (*position)[1], (*position)[2]);
-  slice.pixel_height = (*spacing)[0];
-  slice.pixel_width = (*spacing)[1];
-  for (const Vec3* axis : {&slice.row, &slice.column}) {
-    if (std::abs(axis->norm() - 1.0) > 0.01) {
-      return fmt::format("Image Orientation (0020,0037): an axis has length {:g}; 1 is required",
-                         axis->norm());
-    }
-  }
-  const double cosine = slice.row.dot(slice.column);
-  if (std::abs(cosine) > kSquare) {
-    return fmt::format(
-        "Image Orientation (0020,0037): the axes aren't square; the angle between them is {:.2f} "
-        "degrees",
-        std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::acos(-1.0));
-  }
-  // Six digits, as most scanners write, tilt axes by about 1e-6.
-  slice.row.normalize();
-  slice.column = (slice.column - slice.row.dot(slice.column) * slice.row).normalized();
-  for (const double size : {slice.pixel_width, slice.pixel_height}) {
-    if (!(size >= 0.01 && size <= 100.0)) {
-      return fmt::format("Pixel Spacing (0028,0030) is {:g} mm; 0.01 to 100 mm are allowed", size);
-    }
-  }
-  if (slice.position.cwiseAbs().maxCoeff() > 1e5) {
-    return fmt::format("Image Position (0020,0032) is {:g} mm away from the origin",
-                       slice.position.norm());
-  }
-  return {};
-}
-
-/// Rescale Slope and Intercept; the reason if they are none.
-std::string read_rescaling(const DicomAttributes& elements, DicomSlice& slice) {
-  for (const auto& [tag, target, name] :
-       {std::tuple{DicomTag{0x00281053}, &slice.slope, "Rescale Slope (0028,1053)"},
-        std::tuple{DicomTag{0x00281052}, &slice.intercept, "Rescale Intercept (0028,1052)"}}) {
-    if (elements.text(tag).empty()) continue;
-    const auto value = elements.number(tag);
-    if (!value || std::abs(*value) > 1e12) {
-      return fmt::format("{} is \"{}\"; a number is required", name, elements.text(tag));
-    }
-    *target = *value;
-  }
-  if (slice.slope == 0.0) return "Rescale Slope (0028,1053) is 0";
-  return {};
 }
 
 /// How the pixels are stored; the reason if that can't be read.
@@ -91,8 +30,6 @@ std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
   slice.columns = elements.integer(0x00280011).value_or(0);
   slice.samples = elements.integer(0x00280002).value_or(1);
   slice.photometric = elements.text(0x00280004);
-  slice.frames = whole_number(elements, 0x00280008, 1);
-  if (slice.frames == 0) slice.frames = 1;  // some writers mean "not a multi-frame file"
   slice.bits_allocated = elements.integer(0x00280100).value_or(0);
   slice.bits_stored = elements.integer(0x00280101).value_or(slice.bits_allocated);
   slice.high_bit = elements.integer(0x00280102).value_or(slice.bits_stored - 1);
@@ -108,8 +45,13 @@ std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
     return fmt::format("{} bits stored up to bit {} don't fit {} bits allocated", slice.bits_stored,
                        slice.high_bit, bits);
   }
+  const std::string frames_text = elements.text(0x00280008);
+  slice.frames = whole_number(elements, 0x00280008, frames_text.empty() ? 1 : -1);
+  if (slice.frames == 0) slice.frames = 1;  // some writers mean "not a multi-frame file"
   if (slice.frames < 1 || static_cast<std::size_t>(slice.frames) > kMostDicomFrames) {
-    return fmt::format("holds {} frames; 1 to {} are read", slice.frames, kMostDicomFrames);
+    slice.frames = 1;
+    return fmt::format("Number of Frames (0028,0008) is \"{}\"; 1 to {} are allowed", frames_text,
+                       kMostDicomFrames);
   }
   const bool is_native = slice.samples == 1 && !slice.is_encapsulated;
   const std::uint64_t expected = static_cast<std::uint64_t>(slice.rows) *
@@ -122,30 +64,6 @@ std::string read_layout(const DicomElements& elements, DicomSlice& slice) {
                        slice.rows, bits, expected * frames, slice.pixel_length);
   }
   return read_rescaling(elements, slice);
-}
-
-/// The frames of a multi-frame file: what each says of itself stands before what is said of all.
-std::vector<DicomSlice> frames_of(const DicomElements& elements, const DicomSlice& whole) {
-  if (elements.frame.size() != static_cast<std::size_t>(whole.frames)) {
-    DicomSlice slice = whole;
-    slice.damage = fmt::format(
-        "holds {} frames and says of {} where they lie (Per-frame Functional Groups (5200,9230)); "
-        "each "
-        "needs its place",
-        whole.frames, elements.frame.size());
-    return {slice};
-  }
-  std::vector<DicomSlice> slices(elements.frame.size(), whole);
-  for (std::size_t f = 0; f < slices.size(); ++f) {
-    DicomAttributes attributes = elements.frame[f];
-    attributes.value.insert(elements.shared.value.begin(), elements.shared.value.end());
-    DicomSlice& slice = slices[f];
-    slice.frame = static_cast<int>(f);
-    slice.thickness = attributes.number(0x00180050);
-    slice.damage = read_rescaling(attributes, slice);
-    if (slice.damage.empty()) slice.damage = read_plane(attributes, slice);
-  }
-  return slices;
 }
 
 }  // namespace
@@ -180,6 +98,7 @@ std::vector<DicomSlice> read_dicom_headers(const std::string& path) {
   slice.series_number = whole_number(elements, 0x00200011, 0);
   slice.instance = whole_number(elements, 0x00200013, 0);
   slice.images_in_acquisition = whole_number(elements, 0x00201002, 0);
+  slice.parts = elements.integer(0x00209163).value_or(1);
   slice.thickness = elements.number(0x00180050);
   slice.has_pixels = elements.has_pixels;
   slice.is_encapsulated = elements.is_encapsulated;
@@ -200,9 +119,7 @@ std::vector<DicomSlice> read_dicom_headers(const std::string& path) {
   }
   slice.damage = read_layout(elements, slice);
   if (!slice.damage.empty()) return {slice};
-  if (slice.frames > 1) return frames_of(elements, slice);
-  slice.damage = read_plane(elements, slice);
-  return {slice};
+  return frames_of(elements, slice);
 }
 
 void check_image_size(const std::string& what, double width, double height, double slices) {

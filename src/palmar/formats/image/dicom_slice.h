@@ -24,6 +24,11 @@ struct DicomSlice {
   int rows = 0, columns = 0, samples = 1;
   int frames = 1;  ///< in the file
   int frame = 0;   ///< which of them this is
+  int parts = 1;   ///< files that the image was split into (a concatenation)
+  /// The file says where its first frame lies and how far apart they are, not on which side.
+  bool has_assumed_order = false;
+  /// What may tell images at one place apart: "echo time" is "4.6 ms".
+  std::map<std::string, std::string> kind;
   int bits_allocated = 0, bits_stored = 0, high_bit = 0;
   bool is_signed = false;
   double slope = 1.0, intercept = 0.0;
@@ -53,8 +58,8 @@ struct DicomStack {
   std::vector<std::string> notes;
 };
 
-/// As find_dicom_series().
-std::vector<DicomStack> find_dicom_stacks(const std::string& folder, const Progress& progress);
+/// As find_dicom_series(); of one file those it holds.
+std::vector<DicomStack> find_dicom_stacks(const std::string& path, const Progress& progress);
 
 /// Orders the slices by position and fills `series`, with the refusal, and `notes`. Slices at one
 /// position stay, side by side.

@@ -24,16 +24,15 @@ bool is_gzip(std::string_view head) { return head.starts_with("\x1f\x8b"); }
 ImageFile read_image(const std::string& path, const SeriesChoice& choice,
                      const Progress& progress) {
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return read_dicom_folder(path, choice, progress);
+  if (fs::is_directory(path, ignored)) return read_dicom(path, choice, progress);
   if (!fs::exists(path, ignored)) throw InputError(path + ": no such file or folder");
   progress.update(0.0, "reading " + path);
   const std::string head = read_ends(path, 512).head;
-  if (looks_like_dicom(head)) {
-    throw InputError(path + ": is one DICOM file; the folder with its series is required");
-  }
+  if (looks_like_dicom(head)) return read_dicom(path, choice, progress);
   const bool is_nifti = head.size() >= 348 && std::string_view(head).substr(344, 2) == "n+";
   if (!is_nifti && !is_gzip(head)) {
-    throw InputError(path + ": is neither a folder of DICOM files nor NIfTI");
+    throw InputError(
+        path + ": is neither DICOM (a folder of files, or a file of several frames) nor NIfTI");
   }
   const std::string bytes = read_file(path, kMaxImageBytes + 65536);
   ImageFile file = read_nifti(bytes, path);

@@ -156,8 +156,10 @@ TEST(ImageFile, ImagesReadBackFromEveryFormat) {
   EXPECT_THAT(message_of<OutputError>([&] { write_image(folder / "a.png", image); }),
               HasSubstr("a.png: ends in neither .nii nor .nii.gz"));
   std::ofstream(folder / "b.png") << "PNG";
-  EXPECT_THAT(message_of<InputError>([&] { read_image(folder / "b.png"); }),
-              HasSubstr("b.png: is neither a folder of DICOM files nor NIfTI"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { read_image(folder / "b.png"); }),
+      HasSubstr(
+          "b.png: is neither DICOM (a folder of files, or a file of several frames) nor NIfTI"));
 }
 
 TEST(ImageFile, FuzzedFilesAreReadOrRefusedByName) {

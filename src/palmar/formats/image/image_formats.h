@@ -10,9 +10,8 @@
 
 namespace palmar {
 
-/// The series of a folder that `choice` means. As read_image().
-ImageFile read_dicom_folder(const std::string& folder, const SeriesChoice& choice,
-                            const Progress& progress);
+/// The series of a folder, or of one file of several frames, that `choice` means. As read_image().
+ImageFile read_dicom(const std::string& path, const SeriesChoice& choice, const Progress& progress);
 
 /// What is wrong with a slice; `where` names it.
 std::string odd_slice_text(const std::string& where, const OddSlice& odd);

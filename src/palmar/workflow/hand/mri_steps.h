@@ -30,7 +30,7 @@ MriImageInfo describe_mri_image(const std::string& image, const SeriesChoice& ch
                                 const Progress& progress = {});
 
 struct MriSurfacesRequest {
-  std::string image;               ///< folder of DICOM files, NIfTI file
+  std::string image;               ///< folder of DICOM files, one of several frames, NIfTI file
   SeriesChoice choice;             ///< which of the folder's series, if there are several
   std::string out;                 ///< folder to write: skin.ply, bones/*.ply, scan.json
   std::string labels;              ///< file with names for bones; empty: none

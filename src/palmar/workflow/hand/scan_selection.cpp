@@ -42,7 +42,8 @@ std::string title_of(const DicomSeries& series, const std::string& path) {
   return fmt::format("series {} \"{}\" of {}", series.number, series.description, path);
 }
 
-void add_folder(const std::string& path, std::vector<Candidate>& candidates) {
+/// The series of a folder, or of one DICOM file.
+void add_series(const std::string& path, std::vector<Candidate>& candidates) {
   for (const DicomSeries& series : find_dicom_series(path)) {
     Candidate one;
     one.refusal = series.refusal;
@@ -51,9 +52,13 @@ void add_folder(const std::string& path, std::vector<Candidate>& candidates) {
     one.number = series.number;
     one.description = series.description;
     one.folder = fs::path(series.files.front()).parent_path().filename().string();
-    // A folder that holds this series alone is read as it is; else the number says which.
-    one.scan.path = fs::path(series.files.front()).parent_path().string();
-    one.scan.choice.number = series.number;
+    if (series.files.size() == 1) {
+      one.scan.path = series.files.front();  // all slices are frames of one file
+    } else {
+      // A folder that holds this series alone is read as it is; else the number says which.
+      one.scan.path = fs::path(series.files.front()).parent_path().string();
+      one.scan.choice.number = series.number;
+    }
     candidates.push_back(std::move(one));
   }
 }
@@ -156,13 +161,17 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw InputError(path + ": there is no such file or folder");
+    if (is_dicom_file(path)) {
+      add_series(path, candidates);
+      continue;
+    }
     if (!fs::is_directory(path, ignored)) {
       candidates.push_back(file_candidate(path));
       continue;
     }
     const std::vector<fs::path> surfaces = surface_folders(path);
     for (const fs::path& folder : surfaces) candidates.push_back(surfaces_candidate(folder));
-    if (surfaces.empty()) add_folder(path, candidates);
+    if (surfaces.empty()) add_series(path, candidates);
   }
   std::map<ScanPosture, Candidate> found;
   std::vector<Candidate> unnamed, refused;
