@@ -13,6 +13,7 @@
 #include "product/cad_arguments.h"
 #include "product/product_cad_text.h"
 #include "product/product_make_command.h"
+#include "product/product_parts_command.h"
 #include "product/product_repair_command.h"
 #include "text.h"
 
@@ -157,6 +158,7 @@ void add_product_commands(CLI::App& app, Context& context) {
                  "Check a product like info, with exit code 5 if something is wrong", true);
   add_convert(*product, context);
   add_product_repair(*product, context);
+  add_product_parts_command(*product, context);
   add_product_make_command(*product, context);
 }
 

@@ -1,0 +1,35 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/product/product_parts.h"
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/report/picture/parts_picture.h"
+
+namespace palmar {
+
+void ProductPartsRequest::check() const {
+  options.check();
+  if (!out.empty() && !out.ends_with(".png") && !out.ends_with(".svg")) {
+    throw UsageError("setting \"out\" is " + out +
+                     "; a name that ends with .png or .svg is required");
+  }
+}
+
+ProductPartsOutcome list_product_parts(const ProductPartsRequest& request,
+                                       const Progress& progress) {
+  request.check();
+  LoadProductOptions reading = request.reading;
+  reading.progress = progress;
+  ProductPartsOutcome outcome;
+  outcome.product = load_product(request.file, reading);
+  outcome.parts = find_parts(outcome.product, request.options);
+  if (!request.out.empty()) {
+    const Image picture = parts_picture(outcome.product, outcome.parts, {}, progress);
+    write_file(request.out,
+               request.out.ends_with(".svg") ? picture_svg(picture) : encode_png(picture));
+  }
+  return outcome;
+}
+
+}  // namespace palmar
