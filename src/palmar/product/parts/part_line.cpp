@@ -242,7 +242,7 @@ MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) 
     Outlines outlines = outlines_along(mesh, line, axes, reach);
     const auto [begin, end] = own_run(outlines, girth, request.is_free);
     if (end - begin < 3) return result;
-    const auto keep = [&](auto& values) {
+    const auto keep = [begin = begin, end = end](auto& values) {
       values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
       values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(begin));
     };
