@@ -1,0 +1,98 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/grip.h"
+#include "palmar/product/parts/part_place.h"
+#include "palmar/product/parts/product_parts.h"
+#include "palmar/product/product.h"
+
+namespace palmar {
+
+/// A fingertip of a precision grip, in the coordinates of the part that is held.
+struct HoldFingertip {
+  Finger finger{};
+  PartPlace place;
+};
+
+/// How people take hold of a product: by which part of it, in which grip, where along it and how
+/// turned about it. It says nothing of a hand: hands of every size and both sides can take the same
+/// hold, so hands differ in size and not in how they hold.
+///
+/// A left hand takes the mirror image: the same part, place and direction, its palm on the same
+/// side of the part.
+struct Hold {
+  int part = 1;           ///< number of the part (ProductPart::number)
+  std::string part_name;  ///< for people: "handle", "body"; not used to find the part
+  Grip grip = Grip::kMediumWrap;
+  double along = 0.5;  ///< where on the part the middle of the fingers is, a fraction of its length
+  /// +1: the thumb's side of the hand points to growing `along`; -1: to where it starts.
+  int toward = 1;
+  double turn = 0.0;  ///< about the part's axis from its turn 0: where the palm lies, rad
+  std::vector<HoldFingertip> fingertips;  ///< of a precision grip; empty of a power grip
+};
+
+/// One reason for or against a hold. Scores add up; each is the natural logarithm of how much
+/// rarer people are taken to choose such a hold, so none is above 0.
+struct HoldTerm {
+  std::string name;    ///< "girth", "room for fingers", ...
+  double value = 0.0;  ///< what was measured
+  std::string unit;    ///< of the value: "mm", "N mm", "deg", ... ; "" for a share or a count
+  double score = 0.0;  ///< 0 at best
+  std::string words;   ///< the value for people, a clause: "44 mm thick, 23 % of hand length"
+};
+
+/// A hold with what speaks for and against it.
+struct RankedHold {
+  Hold hold;
+  std::vector<HoldTerm> terms;
+  double score = 0.0;   ///< sum of the terms; 0 at best
+  std::string words;    ///< "medium wrap of the handle, 40 % along it, thumb towards the body"
+  std::string against;  ///< the term that costs most, in words; "" if none costs much
+  Grasp grasp;          ///< as the hand that it was searched with takes it, closed coarsely
+};
+
+/// What a product is to be held for; it weighs the terms differently (Brahmbhatt et al. 2020, ECCV:
+/// people hold the same thing in another way to use it than to hand it over).
+enum class HoldPurpose { kUse, kHandOver };
+
+struct HoldOptions {
+  std::optional<Grip> grip;     ///< only holds of this grip; unset: any
+  std::optional<int> part;      ///< only this part (its number)
+  std::string part_name;        ///< only parts of this name; "": any
+  std::optional<Vec3> toward;   ///< where the thumb's side is to point, product frame
+  std::optional<Vec3> up;       ///< the product's up when it is used, product frame
+  std::optional<double> mass;   ///< kg; unset: from the volume at 1 g/cm^3
+  std::optional<double> along;  ///< fraction of the part's length, 0 to 1
+  HoldPurpose purpose = HoldPurpose::kUse;
+  double palm_limit_depth = 7.0;    ///< mm; as PowerGraspOptions
+  double finger_limit_depth = 4.0;  ///< mm; as PowerGraspOptions
+  int most = 8;                     ///< holds to return
+  void check() const;               ///< throws UsageError: field, value, allowed range
+};
+
+/// Ways of holding a product, as people would choose: best first, each unlike those before it.
+struct RankedHolds {
+  ProductParts parts;
+  std::vector<RankedHold> holds;
+  int considered = 0;  ///< holds that were scored by the product's shape
+  int closed = 0;      ///< of these, on how many the hand was closed
+};
+
+/// Takes the product apart (find_parts()), scores the ways of holding each part by its shape,
+/// closes the hand on the most promising and ranks them. `hand`: a median hand of those who use the
+/// product. docs/method/holds.md has the terms and their sources. Deterministic. Throws UsageError
+/// (also for a part that the product doesn't have: the message lists its parts), Cancelled.
+RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptions& options = {},
+                       const Progress& progress = {});
+
+/// For people: "medium wrap of the handle, 40 % along it, thumb towards the body".
+std::string words_of(const Hold& hold, const ProductParts& parts);
+
+}  // namespace palmar
