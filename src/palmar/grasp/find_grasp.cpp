@@ -2,9 +2,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/find_grasp.h"
 
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/grasp_place.h"
+
 namespace palmar {
 
+bool GraspOptions::is_placed() const {
+  const auto says = [](const PlacementRequest& placement) {
+    return placement.at || placement.axis || placement.turn || placement.region ||
+           placement.product_from_hand;
+  };
+  if (grip && !is_power(*grip)) return says(precision.placement) || !precision.targets.empty();
+  return says(power.placement);
+}
+
 void GraspOptions::check() const {
+  if (hold_rank < 1) {
+    throw UsageError("setting \"hold\" is " + std::to_string(hold_rank) +
+                     "; the best is 1, the next 2, ...");
+  }
+  if (hold && is_placed()) {
+    throw UsageError("a hold and coordinates both say where the hand goes; one of them is allowed");
+  }
+  holds.check();
   if (!grip || is_power(*grip)) {
     power.check();
     return;
@@ -16,14 +38,7 @@ void GraspOptions::check() const {
 
 Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options,
                  const Progress& progress) {
-  if (!options.grip || is_power(*options.grip)) {
-    PowerGraspOptions power = options.power;
-    power.grip = options.grip;
-    return close_power_grasp(hand, product, power, progress);
-  }
-  PrecisionGripOptions precision = options.precision;
-  precision.grip = *options.grip;
-  return close_precision_grip(hand, product, precision, progress);
+  return GraspPlace(hand, product, options, progress).reference_grasp();
 }
 
 }  // namespace palmar

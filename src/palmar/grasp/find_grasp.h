@@ -7,19 +7,28 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
+#include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
 namespace palmar {
 
-/// Any grip.
+/// How a product is to be taken: by a hold, or where coordinates say (a placement of `power`, or
+/// targets or a placement of `precision`).
 struct GraspOptions {
-  std::optional<Grip> grip;        ///< unset: the power grip that suits the product's shape
+  std::optional<Grip> grip;        ///< unset: as people would choose for the product's shape
+  std::optional<Hold> hold;        ///< this one; unset: one of rank_holds()
+  HoldOptions holds;               ///< which holds to choose from; its grip is replaced by `grip`
+  int hold_rank = 1;               ///< the best is 1
   PowerGraspOptions power;         ///< for power grips
   PrecisionGripOptions precision;  ///< for the others; its grip is replaced by `grip`
-  void check() const;              ///< throws UsageError
+
+  /// Whether coordinates say where the hand goes.
+  bool is_placed() const;
+  void check() const;  ///< throws UsageError
 };
 
-/// Holds the product by the grip asked for: close_power_grasp() or close_precision_grip().
+/// Holds the product as asked for. Not being able to is a status, never an exception. Throws
+/// UsageError (also if there are fewer holds than `hold_rank`), Cancelled.
 Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options = {},
                  const Progress& progress = {});
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/power/power_place.h"
+#include "palmar/grasp/find_grasp.h"
 
 namespace palmar {
 
@@ -55,10 +55,11 @@ void PowerGraspOptions::check() const {
 Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGraspOptions& options,
                         const Progress& progress) {
   options.check();
-  const PowerPlace place = find_power_place(hand, product, options, progress);
-  if (!place.is_found) return place.grasp;
-  const HandCloser coarse(hand, kSearchSpacing), fine(hand, 0.0);
-  return close_at(place, coarse, fine, product, options, progress);
+  GraspOptions asked;
+  asked.grip = options.grip;
+  asked.power = options;
+  asked.holds.is_power_only = true;
+  return find_grasp(hand, product, asked, progress);
 }
 
 std::string name_of(StopReason reason) {

@@ -10,6 +10,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/grip.h"
+#include "palmar/grasp/holds/hold_value.h"
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
@@ -90,9 +91,12 @@ struct Grasp {
   double grip_girth = 0.0;         ///< perimeter of the product's section at the grip, mm
   std::array<SegmentStop, kSegmentCount> stops;
   std::vector<FingertipContact> fingertips;  ///< of a precision grip, else empty
-  double score = 0.0;                        ///< of the search that found it
-  int candidates = 0;                        ///< placements that the search tried
-  std::vector<GraspRunnerUp> runners_up;     ///< best first
+  std::optional<Hold> hold;  ///< which hold it is; unset: placed by coordinates or given
+  std::string hold_words;    ///< "medium wrap of the handle, 40 % along it"; empty without hold
+  std::vector<HoldTerm> hold_terms;       ///< what speaks for and against it, if it was ranked
+  double score = 0.0;                     ///< of the search that found it
+  int candidates = 0;                     ///< placements that the search tried
+  std::vector<GraspRunnerUp> runners_up;  ///< best first
 };
 
 /// Power grasp (docs/method/grasp.md; Xie 2014, 5.5.1). Deterministic. Not being able to hold the

@@ -4,15 +4,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/power/power_place.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
 namespace palmar {
 namespace {
+
+constexpr std::size_t kNextTried = 3;  // other holds that a hand tries which can't take the one
 
 bool is_held(const Grasp& grasp) { return grasp.status == GraspStatus::kHeld; }
 
@@ -40,22 +45,114 @@ struct GraspPlace::Impl {
   const Hand* reference;
   const Product* product;
   GraspOptions options;
-  PowerGraspOptions power;  ///< of `options`, with the grip
-  std::optional<PowerPlace> place;
+  PowerGraspOptions power;          ///< of `options`, with the grip
+  std::optional<PowerPlace> place;  ///< of a power grip
+  std::optional<Hold> hold;         ///< unset: coordinates say where the hand goes
+  RankedHolds ranked;               ///< whose parts the hold refers to
   Grasp grasp;
 
+  void place_by_coordinates(const Progress& progress);
+  void place_by_hold(const Progress& progress);
+  Grasp take_precisely(const Hold& taken, const Hand& hand, const Progress& progress) const;
   Grasp hold_power(const GraspingHand& hand, const Progress& progress) const;
   Grasp hold_precisely(const Hand& hand, const Progress& progress) const;
+  std::string other_hold_of(const GraspingHand& hand, Grasp& failed,
+                            const Progress& progress) const;
 };
+
+void GraspPlace::Impl::place_by_coordinates(const Progress& progress) {
+  if (options.grip && !is_power(*options.grip)) {
+    PrecisionGripOptions precision = options.precision;
+    precision.grip = *options.grip;
+    grasp = close_precision_grip(*reference, *product, precision, progress);
+    return;
+  }
+  power = options.power;
+  power.grip = options.grip;
+  place = find_power_place(*reference, *product, power, progress);
+  grasp = place->grasp;
+  if (!place->is_found) return;
+  const HandCloser coarse(*reference, kSearchSpacing), fine(*reference, 0.0);
+  grasp = close_at(*place, coarse, fine, *product, power, progress);
+}
+
+void GraspPlace::Impl::place_by_hold(const Progress& progress) {
+  power = options.power;
+  if (options.hold) {
+    ranked.parts = find_parts(*product);
+    hold = options.hold;
+  } else {
+    HoldOptions asked = options.holds;
+    asked.grip = options.grip;
+    asked.palm_limit_depth = power.palm_limit_depth;
+    asked.finger_limit_depth = power.finger_limit_depth;
+    asked.most = std::max(asked.most, options.hold_rank);
+    ranked = rank_holds(*reference, *product, asked, progress);
+    const auto rank = static_cast<std::size_t>(options.hold_rank);
+    if (ranked.holds.size() < rank) {
+      if (rank > 1) {
+        throw UsageError(fmt::format("setting \"hold\" is {}; {} holds of {} were found", rank,
+                                     ranked.holds.size(), product->name));
+      }
+      power.grip = options.grip && is_power(*options.grip) ? options.grip : std::nullopt;
+      grasp = no_place(*reference, *product);
+      return;
+    }
+    hold = ranked.holds[rank - 1].hold;
+  }
+  if (is_power(hold->grip)) {
+    power.grip = hold->grip;
+    const HandCloser coarse(*reference, kSearchSpacing), fine(*reference, 0.0);
+    const HoldSite at = site_of(*hold, ranked.parts, *product, *reference);
+    const GraspedSurface surface =
+        grasped_surface_near(*hold, ranked.parts, *product, at, *reference);
+    place = place_of_hold(at, hold->grip, surface, coarse, power, progress);
+    grasp =
+        place->is_found ? close_at(*place, coarse, fine, *product, power, progress) : place->grasp;
+  } else {
+    grasp = take_precisely(*hold, *reference, progress);
+  }
+  grasp.hold = hold;
+  grasp.hold_words = words_of(*hold, ranked.parts);
+  grasp.candidates = std::max(grasp.candidates, ranked.considered);
+  for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
+    const RankedHold& other = ranked.holds[k];
+    if (k + 1 == static_cast<std::size_t>(options.hold_rank)) {
+      grasp.score = other.score;
+      grasp.hold_terms = other.terms;
+    } else {
+      grasp.runners_up.push_back(
+          {other.hold.grip, other.grasp.posture, other.grasp.product_from_hand, other.score});
+    }
+  }
+}
+
+Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const Hand& hand,
+                                       const Progress& progress) const {
+  const ProductPart& part = part_of(taken, ranked.parts);
+  PrecisionGripOptions precision = options.precision;
+  precision.grip = taken.grip;
+  precision.placement = {};
+  precision.targets.clear();
+  for (const HoldFingertip& tip : taken.fingertips) {
+    const Vec3 near = point_at(part, tip.place);
+    precision.targets.push_back({tip.finger, product->distance->at(near).closest});
+  }
+  return close_precision_grip(hand, *product, precision, progress);
+}
 
 Grasp GraspPlace::Impl::hold_power(const GraspingHand& hand, const Progress& progress) const {
   const HandCloser& coarse = hand.impl().coarse;
   const HandCloser& fine = hand.impl().fine;
-  const PowerPlace carried = carried_over(*place, *reference, coarse, power, progress);
+  std::optional<HoldSite> at;
+  if (hold) at = site_of(*hold, ranked.parts, *product, hand.hand());
+  const PowerPlace carried =
+      carried_over(*place, *reference, coarse, at ? &*at : nullptr, power, progress);
   return close_at(carried, coarse, fine, *product, power, progress);
 }
 
 Grasp GraspPlace::Impl::hold_precisely(const Hand& hand, const Progress& progress) const {
+  if (hold) return take_precisely(*hold, hand, progress);
   PrecisionGripOptions same = options.precision;
   same.grip = *options.grip;
   same.targets.clear();
@@ -66,6 +163,26 @@ Grasp GraspPlace::Impl::hold_precisely(const Hand& hand, const Progress& progres
   return close_precision_grip(hand, *product, same, progress);
 }
 
+// The first of the next best holds that a hand can take, in words; it becomes the first of the
+// runners-up of the grasp that failed.
+std::string GraspPlace::Impl::other_hold_of(const GraspingHand& hand, Grasp& failed,
+                                            const Progress& progress) const {
+  std::size_t tried = 0;
+  for (const RankedHold& other : ranked.holds) {
+    if (hold && words_of(other.hold, ranked.parts) == words_of(*hold, ranked.parts)) continue;
+    if (++tried > kNextTried) break;
+    GraspOptions asked = options;
+    asked.hold = other.hold;
+    asked.grip = other.hold.grip;
+    const Grasp own = GraspPlace(hand.hand(), *product, asked, progress).reference_grasp();
+    if (!is_held(own)) continue;
+    failed.runners_up.insert(failed.runners_up.begin(),
+                             {own.grip, own.posture, own.product_from_hand, other.score});
+    return other.words;
+  }
+  return {};
+}
+
 GraspPlace::GraspPlace(const Hand& reference, const Product& product, const GraspOptions& options,
                        const Progress& progress) {
   options.check();
@@ -73,17 +190,10 @@ GraspPlace::GraspPlace(const Hand& reference, const Product& product, const Gras
   impl->reference = &reference;
   impl->product = &product;
   impl->options = options;
-  if (!options.grip || is_power(*options.grip)) {
-    impl->power = options.power;
-    impl->power.grip = options.grip;
-    impl->place = find_power_place(reference, product, impl->power, progress);
-    impl->grasp = impl->place->grasp;
-    if (impl->place->is_found) {
-      const HandCloser coarse(reference, kSearchSpacing), fine(reference, 0.0);
-      impl->grasp = close_at(*impl->place, coarse, fine, product, impl->power, progress);
-    }
+  if (options.is_placed()) {
+    impl->place_by_coordinates(progress);
   } else {
-    impl->grasp = find_grasp(reference, product, options, progress);
+    impl->place_by_hold(progress);
   }
   impl_ = std::move(impl);
 }
@@ -100,19 +210,19 @@ Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const
   if (!has_place) return find_grasp(hand.hand(), *impl_->product, impl_->options, progress);
   Grasp grasp = impl_->place ? impl_->hold_power(hand, progress)
                              : impl_->hold_precisely(hand.hand(), progress);
+  grasp.hold = impl_->hold;
+  grasp.hold_words = impl_->grasp.hold_words;
+  grasp.hold_terms = impl_->grasp.hold_terms;
   if (is_held(grasp) || !is_held(impl_->grasp)) return grasp;
   // Never silently another way of holding: it is told, and stands first among the runners-up.
-  const Grasp own = find_grasp(hand.hand(), *impl_->product, impl_->options, progress);
-  grasp.message = "cannot hold it where the reference hand does: " + grasp.message;
-  if (!is_held(own)) {
-    grasp.message += "; nor did it find another place";
-    return grasp;
-  }
-  grasp.message += fmt::format("; {:.0f} mm from there it would hold it ({})",
-                               (own.grip_point - grasp.grip_point).norm(), own.message);
-  grasp.runners_up = own.runners_up;
-  grasp.runners_up.insert(grasp.runners_up.begin(),
-                          {own.grip, own.posture, own.product_from_hand, own.score});
+  const std::string why = std::move(grasp.message);
+  grasp.message =
+      (grasp.hold_words.empty() ? "cannot hold it where the reference hand does: "
+                                : "cannot take the hold \"" + grasp.hold_words + "\": ") +
+      why;
+  const std::string other = impl_->other_hold_of(hand, grasp, progress);
+  grasp.message += other.empty() ? "; no other hold was found that this hand can take"
+                                 : "; it could hold it so: " + other;
   return grasp;
 }
 

@@ -9,44 +9,11 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/product/parts/part_place.h"
+#include "palmar/grasp/holds/hold_value.h"
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/product/product.h"
 
 namespace palmar {
-
-/// A fingertip of a precision grip, in the coordinates of the part that is held.
-struct HoldFingertip {
-  Finger finger{};
-  PartPlace place;
-};
-
-/// How people take hold of a product: by which part of it, in which grip, where along it and how
-/// turned about it. It says nothing of a hand: hands of every size and both sides can take the same
-/// hold, so hands differ in size and not in how they hold.
-///
-/// A left hand takes the mirror image: the same part, place and direction, its palm on the same
-/// side of the part.
-struct Hold {
-  int part = 1;           ///< number of the part (ProductPart::number)
-  std::string part_name;  ///< for people: "handle", "body"; not used to find the part
-  Grip grip = Grip::kMediumWrap;
-  double along = 0.5;  ///< where on the part the middle of the fingers is, a fraction of its length
-  /// +1: the thumb's side of the hand points to growing `along`; -1: to where it starts.
-  int toward = 1;
-  double turn = 0.0;  ///< about the part's axis from its turn 0: where the palm lies, rad
-  std::vector<HoldFingertip> fingertips;  ///< of a precision grip; empty of a power grip
-};
-
-/// One reason for or against a hold. Scores add up; each is the natural logarithm of how much
-/// rarer people are taken to choose such a hold, so none is above 0.
-struct HoldTerm {
-  std::string name;    ///< "girth", "room for fingers", ...
-  double value = 0.0;  ///< what was measured
-  std::string unit;    ///< of the value: "mm", "N mm", "deg", ... ; "" for a share or a count
-  double score = 0.0;  ///< 0 at best
-  std::string words;   ///< the value for people, a clause: "44 mm thick, 23 % of hand length"
-};
 
 /// A hold with what speaks for and against it.
 struct RankedHold {
@@ -64,6 +31,7 @@ enum class HoldPurpose { kUse, kHandOver };
 
 struct HoldOptions {
   std::optional<Grip> grip;     ///< only holds of this grip; unset: any
+  bool is_power_only = false;   ///< no precision grips
   std::optional<int> part;      ///< only this part (its number)
   std::string part_name;        ///< only parts of this name; "": any
   std::optional<Vec3> toward;   ///< where the thumb's side is to point, product frame

@@ -126,13 +126,13 @@ struct Trial {
     return {&product, placement.product_from_hand, site.point, site.axis,
             site.girth / std::numbers::pi};
   }
-  void judge(Hold& hold) const {
+  void judge(ClosedPose& hold) const {
     hold.measure =
         closer.measure(held(hold.placement), limits, hold.posture, hold.placement.axis_in_hand);
     hold.score = score_of(hold.measure, site, hold.placement, usual,
                           closer.hand().dimensions.hand_length, hold.posture);
   }
-  void add_thumb(Hold& hold) const {
+  void add_thumb(ClosedPose& hold) const {
     if (hold.style.hook) return;
     const HeldProduct at = held(hold.placement);
     const Vec3& axis = hold.placement.axis_in_hand;
@@ -143,9 +143,9 @@ struct Trial {
     judge(hold);
     hold.score += kThumbShare * thumb.score(at, hold.posture, axis);
   }
-  Hold run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
-           const Posture& start, int rounds) const {
-    Hold hold;
+  ClosedPose run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
+                 const Posture& start, int rounds) const {
+    ClosedPose hold;
     hold.site = site_index;
     hold.style = style;
     hold.placement = place(closer, product, limits, style, site, pose);
@@ -157,7 +157,7 @@ struct Trial {
 };
 
 // The open hand with the fingers abducted as in a hold that was found.
-Posture start_like(const HandCloser& closer, const Hold& hold) {
+Posture start_like(const HandCloser& closer, const ClosedPose& hold) {
   Posture start = closer.start_posture(hold.style);
   for (int f = 1; f < kFingerCount; ++f) {
     const Dof dof = abduction_of(static_cast<Finger>(f));
@@ -242,13 +242,13 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   return placement;
 }
 
-HoldsFound find_holds(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+PosesFound find_poses(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
-                      const HoldSearch& search, const Progress& progress) {
-  HoldsFound found;
+                      const PoseSearch& search, const Progress& progress) {
+  PosesFound found;
   const Hand& hand = closer.hand();
   const double best_site = sites.empty() ? 1.0 : sites.front().score;
-  const auto finish = [&](Hold& hold) {
+  const auto finish = [&](ClosedPose& hold) {
     // A part that is less of a handle must hold much better to be preferred.
     const double share = sites[hold.site].score / best_site;
     hold.rank = hold.score * (hold.score > 0.0 ? std::pow(share, 4) : 1.0);
@@ -258,7 +258,7 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     return Trial{closer, *distances[s], sites[s], limits_for(limits, sites[s]),
                  usual_pose(hand, style, sites[s], search.is_place_fixed)};
   };
-  std::vector<Hold> tried;
+  std::vector<ClosedPose> tried;
   for (std::size_t s = 0; s < distances.size(); ++s) {
     for (const ClosingStyle& style : search.styles) {
       const Trial trial = trial_at(s, style);
@@ -268,12 +268,12 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
         progress.throw_if_cancelled();
         HandlePose pose = trial.usual;
         pose.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
-        Hold hold = trial.run(s, style, pose, start, k == 0 ? 2 : 1);
+        ClosedPose hold = trial.run(s, style, pose, start, k == 0 ? 2 : 1);
         finish(hold);
         if (k == 0) start = start_like(closer, hold);
         tried.push_back(std::move(hold));
         // Round: it lies the same whichever way it is turned.
-        const auto is_alike = [&](const Hold& other) {
+        const auto is_alike = [&](const ClosedPose& other) {
           return std::abs(other.score - tried[first].score) <
                  kEquallyGood * std::abs(tried[first].score);
         };
@@ -284,11 +284,11 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
       }
     }
   }
-  const auto by_rank = [](const Hold& a, const Hold& b) { return a.rank > b.rank; };
+  const auto by_rank = [](const ClosedPose& a, const ClosedPose& b) { return a.rank > b.rank; };
   std::stable_sort(tried.begin(), tried.end(), by_rank);
 
   // A finer look at the best: one number after the other, with smaller and smaller steps.
-  const auto better = [&](Hold& current, double scale) {
+  const auto better = [&](ClosedPose& current, double scale) {
     const GripSite& site = sites[current.site];
     const Trial trial = trial_at(current.site, current.style);
     const Posture start = start_like(closer, current);
@@ -301,7 +301,7 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
         HandlePose pose = from;
         pose.*what += by;
         if (pose.*what < low || pose.*what > high) continue;
-        Hold hold = trial.run(current.site, current.style, pose, start, 0);
+        ClosedPose hold = trial.run(current.site, current.style, pose, start, 0);
         finish(hold);
         if (hold.rank <= current.rank) continue;
         current = std::move(hold);
@@ -322,10 +322,10 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
   };
   // Fingers fanned out in more than one way leave more to be distinguished.
   const std::size_t finest = search.styles.size() > 1 ? 2 : 1;
-  std::vector<Hold> improved_holds;
+  std::vector<ClosedPose> improved_holds;
   for (std::size_t k = 0; k < tried.size() && improved_holds.size() < kImproved + finest - 1; ++k) {
     if (tried[k].rank < kPromising * tried.front().rank && !improved_holds.empty()) break;
-    Hold current = tried[k];
+    ClosedPose current = tried[k];
     better(current, 1.0);
     improved_holds.push_back(std::move(current));
   }
@@ -336,13 +336,13 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
   for (std::size_t k = 0; k < improved_holds.size(); ++k) {
     // Once more with the fingers brought side by side, and with the thumb, for which the best are
     // shifted along the product, too.
-    const Hold from = improved_holds[k];
+    const ClosedPose from = improved_holds[k];
     const Trial trial = trial_at(from.site, from.style);
     const auto with_thumb = [&](double along) {
       progress.throw_if_cancelled();
       HandlePose pose = from.placement.pose;
       pose.along = std::clamp(pose.along + along, -kMostAlong, kMostAlong);
-      Hold hold = trial.run(from.site, from.style, pose, start_like(closer, from), 2);
+      ClosedPose hold = trial.run(from.site, from.style, pose, start_like(closer, from), 2);
       trial.add_thumb(hold);
       finish(hold);
       return hold;
@@ -350,28 +350,29 @@ HoldsFound find_holds(const HandCloser& closer, const std::vector<const Distance
     improved_holds[k] = with_thumb(0.0);
     if (k >= finest || search.is_place_fixed || from.style.hook) continue;
     for (const double along : {-16.0, -8.0, 8.0}) {
-      Hold other = with_thumb(along);
+      ClosedPose other = with_thumb(along);
       if (other.rank > improved_holds[k].rank) improved_holds[k] = std::move(other);
     }
   }
   std::stable_sort(improved_holds.begin(), improved_holds.end(), by_rank);
-  for (Hold& hold : improved_holds) {
-    const bool is_new = std::all_of(found.holds.begin(), found.holds.end(), [&](const Hold& other) {
-      return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
-    });
+  for (ClosedPose& hold : improved_holds) {
+    const bool is_new =
+        std::all_of(found.holds.begin(), found.holds.end(), [&](const ClosedPose& other) {
+          return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
+        });
     if (is_new && found.holds.size() < kKept) found.holds.push_back(std::move(hold));
   }
   return found;
 }
 
-Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-               const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
-               int& tried, const Progress& progress) {
+ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+                     const DepthLimits& limits, const Hand& other, const ClosedPose& of_other,
+                     const PoseKept& kept, int& tried, const Progress& progress) {
   progress.throw_if_cancelled();
   const Hand& hand = closer.hand();
-  const HandlePose theirs = usual_pose(other, of_other.style, site, !may_shift);
+  const HandlePose theirs = usual_pose(other, of_other.style, site, kept.is_place_fixed);
   const Trial trial{closer, product, site, limits_for(limits, site),
-                    usual_pose(hand, of_other.style, site, !may_shift)};
+                    usual_pose(hand, of_other.style, site, kept.is_place_fixed)};
   HandlePose pose = of_other.placement.pose;
   const double size = hand.dimensions.hand_length / other.dimensions.hand_length;
   pose.proximal = trial.usual.proximal + size * (pose.proximal - theirs.proximal);
@@ -382,7 +383,7 @@ Hold hold_like(const HandCloser& closer, const DistanceField& product, const Gri
     const JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<Finger>(f)));
     start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
   }
-  Hold hold = trial.run(of_other.site, of_other.style, pose, start, 2);
+  ClosedPose hold = trial.run(of_other.site, of_other.style, pose, start, 2);
   tried = 1;
   // A few placements near it: what fits one size is a little off for another.
   start = start_like(closer, hold);
@@ -392,16 +393,18 @@ Hold hold_like(const HandCloser& closer, const DistanceField& product, const Gri
       progress.throw_if_cancelled();
       HandlePose next = from;
       next.*what += by;
-      Hold other_hold = trial.run(of_other.site, of_other.style, next, start, 0);
+      ClosedPose other_hold = trial.run(of_other.site, of_other.style, next, start, 0);
       ++tried;
       if (other_hold.score <= hold.score) continue;
       hold = std::move(other_hold);
       break;
     }
   };
-  better(&HandlePose::proximal, kNearProximal);
-  better(&HandlePose::tilt, kNearTilt);
-  better(&HandlePose::oblique, kNearTilt);
+  if (kept.may_adapt) {
+    better(&HandlePose::proximal, kNearProximal);
+    better(&HandlePose::tilt, kNearTilt);
+    better(&HandlePose::oblique, kNearTilt);
+  }
   hold.rank = hold.score;
   hold.thumb = of_other.thumb;
   return hold;

@@ -47,7 +47,7 @@ HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSit
                       bool is_place_fixed);
 
 /// One way of holding, closed on a sparse skin.
-struct Hold {
+struct ClosedPose {
   std::size_t site = 0;
   ClosingStyle style;
   Placement placement;
@@ -58,32 +58,38 @@ struct Hold {
   double rank = 0.0;   ///< score, less for sites that are less of a handle
 };
 
-struct HoldSearch {
+struct PoseSearch {
   std::vector<ClosingStyle> styles = {ClosingStyle{}};  ///< tried at every site
   std::optional<double> turn;                           ///< only that turn (see HandlePose), rad
   bool is_place_fixed = false;                          ///< the hand isn't shifted along the axis
   int most = 200;                                       ///< placements to try
 };
 
-struct HoldsFound {
-  std::vector<Hold> holds;  ///< thumb included; best first, each different from those before it
-  int tried = 0;            ///< placements that were closed and scored
+struct PosesFound {
+  std::vector<ClosedPose>
+      holds;      ///< thumb included; best first, each different from those before it
+  int tried = 0;  ///< placements that were closed and scored
 };
 
 /// Searches for the holds that most palmar skin takes part in: what distinguishes a power grip
 /// (Napier 1956). Coarse to fine, always in the same order: eight turns at every site, the best of
 /// them improved one number after the other with shrinking steps, then the thumb. distances[k] is
 /// the product's distance as seen near sites[k]; sites beyond distances.size() are not tried.
-HoldsFound find_holds(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+PosesFound find_poses(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
-                      const HoldSearch& search, const Progress& progress);
+                      const PoseSearch& search, const Progress& progress);
+
+struct PoseKept {
+  bool is_place_fixed = false;  ///< the usual pose isn't shifted along the axis
+  bool may_adapt = true;        ///< the best of a few poses near it is taken
+};
 
 /// The way of holding that another hand found at a site, for this one: its pose differs from the
 /// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted, the
 /// thumb goes the same way. `tried` counts the placements that were closed.
-Hold hold_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-               const DepthLimits& limits, const Hand& other, const Hold& of_other, bool may_shift,
-               int& tried, const Progress& progress);
+ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
+                     const DepthLimits& limits, const Hand& other, const ClosedPose& of_other,
+                     const PoseKept& kept, int& tried, const Progress& progress);
 
 /// Whether two ways of holding differ by more than 30 degrees or 20 mm.
 bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other);

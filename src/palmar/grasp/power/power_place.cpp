@@ -133,18 +133,6 @@ Sites find_sites(const Hand& hand, const Product& product, const PowerGraspOptio
   return found;
 }
 
-std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_length) {
-  if (grip == Grip::kPowerSphere) {
-    // Round a ball smaller than the palm fingers stay together.
-    const double share =
-        std::clamp((diameter / hand_length - kSmallBall) / (kLargeBall - kSmallBall), 0.0, 1.0);
-    return {ClosingStyle{.spread = kMostSpread * share, .hook = {}},
-            ClosingStyle{.spread = 0.5 * kMostSpread * share, .hook = {}}};
-  }
-  if (grip == Grip::kFixedHook) return {ClosingStyle{.spread = 0.0, .hook = 0.0}};
-  return {ClosingStyle{}};
-}
-
 // A wrap is called by its size unless it was asked for by name.
 Grip grip_of(Grip grip, const PowerGraspOptions& options, const GripSite& site, const Hand& hand) {
   if (options.grip || grip == Grip::kPowerSphere) return grip;
@@ -160,7 +148,7 @@ struct Distances {
 // folds the palm further into it, if it may; at once, that takes fewer rounds.
 HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
                          const Distances& distances, const GripSite& site,
-                         const DepthLimits& limits, const Hold& hold, Placement& placement,
+                         const DepthLimits& limits, const ClosedPose& hold, Placement& placement,
                          bool may_give_way, bool gives_way_at_once, const Progress& progress,
                          Grasp& grasp) {
   HeldProduct held{distances.quick, placement.product_from_hand, site.point, site.axis,
@@ -218,6 +206,28 @@ void place_beside(const Hand& hand, const Product& product, Grasp& grasp) {
 }
 
 }  // namespace
+
+Grasp no_place(const Hand& hand, const Product& product) {
+  Grasp grasp;
+  for (int s = 0; s < kSegmentCount; ++s) grasp.stops[s].segment = static_cast<Segment>(s);
+  grasp.posture = reference_posture(hand.skeleton);
+  grasp.status = GraspStatus::kNotGraspable;
+  grasp.message = "no part of the product offers a hand a hold";
+  place_beside(hand, product, grasp);
+  return grasp;
+}
+
+std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_length) {
+  if (grip == Grip::kPowerSphere) {
+    // Round a ball smaller than the palm fingers stay together.
+    const double share =
+        std::clamp((diameter / hand_length - kSmallBall) / (kLargeBall - kSmallBall), 0.0, 1.0);
+    return {ClosingStyle{.spread = kMostSpread * share, .hook = {}},
+            ClosingStyle{.spread = 0.5 * kMostSpread * share, .hook = {}}};
+  }
+  if (grip == Grip::kFixedHook) return {ClosingStyle{.spread = 0.0, .hook = 0.0}};
+  return {ClosingStyle{}};
+}
 
 PowerPlace find_power_place(const Hand& hand, const Product& product,
                             const PowerGraspOptions& options, const Progress& progress) {
@@ -280,14 +290,14 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
     near.push_back(distance_near(product.mesh, product.distance, candidate));
     distances.push_back(near.back().get());
   }
-  HoldSearch search;
+  PoseSearch search;
   search.styles =
       styles_for(grasp.grip, sites.front().girth / std::numbers::pi, hand.dimensions.hand_length);
   search.is_place_fixed = options.placement.at || options.placement.region;
   search.most = options.candidates;
   if (options.placement.turn)
     search.turn = turn_in_pose(hand, sites.front(), *options.placement.turn);
-  Hold hold;
+  ClosedPose hold;
   if (options.placement.product_from_hand) {
     hold.placement.product_from_hand = *options.placement.product_from_hand;
     const Quat back = hold.placement.product_from_hand.rotation.conjugate();
@@ -295,11 +305,11 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
     hold.style = search.styles.front();
     grasp.candidates = 1;
   } else {
-    HoldsFound holds = find_holds(coarse, distances, sites, asked, search, progress);
+    PosesFound holds = find_poses(coarse, distances, sites, asked, search, progress);
     hold = holds.holds.front();
     grasp.candidates = holds.tried;
     for (std::size_t k = 1; k < holds.holds.size(); ++k) {
-      const Hold& other = holds.holds[k];
+      const ClosedPose& other = holds.holds[k];
       grasp.runners_up.push_back({grip_of(found.grip, options, sites[other.site], hand),
                                   other.posture, other.placement.product_from_hand, other.rank});
     }
@@ -311,7 +321,7 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
   result.may_shift = !search.is_place_fixed;
   result.site = sites[hold.site];
   result.quick = near[hold.site];
-  result.hold = std::move(hold);
+  result.pose = std::move(hold);
   return result;
 }
 
@@ -319,7 +329,7 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
                const Product& product, const PowerGraspOptions& options, const Progress& progress) {
   progress.update(0.6, "closing the hand round " + product.name);
   const GripSite& site = place_found.site;
-  const Hold& hold = place_found.hold;
+  const ClosedPose& hold = place_found.pose;
   Grasp grasp = place_found.grasp;
   const DepthLimits limits =
       limits_for({options.palm_limit_depth, options.finger_limit_depth}, site);
@@ -341,18 +351,24 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
 }
 
 PowerPlace carried_over(const PowerPlace& place_found, const Hand& reference,
-                        const HandCloser& coarse, const PowerGraspOptions& options,
-                        const Progress& progress) {
+                        const HandCloser& coarse, const HoldSite* at,
+                        const PowerGraspOptions& options, const Progress& progress) {
   PowerPlace result = place_found;
   result.grasp.runners_up.clear();
   result.is_carried = true;
-  result.hold =
-      hold_like(coarse, *place_found.quick, place_found.site,
-                {options.palm_limit_depth, options.finger_limit_depth}, reference, place_found.hold,
-                place_found.may_shift, result.grasp.candidates, progress);
-  result.grasp.score = result.hold.rank;
+  ClosedPose theirs = place_found.pose;
+  if (at != nullptr) {
+    result.site = at->site;
+    result.site.wall = place_found.site.wall;
+    theirs.placement.pose.turn = at->turn;
+  }
+  result.pose = pose_like(coarse, *place_found.quick, result.site,
+                          {options.palm_limit_depth, options.finger_limit_depth}, reference, theirs,
+                          {.is_place_fixed = !place_found.may_shift, .may_adapt = at == nullptr},
+                          result.grasp.candidates, progress);
+  result.grasp.score = result.pose.rank;
   if (!options.grip && result.grasp.grip != Grip::kPowerSphere) {
-    result.grasp.grip = wrap_for(place_found.site.girth, coarse.hand().dimensions.hand_length);
+    result.grasp.grip = wrap_for(result.site.girth, coarse.hand().dimensions.hand_length);
   }
   return result;
 }

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/grasp/holds/hold_site.h"
 #include "palmar/grasp/power/closing.h"
 #include "palmar/grasp/power/placement.h"
 
@@ -21,11 +23,17 @@ struct PowerPlace {
   Grasp grasp;            ///< grip, score and runners-up; nothing closed yet
   GripSite site;
   std::shared_ptr<const DistanceField> quick;  ///< distance_near() the site
-  Hold hold;                                   ///< closed on a sparse skin
+  ClosedPose pose;                             ///< closed on a sparse skin
   bool is_fixed = false;    ///< the placement was given in full: only the fingers close
   bool is_carried = false;  ///< over from another hand: fewer rounds of closing, same limits
   bool may_shift = true;    ///< the hand may go along the product's axis
 };
+
+/// A product that offers a hand nothing: the hand is shown beside it.
+Grasp no_place(const Hand& hand, const Product& product);
+
+/// The ways in which fingers go round a body of that diameter [mm].
+std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_length);
 
 PowerPlace find_power_place(const Hand& hand, const Product& product,
                             const PowerGraspOptions& options, const Progress& progress);
@@ -36,8 +44,11 @@ Grasp close_at(const PowerPlace& place, const HandCloser& coarse, const HandClos
                const Product& product, const PowerGraspOptions& options, const Progress& progress);
 
 /// The same way of holding by another hand (`coarse`): its pose differs from the usual pose as that
-/// of `reference` does (lengths in hand lengths), the best of a few near it is kept.
+/// of `reference` does (lengths in hand lengths). Of a place that was searched without a hold the
+/// best of a few near it is kept; of a hold, which that hand has at `at`, that pose itself, so that
+/// hands that differ little hold little differently.
 PowerPlace carried_over(const PowerPlace& place, const Hand& reference, const HandCloser& coarse,
-                        const PowerGraspOptions& options, const Progress& progress);
+                        const HoldSite* at, const PowerGraspOptions& options,
+                        const Progress& progress);
 
 }  // namespace palmar

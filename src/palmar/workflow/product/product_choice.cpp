@@ -55,10 +55,7 @@ void add_findings(Product& product) {
 
 GraspOptions options_for(const GraspSettings& settings, const Product& product) {
   GraspOptions result = settings.options();
-  PlacementRequest& placement = result.power.placement;
-  if (!placement.at && !placement.axis && !placement.region) {
-    placement.axis = thumb_side_of(product);
-  }
+  if (!result.is_placed() && !result.holds.toward) result.holds.toward = thumb_side_of(product);
   return result;
 }
 

@@ -1,0 +1,132 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/hold_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "palmar/geometry/degrees.h"
+#include "palmar/grasp/grip_choice.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kPalmSides = 8;
+constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off what was asked by
+constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
+constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
+constexpr double kIndexBeyond = 0.25;  // one of four fingers lies beyond a short handle's end
+
+struct Place {
+  double along = 0.5, edge = 0.0;
+};
+
+// Where on a part hands could be, the thumb's side to `toward`.
+std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, int toward) {
+  const double breadth = fingers_breadth(*scene.hand);
+  const double thumb_end = toward > 0 ? 1.0 : 0.0;
+  std::vector<Place> places;
+  if (part.is_ring) {
+    for (const double along : {0.0, 0.25, 0.5, 0.75}) places.push_back({along, 0.0});
+    return places;
+  }
+  places.push_back({0.5, 0.0});
+  if (part.length < kShortPart * breadth) {
+    // The index finger finds room beyond the end at what the handle carries: on its trigger.
+    const std::size_t end = toward > 0 ? 1 : 0;
+    if (part.kind == PartKind::kBar && part.ends[end].joined) {
+      places.push_back({thumb_end, 0.5 - kIndexBeyond});
+    }
+    return places;
+  }
+  const double margin = kEndMargin / part.length;
+  places.push_back({std::abs(thumb_end - margin), 0.5});
+  places.push_back({std::abs(1.0 - thumb_end - margin), -0.5});
+  const double half = 0.5 * breadth / part.length;
+  const auto add_middle = [&](double along) {
+    const double kept = std::clamp(along, half, 1.0 - half);
+    if (std::abs(kept - 0.5) * part.length > 0.15 * breadth) places.push_back({kept, 0.0});
+  };
+  add_middle(place_of(part, scene.gravity_centre).along);
+  for (const PartWaist& waist : part.waists) add_middle(waist.along);
+  return places;
+}
+
+bool is_toward(const HoldOptions& options, const HoldSite& at) {
+  if (!options.toward) return true;
+  return at.site.axis.dot(options.toward->normalized()) > std::cos(kTowardLimit);
+}
+
+Grip grip_for(const ProductPart& part, const HoldSite& at, const HoldOptions& options,
+              double hand_length) {
+  if (options.grip) return *options.grip;
+  if (part.kind == PartKind::kBall) return Grip::kPowerSphere;
+  return wrap_for(at.site.girth, hand_length);
+}
+
+}  // namespace
+
+bool is_part_asked(const ProductPart& part, const HoldOptions& options) {
+  if (options.part && *options.part != part.number) return false;
+  return options.part_name.empty() || options.part_name == part.name ||
+         options.part_name == name_of(part.kind);
+}
+
+std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOptions& options) {
+  std::vector<HoldCandidate> found;
+  const double length = scene.hand->dimensions.hand_length;
+  const auto add = [&](Hold hold, const ProductPart& part) {
+    HoldCandidate candidate;
+    candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
+    if (!is_toward(options, candidate.at)) return;
+    hold.grip = grip_for(part, candidate.at, options, length);
+    candidate.terms = shape_terms(scene, hold, candidate.at);
+    candidate.score = sum_of(candidate.terms);
+    candidate.hold = std::move(hold);
+    found.push_back(std::move(candidate));
+  };
+  for (const ProductPart& part : scene.parts->parts) {
+    if (!is_part_asked(part, options) || part.line.size() < 2) continue;
+    Hold hold;
+    hold.part = part.number;
+    hold.part_name = part.name;
+    for (const int toward : {1, -1}) {
+      hold.toward = toward;
+      std::vector<Place> places = places_on(scene, part, toward);
+      if (options.along) places = {{*options.along, 0.0}};
+      for (const Place& place : places) {
+        hold.along = place.along;
+        hold.edge = place.edge;
+        for (int side = 0; side < kPalmSides; ++side) {
+          hold.turn =
+              std::remainder(2.0 * std::numbers::pi * side / kPalmSides, 2.0 * std::numbers::pi);
+          if (part.kind == PartKind::kLoop) hold.turn = std::numbers::pi;
+          add(hold, part);
+          if (part.kind == PartKind::kLoop) break;
+        }
+      }
+    }
+    // A knob or lid is taken from its free end; a whole ball from any side, so from these, too.
+    const bool is_capped = part.kind == PartKind::kBall || part.kind == PartKind::kBody;
+    if (!is_capped || part.is_ring || options.along) continue;
+    hold.is_over_end = true;
+    hold.edge = 0.0;
+    hold.toward = 1;
+    for (const std::size_t end : {std::size_t{1}, std::size_t{0}}) {
+      if (part.ends[end].joined) continue;
+      hold.along = static_cast<double>(end);
+      for (int side = 0; side < kPalmSides; ++side) {
+        hold.turn =
+            std::remainder(2.0 * std::numbers::pi * side / kPalmSides, 2.0 * std::numbers::pi);
+        add(hold, part);
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const HoldCandidate& a, const HoldCandidate& b) {
+    return a.score > b.score;
+  });
+  return found;
+}
+
+}  // namespace palmar

@@ -1,0 +1,28 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/grasp/holds/hold_terms.h"
+
+namespace palmar {
+
+/// A hold that is looked at, with what its shape says of it.
+struct HoldCandidate {
+  Hold hold;
+  HoldSite at;
+  std::vector<HoldTerm> terms;
+  double score = 0.0;
+};
+
+/// Power holds of every part, a few hundred: at its middle, its ends, its centre of gravity and its
+/// waists, the thumb's side to either end, the palm on eight sides (of a loop: outside). Best
+/// first; equally good ones in the order of the part's coordinates. Those that `options` exclude
+/// are left out.
+std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOptions& options);
+
+/// Whether a part is meant by the options: by number, by name, or because none is asked for.
+bool is_part_asked(const ProductPart& part, const HoldOptions& options);
+
+}  // namespace palmar

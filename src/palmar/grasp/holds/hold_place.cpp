@@ -1,0 +1,70 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/hold_place.h"
+
+#include <numbers>
+#include <utility>
+
+#include "palmar/core/enum_index.h"
+#include "palmar/grasp/grasp_verdict.h"
+#include "palmar/grasp/power/site_distance.h"
+
+namespace palmar {
+
+GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,
+                                    const Product& product, const HoldSite& at, const Hand& hand) {
+  GraspedSurface surface;
+  const std::shared_ptr<const DistanceField> exact = grasped_surface(hold, parts, product);
+  GripSite site = at.site;
+  site.wide = at.palm;  // which of a round bar's directions is the wide one is chance
+  site.wall = wall_at(product.mesh, *exact, site, hand.dimensions.hand_width);
+  surface.wall = site.wall;
+  surface.quick = distance_near(product.mesh, exact, site);
+  return surface;
+}
+
+PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& surface,
+                         const HandCloser& coarse, const PowerGraspOptions& options,
+                         const Progress& progress) {
+  PowerPlace result;
+  Grasp& grasp = result.grasp;
+  const Hand& hand = coarse.hand();
+  grasp.grip = grip;
+  grasp.posture = reference_posture(hand.skeleton);
+  for (int s = 0; s < kSegmentCount; ++s) grasp.stops[s].segment = static_cast<Segment>(s);
+  result.site = at.site;
+  result.site.wall = surface.wall;
+  result.quick = surface.quick;
+  result.may_shift = false;
+  grasp.grip_point = at.site.point;
+  grasp.grip_axis = at.site.axis;
+  grasp.grip_girth = at.site.girth;
+  const DepthLimits asked{options.palm_limit_depth, options.finger_limit_depth};
+  if (is_out_of_reach(result.site, options, grasp)) {
+    // The open hand is shown with the product on the palm.
+    constexpr double kShownDepth = 0.05;  // mm into the palm of what is only placed on it
+    grasp.posture = coarse.open_posture();
+    HandlePose pose;
+    pose.turn = at.turn;
+    grasp.product_from_hand =
+        place(coarse, *surface.quick, {kShownDepth, kShownDepth}, {}, result.site, pose)
+            .product_from_hand;
+    return result;
+  }
+  PoseSearch search;
+  search.styles = styles_for(grip, at.site.girth / std::numbers::pi, hand.dimensions.hand_length);
+  search.turn = at.turn;
+  search.is_place_fixed = true;
+  search.most = static_cast<int>(search.styles.size());
+  PosesFound found =
+      find_poses(coarse, {surface.quick.get()}, {result.site}, asked, search, progress);
+  grasp.candidates = found.tried;
+  result.pose = std::move(found.holds.front());
+  grasp.score = result.pose.rank;
+  grasp.posture = result.pose.posture;
+  grasp.product_from_hand = result.pose.placement.product_from_hand;
+  result.is_found = true;
+  return result;
+}
+
+}  // namespace palmar

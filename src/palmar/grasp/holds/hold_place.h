@@ -1,0 +1,29 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/holds/hold_site.h"
+#include "palmar/grasp/power/closing.h"
+#include "palmar/grasp/power/power_place.h"
+
+namespace palmar {
+
+/// What fingers close on, quickly asked.
+struct GraspedSurface {
+  std::shared_ptr<const DistanceField> quick;  ///< distance_near() a site of the hold
+  double wall = 1e3;  ///< how thick the solid is under the grip's surface there, mm
+};
+GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,
+                                    const Product& product, const HoldSite& at, const Hand& hand);
+
+/// A power grip's hold by one hand, closed on a sparse skin (`coarse`), thumb included. The hand
+/// lies on the part in the usual pose of its grip: nothing is searched but the way of the thumb, so
+/// that a product that differs a little is held a little differently.
+PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& surface,
+                         const HandCloser& coarse, const PowerGraspOptions& options,
+                         const Progress& progress = {});
+
+}  // namespace palmar

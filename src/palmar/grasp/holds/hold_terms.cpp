@@ -1,0 +1,405 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/hold_terms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "palmar/geometry/degrees.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/product/mass.h"
+
+namespace palmar {
+namespace {
+
+// Kong & Lowe 2005 (Int J Industrial Ergonomics 35:495-507): handles of 19.7 % of hand length are
+// the most comfortable. How much worse others are was measured for some diameters only; the
+// log-normal spreads are our choice.
+constexpr double kBestDiameter = 0.197;  // of hand length
+constexpr double kThinSpread = 0.5, kThickSpread = 0.6;
+constexpr double kThinLoopSpread = 0.9;  // fingers through a loop hook it, however thin; choice
+// Feix, Bullock, Dollar 2014 (IEEE Trans Haptics 7:311-323): of 10 000 grasps at work 96 % were at
+// places less than 70 mm wide.
+constexpr double kWidePlace = 70.0;  // mm
+constexpr double kWideRamp = 12.0;   // mm either side over which that sets in; choice
+constexpr double kWideShare = 0.04;  // of people's grasps
+// El-Khoury & Sahbani 2010 (Autonomous Robots 28:57-71): people take things that have a handle by
+// the handle. One in ten doesn't: our choice, that study gives no share.
+constexpr double kBesideHandle = 0.1;
+constexpr double kThinnestHandle = 14.0;    // mm; thinner bars are shafts and stems
+constexpr double kShortestHandle = 45.0;    // mm; two fingers and a half
+constexpr double kFewestFingers = 0.45;     // of the fingers' breadth through a loop: two fingers
+constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
+constexpr double kMoment =
+    400.0;                      // N mm of weight about the grip that people begin to avoid; choice
+constexpr double kSpan = 0.55;  // hand lengths that thumb and fingers hold between them; choice
+constexpr double kTooWide = 8.0;               // per share beyond; choice
+constexpr double kNoseAngle = 40.0 * kDegree;  // choice
+constexpr double kLoopAngle = 45.0 * kDegree;  // choice
+constexpr double kFlatLoss = 3.0;              // an edge of a sheet in the palm; choice
+constexpr double kThumbSide = 1.5;   // per share of the product on the little finger's side; choice
+constexpr double kUpsideDown = 2.5;  // thumb down where up was given; choice
+constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from the shape; choice
+constexpr double kHollow = 0.7;      // volume over that with its hollow: less is a vessel; choice
+constexpr double kEvenShare = 0.01;  // of the length; nearer to the middle says nothing; choice
+constexpr double kWrongEnd = 1.5;    // a tool's working end at the little finger; choice
+constexpr double kSkinRoom = 6.0;    // mm that a finger's middle keeps off the product
+constexpr double kBlocked = 6.0;     // all of the hand's room taken; choice
+
+double log_normal(double value, double best, double thin, double thick) {
+  const double ratio = std::log(value / best);
+  const double z = ratio / (ratio < 0.0 ? thin : thick);
+  return -0.5 * z * z;
+}
+
+HoldTerm girth_term(const HoldScene& scene, const ProductPart& part, const GripSite& site) {
+  const double diameter = site.girth / std::numbers::pi;
+  const double length = scene.hand->dimensions.hand_length;
+  const double thin = part.kind == PartKind::kLoop ? kThinLoopSpread : kThinSpread;
+  return {"girth", diameter, "mm",
+          log_normal(std::max(diameter, 1.0), kBestDiameter * length, thin, kThickSpread),
+          fmt::format("{:.0f} mm thick by its girth, {:.0f} % of hand length", diameter,
+                      100.0 * diameter / length)};
+}
+
+HoldTerm width_term(const GripSite& site) {
+  const double over = std::clamp((site.thickness - kWidePlace) / (2.0 * kWideRamp) + 0.5, 0.0, 1.0);
+  const double smooth = over * over * (3.0 - 2.0 * over);
+  return {"width of the grip", site.thickness, "mm",
+          smooth * std::log(kWideShare / (1.0 - kWideShare)),
+          fmt::format("{:.0f} mm between thumb and fingers", site.thickness)};
+}
+
+// What thumb and fingers span across the palm: of a slab its width.
+HoldTerm span_term(const HoldScene& scene, const HoldSite& at) {
+  const double length = scene.hand->dimensions.hand_length;
+  const Vec3 across = at.site.axis.cross(at.palm);
+  const double w = across.dot(at.site.wide), t = across.dot(at.site.axis.cross(at.site.wide));
+  const double span = std::sqrt(w * w * at.site.width * at.site.width +
+                                t * t * at.site.thickness * at.site.thickness);
+  const double over = std::clamp(span / (kSpan * length) - 1.0, 0.0, 0.5);
+  return {"span", span, "mm", -kTooWide * over,
+          fmt::format("{:.0f} mm wide across the palm, {:.0f} % of hand length", span,
+                      100.0 * span / length)};
+}
+
+HoldTerm handle_term(const HoldScene& scene, const Hold& hold) {
+  const bool is_handle = scene.is_handle[hold.part - 1] != 0;
+  const bool is_passed_over = scene.has_handle && !is_handle;
+  const bool is_offered = scene.purpose == HoldPurpose::kHandOver;
+  // Who hands something over leaves its handle to the other (Brahmbhatt et al. 2020).
+  const bool is_wrong = is_offered ? scene.has_handle && is_handle : is_passed_over;
+  return {"handle", is_handle ? 1.0 : 0.0, "", is_wrong ? std::log(kBesideHandle) : 0.0,
+          is_wrong && is_offered ? "the handle is left to the other person"
+          : is_wrong             ? "beside the handle"
+          : is_handle            ? "by the handle"
+                                 : "no handle is passed over"};
+}
+
+HoldTerm coverage_term(const HoldScene& scene, const ProductPart& part, const Hold& hold) {
+  const double breadth = fingers_breadth(*scene.hand);
+  double covered = breadth;
+  if (part.opening) {
+    covered = std::min(breadth, part.opening->width);
+  } else if (!part.is_ring) {
+    const double middle = hold.along * part.length - hold.toward * hold.edge * breadth;
+    covered = std::max(
+        0.0, std::min(middle + 0.5 * breadth, part.length) - std::max(middle - 0.5 * breadth, 0.0));
+  }
+  const double share = covered / breadth;
+  const double enough = part.opening ? kFewestFingers : 1.0;
+  return {"room along it", covered, "mm", 2.0 * std::log(std::clamp(share / enough, 0.05, 1.0)),
+          fmt::format("{:.0f} mm of it under the fingers", covered)};
+}
+
+HoldTerm opening_term(const HoldScene& scene, const ProductPart& part) {
+  const double finger = kFingerThickness * scene.hand->dimensions.hand_length;
+  const double room = part.opening->height;
+  const double share = std::clamp((room / finger - 0.9) / 0.6, 0.0, 1.0);
+  return {"room for fingers", room, "mm", -6.0 * (1.0 - share) * (1.0 - share),
+          fmt::format("{:.0f} mm between it and what it stands on", room)};
+}
+
+HoldTerm moment_term(const HoldScene& scene, const GripSite& site) {
+  Vec3 lever = scene.gravity_centre - site.point;
+  if (scene.up) lever -= *scene.up * scene.up->dot(lever);
+  const double moment = scene.weight * lever.norm();
+  const double ratio = moment / kMoment;
+  return {"moment of the weight", moment, "N mm", -0.5 * std::log1p(ratio * ratio),
+          fmt::format("its weight is {:.0f} mm beside the grip", lever.norm())};
+}
+
+// Shares of the surface that lie beyond the hand on the thumb's and on the little finger's side,
+// and how far the product reaches there.
+struct Beyond {
+  double thumb_area = 0.0, other_area = 0.0;    // shares
+  double thumb_reach = 0.0, other_reach = 0.0;  // mm from the middle of the hand
+};
+
+Beyond beyond_hand(const HoldScene& scene, const GripSite& site) {
+  Beyond beyond;
+  const TriangleMesh& mesh = scene.product->mesh;
+  const double edge = 0.5 * fingers_breadth(*scene.hand);
+  double whole = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double area = triangle_area(a, b, c);
+    const double along = site.axis.dot((a + b + c) / 3.0 - site.point);
+    whole += area;
+    if (along > edge) beyond.thumb_area += area;
+    if (along < -edge) beyond.other_area += area;
+  }
+  if (whole > 0.0) {
+    beyond.thumb_area /= whole;
+    beyond.other_area /= whole;
+  }
+  for (const Vec3& v : mesh.vertices) {
+    const double along = site.axis.dot(v - site.point);
+    beyond.thumb_reach = std::max(beyond.thumb_reach, along);
+    beyond.other_reach = std::max(beyond.other_reach, -along);
+  }
+  return beyond;
+}
+
+// Tools point to the thumb's side; vessels have their mouth there.
+HoldTerm thumb_side_term(const HoldScene& scene, const ProductPart& part, int toward,
+                         const GripSite& site) {
+  const bool is_vessel = part.kind == PartKind::kBody || part.kind == PartKind::kLoop;
+  if (scene.up && (is_vessel || scene.is_up_given)) {
+    const double up = site.axis.dot(*scene.up);
+    const double most = scene.is_up_given ? kUpsideDown : kMaybeUpsideDown;
+    return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / kDegree, "deg",
+            -most * std::max(0.0, -up),
+            up > 0.5    ? "thumb's side up"
+            : up < -0.5 ? "thumb's side down"
+                        : "thumb's side neither up nor down"};
+  }
+  if (part.kind == PartKind::kBar && !part.is_ring &&
+      part.ends[0].joined.has_value() != part.ends[1].joined.has_value()) {
+    const bool is_to_work = part.ends[toward > 0 ? 1 : 0].joined.has_value();
+    return {"thumb's side", is_to_work ? 1.0 : 0.0, "", is_to_work ? 0.0 : -kWrongEnd,
+            is_to_work ? "what it carries is on the thumb's side"
+                       : "what it carries is on the little finger's side"};
+  }
+  const Beyond beyond = beyond_hand(scene, site);
+  const double reach = (beyond.thumb_reach - beyond.other_reach) /
+                       std::max(1e-9, beyond.thumb_reach + beyond.other_reach);
+  const double lead = reach + beyond.thumb_area - beyond.other_area;
+  return {"thumb's side", lead, "", -kThumbSide * std::clamp(-lead, 0.0, 2.0),
+          lead < -0.1 ? "the longer end is on the little finger's side"
+                      : "the longer end is on the thumb's side"};
+}
+
+HoldTerm palm_term(const HoldScene& scene, const ProductPart& part, const Hold& hold,
+                   const HoldSite& at) {
+  const GripSite& site = at.site;
+  if (part.kind == PartKind::kLoop) {
+    const double turn = std::remainder(hold.turn - std::numbers::pi, 2.0 * std::numbers::pi);
+    const double z = turn / kLoopAngle;
+    return {"palm's side", std::abs(turn) / kDegree, "deg", -0.5 * z * z,
+            std::abs(turn) < kLoopAngle ? "palm outside the loop, fingers through it"
+                                        : "palm beside the loop"};
+  }
+  if (part.kind == PartKind::kBar) {
+    if (const auto nose = nose_of(scene, site)) {
+      const double angle = std::acos(std::clamp(-nose->dot(at.palm), -1.0, 1.0));
+      const double z = angle / kNoseAngle;
+      return {"palm's side", angle / kDegree, "deg", -0.5 * z * z / (1.0 + 0.1 * z * z),
+              fmt::format("what it works with is {:.0f} degrees off the direction of the forearm",
+                          angle / kDegree)};
+    }
+  }
+  const double thin = 1.0 - std::min(1.0, site.thickness / std::max(site.width, 1e-9));
+  const double edge = site.wide.dot(at.palm);
+  const double score = -kFlatLoss * thin * edge * edge;
+  return {"palm's side", std::acos(std::min(1.0, std::abs(edge))) / kDegree, "deg", score,
+          score < -0.5 ? "an edge in the palm" : "its flat side in the palm"};
+}
+
+// Where on a part people take hold: near the centre of gravity if that lies in the part, of a tool
+// with a heavy head far from the head.
+HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldSite& at) {
+  const double length = std::max(part.length, 1e-9);
+  const Vec3 start = part_frame(part, 0.0, 0.0).translation;
+  const Vec3 end = part_frame(part, 1.0, 0.0).translation;
+  const Vec3 line = end - start;
+  const double span = line.norm();
+  const double breadth = fingers_breadth(*scene.hand);
+  if (part.is_ring || span < 0.5 * length) {
+    return {"place along it", 0.0, "mm", 0.0, "at its middle"};
+  }
+  const double gravity = line.dot(scene.gravity_centre - start) / span;
+  const double here = line.dot(at.site.point - start) / span;
+  const double away = std::abs(here - gravity);
+  if (scene.part_of_gravity == part.number - 1) {
+    const double z = away / breadth;
+    return {"place along it", away, "mm", -0.5 * std::min(z * z, 4.0),
+            fmt::format("{:.0f} mm from the middle of its weight", away)};
+  }
+  const double share = std::min(1.0, away / (span + std::abs(away - span)));
+  return {"place along it", away, "mm", -1.0 * (1.0 - share),
+          fmt::format("{:.0f} mm from the middle of its weight", away)};
+}
+
+// Whether palm and fingers would have room: middles of a palm's and four fingers' skin round the
+// section, each to be clear of the product.
+HoldTerm room_term(const HoldScene& scene, const ProductPart& part, const HoldSite& at) {
+  const GripSite& site = at.site;
+  const double breadth = fingers_breadth(*scene.hand);
+  const double length = scene.hand->dimensions.hand_length;
+  const double side = scene.hand->side == Side::kRight ? 1.0 : -1.0;
+  const Vec3 distal = side * site.axis.cross(at.palm);  // fingers reach over there first
+  const Vec3 wide = site.wide, thin = site.axis.cross(site.wide);
+  const auto radius = [&](const Vec3& direction) {
+    const double w = direction.dot(wide), t = direction.dot(thin);
+    return 0.5 *
+           std::sqrt(w * w * site.width * site.width + t * t * site.thickness * site.thickness);
+  };
+  std::vector<Vec3> points;
+  const double palm_off = radius(at.palm) + 12.0;
+  for (const double x : {-0.375, -0.125, 0.125, 0.375}) {
+    for (const double back : {0.0, 0.12, 0.24, 0.36}) {
+      points.push_back(site.point + x * breadth * site.axis + palm_off * at.palm -
+                       back * length * distal);
+    }
+  }
+  const std::size_t palm_points = points.size();
+  const bool is_loop = part.kind == PartKind::kLoop;
+  for (const double x : is_loop ? std::vector<double>{-0.125, 0.125}
+                                : std::vector<double>{-0.375, -0.125, 0.125, 0.375}) {
+    for (double angle = 60.0; angle <= 210.0; angle += 30.0) {
+      const Vec3 out = std::cos(angle * kDegree) * at.palm + std::sin(angle * kDegree) * distal;
+      points.push_back(site.point + x * breadth * site.axis + (radius(out) + 9.0) * out);
+    }
+  }
+  std::vector<DistanceSample> samples(points.size());
+  scene.product->distance->sample(points, 2.0 * kSkinRoom, samples);
+  double palm = 0.0, fingers = 0.0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double taken = std::clamp((kSkinRoom - samples[k].distance) / kSkinRoom, 0.0, 2.0) / 2.0;
+    (k < palm_points ? palm : fingers) += taken;
+  }
+  palm /= static_cast<double>(palm_points);
+  fingers /= static_cast<double>(samples.size() - palm_points);
+  const double share = 0.5 * (palm + fingers);
+  return {"room for the hand", share, "", -kBlocked * share,
+          share < 0.1 ? "room for palm and fingers" : "something is in the hand's way"};
+}
+
+bool is_handle(const ProductPart& part, const ProductParts& parts) {
+  if (part.kind == PartKind::kLoop) return parts.parts.size() > 1;
+  return part.kind == PartKind::kBar && !part.joined.empty() &&
+         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
+}
+
+// A vessel has its mouth up: where its hollow reaches out. A solid body stands on its heavier end.
+std::optional<Vec3> upright(const ProductParts& parts, const TriangleMesh& mesh,
+                            const Vec3& gravity) {
+  if (parts.parts.empty() || parts.parts.front().kind != PartKind::kBody) return {};
+  const ProductPart& body = parts.parts.front();
+  const Vec3 start = body.line.front().centre;
+  const Vec3 axis = (body.line.back().centre - start).normalized();
+  double filled = 0.0, filled_moment = 0.0;  // of the body with its hollow, about `start`
+  for (const PartSection& section : body.sections) {
+    filled += section.area;
+    filled_moment += section.area * axis.dot(section.centre - start);
+  }
+  if (filled <= 0.0) return {};
+  const double filled_centre = filled_moment / filled;
+  const double filled_volume = filled * body.length / static_cast<double>(body.sections.size());
+  double volume = signed_volume(mesh);
+  for (const ProductPart& other : parts.parts) {
+    if (other.number != body.number) volume -= other.volume;
+  }
+  if (volume > 0.0 && volume < kHollow * filled_volume) {
+    const double hollow = filled_volume - volume;
+    const double solid_centre = axis.dot(gravity - start);
+    const double hollow_centre = (filled_volume * filled_centre - volume * solid_centre) / hollow;
+    const double off = (hollow_centre - filled_centre) / body.length;
+    if (std::abs(off) > kEvenShare) return off > 0.0 ? axis : Vec3(-axis);
+  }
+  double low = 0.0, high = 0.0;
+  for (const Vec3& v : mesh.vertices) {
+    low = std::min(low, axis.dot(v - start));
+    high = std::max(high, axis.dot(v - start));
+  }
+  const double off = (axis.dot(gravity - start) - 0.5 * (low + high)) / (high - low);
+  if (std::abs(off) < 2.0 * kEvenShare) return {};
+  return off < 0.0 ? axis : Vec3(-axis);
+}
+
+}  // namespace
+
+HoldScene hold_scene(const Hand& hand, const Product& product, const ProductParts& parts,
+                     const HoldOptions& options) {
+  HoldScene scene;
+  scene.hand = &hand;
+  scene.product = &product;
+  scene.parts = &parts;
+  scene.purpose = options.purpose;
+  scene.gravity_centre = centre_of_volume(product.mesh);
+  constexpr double kWater = 1.0;  // g/cm^3
+  scene.weight = options.mass ? *options.mass * kStandardGravity
+                              : weight_of(std::abs(signed_volume(product.mesh)), kWater);
+  scene.is_up_given = options.up.has_value();
+  scene.up = options.up ? std::optional<Vec3>(options.up->normalized())
+                        : upright(parts, product.mesh, scene.gravity_centre);
+  scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
+  for (const ProductPart& part : parts.parts) {
+    scene.is_handle.push_back(is_handle(part, parts) ? 1 : 0);
+    scene.has_handle = scene.has_handle || scene.is_handle.back() != 0;
+  }
+  return scene;
+}
+
+std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
+  const TriangleMesh& mesh = scene.product->mesh;
+  const double edge = 0.4 * fingers_breadth(*scene.hand);
+  Vec3 moment = Vec3::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 r = (a + b + c) / 3.0 - site.point;
+    if (site.axis.dot(r) < edge) continue;
+    const double weight = triangle_area(a, b, c);
+    moment += weight * (r - site.axis * site.axis.dot(r));
+    area += weight;
+  }
+  // Off the handle's middle by half its radius at least: else it is straight.
+  if (area <= 0.0 || moment.norm() / area < 0.25 * site.girth / std::numbers::pi) return {};
+  return moment.normalized();
+}
+
+std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, const HoldSite& at) {
+  const ProductPart& part = part_of(hold, *scene.parts);
+  std::vector<HoldTerm> terms;
+  terms.push_back(handle_term(scene, hold));
+  terms.push_back(girth_term(scene, part, at.site));
+  terms.push_back(width_term(at.site));
+  terms.push_back(span_term(scene, at));
+  if (hold.is_over_end) {
+    terms.push_back(moment_term(scene, at.site));
+    terms.push_back(room_term(scene, part, at));
+    return terms;
+  }
+  terms.push_back(coverage_term(scene, part, hold));
+  if (part.opening) terms.push_back(opening_term(scene, part));
+  terms.push_back(place_term(scene, part, at));
+  terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
+  terms.push_back(palm_term(scene, part, hold, at));
+  if (part.kind != PartKind::kBar) terms.push_back(moment_term(scene, at.site));
+  terms.push_back(room_term(scene, part, at));
+  return terms;
+}
+
+double sum_of(const std::vector<HoldTerm>& terms) {
+  double sum = 0.0;
+  for (const HoldTerm& term : terms) sum += term.score;
+  return sum;
+}
+
+}  // namespace palmar

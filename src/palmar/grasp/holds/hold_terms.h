@@ -1,0 +1,43 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "palmar/grasp/holds/hold.h"
+#include "palmar/grasp/holds/hold_site.h"
+
+namespace palmar {
+
+/// What the choice of a hold asks of a product, once for all its holds.
+struct HoldScene {
+  const Hand* hand = nullptr;
+  const Product* product = nullptr;
+  const ProductParts* parts = nullptr;
+  HoldPurpose purpose = HoldPurpose::kUse;
+  Vec3 gravity_centre = Vec3::Zero();  ///< of the product's volume, product frame, mm
+  int part_of_gravity = -1;            ///< index of the part that it lies in or is nearest to
+  double weight = 0.0;                 ///< N
+  /// The product's up in use: as asked for, else of a vessel from its heavier to its lighter end.
+  std::optional<Vec3> up;
+  bool is_up_given = false;
+  /// By part: whether it is what the product has for the hand, a handle or a loop on something
+  /// larger; and whether there is such a part at all.
+  std::vector<char> is_handle;
+  bool has_handle = false;
+};
+HoldScene hold_scene(const Hand& hand, const Product& product, const ProductParts& parts,
+                     const HoldOptions& options);
+
+/// Reasons for and against a hold by the product's shape alone; docs/method/holds.md. `site` as
+/// site_of() has it (of a precision grip: where its fingertips are, with `palm` any).
+std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, const HoldSite& site);
+
+/// Where the working end sticks out from a site across its axis, beyond the hand on the thumb's
+/// side: unit, product frame; nothing if it doesn't.
+std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site);
+
+double sum_of(const std::vector<HoldTerm>& terms);
+
+}  // namespace palmar

@@ -1,0 +1,126 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/precision_holds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "palmar/grasp/holds/hold_candidates.h"
+#include "palmar/grasp/precision/precision_grip.h"
+
+namespace palmar {
+namespace {
+
+// How much rarer a precision grip is than the best for such a thing: choices, in the order in which
+// Feix et al. 2016 name the grips' usual objects.
+struct GripPrior {
+  Grip grip;
+  double score;
+};
+
+constexpr double kSmallThing = 0.35;  // hand lengths: longer things aren't taken by fingertips
+constexpr double kSpanned = 0.55;     // hand lengths that thumb and fingers span
+constexpr double kThinPlate = 30.0;   // mm
+
+std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part, double largest) {
+  const double length = scene.hand->dimensions.hand_length;
+  using enum Grip;
+  if (part.kind == PartKind::kPen) {
+    return {{kTripod, 0.0}, {kPalmarPinch, -1.5}, {kLateral, -2.5}};
+  }
+  if (largest < kSmallThing * length) {
+    if (largest < 0.12 * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
+    if (part.kind == PartKind::kPlate) return {{kLateral, -0.2}, {kPalmarPinch, -0.6}};
+    return {{kTripod, -0.4}, {kPrecisionSphere, -0.6}, {kPalmarPinch, -1.2}};
+  }
+  if (part.kind == PartKind::kPlate && part.thickness < kThinPlate) {
+    // Who can span it takes it into the palm.
+    const double spanned = part.width < kSpanned * length ? 1.0 : 0.0;
+    return {{kPalmarPinch, -1.5 - spanned}, {kLateral, -1.7 - spanned}};
+  }
+  return {};
+}
+
+Box3 box_of(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const Vec3& v : mesh.vertices) box.extend(v);
+  return box;
+}
+
+// The longest distance between two vertices along the part's own axes is about this.
+double largest_extent(const TriangleMesh& mesh) {
+  const Vec3 middle = box_of(mesh).center();
+  double farthest = 0.0;
+  for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, (v - middle).norm());
+  return 2.0 * farthest;
+}
+
+RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
+  RankedHold ranked;
+  ranked.grasp = grasp;
+  Hold& hold = ranked.hold;
+  hold.grip = grasp.grip;
+  Vec3 middle = Vec3::Zero();
+  for (const FingertipContact& tip : grasp.fingertips) middle += tip.target;
+  middle /= static_cast<double>(grasp.fingertips.size());
+  hold.part = scene.parts->nearest(*scene.product, middle) + 1;
+  const ProductPart& part = scene.parts->parts[hold.part - 1];
+  hold.part_name = part.name;
+  hold.along = std::clamp(place_of(part, middle).along, 0.0, 1.0);
+  for (const FingertipContact& tip : grasp.fingertips) {
+    hold.fingertips.push_back({tip.finger, place_of(part, tip.target)});
+  }
+  ranked.terms.push_back({"grip", 0.0, "", prior,
+                          prior < -0.5 ? "seldom taken by the fingertips" : "taken by fingertips"});
+  const bool is_passed_over = scene.has_handle && scene.is_handle[hold.part - 1] == 0;
+  if (is_passed_over && scene.purpose == HoldPurpose::kUse) {
+    ranked.terms.push_back({"handle", 0.0, "", std::log(0.1), "beside the handle"});
+  }
+  const double lever = (scene.gravity_centre - middle).norm();
+  constexpr double kMoment = 150.0;  // N mm that fingertips begin to avoid; choice
+  const double ratio = scene.weight * lever / kMoment;
+  // Klein et al. 2020 (PLoS Comput Biol 16:e1008081): precision grips lie near the centre of mass.
+  ranked.terms.push_back({"moment of the weight", scene.weight * lever, "N mm",
+                          -0.5 * std::log1p(ratio * ratio),
+                          fmt::format("its weight is {:.0f} mm beside the grip", lever)});
+  const double held = grasp.status == GraspStatus::kHeld         ? 0.0
+                      : grasp.status == GraspStatus::kPartlyHeld ? -3.0
+                                                                 : -8.0;
+  ranked.terms.push_back({"closing", 0.0, "", held, grasp.message});
+  return ranked;
+}
+
+}  // namespace
+
+std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOptions& options,
+                                        const Progress& progress) {
+  std::vector<RankedHold> found;
+  if (scene.parts->parts.empty() || options.is_power_only ||
+      (options.grip && is_power(*options.grip)))
+    return found;
+  std::vector<GripPrior> grips;
+  if (options.grip) {
+    grips.push_back({*options.grip, 0.0});
+  } else if (options.part || !options.part_name.empty() || scene.parts->parts.size() == 1) {
+    const auto asked =
+        std::find_if(scene.parts->parts.begin(), scene.parts->parts.end(),
+                     [&](const ProductPart& part) { return is_part_asked(part, options); });
+    if (asked == scene.parts->parts.end()) return found;
+    grips = priors(scene, *asked, largest_extent(scene.product->mesh));
+  }
+  for (const GripPrior& tried : grips) {
+    progress.throw_if_cancelled();
+    PrecisionGripOptions precision;
+    precision.grip = tried.grip;
+    const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
+    if (grasp.fingertips.empty()) continue;
+    found.push_back(ranked_of(scene, grasp, tried.score));
+  }
+  return found;
+}
+
+}  // namespace palmar

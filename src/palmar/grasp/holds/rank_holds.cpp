@@ -1,0 +1,219 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/holds/hold.h"
+#include "palmar/grasp/holds/hold_candidates.h"
+#include "palmar/grasp/holds/hold_place.h"
+#include "palmar/grasp/holds/precision_holds.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::size_t kClosed = 14;      // holds that the hand is closed on
+constexpr std::size_t kClosedAlike = 3;  // of these with the same part and direction
+constexpr double kNearTie = 0.2;         // of the score: such a difference doesn't change the order
+// How well a closed hand holds, in the units of the scores (choices).
+constexpr double kPerMissingFinger = 0.5;
+constexpr double kPerMissingWrap = 6.0;    // per share of a turn below a third
+constexpr double kPerClash = 0.004;        // per mm^2 of the back of the hand in the product
+constexpr double kEnoughWrap = 1.0 / 3.0;  // of a turn
+constexpr double kUsualContact = 0.06;     // of hand length squared: palmar skin in a power grip
+constexpr double kContactWeight = 0.7;     // Napier 1956: a power grip uses much of the palm
+
+/// A candidate with the hand closed on it.
+struct ClosedHold {
+  RankedHold ranked;
+  std::size_t order = 0;  ///< among the candidates
+};
+
+HoldTerm grip_term(const PowerPlace& place, const Hold& hold, double hand_length) {
+  if (!place.is_found) {
+    return {"closing", 0.0, "", -10.0, "a hand can't close on it"};
+  }
+  const HoldMeasure& measure = place.pose.measure;
+  const bool is_hook = hold.grip == Grip::kFixedHook;
+  const int wanted = is_hook ? 4 : 5;
+  const double missing = std::max(0.0, wanted - static_cast<double>(measure.fingers));
+  const double wrap = std::max(0.0, kEnoughWrap - measure.wrap);
+  const double contact =
+      std::clamp(measure.contact_area / (kUsualContact * hand_length * hand_length), 0.05, 1.5);
+  const double score = -kPerMissingFinger * missing - kPerMissingWrap * wrap -
+                       kPerClash * measure.other_area +
+                       std::min(0.0, kContactWeight * std::log(contact / 1.5));
+  std::string words = fmt::format("{} of {} fingers on it, {:.0f} degrees round it",
+                                  measure.fingers, wanted, 360.0 * measure.wrap);
+  if (measure.other_area > 50.0) words += ", the back of the hand against it";
+  return {"closing", static_cast<double>(measure.fingers), "", score, words};
+}
+
+// Which to close the hand on: the best, but not all of one kind.
+std::vector<std::size_t> chosen(const std::vector<HoldCandidate>& candidates) {
+  std::vector<std::size_t> list;
+  std::map<std::pair<int, int>, std::size_t> alike;
+  for (std::size_t k = 0; k < candidates.size() && list.size() < kClosed; ++k) {
+    const Hold& hold = candidates[k].hold;
+    std::size_t& count = alike[{hold.part, hold.is_over_end ? 0 : hold.toward}];
+    if (count == kClosedAlike) continue;
+    ++count;
+    list.push_back(k);
+  }
+  return list;
+}
+
+std::string against(const std::vector<HoldTerm>& terms) {
+  const auto worst =
+      std::min_element(terms.begin(), terms.end(),
+                       [](const HoldTerm& a, const HoldTerm& b) { return a.score < b.score; });
+  constexpr double kWorthTelling = -0.5;
+  return worst == terms.end() || worst->score > kWorthTelling ? "" : worst->words;
+}
+
+bool is_unlike(const Hand& hand, const RankedHold& a, const RankedHold& b) {
+  if (a.hold.part != b.hold.part || is_power(a.hold.grip) != is_power(b.hold.grip)) return true;
+  if (!is_power(a.hold.grip) && a.hold.grip != b.hold.grip) return true;
+  return differ(hand, a.grasp.product_from_hand, b.grasp.product_from_hand);
+}
+
+void check_part(const ProductParts& parts, const HoldOptions& options) {
+  if (!options.part && options.part_name.empty()) return;
+  std::string list;
+  for (const ProductPart& part : parts.parts) {
+    if (is_part_asked(part, options)) return;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", part.number, part.name);
+  }
+  const std::string asked =
+      options.part ? std::to_string(*options.part) : "\"" + options.part_name + "\"";
+  throw UsageError("setting \"part\": the product has no part " + asked + "; " +
+                   (list.empty() ? "it has no parts" : list + " is allowed"));
+}
+
+}  // namespace
+
+void HoldOptions::check() const {
+  const auto require_direction = [](const char* name, const std::optional<Vec3>& direction) {
+    if (direction && !(direction->allFinite() && direction->norm() > 1e-9)) {
+      throw UsageError(fmt::format(
+          "setting \"{}\" has no direction; three numbers, not all 0, are required", name));
+    }
+  };
+  require_direction("toward", toward);
+  require_direction("up", up);
+  if (mass && !(*mass > 0.0 && std::isfinite(*mass))) {
+    throw UsageError(fmt::format("setting \"mass\" is {} kg; more than 0 kg is required", *mass));
+  }
+  if (along && !(*along >= 0.0 && *along <= 1.0)) {
+    throw UsageError(
+        fmt::format("setting \"along\" is {}; a fraction from 0 to 1 is required", *along));
+  }
+  if (most < 1) {
+    throw UsageError(fmt::format("setting \"most\" is {}; at least 1 is required", most));
+  }
+  PowerGraspOptions depths;
+  depths.palm_limit_depth = palm_limit_depth;
+  depths.finger_limit_depth = finger_limit_depth;
+  depths.check();
+}
+
+RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptions& options,
+                       const Progress& progress) {
+  options.check();
+  progress.update(0.0, "taking " + product.name + " apart");
+  RankedHolds result;
+  result.parts = find_parts(product);
+  check_part(result.parts, options);
+  const HoldScene scene = hold_scene(hand, product, result.parts, options);
+  std::vector<ClosedHold> closed;
+
+  if (!options.grip || is_power(*options.grip)) {
+    progress.update(0.1, "finding ways to hold " + product.name);
+    const std::vector<HoldCandidate> candidates = power_candidates(scene, options);
+    result.considered += static_cast<int>(candidates.size());
+    const HandCloser coarse(hand, kSearchSpacing);
+    PowerGraspOptions power;
+    power.grip = options.grip;
+    power.palm_limit_depth = options.palm_limit_depth;
+    power.finger_limit_depth = options.finger_limit_depth;
+    std::map<std::pair<int, double>, GraspedSurface> surfaces;  // by part and place along it
+    for (const std::size_t k : chosen(candidates)) {
+      progress.throw_if_cancelled();
+      const HoldCandidate& candidate = candidates[k];
+      const Hold& hold = candidate.hold;
+      const auto key = std::pair(hold.part, hold.is_over_end ? 2.0 + hold.along : hold.along);
+      auto known = surfaces.find(key);
+      if (known == surfaces.end()) {
+        known =
+            surfaces
+                .emplace(key, grasped_surface_near(hold, result.parts, product, candidate.at, hand))
+                .first;
+      }
+      const PowerPlace place =
+          place_of_hold(candidate.at, hold.grip, known->second, coarse, power, progress);
+      ++result.closed;
+      ClosedHold done;
+      done.order = k;
+      done.ranked.hold = hold;
+      done.ranked.terms = candidate.terms;
+      done.ranked.terms.push_back(grip_term(place, hold, hand.dimensions.hand_length));
+      done.ranked.grasp = place.grasp;
+      closed.push_back(std::move(done));
+    }
+  }
+  for (RankedHold& ranked : precision_holds(scene, options, progress)) {
+    ++result.considered;
+    ++result.closed;
+    closed.push_back({std::move(ranked), closed.size() + 1000});
+  }
+  for (ClosedHold& hold : closed) {
+    hold.ranked.score = sum_of(hold.ranked.terms);
+    hold.ranked.grasp.score = hold.ranked.score;
+    hold.ranked.words = words_of(hold.ranked.hold, result.parts);
+    hold.ranked.against = against(hold.ranked.terms);
+  }
+  std::stable_sort(closed.begin(), closed.end(), [](const ClosedHold& a, const ClosedHold& b) {
+    return a.ranked.score > b.ranked.score;
+  });
+  // Of holds that are as good, by the last digits chance decides: the first of the candidates.
+  const auto best =
+      std::min_element(closed.begin(), closed.end(), [&](const auto& a, const auto& b) {
+        const double least = closed.front().ranked.score - kNearTie;
+        const bool is_a = a.ranked.score >= least, is_b = b.ranked.score >= least;
+        return is_a != is_b ? is_a : is_a && a.order < b.order;
+      });
+  if (best != closed.end()) std::rotate(closed.begin(), best, best + 1);
+  for (ClosedHold& hold : closed) {
+    if (result.holds.size() == static_cast<std::size_t>(options.most)) break;
+    const bool is_new =
+        std::all_of(result.holds.begin(), result.holds.end(),
+                    [&](const RankedHold& other) { return is_unlike(hand, hold.ranked, other); });
+    if (is_new) result.holds.push_back(std::move(hold.ranked));
+  }
+  return result;
+}
+
+std::string words_of(const Hold& hold, const ProductParts& parts) {
+  const ProductPart& part = part_of(hold, parts);
+  std::string grip(name_of(hold.grip));
+  std::replace(grip.begin(), grip.end(), '_', ' ');
+  std::string words = fmt::format("{} of the {}", grip, part.name);
+  if (!is_power(hold.grip)) return words;
+  if (hold.is_over_end) return words + ", palm over its end";
+  if (part.kind == PartKind::kLoop) words += ", fingers through it";
+  words += fmt::format(", {:.0f} % along it", 100.0 * std::clamp(hold.along, 0.0, 1.0));
+  const std::size_t end = hold.toward > 0 ? 1 : 0;
+  if (!part.is_ring && part.ends[end].joined && !part.ends[1 - end].joined) {
+    words += ", thumb's side towards the " + parts.parts[*part.ends[end].joined - 1].name;
+  } else if (!part.is_ring && !part.ends[end].joined && part.ends[1 - end].joined) {
+    words += ", thumb's side towards its free end";
+  }
+  return words;
+}
+
+}  // namespace palmar
