@@ -80,7 +80,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     HoldCandidate candidate;
     candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
     if (!is_toward(options, candidate.at)) return;
-    hold.grip = grip_for(part, candidate.at, options, length);
+    if (hold.grip != Grip::kFixedHook) hold.grip = grip_for(part, candidate.at, options, length);
     candidate.terms = shape_terms(scene, hold, candidate.at);
     candidate.score = sum_of(candidate.terms);
     candidate.hold = std::move(hold);
@@ -103,7 +103,13 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
               std::remainder(2.0 * std::numbers::pi * side / kPalmSides, 2.0 * std::numbers::pi);
           if (part.kind == PartKind::kLoop) hold.turn = std::numbers::pi;
           add(hold, part);
-          if (part.kind == PartKind::kLoop) break;
+          if (part.kind != PartKind::kLoop) continue;
+          if (!options.grip) {
+            hold.grip = Grip::kFixedHook;
+            add(hold, part);
+            hold.grip = Grip::kMediumWrap;
+          }
+          break;
         }
       }
     }

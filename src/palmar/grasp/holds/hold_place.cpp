@@ -6,10 +6,18 @@
 #include <utility>
 
 #include "palmar/core/enum_index.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/grasp_verdict.h"
 #include "palmar/grasp/power/site_distance.h"
 
 namespace palmar {
+namespace {
+
+// How far the knuckles are bent round a handle that fingers reach through, rad; plain sense: the
+// thumb comes to lie on top of it. Choice.
+constexpr double kLoopMcp = 50.0 * kDegree;
+
+}  // namespace
 
 GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,
                                     const Product& product, const HoldSite& at, const Hand& hand) {
@@ -20,6 +28,7 @@ GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,
   site.wall = wall_at(product.mesh, *exact, site, hand.dimensions.hand_width);
   surface.wall = site.wall;
   surface.quick = distance_near(product.mesh, exact, site);
+  surface.whole = product.distance;
   return surface;
 }
 
@@ -53,6 +62,15 @@ PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& su
   }
   PoseSearch search;
   search.styles = styles_for(grip, at.site.girth / std::numbers::pi, hand.dimensions.hand_length);
+  if (at.is_loop) {
+    // People rest the thumb on top of a handle that their fingers reach through.
+    for (ClosingStyle& style : search.styles) {
+      if (!style.hook) continue;
+      style.hook = kLoopMcp;
+      style.has_thumb = true;
+    }
+    result.whole = surface.whole;
+  }
   search.turn = at.turn;
   search.is_place_fixed = true;
   search.most = static_cast<int>(search.styles.size());
@@ -60,6 +78,16 @@ PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& su
       find_poses(coarse, {surface.quick.get()}, {result.site}, asked, search, progress);
   grasp.candidates = found.tried;
   result.pose = std::move(found.holds.front());
+  if (at.is_loop) {
+    // The fingers closed on the loop alone: whether what is behind it leaves them room.
+    ClosedPose& pose = result.pose;
+    const HeldProduct held{surface.whole.get(), pose.placement.product_from_hand, at.site.point,
+                           at.site.axis, at.site.girth / std::numbers::pi};
+    const HoldMeasure whole =
+        coarse.measure(held, asked, pose.posture, pose.placement.axis_in_hand);
+    result.pose.measure.other_area = whole.other_area;
+    result.pose.measure.deepest_other = whole.deepest_other;
+  }
   grasp.score = result.pose.rank;
   grasp.posture = result.pose.posture;
   grasp.product_from_hand = result.pose.placement.product_from_hand;

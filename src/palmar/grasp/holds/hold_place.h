@@ -14,6 +14,7 @@ namespace palmar {
 /// What fingers close on, quickly asked.
 struct GraspedSurface {
   std::shared_ptr<const DistanceField> quick;  ///< distance_near() a site of the hold
+  std::shared_ptr<const DistanceField> whole;  ///< the product, exactly
   double wall = 1e3;  ///< how thick the solid is under the grip's surface there, mm
 };
 GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,

@@ -90,6 +90,7 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
                  const Hand& hand) {
   const ProductPart& part = part_of(hold, parts);
   HoldSite result;
+  result.is_loop = part.kind == PartKind::kLoop;
   GripSite& site = result.site;
   const double breadth = fingers_breadth(hand);
   MeanSection section;

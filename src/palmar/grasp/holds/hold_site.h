@@ -15,6 +15,7 @@ struct HoldSite {
   GripSite site;              ///< `point`: in the middle of the four fingers
   Vec3 palm = Vec3::UnitZ();  ///< unit, across the axis: from the axis to the palm, product frame
   double turn = 0.0;          ///< HandlePose::turn of that
+  bool is_loop = false;       ///< fingers go through an opening
 };
 
 /// Where a hand takes a hold. `hand` gives size and side. The site's measures are means over what

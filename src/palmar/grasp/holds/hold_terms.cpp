@@ -171,7 +171,7 @@ HoldTerm thumb_side_term(const HoldScene& scene, const ProductPart& part, int to
   const bool is_vessel = part.kind == PartKind::kBody || part.kind == PartKind::kLoop;
   if (scene.up && (is_vessel || scene.is_up_given)) {
     const double up = site.axis.dot(*scene.up);
-    const double most = scene.is_up_given ? kUpsideDown : kMaybeUpsideDown;
+    const double most = scene.is_up_known ? kUpsideDown : kMaybeUpsideDown;
     return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / kDegree, "deg",
             -most * std::max(0.0, -up),
             up > 0.5    ? "thumb's side up"
@@ -229,7 +229,7 @@ HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldS
   const Vec3 line = end - start;
   const double span = line.norm();
   const double breadth = fingers_breadth(*scene.hand);
-  if (part.is_ring || span < 0.5 * length) {
+  if (part.is_ring || part.opening || span < 0.5 * length) {
     return {"place along it", 0.0, "mm", 0.0, "at its middle"};
   }
   const double gravity = line.dot(scene.gravity_centre - start) / span;
@@ -297,8 +297,12 @@ bool is_handle(const ProductPart& part, const ProductParts& parts) {
 }
 
 // A vessel has its mouth up: where its hollow reaches out. A solid body stands on its heavier end.
-std::optional<Vec3> upright(const ProductParts& parts, const TriangleMesh& mesh,
-                            const Vec3& gravity) {
+struct Upright {
+  std::optional<Vec3> up;
+  bool is_vessel = false;  ///< with a hollow
+};
+
+Upright upright(const ProductParts& parts, const TriangleMesh& mesh, const Vec3& gravity) {
   if (parts.parts.empty() || parts.parts.front().kind != PartKind::kBody) return {};
   const ProductPart& body = parts.parts.front();
   const Vec3 start = body.line.front().centre;
@@ -320,7 +324,7 @@ std::optional<Vec3> upright(const ProductParts& parts, const TriangleMesh& mesh,
     const double solid_centre = axis.dot(gravity - start);
     const double hollow_centre = (filled_volume * filled_centre - volume * solid_centre) / hollow;
     const double off = (hollow_centre - filled_centre) / body.length;
-    if (std::abs(off) > kEvenShare) return off > 0.0 ? axis : Vec3(-axis);
+    if (std::abs(off) > kEvenShare) return {off > 0.0 ? axis : Vec3(-axis), true};
   }
   double low = 0.0, high = 0.0;
   for (const Vec3& v : mesh.vertices) {
@@ -329,7 +333,7 @@ std::optional<Vec3> upright(const ProductParts& parts, const TriangleMesh& mesh,
   }
   const double off = (axis.dot(gravity - start) - 0.5 * (low + high)) / (high - low);
   if (std::abs(off) < 2.0 * kEvenShare) return {};
-  return off < 0.0 ? axis : Vec3(-axis);
+  return {off < 0.0 ? axis : Vec3(-axis), false};
 }
 
 }  // namespace
@@ -346,8 +350,9 @@ HoldScene hold_scene(const Hand& hand, const Product& product, const ProductPart
   scene.weight = options.mass ? *options.mass * kStandardGravity
                               : weight_of(std::abs(signed_volume(product.mesh)), kWater);
   scene.is_up_given = options.up.has_value();
-  scene.up = options.up ? std::optional<Vec3>(options.up->normalized())
-                        : upright(parts, product.mesh, scene.gravity_centre);
+  const Upright guess = upright(parts, product.mesh, scene.gravity_centre);
+  scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
+  scene.is_up_known = options.up || guess.is_vessel;
   scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
   for (const ProductPart& part : parts.parts) {
     scene.is_handle.push_back(is_handle(part, parts) ? 1 : 0);

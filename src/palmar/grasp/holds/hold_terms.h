@@ -22,6 +22,7 @@ struct HoldScene {
   /// The product's up in use: as asked for, else of a vessel from its heavier to its lighter end.
   std::optional<Vec3> up;
   bool is_up_given = false;
+  bool is_up_known = false;  ///< given, or that of a vessel by its hollow
   /// By part: whether it is what the product has for the hand, a handle or a loop on something
   /// larger; and whether there is such a part at all.
   std::vector<char> is_handle;

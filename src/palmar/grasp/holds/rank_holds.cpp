@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "palmar/core/error.h"
@@ -26,6 +27,7 @@ constexpr double kPerMissingWrap = 6.0;    // per share of a turn below a third
 constexpr double kPerClash = 0.004;        // per mm^2 of the back of the hand in the product
 constexpr double kEnoughWrap = 1.0 / 3.0;  // of a turn
 constexpr double kUsualContact = 0.06;     // of hand length squared: palmar skin in a power grip
+constexpr double kHookContact = 0.02;      // ... of the fingers alone
 constexpr double kContactWeight = 0.7;     // Napier 1956: a power grip uses much of the palm
 
 /// A candidate with the hand closed on it.
@@ -34,17 +36,30 @@ struct ClosedHold {
   std::size_t order = 0;  ///< among the candidates
 };
 
-HoldTerm grip_term(const PowerPlace& place, const Hold& hold, double hand_length) {
+// Fingers that a grip needs on the product, thumb included.
+int fingers_wanted(const HoldScene& scene, const Hold& hold) {
+  const ProductPart& part = part_of(hold, *scene.parts);
+  const double finger = 0.25 * fingers_breadth(*scene.hand);
+  int fingers = 4;
+  if (part.opening) {
+    fingers = std::clamp(static_cast<int>(part.opening->width / finger + 0.3), 1, 4);
+  }
+  const bool has_thumb = hold.grip != Grip::kFixedHook || part.kind == PartKind::kLoop;
+  return fingers + (has_thumb ? 1 : 0);
+}
+
+HoldTerm grip_term(const PowerPlace& place, const HoldScene& scene, const Hold& hold) {
   if (!place.is_found) {
     return {"closing", 0.0, "", -10.0, "a hand can't close on it"};
   }
+  const double hand_length = scene.hand->dimensions.hand_length;
   const HoldMeasure& measure = place.pose.measure;
-  const bool is_hook = hold.grip == Grip::kFixedHook;
-  const int wanted = is_hook ? 4 : 5;
+  const int wanted = fingers_wanted(scene, hold);
   const double missing = std::max(0.0, wanted - static_cast<double>(measure.fingers));
   const double wrap = std::max(0.0, kEnoughWrap - measure.wrap);
+  const double usual = hold.grip == Grip::kFixedHook ? kHookContact : kUsualContact;
   const double contact =
-      std::clamp(measure.contact_area / (kUsualContact * hand_length * hand_length), 0.05, 1.5);
+      std::clamp(measure.contact_area / (usual * hand_length * hand_length), 0.05, 1.5);
   const double score = -kPerMissingFinger * missing - kPerMissingWrap * wrap -
                        kPerClash * measure.other_area +
                        std::min(0.0, kContactWeight * std::log(contact / 1.5));
@@ -57,10 +72,11 @@ HoldTerm grip_term(const PowerPlace& place, const Hold& hold, double hand_length
 // Which to close the hand on: the best, but not all of one kind.
 std::vector<std::size_t> chosen(const std::vector<HoldCandidate>& candidates) {
   std::vector<std::size_t> list;
-  std::map<std::pair<int, int>, std::size_t> alike;
+  std::map<std::tuple<int, int, bool>, std::size_t> alike;
   for (std::size_t k = 0; k < candidates.size() && list.size() < kClosed; ++k) {
     const Hold& hold = candidates[k].hold;
-    std::size_t& count = alike[{hold.part, hold.is_over_end ? 0 : hold.toward}];
+    std::size_t& count =
+        alike[{hold.part, hold.is_over_end ? 0 : hold.toward, hold.grip == Grip::kFixedHook}];
     if (count == kClosedAlike) continue;
     ++count;
     list.push_back(k);
@@ -161,7 +177,7 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
       done.order = k;
       done.ranked.hold = hold;
       done.ranked.terms = candidate.terms;
-      done.ranked.terms.push_back(grip_term(place, hold, hand.dimensions.hand_length));
+      done.ranked.terms.push_back(grip_term(place, scene, hold));
       done.ranked.grasp = place.grasp;
       closed.push_back(std::move(done));
     }

@@ -35,7 +35,9 @@ constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin does
 constexpr double kShareRange = 0.3;   // over which that fades
 constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
 constexpr double kIdleMore = 5.0 * kDegree;  // that it bends beyond its neighbour
-constexpr int kLongestAdvance = 60;          // steps
+constexpr double kRoomStep = 3.0 * kDegree;  // by which a finger goes out of the way of a product
+constexpr int kRoomRounds = 20;
+constexpr int kLongestAdvance = 60;  // steps
 
 constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
@@ -104,11 +106,17 @@ Posture HandCloser::start_posture(const ClosingStyle& style) const {
     const double end = share > 0.0 ? dof.upper : dof.lower;
     posture[dof.dof] += std::abs(share) * (end - posture[dof.dof]);
   };
-  if (style.hook) {
+  if (!style.uses_thumb()) {
     const Posture rest = reference_posture(hand_->skeleton);
     for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
                           Dof::kThumbIpFlexion}) {
       posture[dof] = rest[dof];
+    }
+  }
+  if (style.hook) {
+    for (const Finger finger : kFingers) {
+      const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+      posture[mcp.dof] = std::clamp(*style.hook, mcp.lower, mcp.upper);
     }
   }
   if (style.spread > 0.0) {
@@ -122,7 +130,9 @@ Posture HandCloser::start_posture(const ClosingStyle& style) const {
 double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& limits,
                                const ClosingStyle& style, const Vec3& direction,
                                double longest) const {
-  const std::vector<Vec3>& posed = open_palm_;
+  std::vector<Vec3> bent;
+  if (style.hook && *style.hook != 0.0) palm_.skin.pose(start_posture(style), bent);
+  const std::vector<Vec3>& posed = bent.empty() ? open_palm_ : bent;
   const double shared = style.hook ? 1.0 : kSharedLimit;
   const Vec3 step = product.product_from_hand.rotation * direction;
   std::vector<Vec3> points(posed.size());
@@ -358,6 +368,47 @@ void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits
     }
     if (is_free(product, limits, finger, resting)) posture = resting;
   }
+}
+
+double HandCloser::make_room(const HeldProduct& whole, const DepthLimits& limits,
+                             Posture& posture) const {
+  double left = 0.0;
+  for (const Finger finger : kFingers) {
+    const auto depth_in = [&](const Posture& at) {
+      const SkinLook look = look_at_skin(groups_[index_of(finger)][0], whole, at);
+      double deepest = 0.0;
+      for (const DistanceSample& sample : look.sample) {
+        deepest = std::max(deepest, -sample.distance - limits.finger);
+      }
+      return deepest;
+    };
+    double depth = depth_in(posture);
+    for (int round = 0; round < kRoomRounds && depth > 0.0; ++round) {
+      Posture best = posture;
+      double least = depth;
+      for (const int level : {0, 1}) {
+        for (const double by : {kRoomStep, -kRoomStep}) {
+          Posture next = posture;
+          const JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
+          next[dof.dof] = std::clamp(next[dof.dof] + by, dof.lower, dof.upper);
+          if (level == 1) {
+            const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
+            next[dip.dof] =
+                std::clamp(next[dip.dof] + kDipPerPipFlexion * by, dip.lower, dip.upper);
+          }
+          const double here = depth_in(next);
+          if (here >= least) continue;
+          least = here;
+          best = next;
+        }
+      }
+      if (least >= depth) break;
+      posture = best;
+      depth = least;
+    }
+    left = std::max(left, depth);
+  }
+  return left;
 }
 
 std::array<double, kSegmentCount> HandCloser::depths(const HeldProduct& product,

@@ -36,6 +36,10 @@ struct ClosingStyle {
   double spread = 0.0;
   /// MCP joints stay within 20 degrees of this flexion, rad; PIP and DIP close: a hook.
   std::optional<double> hook;
+  /// A hook's thumb rests on the product, too: on top of a cup's handle.
+  bool has_thumb = false;
+
+  bool uses_thumb() const { return !hook || has_thumb; }
 };
 
 /// Closes one hand round a product, joint by joint, MCP -> PIP -> DIP, until the deepest skin of a
@@ -74,6 +78,11 @@ class HandCloser {
   Posture start_posture(const ClosingStyle& style) const;
 
   const ThumbCloser& thumb() const { return *thumb_; }
+
+  /// Fingers that were closed on a part of the product alone go out of the way of the whole of it,
+  /// back and sides included, until no skin is deeper than a finger's limit. How much deeper some
+  /// still is, mm.
+  double make_room(const HeldProduct& whole, const DepthLimits& limits, Posture& posture) const;
 
   /// HoldMeasure::penetration alone.
   std::array<double, kSegmentCount> depths(const HeldProduct& product,

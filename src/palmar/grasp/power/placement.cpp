@@ -34,6 +34,7 @@ constexpr double kThin = 0.13,
 constexpr double kLeastProximal = 8.0;  // mm from the knuckles: nearer, the thumb can't reach over
 constexpr double kMostProximal = 45.0;  // mm
 constexpr double kHookShare = 0.5;  // of the middle finger's proximal phalanx, to a hooked handle
+constexpr double kThumbedHookShare = 0.65;  // ... with the thumb on top of it
 constexpr double kHookOblique =
     0.15;  // rad; the finger joints lie more obliquely than the knuckles
 // A slab is held by its edges with the palm behind it, if the hand spans it: as one holds a phone.
@@ -122,9 +123,9 @@ struct Trial {
   DepthLimits limits;
   HandlePose usual;
 
-  HeldProduct held(const Placement& placement) const {
-    return {&product, placement.product_from_hand, site.point, site.axis,
-            site.girth / std::numbers::pi};
+  HeldProduct held(const Placement& placement, const ClosingStyle& style = {}) const {
+    return {&product,  placement.product_from_hand,   site.point,
+            site.axis, site.girth / std::numbers::pi, style.has_thumb};
   }
   void judge(ClosedPose& hold) const {
     hold.measure =
@@ -133,8 +134,8 @@ struct Trial {
                           closer.hand().dimensions.hand_length, hold.posture);
   }
   void add_thumb(ClosedPose& hold) const {
-    if (hold.style.hook) return;
-    const HeldProduct at = held(hold.placement);
+    if (!hold.style.uses_thumb()) return;
+    const HeldProduct at = held(hold.placement, hold.style);
     const Vec3& axis = hold.placement.axis_in_hand;
     const ThumbCloser& thumb = closer.thumb();
     hold.thumb = thumb.find_pose(at, limits, hold.posture, axis);
@@ -179,7 +180,8 @@ HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSit
   if (style.hook) {
     const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;
     const Vec3& pip = hand.skeleton.joint(JointId::kMiddlePip).centre;
-    pose.proximal = -kHookShare * (pip - mcp).norm();
+    const double past = style.has_thumb ? kThumbedHookShare : kHookShare;
+    pose.proximal = -past * (pip - mcp).norm();
     pose.oblique = kHookOblique;
     pose.tilt = 0.0;
   } else if (!is_place_fixed) {
@@ -210,7 +212,13 @@ DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
 
 Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
                 const ClosingStyle& style, const GripSite& site, const HandlePose& pose) {
-  const PalmFrame palm = palm_frame(closer.hand().skeleton);
+  PalmFrame palm = palm_frame(closer.hand().skeleton);
+  if (style.hook) {
+    // The handle lies on the bent proximal phalanges.
+    const PalmFrame flat = palm;
+    palm.distal = std::cos(*style.hook) * flat.distal + std::sin(*style.hook) * flat.palmar;
+    palm.palmar = std::cos(*style.hook) * flat.palmar - std::sin(*style.hook) * flat.distal;
+  }
   Vec3 axis = std::cos(pose.oblique) * palm.across + std::sin(pose.oblique) * palm.distal;
   axis = std::cos(pose.tilt) * axis + std::sin(pose.tilt) * palm.palmar;
   const Vec3 outward = (palm.palmar - axis * axis.dot(palm.palmar)).normalized();
@@ -348,7 +356,7 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
       return hold;
     };
     improved_holds[k] = with_thumb(0.0);
-    if (k >= finest || search.is_place_fixed || from.style.hook) continue;
+    if (k >= finest || search.is_place_fixed || !from.style.uses_thumb()) continue;
     for (const double along : {-16.0, -8.0, 8.0}) {
       ClosedPose other = with_thumb(along);
       if (other.rank > improved_holds[k].rank) improved_holds[k] = std::move(other);

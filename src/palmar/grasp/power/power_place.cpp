@@ -151,8 +151,8 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
                          const DepthLimits& limits, const ClosedPose& hold, Placement& placement,
                          bool may_give_way, bool gives_way_at_once, const Progress& progress,
                          Grasp& grasp) {
-  HeldProduct held{distances.quick, placement.product_from_hand, site.point, site.axis,
-                   site.girth / std::numbers::pi};
+  HeldProduct held{distances.quick, placement.product_from_hand,   site.point,
+                   site.axis,       site.girth / std::numbers::pi, hold.style.has_thumb};
   // To trim, only skin that may be too deep is asked about exactly.
   const double deep = std::min(kTouched, kGridError - std::min(limits.palm, limits.finger));
   const auto exact_deep = exact_where_touched(*distances.quick, *distances.exact, deep);
@@ -170,7 +170,7 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
   for (int round = 0; round < kSettleRounds; ++round) {
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
-    if (!hold.style.hook) {
+    if (hold.style.uses_thumb()) {
       if (round == 0) {
         const ThumbCloser& thumb = coarse.thumb();
         const Vec3& axis = placement.axis_in_hand;
@@ -338,9 +338,15 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
   if (!place_found.is_fixed) {
     placement = place(fine, quick, limits, hold.style, site, hold.placement.pose);
   }
-  const HoldMeasure measure =
+  HoldMeasure measure =
       close_finely(fine, coarse, {&quick, product.distance.get()}, site, limits, hold, placement,
                    !place_found.is_fixed, place_found.is_carried, progress, grasp);
+  if (place_found.whole != nullptr) {
+    const HeldProduct whole{place_found.whole.get(), placement.product_from_hand, site.point,
+                            site.axis, site.girth / std::numbers::pi};
+    fine.make_room(whole, limits, grasp.posture);
+    measure = fine.measure(whole, limits, grasp.posture, placement.axis_in_hand);
+  }
   grasp.product_from_hand = placement.product_from_hand;
   grasp.grip_axis = site.axis;
   grasp.grip_point = site.point + hold.placement.pose.along * site.axis;

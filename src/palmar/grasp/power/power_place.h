@@ -23,7 +23,9 @@ struct PowerPlace {
   Grasp grasp;            ///< grip, score and runners-up; nothing closed yet
   GripSite site;
   std::shared_ptr<const DistanceField> quick;  ///< distance_near() the site
-  ClosedPose pose;                             ///< closed on a sparse skin
+  /// What all skin has to keep out of where fingers close on a part alone; null: nothing more.
+  std::shared_ptr<const DistanceField> whole;
+  ClosedPose pose;          ///< closed on a sparse skin
   bool is_fixed = false;    ///< the placement was given in full: only the fingers close
   bool is_carried = false;  ///< over from another hand: fewer rounds of closing, same limits
   bool may_shift = true;    ///< the hand may go along the product's axis

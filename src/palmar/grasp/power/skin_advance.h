@@ -29,7 +29,8 @@ struct HeldProduct {
   Rigid3 product_from_hand;
   Vec3 grip_point = Vec3::Zero();  ///< on the grip axis, product frame, mm
   Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
-  double diameter = 35.0;  ///< of the circle with the grip's girth, mm; fingers preshape to it
+  double diameter = 35.0;       ///< of the circle with the grip's girth, mm; fingers preshape to it
+  bool is_end_pressed = false;  ///< the thumb may press on a face across the grip axis
 };
 
 /// Skin that one joint moves.

@@ -68,7 +68,8 @@ double ThumbCloser::score(const HeldProduct& product, const Posture& posture,
     Vec3 out = look.in_product[k] - product.grip_point;
     out -= product.grip_axis * product.grip_axis.dot(out);
     const bool is_inside = samples[k].normal.dot(out) < 0.0;
-    const bool is_on_end = is_inside || std::abs(normal.dot(grip_axis_in_hand)) > kEndFace;
+    const bool is_on_end = !product.is_end_pressed &&
+                           (is_inside || std::abs(normal.dot(grip_axis_in_hand)) > kEndFace);
     (is_palmar(group.region[k]) && !is_on_end ? area : other) += weight * group.area[k];
     // The further round, the more the product's skin there faces away from the palm.
     if (group.segment[k] == Segment::kThumbDistal && is_palmar(group.region[k]) && !is_on_end) {
