@@ -22,6 +22,23 @@ struct Place {
   double along = 0.5, edge = 0.0;
 };
 
+// Where a loop's line leaves the opening at the thumb's end.
+double end_of_opening(const ProductPart& part, int toward) {
+  const Vec3 chord = part.line.back().centre - part.line.front().centre;
+  Vec3 along = part.opening->wide * (part.opening->wide.dot(chord) < 0.0 ? -1.0 : 1.0);
+  along *= toward;
+  double best = 0.5, least = 1e300;
+  for (const PartStation& station : part.line) {
+    if (std::abs(station.axis.dot(along)) < 0.5) continue;  // it runs across there
+    const double beyond = along.dot(station.centre - part.opening->centre);
+    const double gap = std::abs(beyond - 0.5 * part.opening->width);
+    if (gap >= least) continue;
+    least = gap;
+    best = station.along;
+  }
+  return best;
+}
+
 // Where on a part hands could be, the thumb's side to `toward`.
 std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, int toward) {
   const double breadth = fingers_breadth(*scene.hand);
@@ -32,6 +49,11 @@ std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, in
     return places;
   }
   places.push_back({0.5, 0.0});
+  if (part.opening) {
+    // The index finger right below where the opening ends, so that the thumb lies on top of it.
+    places.push_back({end_of_opening(part, toward), 0.5});
+    return places;
+  }
   if (part.length < kShortPart * breadth) {
     // The index finger finds room beyond the end at what the handle carries: on its trigger.
     const std::size_t end = toward > 0 ? 1 : 0;

@@ -113,9 +113,13 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
     const Rigid3 here = part_frame(part, middle, hold.turn);
     section = mean_section(part, middle, reach);
     // Along a curved handle fingers lie as its chord does.
-    const Vec3 chord =
-        part_frame(part, high, 0.0).translation - part_frame(part, low, 0.0).translation;
+    Vec3 chord = part_frame(part, high, 0.0).translation - part_frame(part, low, 0.0).translation;
     const Vec3 along_line = here.rotation * Vec3::UnitX();
+    if (part.opening && !part.is_ring) {
+      // Fingers lie across the opening, whichever way the loop bends there.
+      const Vec3 ends = part.line.back().centre - part.line.front().centre;
+      chord = part.opening->wide * (part.opening->wide.dot(ends) < 0.0 ? -1.0 : 1.0);
+    }
     const bool has_chord = chord.norm() > 1e-6 && chord.dot(along_line) > 0.0;
     site.point = here.translation;
     site.axis = hold.toward * (has_chord ? Vec3(chord.normalized()) : along_line);

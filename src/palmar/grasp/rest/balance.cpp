@@ -74,7 +74,9 @@ class Settling {
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =
         wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
-    has_level_ = has_level_ || extra_grip() > 0.0;
+    // Hooked fingers carry what pulls at them; they don't squeeze.
+    const bool is_hook = grasp.grip == Grip::kFixedHook;
+    has_level_ = !is_hook && (has_level_ || extra_grip() > 0.0);
   }
 
   Balance run(const Progress& progress);
@@ -458,13 +460,15 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   ContactOptions plain = contact;
   plain.error_band = false;
   // A large body slips past fingers that all give the same share of their strength. Then the hand
-  // is tried stiff: all joints held as they were closed.
+  // is tried stiff: all joints held as they were closed. Hooked fingers meet no palm that would
+  // hold against them: stiff from the start.
+  const bool has_muscles = is_power(grasp.grip) && grasp.grip != Grip::kFixedHook;
   Balance balance;
   for (const bool is_by_muscles : {true, false}) {
-    if (is_by_muscles && !is_power(grasp.grip)) continue;
+    if (is_by_muscles && !has_muscles) continue;
     Settling settling(hand, product, grasp, options, plain, is_by_muscles);
     Balance attempt = settling.run(progress);
-    const bool is_second = !is_by_muscles && is_power(grasp.grip);
+    const bool is_second = !is_by_muscles && has_muscles;
     const bool is_at_rest = attempt.status == BalanceStatus::kBalanced;
     const bool slips = attempt.status == BalanceStatus::kSlipsOut;
     if (is_at_rest || (!is_second && attempt.status == BalanceStatus::kNotConverged)) {
