@@ -1,7 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds types.ts to what Palmar writes: node check_types.mjs PALMAR makes one report of every kind,
+// Holds types/ to what Palmar writes: node check_types.mjs PALMAR makes one report of every kind,
 // takes the JSON that stands in each page and has tsc check it as a literal of its type, so that a
 // key that is renamed, missing or new on either side fails. Needs some minutes of computing.
 import { execFileSync, spawnSync } from "node:child_process";

@@ -10,7 +10,7 @@ namespace palmar {
 /// Texts that go into a page as they are, by the name under which its data ask for them.
 using Attachments = std::map<std::string, std::string>;
 
-/// A page as HTML from its data: JSON of one of the pages of apps/workbench/types.ts. The
+/// A page as HTML from its data: JSON of one of the pages of apps/workbench/types. The
 /// components that a browser runs, too, are run here when the page is written, so that it can be
 /// read without scripts.
 ///

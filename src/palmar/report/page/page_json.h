@@ -12,7 +12,7 @@
 
 namespace palmar {
 
-// Parts of the data of pages, by the types of apps/workbench/types.ts.
+// Parts of the data of pages, by the types of apps/workbench/types.
 
 using PageJson = nlohmann::ordered_json;
 

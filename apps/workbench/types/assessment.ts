@@ -1,0 +1,256 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Assessments: the JSON that Palmar writes as assessment.json, and its page.
+
+import { ColourBar, Maker, Picture, Placement, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
+
+export interface ProductResult {
+  name: string;
+  source: string;
+  unit: string;
+  unit_from: string;
+  vertices: number;
+  triangles: number;
+  size_mm: Vector3;
+  notes: string[];
+}
+
+export interface HandResult {
+  name: string;
+  side: "left" | "right";
+  hand_length_mm: number;
+  hand_circumference_mm: number;
+  hand_width_mm: number;
+  hand_thickness_mm: number;
+  vertices: number;
+  triangles: number;
+  provenance: string;
+}
+
+export type GraspStatus = "held" | "partly_held" | "too_large" | "too_small" | "not_graspable";
+
+export interface GraspResult {
+  grip: string;
+  status: GraspStatus;
+  message: string;
+  posture: PostureAngles;
+  product_from_hand: Placement;
+  grip_point_mm: Vector3;
+  grip_axis: Vector3;
+  grip_girth_mm: number;
+  segments: { segment: string; stopped_by: string; penetration_mm: number }[];
+  fingertips: {
+    finger: string;
+    target_mm: Vector3;
+    reached_mm: Vector3;
+    normal: Vector3;
+    miss_mm: number;
+  }[];
+  score: number;
+  candidates: number;
+  runners_up: { grip: string; score: number; posture: PostureAngles; product_from_hand: Placement }[];
+}
+
+/// What is there whatever the status; the rest unless it is "off".
+export interface BalanceResult {
+  status: "off" | "balanced" | "slips_out" | "no_contact" | "not_converged" | "failed";
+  message: string;
+  friction_coefficient?: number;
+  grip_force_n?: number;
+  sum_of_normal_forces_n?: number;
+  residual_force_n?: number;
+  residual_moment_n_mm?: number;
+  residual_over_grip_force?: number;
+  friction_in_use?: number;
+  flexion_strength_in_use?: number | null;
+  moved_mm?: number;
+  turned_deg?: number;
+  slip_direction_in_hand?: Vector3 | null;
+  iterations?: number;
+}
+
+/// A value with soft, middle and stiff tissue; null where the contact could not be solved.
+export interface TissueRange {
+  low: number | null;
+  nominal: number;
+  high: number | null;
+}
+
+export interface ContactBand {
+  force_n: TissueRange;
+  contact_area_mm2: TissueRange;
+  peak_pressure_mpa: TissueRange;
+  peak_pressure_cells_mpa: TissueRange;
+  force_per_modulus_n: number;
+}
+
+export interface ContactTotals {
+  force_n: number;
+  contact_area_mm2: number;
+  peak_pressure_mpa: number;
+  peak_pressure_cells_mpa: number;
+  mean_pressure_mpa: number;
+  force_vector_n: Vector3;
+  centre_mm: Vector3;
+  max_penetration_mm: number;
+  band: ContactBand | null;
+}
+
+export interface RegionContact extends ContactTotals {
+  region: string;
+  shear_modulus_mpa: number;
+}
+
+export interface ContactResult extends ContactTotals {
+  status: "solved" | "no_contact" | "not_converged" | "too_deep";
+  message: string;
+  complementarity_error_n_mm: number;
+  residual_penetration_contact_mm: number;
+  residual_penetration_other_mm: number;
+  iterations: number;
+  regions: RegionContact[];
+}
+
+export interface GraspIndex {
+  key: string;
+  name: string;
+  group: string;
+  value: number | null;
+  unit: string;
+  lowest: number | null;
+  highest: number | null;
+  better: "up" | "down" | "neither";
+  definition: string;
+  source: string;
+  remark: string;
+}
+
+export interface Coating {
+  thickness_mm: number;
+  shear_modulus_mpa: number;
+  poisson: number;
+  box_corners_mm: [Vector3, Vector3] | null; // null: the whole product
+}
+
+export interface AssessmentSettings {
+  palm_limit_depth_mm: number;
+  finger_limit_depth_mm: number;
+  at_mm: Vector3 | null;
+  axis: Vector3 | null;
+  turn_deg: number | null;
+  balance: boolean;
+  balance_friction: number;
+  grip_force_asked_n: number | null;
+  contact_model: string;
+  kernel: "patch" | "point";
+  tissue_model: "halfspace" | "layered";
+  regions: "coupled" | "independent";
+  swelling: boolean;
+  coatings: Coating[];
+  error_band: boolean;
+  cell_area_mm2: number;
+  shear_modulus_mpa: number | null;
+  seed: number;
+}
+
+export interface FaceContact {
+  face: number;
+  title: string;
+  name: string;
+  part: string;
+  kind: string;
+  is_fillet: boolean;
+  radius_mm: number | null;
+  area_mm2: number;
+  force_n: number;
+  contact_area_mm2: number;
+  peak_pressure_mpa: number;
+  mean_pressure_mpa: number;
+  has_peak: boolean;
+}
+
+export interface Wrench {
+  force_n: Vector3;
+  moment_about_origin_n_mm: Vector3;
+}
+
+export interface SmallMotion {
+  translation_mm: Vector3;
+  rotation_deg: Vector3;
+  about_mm: Vector3;
+}
+
+export interface FrictionResult {
+  status: "off" | "held" | "slips" | "no_contact" | "not_converged";
+  message: string;
+  coefficient: number;
+  given: {
+    weight_n: number;
+    gravity: Vector3;
+    force_n: Vector3;
+    torque_n_mm: Vector3;
+    force_at_mm: Vector3;
+    mass_centre_mm: Vector3;
+    mass_centre_from: string;
+  };
+  load: Wrench;
+  load_factor: number | null;
+  slip_margin: number;
+  slipping_share_of_area: number;
+  motion: SmallMotion;
+  slip_motion: SmallMotion;
+  pressure_on_product: Wrench;
+  balance_error: number;
+  iterations: number;
+  regions: {
+    region: string;
+    normal_force_n: number;
+    friction_limit_n: number;
+    friction_force_n: Vector3;
+    slip_margin: number;
+    slipping_share_of_area: number;
+  }[];
+}
+
+export interface Assessment {
+  product: ProductResult;
+  hand: HandResult;
+  grasp: GraspResult;
+  balance: BalanceResult;
+  contact: ContactResult;
+  indices: { [key: string]: number | string[] | null };
+  index_table: GraspIndex[];
+  settings: AssessmentSettings;
+  faces?: FaceContact[]; // of products from CAD
+  friction?: FrictionResult;
+  times_s: { grasp: number; balance: number; contact: number; indices: number; friction?: number };
+}
+
+/// assessment.json
+export interface AssessmentReport {
+  assessments: Assessment[];
+  versions: { palmar: string; build: string };
+  command_line: string;
+}
+
+/// What the page of assessments shows beside the results themselves.
+export interface AssessmentView {
+  maker: Maker;
+  is_cut_short: boolean;
+  vocabulary: Vocabulary;
+  scale: ColourBar;
+  products: {
+    charts: { title: string; svg: TrustedMarkup }[]; // force and peak pressure by region
+    sensitivity_chart: TrustedMarkup | null;
+    friction_words: string;
+    pictures: Picture[];
+    scene: TrustedMarkup; // JSON for the 3-D view
+  }[];
+}
+
+export interface AssessmentPage {
+  kind: "assessment";
+  report: AssessmentReport;
+  view: AssessmentView;
+}
