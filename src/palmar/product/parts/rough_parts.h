@@ -3,21 +3,15 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "palmar/geometry/types.h"
+#include "palmar/product/parts/part_regions.h"
+#include "palmar/product/parts/skeleton_pieces.h"
 #include "palmar/product/parts/solid_grid.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
 namespace palmar {
-
-/// A ball of the solid, in the grid's frame, mm.
-struct SolidBall {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0.0;
-  int part = 0;
-};
 
 /// A part of a solid before it is measured.
 struct RoughPart {
@@ -35,18 +29,9 @@ struct RoughParts {
   std::vector<std::array<int, 2>> joints;  ///< parts that touch, ascending
 };
 
-/// Cuts the lines of a skeleton where the solid becomes much thinner or goes round a corner, and
-/// puts together again what is nearly convex, measured by how deep a hollow its hull has (Lien,
-/// Amato 2007: approximate convex decomposition); so a body, however many lines run through it, is
-/// one part and a handle on it another.
-///
-/// `girth_at` says how long a tape round the product is at a point (grid's frame) across a
-/// direction; 0 if there is nothing. Lines go on as one through a node only if it doesn't change
-/// much.
-using GirthAt = std::function<double(const Vec3& point, const Vec3& direction)>;
+/// Cuts the lines of a skeleton where the solid becomes much thinner or goes round a corner
+/// (skeleton_pieces.h) and puts together again what is nearly convex (piece_groups.h); so a body,
+/// however many lines run through it, is one part and a handle on it another.
 RoughParts rough_parts(const SolidGrid& grid, const SkeletonGraph& graph, const GirthAt& girth_at);
-
-/// Part of the ball that a point is nearest to (distance to its surface).
-int nearest_part(const std::vector<SolidBall>& balls, const Vec3& point);
 
 }  // namespace palmar
