@@ -178,6 +178,7 @@ TEST_F(BadInput, OptionsOutsideTheirRange) {
 
 TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
   file("part.stl", tetrahedron(60));
+  file("people.csv", "sex,arm_mm\nF,600\nM,650\n");
   const std::string part = " part.stl --unit mm ";
   const std::string prism = " 'made: prism' --out made ";
   const struct {
@@ -209,6 +210,11 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
       {"validate --out table.pdf", "palmar: --out: \"table.pdf\" ends with none of"},
       {"study plan --product part.stl --population hands.csv --hands 5",
        "palmar: --hands has no meaning with the given hands of hands.csv\n"},
+      {"population describe people.csv --where sex",
+       "palmar: --where: \"sex\" is not understood; COLUMN=VALUE"},
+      {"population correlate people.csv --by sex --where sex=X",
+       "palmar: --where: no subject of people.csv has sex=X\n"},
+      {"population regress people.csv", "name the predictors by --on\n"},
       {"product convert" + part + "--out part.step", "--out with .stl, .obj or .ply is required\n"},
       {"product make sphere --out ball.pdf", "palmar: --out is ball.pdf; .step"},
       {"product make sphere --format pdf --out balls/", "palmar: --format is \"pdf\"; step"},

@@ -197,7 +197,7 @@ TEST_F(CadImport, UnitThatGivesAnAbsurdSizeIsRefusedBySize) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("huge.step"));
-    EXPECT_THAT(error.what(), HasSubstr("--unit"));
+    EXPECT_THAT(error.what(), HasSubstr("setting \"unit\""));
   }
 }
 
@@ -212,7 +212,7 @@ TEST_F(CadImport, TimeLimitHoldsByName) {
   EXPECT_LT(seconds_since(start), 2.0);
   EXPECT_THAT(message, HasSubstr("bar.step"));
   EXPECT_THAT(message, HasSubstr("longer than 0.5 s"));
-  EXPECT_THAT(message, HasSubstr("--time-limit-s"));
+  EXPECT_THAT(message, HasSubstr("setting \"time limit\""));
 }
 
 TEST_F(CadImport, CancelEndsTheChildWithinASecond) {
@@ -295,7 +295,7 @@ TEST_F(CadImport, MemoryLimitHoldsByName) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("ball.step: needs more than 256 MB of memory"));
-    EXPECT_THAT(error.what(), HasSubstr("--memory-limit-mb"));
+    EXPECT_THAT(error.what(), HasSubstr("setting \"memory limit\""));
   }
   EXPECT_LT(seconds_since(start), 20.0);
 }

@@ -25,6 +25,9 @@ std::vector<std::string> names_in(const std::string& option, const std::string& 
   return names;
 }
 
+/// Fields that go by other words.
+const SettingOptions kTableOptions = {{"conditions", "--where"}, {"predictors", "--on"}};
+
 /// What the three verbs share: the table, who of it, what of it.
 struct TableArguments {
   TableChoice table;
@@ -66,6 +69,7 @@ void add_describe(CLI::App& noun, Context& context) {
                "palmar population describe hands.csv --by sex");
   o->add_to(*verb);
   verb->callback([&context, o] {
+    context.setting_options = kTableOptions;
     context.run = [&context, o] {
       const Descriptions results =
           describe_table({.table = o->choice(), .out = o->out, .note = notes_for(context)});
@@ -88,6 +92,7 @@ void add_correlate(CLI::App& noun, Context& context) {
   o->table.add_to(*verb);
   add_level_to(*verb, o->request.level);
   verb->callback([&context, o] {
+    context.setting_options = kTableOptions;
     context.run = [&context, o] {
       TableCorrelateRequest request = o->request;
       request.table = o->table.choice();
@@ -120,6 +125,7 @@ void add_regress(CLI::App& noun, Context& context) {
   verb->add_option("--name", o->request.name, "Name of the population; default: that of its file");
   verb->add_option("--title", o->request.title, "Title of the population, for people");
   verb->callback([&context, o] {
+    context.setting_options = kTableOptions;
     context.run = [&context, o] {
       TableRegressRequest request = o->request;
       request.table = o->table.choice();

@@ -78,7 +78,7 @@ Condition parsed(const std::string& text) {
     if (c.sign == "==") c.sign = "=";
     if (c.sign != "!" && !c.value.empty()) return c;
   }
-  throw UsageError("--where: \"" + text +
+  throw UsageError("setting \"conditions\": \"" + text +
                    "\" is not understood; COLUMN=VALUE is required (or != < <= > >=)");
 }
 
@@ -135,11 +135,12 @@ DimensionTable where(const DimensionTable& table, const std::string& text) {
   const std::optional<double> number = number_of(condition.value);
   const bool is_order = condition.sign.front() == '<' || condition.sign.front() == '>';
   if (is_order && !column.is_number) {
-    throw UsageError("--where: \"" + text + "\": " + column.name + " has no numbers to compare");
+    throw UsageError("setting \"conditions\": \"" + text + "\": " + column.name +
+                     " has no numbers to compare");
   }
   if (column.is_number && !number) {
-    throw UsageError("--where: \"" + text + "\": " + column.name + " holds numbers; \"" +
-                     condition.value + "\" is none");
+    throw UsageError("setting \"conditions\": \"" + text + "\": " + column.name +
+                     " holds numbers; \"" + condition.value + "\" is none");
   }
   std::vector<std::size_t> rows;
   const std::string wanted = lower(condition.value);
@@ -153,7 +154,8 @@ DimensionTable where(const DimensionTable& table, const std::string& text) {
       rows.push_back(row);
     }
   }
-  if (rows.empty()) throw UsageError("--where: no subject of " + table.source + " has " + text);
+  if (rows.empty())
+    throw UsageError("setting \"conditions\": no subject of " + table.source + " has " + text);
   return with_rows(table, rows);
 }
 
@@ -192,11 +194,12 @@ std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& 
       rows[{*column.values[row], plain(*column.values[row])}].push_back(row);
     }
     if (rows.size() > kMostGroups) {
-      throw UsageError("--by " + by + ": more than " + std::to_string(kMostGroups) +
+      throw UsageError("setting \"by\" is " + by + ": more than " + std::to_string(kMostGroups) +
                        " groups; a column with few different values is needed");
     }
   }
-  if (rows.empty()) throw UsageError("--by " + by + ": no subject of " + table.source + " has one");
+  if (rows.empty())
+    throw UsageError("setting \"by\" is " + by + ": no subject of " + table.source + " has one");
   if (missing > 0) {
     notes.push_back(std::to_string(missing) + " of " + std::to_string(table.subjects()) +
                     " subjects have no " + column.name + " and are in no group");

@@ -201,7 +201,7 @@ Population population_of_table(const std::vector<TableGroup>& as_measured,
                   [](const Stratum& stratum) { return stratum.sex && stratum.age; });
   if (!has_strength) {
     population.cautions.push_back(
-        "grip strength isn't known: it needs one sex (--by sex) and a column age");
+        "grip strength isn't known: it needs groups of one sex each and a column age");
   }
   population.check();
   return population;

@@ -278,9 +278,9 @@ std::vector<std::string> usual_predictors(const DimensionTable& table) {
     }
   }
   if (names.empty()) {
-    throw UsageError(
-        table.source +
-        " has neither hand_length nor hand_circumference; name the predictors with --on");
+    throw UsageError(table.source +
+                     " has neither hand_length nor hand_circumference; name the predictors by "
+                     "setting \"predictors\"");
   }
   return names;
 }

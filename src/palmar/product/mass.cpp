@@ -31,8 +31,8 @@ MassProperties mass_properties(const Product& product) {
       std::snprintf(why.data(), why.size(), "its surface encloses only %.0f mm3", volume);
     }
     throw InputError(product.name + ": " + why.data() +
-                     ", so its volume and centre of mass are not known; give --mass-kg or "
-                     "--weight-n and --mass-at, or close the mesh");
+                     ", so its volume and centre of mass are not known; give setting \"mass\" or "
+                     "setting \"weight\" and the centre of mass, or close the mesh");
   }
   return {volume, centre_of_volume(mesh)};
 }

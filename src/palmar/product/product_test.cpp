@@ -61,7 +61,7 @@ TEST(UnitGuard, ProposesTheOnlyUnitThatFitsAHand) {
   EXPECT_EQ(propose(2.5).unit, LengthUnit::kInch);
   EXPECT_EQ(propose(120.0).source, UnitSource::kProposed);
   EXPECT_THAT(propose(0.12).explanation, HasSubstr("36 x 120 x 24 mm"));
-  EXPECT_THAT(propose(0.12).explanation, HasSubstr("--unit"));
+  EXPECT_THAT(propose(0.12).explanation, HasSubstr("setting \"unit\""));
 }
 
 TEST(UnitGuard, RefusesToGuessBetweenTwoUnits) {
@@ -69,7 +69,7 @@ TEST(UnitGuard, RefusesToGuessBetweenTwoUnits) {
     const std::string message =
         message_of<InputError>([&] { decide_unit(box_of(longest), {}, {}, "cup.stl"); });
     EXPECT_THAT(message, HasSubstr("cup.stl"));
-    EXPECT_THAT(message, HasSubstr("--unit"));
+    EXPECT_THAT(message, HasSubstr("setting \"unit\""));
   }
   const std::string message =
       message_of<InputError>([] { decide_unit(box_of(5.0), {}, {}, "cup.stl"); });

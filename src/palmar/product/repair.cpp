@@ -446,8 +446,8 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
       fixes.push_back("openings: " + std::to_string(large) + " of more than " +
                       significant(limits.hole, 4) +
                       " mm round stay; close them in the program they come "
-                      "from, or all up to the longest with --hole-mm " +
-                      significant(std::ceil(longest), 4));
+                      "from, or all up to the longest with `palmar product repair --hole-mm " +
+                      significant(std::ceil(longest), 4) + "`");
     }
     if (small + large == 0) {
       fixes.push_back(
@@ -486,7 +486,7 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
     fixes.push_back("separate parts: none if the product has several bodies; otherwise keep one");
   }
   if (check.is_too_big || check.is_too_small) {
-    fixes.push_back("size: check the unit (--unit), or scale the product by hand");
+    fixes.push_back("size: check the unit, or scale the product by hand");
   }
   return fixes;
 }

@@ -25,7 +25,7 @@ void check_size(const Vec3& size, LengthUnit unit, const std::string& object) {
   throw InputError(object + ": its size is " + sides(size, millimetres_per(unit)) + " mm (" +
                    sides(size, 1.0) + " in " + name_of(unit) + "); the longest side must be " +
                    significant(kSmallestSize, 4) + " to " + significant(kLargestSize, 4) +
-                   " mm. If the unit is wrong, give it with --unit mm, cm, m or inch");
+                   " mm. If the unit is wrong, give it by setting \"unit\": mm, cm, m or inch");
 }
 
 std::optional<LengthUnit> propose(double longest) {
@@ -72,12 +72,12 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
     }
     throw InputError(object + ": the file doesn't carry its unit and its size, " +
                      sides(size, 1.0) + ", is ambiguous (longest side " + reading +
-                     "). Give it with --unit mm, cm, m or inch");
+                     "). Give the unit by setting \"unit\": mm, cm, m or inch");
   }
   return {*proposed, UnitSource::kProposed,
           "the file carries no unit; taken as " + name_of(*proposed) +
               " because a product for the hand is then " + sides(size, millimetres_per(*proposed)) +
-              " mm (--unit says otherwise)"};
+              " mm (setting \"unit\" overrides this)"};
 }
 
 }  // namespace palmar

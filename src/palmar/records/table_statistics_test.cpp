@@ -238,7 +238,7 @@ TEST(TableStatistics, ColumnsThatDetermineNothingAreNamed) {
       fault("hand_length_mm,hand_width_mm\n180,85\n190,\n185,NA\n200,90\n", {"hand_length"}),
       HasSubstr("column 2 (hand_width_mm): 2 subjects have it; at least 3"));
   EXPECT_THAT(message_of<UsageError>([&] { usual_predictors(parsed_table("a_mm\n1\n2\n3\n")); }),
-              HasSubstr("--on"));
+              HasSubstr("setting \"predictors\""));
   EXPECT_THAT(message_of<UsageError>([&] { correlate(parsed_table("a_mm\n1\n2\n4\n")); }),
               HasSubstr("at least 2 are needed"));
   EXPECT_THAT(

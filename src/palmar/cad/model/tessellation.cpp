@@ -171,7 +171,7 @@ Choice choose(const CadModel& model, const ProductFaces& faces,
   throw InputError(std::string("a chordal error of ") + significant(choice.chordal_error, 3) +
                    " mm needs " + (is_guess ? "about " : "") + significant(count, 3) +
                    " triangles; up to " + std::to_string(options.max_triangles) +
-                   " are made. Give a larger --chordal-error-mm");
+                   " are made. Give a larger setting \"chordal error\"");
 }
 
 void mesh_shape(const CadModel& model, const Choice& choice, IMeshTools_MeshAlgoType algorithm,

@@ -162,7 +162,7 @@ TEST(Tessellate, TooManyTrianglesAreRefusedByNumber) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("up to 10000 are made"));
-    EXPECT_THAT(error.what(), HasSubstr("--chordal-error-mm"));
+    EXPECT_THAT(error.what(), HasSubstr("setting \"chordal error\""));
   }
   // Without a given error it gets coarser instead.
   const Tessellation coarse = tessellate(ball, {.max_triangles = 1000});

@@ -237,7 +237,7 @@ class Reader {
   LengthUnit unit_of_file() {
     const std::vector<std::string> units = strings("POINT:UNITS");
     if (units.empty() || units.front().empty()) {
-      throw InputError(path_ + ": POINT:UNITS is missing; say the unit (--unit mm)");
+      throw InputError(path_ + ": POINT:UNITS is missing; give the unit by setting \"unit\"");
     }
     std::string name = units.front();
     for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -248,7 +248,7 @@ class Reader {
     if (name == "m" || name == "meters" || name == "metres") return LengthUnit::kMetre;
     if (name == "in" || name == "inch" || name == "inches") return LengthUnit::kInch;
     throw InputError(path_ + ": POINT:UNITS is " + in_quotes(units.front()) +
-                     ", which is not known; say the unit (--unit mm)");
+                     ", which is not known; give the unit by setting \"unit\"");
   }
 
   void read_labels() {

@@ -89,7 +89,7 @@ TEST(C3d, UnitsComeFromTheFileOrTheUser) {
               1002.5, 1e-6);
   file.unit = "ell";
   EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("\"ell\""));
-  EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("--unit"));
+  EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("setting \"unit\""));
   EXPECT_NO_THROW(parse_c3d(file.bytes(), "x", LengthUnit::kMillimetre));
 }
 

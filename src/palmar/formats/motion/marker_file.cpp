@@ -68,7 +68,7 @@ MarkerRecording read_csv_markers(const CsvFile& csv, std::optional<LengthUnit> u
     }
     if (!coordinate->unit && !unit) {
       csv.fail(csv.header_line, "column " + in_quotes(name) + " has no unit; " + name +
-                                    "_mm (or _cm, _m, _in) is needed, or --unit");
+                                    "_mm (or _cm, _m, _in) is needed, or setting \"unit\"");
     }
     std::size_t i = 0;
     while (i < recording.labels.size() && recording.labels[i] != coordinate->label) ++i;

@@ -61,12 +61,12 @@ void report_line(const std::string& line, const Progress& progress, std::string&
 [[noreturn]] void fail_memory(const std::string& object, const WorkerLimits& limits) {
   throw InputError(object + ": needs more than " + number(limits.memory_mb) +
                    " MB of memory, the limit" +
-                   (limits.is_fixed ? "" : " (--memory-limit-mb raises it)"));
+                   (limits.is_fixed ? "" : " (setting \"memory limit\" raises it)"));
 }
 
 [[noreturn]] void fail_time(const std::string& object, const WorkerLimits& limits) {
   throw InputError(object + ": took longer than " + number(limits.seconds) + " s, the limit" +
-                   (limits.is_fixed ? "" : " (--time-limit-s raises it)"));
+                   (limits.is_fixed ? "" : " (setting \"time limit\" raises it)"));
 }
 
 /// What the child left behind when it ended with an error; nothing if it couldn't.

@@ -210,7 +210,7 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     }
     if (reading.unit.empty()) {
       cells.fail(file.header_line, "no unit; the heading has to name one, as in " +
-                                       in_quotes(header + "_mm") + " (or give --unit)");
+                                       in_quotes(header + "_mm") + " (or give setting \"unit\")");
     }
     heading.quantity = Quantity::kLength;
     heading.unit = reading.unit;

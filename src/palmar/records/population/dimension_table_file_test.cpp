@@ -70,7 +70,7 @@ TEST(DimensionTable, ReadsWhatSpreadsheetsWrite) {
 TEST(DimensionTable, AUnitMayBeGivenForHeadingsWithout) {
   const std::string text = "handlength,handbreadth,weight\n181,81,60\n193,89,70\n176,76,80\n";
   EXPECT_THAT(fault(text), AllOf(HasSubstr("t.csv:1: column 1 (handlength): no unit"),
-                                 HasSubstr("\"handlength_mm\""), HasSubstr("--unit")));
+                                 HasSubstr("\"handlength_mm\""), HasSubstr("setting \"unit\"")));
   const DimensionTable table = parsed(text, {.unit = "mm"});
   EXPECT_EQ(table.column("hand_width").unit, "mm");
   EXPECT_EQ(table.column("weight").unit, "");

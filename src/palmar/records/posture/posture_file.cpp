@@ -261,7 +261,7 @@ const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
   const auto count = static_cast<int>(file.frames.size());
   if (!which && count > 1) {
     throw InputError(path + ": it has " + std::to_string(count) +
-                     " postures; say which one, from 1 (--frame)");
+                     " postures; say which one by setting \"frame\", from 1");
   }
   const int wanted = which.value_or(1);
   if (wanted < 1 || wanted > count) {

@@ -39,7 +39,7 @@ TEST(LoadProduct, AnUndecidableUnitAndAnAbsurdSizeAreRefusedByName) {
   write_mesh(folder / "a.stl", box_mesh({12, 3, 3}));
   const std::string undecided = message_of<InputError>([&] { load_product(folder / "a.stl"); });
   EXPECT_THAT(undecided, StartsWith((folder / "a.stl").string()));
-  EXPECT_THAT(undecided, HasSubstr("--unit"));
+  EXPECT_THAT(undecided, HasSubstr("setting \"unit\""));
   write_mesh(folder / "b.stl", box_mesh({1e9, 1e8, 1e8}));
   EXPECT_THAT(message_of<InputError>(
                   [&] { load_product(folder / "b.stl", {.unit = LengthUnit::kMillimetre}); }),

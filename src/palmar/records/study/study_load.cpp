@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/core/setting_names.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/population/built_in_populations.h"
@@ -95,17 +96,10 @@ void add_population(const PopulationRequest& request, std::uint64_t seed, Loaded
   study.plan.populations.push_back(std::move(one));
 }
 
-/// Advice to give an option becomes that to give the key, where a study file is read.
-std::string advice(std::string text, const std::string& where) {
+/// Settings that a message names are keys, where a study file is read.
+std::string advice(const std::string& text, const std::string& where) {
   if (where.empty()) return text;
-  const std::pair<std::string, std::string> words[] = {
-      {"--unit mm, cm, m or inch", "unit = \"mm\", \"cm\", \"m\" or \"inch\""},
-      {"--unit says otherwise", "the key unit says otherwise"}};
-  for (const auto& [option, key] : words) {
-    const std::size_t at = text.find(option);
-    if (at != text.npos) text.replace(at, option.size(), key);
-  }
-  return text;
+  return with_setting_names(text, [](const std::string& setting) { return "the key " + setting; });
 }
 
 std::string product_name(const ProductRequest& request) {
