@@ -99,12 +99,7 @@ Vec3 parse_vector(const std::string& option, const std::string& text) {
 
 std::optional<LengthUnit> parse_unit(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  std::string name = text;
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (name == "mm") return LengthUnit::kMillimetre;
-  if (name == "cm") return LengthUnit::kCentimetre;
-  if (name == "m") return LengthUnit::kMetre;
-  if (name == "inch" || name == "in") return LengthUnit::kInch;
+  if (const auto unit = length_unit_named(text)) return unit;
   throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/records/product/cad_format.h"
 
 namespace palmar::cli {
@@ -32,9 +33,7 @@ void check_shape_output(const std::string& out, bool allows_step) {
   if (out.ends_with('/') || fs::is_directory(out, ignored)) {
     throw UsageError("--out " + out + ": is a folder; a file is required: " + allowed);
   }
-  std::string suffix = fs::path(out).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string suffix = lower_case(fs::path(out).extension().string());
   const bool is_mesh = suffix == ".stl" || suffix == ".obj" || suffix == ".ply";
   const bool is_step = cad_format_of_name(out) == CadFormat::kStep;
   if (is_mesh || (allows_step && is_step)) return;

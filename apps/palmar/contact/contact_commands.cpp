@@ -25,9 +25,7 @@ struct PressArguments {
 };
 
 TissueLevel parse_tissue_level(const std::string& text) {
-  if (text == "low") return TissueLevel::kLow;
-  if (text == "nominal") return TissueLevel::kNominal;
-  if (text == "high") return TissueLevel::kHigh;
+  if (const auto level = tissue_level_named(text)) return *level;
   throw UsageError("--tissue-level: \"" + text +
                    "\" is not known; low, nominal or high is allowed");
 }

@@ -3,6 +3,7 @@
 #include "palmar/core/text.h"
 
 #include <array>
+#include <cctype>
 #include <cstdio>
 
 namespace palmar {
@@ -15,6 +16,18 @@ std::string significant(double value, int digits) {
 
 std::string counted(int count, std::string_view one, std::string_view many) {
   return std::to_string(count) + " " + std::string(count == 1 ? one : many);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == text.npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
 std::string joined(std::span<const std::string> words, std::string_view between) {

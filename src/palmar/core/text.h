@@ -15,6 +15,12 @@ std::string significant(double value, int digits);
 /// "1 hole", "3 holes".
 std::string counted(int count, std::string_view one, std::string_view many);
 
+/// ASCII letters as small ones; the rest stays.
+std::string lower_case(std::string_view text);
+
+/// Without spaces and tabs at either end.
+std::string trimmed(std::string_view text);
+
 /// The words in their order, with the text `between` from one to the next.
 std::string joined(std::span<const std::string> words, std::string_view between);
 

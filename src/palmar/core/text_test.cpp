@@ -22,6 +22,16 @@ TEST(Counted, OnlyOneIsSingular) {
   EXPECT_EQ(counted(2, "hole", "holes"), "2 holes");
 }
 
+TEST(LowerCase, ChangesAsciiLettersOnly) {
+  EXPECT_EQ(lower_case("Part 3.STEP"), "part 3.step");
+  EXPECT_EQ(lower_case("\u00c4"), "\u00c4");
+}
+
+TEST(Trimmed, EndsWithoutBlanks) {
+  EXPECT_EQ(trimmed(" \ta b\t"), "a b");
+  EXPECT_EQ(trimmed(" \t"), "");
+}
+
 TEST(Joined, PutsTextBetweenWordsOnly) {
   const std::vector<std::string> words = {"a", "", "b"};
   EXPECT_EQ(joined(words, ", "), "a, , b");

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 
@@ -16,18 +17,6 @@ namespace palmar {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == text.npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
 
 std::vector<std::string> split(const CsvFile& file, int line, std::string_view text,
                                char delimiter) {
@@ -63,7 +52,7 @@ void check_header(const CsvFile& file, CsvStyle style) {
       if (style == CsvStyle::kSpreadsheet) continue;
       file.fail(file.header_line, "column " + std::to_string(i + 1) + " has no name");
     }
-    const auto [other, is_new] = seen.emplace(lower(file.header[i]), i);
+    const auto [other, is_new] = seen.emplace(lower_case(file.header[i]), i);
     if (!is_new) {
       file.fail(file.header_line, "columns " + std::to_string(other->second + 1) + " and " +
                                       std::to_string(i + 1) + " are both called " +
@@ -79,9 +68,9 @@ void CsvFile::fail(int line, const std::string& why) const {
 }
 
 int CsvFile::column(std::string_view name) const {
-  const std::string wanted = lower(name);
+  const std::string wanted = lower_case(name);
   for (std::size_t i = 0; i < header.size(); ++i) {
-    if (lower(header[i]) == wanted) return static_cast<int>(i);
+    if (lower_case(header[i]) == wanted) return static_cast<int>(i);
   }
   return -1;
 }
@@ -110,7 +99,7 @@ CsvFile parse_csv(std::string_view text, const std::string& path, CsvStyle style
     if (trimmed(*line).empty() || line->front() == '#') continue;
     if (file.header.empty()) {
       if (style == CsvStyle::kSpreadsheet && !stated && line->size() == 5 &&
-          lower(*line).starts_with("sep=")) {
+          lower_case(*line).starts_with("sep=")) {
         stated = line->back();
         continue;
       }

@@ -8,6 +8,7 @@
 #include <cctype>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/bytes.h"
 
 namespace palmar {
@@ -19,10 +20,7 @@ constexpr std::uint16_t kNotHere16 = 0xffff;
 
 std::string plain_name(std::string_view name) {
   while (!name.empty() && name.front() == '/') name.remove_prefix(1);
-  std::string result(name);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
+  return lower_case(name);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ constexpr const char* kSegmentCaution =
 constexpr const char* kSoldierCaution =
     "Soldiers of 2010-2012, fit and of working age; grip strength is that of Germans of 30 years.";
 
-std::string name_of(Sex sex) { return sex == Sex::kMale ? "men" : "women"; }
+std::string men_or_women(Sex sex) { return sex == Sex::kMale ? "men" : "women"; }
 
 Eigen::MatrixXd ansur_correlation(const AnsurFigures& figures) {
   const double lc = figures.r_length_circumference, lw = figures.r_length_breadth,
@@ -45,7 +45,7 @@ Eigen::MatrixXd ansur_correlation(const AnsurFigures& figures) {
 Stratum ansur2_stratum(Sex sex, double share) {
   const AnsurFigures& figures = ansur2_figures(sex);
   return {
-      .name = name_of(sex),
+      .name = men_or_women(sex),
       .sex = sex,
       .share = share,
       .age = kSoldiersAge,
@@ -71,7 +71,7 @@ Stratum japanese_stratum(Sex sex, double share) {
     return DrivingDimension{dimension, mean, mean * other.sd / other.mean,
                             std::string(kJapaneseMeans) + kBorrowedSpread, Evidence::kScaled};
   };
-  return {.name = name_of(sex),
+  return {.name = men_or_women(sex),
           .sex = sex,
           .share = share,
           .age = kAdultsAge,
@@ -111,7 +111,7 @@ Population xie2014() {
 
 Population ansur2_of(Sex sex) {
   const AnsurFigures& figures = ansur2_figures(sex);
-  return {.name = "ansur2_" + name_of(sex),
+  return {.name = "ansur2_" + men_or_women(sex),
           .title = std::string(sex == Sex::kMale ? "Men" : "Women") + " of the US Army, 2010-2012",
           .strata = {ansur2_stratum(sex, 1.0)},
           .source = std::string(kAnsurSource) + ", n = " + std::to_string(figures.n),
@@ -140,8 +140,8 @@ std::vector<std::string> japanese_cautions() {
 
 Population japanese_of(Sex sex) {
   const int n = sex == Sex::kMale ? kJapaneseMen.n : kJapaneseWomen.n;
-  return {.name = "japanese_" + name_of(sex),
-          .title = std::string("Japanese ") + name_of(sex) + ", 18-64 years",
+  return {.name = "japanese_" + men_or_women(sex),
+          .title = std::string("Japanese ") + men_or_women(sex) + ", 18-64 years",
           .strata = {japanese_stratum(sex, 1.0)},
           .source = std::string(kJapaneseMeans) + ", n = " + std::to_string(n) + kBorrowedSpread,
           .cautions = japanese_cautions()};

@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "palmar/core/text.h"
+#include "palmar/geometry/length_unit.h"
+
 namespace palmar {
 namespace {
 
@@ -37,21 +40,6 @@ Words words_of(std::string_view text) {
   return words;
 }
 
-std::string joined(const Words& words, std::string_view between) {
-  std::string result;
-  for (const std::string& word : words) {
-    result += (result.empty() ? std::string() : std::string(between)) + word;
-  }
-  return result;
-}
-
-constexpr std::array kLengthUnits{
-    std::pair{"mm", 1.0},           std::pair{"millimeter", 1.0},   std::pair{"millimeters", 1.0},
-    std::pair{"millimetre", 1.0},   std::pair{"millimetres", 1.0},  std::pair{"cm", 10.0},
-    std::pair{"centimeter", 10.0},  std::pair{"centimeters", 10.0}, std::pair{"centimetre", 10.0},
-    std::pair{"centimetres", 10.0}, std::pair{"m", 1000.0},         std::pair{"meter", 1000.0},
-    std::pair{"meters", 1000.0},    std::pair{"metre", 1000.0},     std::pair{"metres", 1000.0},
-    std::pair{"in", 25.4},          std::pair{"inch", 25.4},        std::pair{"inches", 25.4}};
 constexpr std::array kTimeUnits{std::pair{"y", 1.0},
                                 std::pair{"yr", 1.0},
                                 std::pair{"yrs", 1.0},
@@ -183,7 +171,7 @@ std::string take_unit(std::string& heading) {
   const Words word = words_of(heading.substr(last + 1));
   if (word.size() != 1) return "";
   const bool is_unit =
-      length_unit(word[0]) || factor_of(kTimeUnits, word[0]) ||
+      length_unit_named(word[0]) || factor_of(kTimeUnits, word[0]) ||
       std::find(kOtherUnits.begin(), kOtherUnits.end(), word[0]) != kOtherUnits.end();
   if (!is_unit) return "";
   heading.erase(last);
@@ -191,8 +179,6 @@ std::string take_unit(std::string& heading) {
 }
 
 }  // namespace
-
-std::optional<double> length_unit(std::string_view unit) { return factor_of(kLengthUnits, unit); }
 
 std::optional<HandDimension> dimension_of_words(std::string_view words) {
   const auto name = known_name(words);
@@ -207,9 +193,9 @@ ColumnHeading heading_of(std::string_view header) {
   heading.name = known_name(text).value_or(joined(words, "_"));
   if (heading.name.empty()) heading.name = std::string(header);
   heading.dimension = hand_dimension_named(heading.name);
-  if (const auto factor = length_unit(heading.unit)) {
+  if (const auto unit = length_unit_named(heading.unit)) {
     heading.quantity = Quantity::kLength;
-    heading.factor = *factor;
+    heading.factor = millimetres_per(*unit);
   } else if (heading.name == "age") {
     heading.quantity = Quantity::kAge;
     heading.factor = factor_of(kTimeUnits, heading.unit).value_or(1.0);

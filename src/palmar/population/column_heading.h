@@ -28,9 +28,6 @@ struct ColumnHeading {
 };
 ColumnHeading heading_of(std::string_view header);
 
-/// mm per "mm", "cm", "m", "in", "inch" ...; nothing if it is no unit of length.
-std::optional<double> length_unit(std::string_view unit);
-
 /// "Hand length", "handlength", "hand breadth", "index finger proximal length" ...: the dimension
 /// that the words mean, without a unit. A phalanx' length is none: the bone is longer than the
 /// segment.

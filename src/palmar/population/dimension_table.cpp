@@ -13,22 +13,12 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
 
 constexpr std::size_t kMostGroups = 50;
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == text.npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0.0;
@@ -94,9 +84,9 @@ bool holds(const std::string& sign, double a, double b) {
 }  // namespace
 
 const TableColumn& DimensionTable::column(const std::string& name) const {
-  const std::string wanted = lower(name);
+  const std::string wanted = lower_case(name);
   for (const TableColumn& c : columns) {
-    if (c.name == name || lower(c.header) == wanted) return c;
+    if (c.name == name || lower_case(c.header) == wanted) return c;
   }
   const std::string ours = heading_of(name).name;
   for (const TableColumn& c : columns) {
@@ -143,14 +133,14 @@ DimensionTable where(const DimensionTable& table, const std::string& text) {
                      " holds numbers; \"" + condition.value + "\" is none");
   }
   std::vector<std::size_t> rows;
-  const std::string wanted = lower(condition.value);
+  const std::string wanted = lower_case(condition.value);
   for (std::size_t row = 0; row < table.lines.size(); ++row) {
     if (column.is_number) {
       if (column.values[row] && holds(condition.sign, *column.values[row], *number)) {
         rows.push_back(row);
       }
     } else if (!column.texts[row].empty() &&
-               (lower(column.texts[row]) == wanted) == (condition.sign == "=")) {
+               (lower_case(column.texts[row]) == wanted) == (condition.sign == "=")) {
       rows.push_back(row);
     }
   }
@@ -209,17 +199,6 @@ std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& 
     groups.push_back({key.second, with_rows(table, members)});
   }
   return groups;
-}
-
-std::optional<Sex> sex_of_text(const std::string& text) {
-  const std::string word = lower(text);
-  for (const char* male : {"m", "male", "males", "man", "men", "boy", "boys"}) {
-    if (word == male) return Sex::kMale;
-  }
-  for (const char* female : {"f", "female", "females", "w", "woman", "women", "girl", "girls"}) {
-    if (word == female) return Sex::kFemale;
-  }
-  return std::nullopt;
 }
 
 }  // namespace palmar

@@ -61,7 +61,4 @@ struct TableGroup {
 std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& by,
                                 std::vector<std::string>& notes);
 
-/// Sex from a cell's text: "M", "male", "men", "F", "women" ...; nothing if it is no such word.
-std::optional<Sex> sex_of_text(const std::string& text);
-
 }  // namespace palmar

@@ -35,7 +35,7 @@ inline constexpr std::array kSamplingDesigns{
     SamplingDesign::kPercentiles};
 /// "random", "latin_hypercube", "boundary", "percentiles".
 std::string name_of(SamplingDesign design);
-std::optional<SamplingDesign> sampling_design_named(std::string_view name);
+std::optional<SamplingDesign> sampling_design_named(std::string_view name);  ///< "lhs", too
 
 struct SamplingOptions {
   SamplingDesign design = SamplingDesign::kLatinHypercube;

@@ -300,6 +300,7 @@ std::string name_of(SamplingDesign design) {
 }
 
 std::optional<SamplingDesign> sampling_design_named(std::string_view name) {
+  if (name == "lhs") return SamplingDesign::kLatinHypercube;
   for (const SamplingDesign one : kSamplingDesigns) {
     if (name_of(one) == name) return one;
   }

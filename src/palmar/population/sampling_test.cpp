@@ -325,6 +325,7 @@ TEST(SamplingOptions, RefusesWithValueAndRange) {
   options.percentiles = {0.0};
   EXPECT_THAT(message(options), HasSubstr("percentile is 0; 0.1 to 99.9"));
   EXPECT_EQ(sampling_design_named("boundary"), SamplingDesign::kBoundary);
+  EXPECT_EQ(sampling_design_named("lhs"), SamplingDesign::kLatinHypercube);
   EXPECT_FALSE(sampling_design_named("bounded"));
 }
 

@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/population/palm_ruler.h"
+#include "palmar/population/sex_names.h"
 #include "palmar/population/table_statistics.h"
 
 namespace palmar {

@@ -104,6 +104,13 @@ TEST(UnitNames, ReadWhatTheyWrite) {
        {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
     EXPECT_EQ(length_unit(name_of(unit)), unit);
   }
+  EXPECT_EQ(length_unit_named("Millimeters"), LengthUnit::kMillimetre);
+  EXPECT_EQ(length_unit_named("centimetres"), LengthUnit::kCentimetre);
+  EXPECT_EQ(length_unit_named("meter"), LengthUnit::kMetre);
+  EXPECT_EQ(length_unit_named("inches"), LengthUnit::kInch);
+  for (const char* other : {"", "kilometre", "et", "meterstick", "mms"}) {
+    EXPECT_FALSE(length_unit_named(other)) << other;
+  }
   EXPECT_THAT(message_of<UsageError>([] { length_unit("furlong"); }), HasSubstr("\"furlong\""));
 }
 

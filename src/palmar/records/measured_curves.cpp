@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/text_scan.h"
 
@@ -41,11 +42,6 @@ struct NeedsUnit {
 constexpr std::array<NeedsUnit, 4> kNeedsUnit = {
     {{"force_sd", "n or mn"}, {"depth", "mm"}, {"force", "n or mn"}, {"area", "mm2 or cm2"}}};
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 class Reader {
  public:
   explicit Reader(const CsvFile& file) : file_(file) {}
@@ -66,7 +62,7 @@ class Reader {
     const std::vector<std::string>& names = file_.header;
     column_.assign(names.size(), nullptr);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::string name = lower(names[i]);
+      const std::string name = lower_case(names[i]);
       if (names[i].size() > 3 && names[i].substr(names[i].size() - 3) == "_MN") {
         fail("column " + in_quotes(names[i]) + ": MN could be meganewton; force_mN is millinewton");
       }

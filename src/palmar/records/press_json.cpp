@@ -30,11 +30,6 @@ constexpr Column kColumns[] = {{"depth_mm", &PressStep::depth},
                                {"relative_residual", &PressStep::relative_residual},
                                {"spacing_mm", &PressStep::spacing}};
 
-const char* name_of_level(TissueLevel level) {
-  if (level == TissueLevel::kLow) return "low";
-  return level == TissueLevel::kHigh ? "high" : "nominal";
-}
-
 Json coating_object(const std::optional<Coating>& coating) {
   if (!coating) return nullptr;
   return {{"thickness_mm", coating->thickness},
@@ -60,7 +55,7 @@ std::string press_json(const PressOptions& options, const PressSetting& setting,
                      {"equations", name_of(setting.model)},
                      {"kernel", name_of(setting.model.kernel)},
                      {"tissue_model", name_of(setting.model.tissue)},
-                     {"tissue_level", name_of_level(options.tissue_level)},
+                     {"tissue_level", name_of(options.tissue_level)},
                      {"layer_mm", or_null(options.layer_thickness)},
                      {"poisson", or_null(options.poisson)},
                      {"coating", coating_object(options.coating)}};

@@ -11,6 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/workflow/hand/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -27,9 +28,7 @@ namespace fs = std::filesystem;
 constexpr double kLenses = 0.05, kMeshes = 0.8;  // shares of the whole that these end at
 
 bool names_calibration(const fs::path& path) {
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lower_case(path.filename().string());
   return name.starts_with("calib") || name.starts_with("lens");
 }
 

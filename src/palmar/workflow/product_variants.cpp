@@ -13,6 +13,7 @@
 #include <set>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/formats/toml_section.h"
@@ -27,10 +28,7 @@ constexpr const char* kStudyFile = "study.toml";
 constexpr const char* kHeading = "# Written by `palmar product make`";
 
 std::string suffix_of(const std::string& path) {
-  std::string suffix = fs::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
+  return lower_case(fs::path(path).extension().string());
 }
 
 bool is_step(const std::string& path) {

@@ -39,12 +39,6 @@ struct FileUnit {
   double millimetres = 1.0;
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// Length unit among the units of a representation's context.
 std::optional<FileUnit> unit_of(const Handle(StepRepr_GlobalUnitAssignedContext) & context) {
   if (context.IsNull() || context->Units().IsNull()) return std::nullopt;
@@ -58,7 +52,7 @@ std::optional<FileUnit> unit_of(const Handle(StepRepr_GlobalUnitAssignedContext)
     if (!factors.LengthDone()) return std::nullopt;
     FileUnit result{"", factors.LengthFactor()};
     if (!converted.IsNull() && !converted->Name().IsNull()) {
-      result.name = lower(converted->Name()->ToCString());
+      result.name = lower_case(converted->Name()->ToCString());
     } else {
       static const std::map<double, std::string> names = {
           {1e-3, "micrometre"}, {1.0, "millimetre"}, {10.0, "centimetre"},

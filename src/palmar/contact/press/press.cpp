@@ -214,6 +214,18 @@ void PressOptions::check() const {
   }
 }
 
+std::string_view name_of(TissueLevel level) {
+  if (level == TissueLevel::kLow) return "low";
+  return level == TissueLevel::kHigh ? "high" : "nominal";
+}
+
+std::optional<TissueLevel> tissue_level_named(std::string_view name) {
+  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
+    if (name_of(level) == name) return level;
+  }
+  return std::nullopt;
+}
+
 Hand hand_at_tissue_level(Hand hand, TissueLevel level) {
   for (RegionTissue& tissue : hand.tissue.region) {
     for (TissueStiffness* stiffness : {&tissue.half_space, &tissue.layered}) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palmar/contact/contact.h"
@@ -104,6 +105,10 @@ struct PressStep {
 /// contact without end (plane on plane, cylinder on plane), or for a hand region without a hand;
 /// NumericalError if the contact has no solution or a force isn't reached within 30 mm.
 std::vector<PressStep> press(const PressOptions& options, const PreparedHand* hand = nullptr);
+
+/// Which tissue a specimen has: "low", "nominal", "high".
+std::string_view name_of(TissueLevel level);
+std::optional<TissueLevel> tissue_level_named(std::string_view name);
 
 /// The hand with the low or high tissue of every region in place of the nominal one.
 Hand hand_at_tissue_level(Hand hand, TissueLevel level);

@@ -313,7 +313,7 @@ class ElementWalk {
   bool stopped_ = false;
 };
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_padding(std::string_view text) {
   constexpr std::string_view kBlank(" \t\r\n\0", 5);
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
@@ -348,7 +348,7 @@ bool is_utf8(std::string_view text) {
 std::string DicomAttributes::text(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end()) return {};
-  const std::string_view raw = trimmed(found->second.substr(0, 1024));
+  const std::string_view raw = without_padding(found->second.substr(0, 1024));
   const bool keep = is_utf8(raw);
   std::string result;
   for (const char c : raw) {
@@ -367,12 +367,12 @@ std::string DicomAttributes::text(DicomTag tag) const {
 
 std::optional<std::vector<double>> DicomAttributes::numbers(DicomTag tag) const {
   const auto found = value.find(tag);
-  if (found == value.end() || trimmed(found->second).empty()) return std::nullopt;
+  if (found == value.end() || without_padding(found->second).empty()) return std::nullopt;
   std::vector<double> result;
   std::string_view rest = found->second.substr(0, kLongestNumbers);
   while (true) {
     const std::size_t end = rest.find('\\');
-    const auto number = parse_double(trimmed(rest.substr(0, end)));
+    const auto number = parse_double(without_padding(rest.substr(0, end)));
     if (!number || !std::isfinite(*number)) return std::nullopt;
     result.push_back(*number);
     if (end == std::string_view::npos) return result;

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/gltf.h"
 #include "palmar/formats/mesh/obj.h"
@@ -25,13 +26,6 @@ enum class Kind { kStl, kObj, kPly, kThreeMf, kGltf, kGlb };
 std::string_view name_of(Kind kind) {
   constexpr std::array<std::string_view, 6> kNames = {"STL", "OBJ", "PLY", "3MF", "glTF", "GLB"};
   return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 std::optional<Kind> kind_of_extension(const std::string& extension) {
@@ -94,7 +88,7 @@ MeshFile parse(Kind kind, std::string_view bytes, const std::filesystem::path& p
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   const auto content = kind_of_content(bytes);
   const auto named = kind_of_extension(extension);
 
@@ -124,7 +118,7 @@ MeshFile read_mesh(const std::filesystem::path& path) {
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".stl") {
     write_file(path, format_stl(mesh));
   } else if (extension == ".obj") {

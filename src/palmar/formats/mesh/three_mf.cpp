@@ -43,19 +43,7 @@ struct Model {
   std::vector<Placed> build;
 };
 
-double to_millimetres(const Unit& unit) {
-  switch (unit.unit) {
-    case LengthUnit::kMillimetre:
-      return unit.scale;
-    case LengthUnit::kCentimetre:
-      return 10.0 * unit.scale;
-    case LengthUnit::kMetre:
-      return 1000.0 * unit.scale;
-    case LengthUnit::kInch:
-      return 25.4 * unit.scale;
-  }
-  return unit.scale;
-}
+double to_millimetres(const Unit& unit) { return millimetres_per(unit.unit) * unit.scale; }
 
 class ModelReader {
  public:

@@ -23,7 +23,7 @@ constexpr unsigned char kKey = 0x50;  // second byte of header and parameter sec
 
 enum class Processor { kIntel = 84, kDec = 85, kMips = 86 };
 
-std::string trimmed(std::string_view text) {
+std::string without_blanks(std::string_view text) {
   constexpr std::string_view kBlank(" \t\r\n\0", 5);
   const auto from = text.find_first_not_of(kBlank);
   if (from == text.npos) return "";
@@ -109,7 +109,7 @@ class Reader {
       const int id = static_cast<std::int8_t>(byte_at(at + 1));
       const auto name_size = static_cast<std::size_t>(length);
       need(at + 2, name_size + 2, "a parameter's name");
-      const std::string name = upper(trimmed(bytes_.substr(at + 2, name_size)));
+      const std::string name = upper(without_blanks(bytes_.substr(at + 2, name_size)));
       const std::size_t link = at + 2 + name_size;
       const auto offset = static_cast<std::uint16_t>(word_at(link));
       if (id < 0) {
@@ -175,7 +175,7 @@ class Reader {
     }
     const std::size_t length = parameter->dimension.front();
     for (std::size_t at = 0; at + length <= parameter->count; at += length) {
-      result.push_back(trimmed(bytes_.substr(parameter->start + at, length)));
+      result.push_back(without_blanks(bytes_.substr(parameter->start + at, length)));
     }
     return result;
   }
@@ -239,14 +239,7 @@ class Reader {
     if (units.empty() || units.front().empty()) {
       throw InputError(path_ + ": POINT:UNITS is missing; give the unit by setting \"unit\"");
     }
-    std::string name = units.front();
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (name == "mm" || name == "millimeters" || name == "millimetres") {
-      return LengthUnit::kMillimetre;
-    }
-    if (name == "cm") return LengthUnit::kCentimetre;
-    if (name == "m" || name == "meters" || name == "metres") return LengthUnit::kMetre;
-    if (name == "in" || name == "inch" || name == "inches") return LengthUnit::kInch;
+    if (const auto unit = length_unit_named(units.front())) return *unit;
     throw InputError(path_ + ": POINT:UNITS is " + in_quotes(units.front()) +
                      ", which is not known; give the unit by setting \"unit\"");
   }

@@ -15,15 +15,6 @@
 namespace palmar {
 namespace {
 
-struct UnitSuffix {
-  const char* text;
-  LengthUnit unit;
-};
-constexpr std::array<UnitSuffix, 4> kUnits = {{{"_mm", LengthUnit::kMillimetre},
-                                               {"_cm", LengthUnit::kCentimetre},
-                                               {"_m", LengthUnit::kMetre},
-                                               {"_in", LengthUnit::kInch}}};
-
 /// One coordinate of a marker.
 struct Coordinate {
   std::string label;
@@ -35,11 +26,9 @@ struct Coordinate {
 std::optional<Coordinate> coordinate_of(const std::string& column) {
   Coordinate coordinate;
   std::string name = column;
-  for (const UnitSuffix& suffix : kUnits) {
-    if (!name.ends_with(suffix.text)) continue;
-    coordinate.unit = suffix.unit;
-    name.resize(name.size() - std::string(suffix.text).size());
-    break;
+  if (const auto last = name.rfind('_'); last != name.npos) {
+    coordinate.unit = length_unit_named(std::string_view(name).substr(last + 1));
+    if (coordinate.unit) name.resize(last);
   }
   if (name.size() < 3 || name[name.size() - 2] != '_') return std::nullopt;
   const auto axis = static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));

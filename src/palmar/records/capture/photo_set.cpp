@@ -12,6 +12,7 @@
 #include <set>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 
 namespace palmar {
@@ -21,9 +22,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 bool is_photograph(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 

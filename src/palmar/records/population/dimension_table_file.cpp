@@ -12,6 +12,7 @@
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/geometry/length_unit.h"
 #include "palmar/population/palm_ruler.h"
 #include "palmar/statistics/summary.h"
 
@@ -22,8 +23,7 @@ constexpr std::uint64_t kMaxTableBytes = std::uint64_t{64} << 20;
 constexpr double kLargestLength = 1e5;  // mm; stature and reach may stand beside hands
 
 bool is_missing(const std::string& cell) {
-  std::string text = cell;
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string text = lower_case(cell);
   for (const char* word : {"", "na", "n/a", "#n/a", "nan", "null", "-", "--", "\u2013", "."}) {
     if (text == word) return true;
   }
@@ -155,7 +155,7 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   if (median < range->low || median > range->high) {
     std::string fitting;
     for (const char* unit : {"mm", "cm", "in", "m"}) {
-      const double size = median / factor * *length_unit(std::string_view(unit));
+      const double size = median / factor * millimetres_per(length_unit(unit));
       if (size >= range->low && size <= range->high && fitting.empty()) fitting = unit;
     }
     table.fail(
@@ -214,7 +214,7 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     }
     heading.quantity = Quantity::kLength;
     heading.unit = reading.unit;
-    heading.factor = *length_unit(std::string_view(reading.unit));
+    heading.factor = millimetres_per(length_unit(reading.unit));
   }
   column.quantity = heading.quantity;
   factor = heading.factor;
@@ -263,7 +263,7 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
 }  // namespace
 
 void TableReading::check() const {
-  if (!unit.empty() && !length_unit(std::string_view(unit))) {
+  if (!unit.empty() && !length_unit_named(unit)) {
     throw UsageError("unit \"" + unit + "\" is not known; mm, cm, m or in is allowed");
   }
 }

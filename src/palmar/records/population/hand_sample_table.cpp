@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "palmar/population/sex_names.h"
 #include "palmar/records/json_values.h"
 
 namespace palmar {
@@ -14,10 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string word_of(std::optional<Sex> sex) {
-  if (!sex) return "";
-  return *sex == Sex::kMale ? "male" : "female";
-}
+std::string word_of(std::optional<Sex> sex) { return sex ? name_of(*sex) : ""; }
 
 Json json_word(std::optional<Sex> sex) { return sex ? Json(word_of(sex)) : Json(nullptr); }
 

@@ -16,6 +16,7 @@
 #include "palmar/formats/toml_section.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/segment_regressions.h"
+#include "palmar/population/sex_names.h"
 
 namespace palmar {
 namespace {
@@ -60,8 +61,7 @@ Evidence evidence_of(const TomlSection& section, Evidence otherwise) {
 std::optional<Sex> sex_of(const TomlSection& section) {
   const auto word = section.text("sex");
   if (!word) return std::nullopt;
-  if (*word == "female") return Sex::kFemale;
-  if (*word == "male") return Sex::kMale;
+  if (const auto sex = sex_named(*word)) return sex;
   section.fail("sex", "is " + in_quotes(*word) + "; \"female\" or \"male\" is allowed");
 }
 
@@ -232,9 +232,7 @@ std::string regression_toml(const DimensionRegression& regression) {
 
 std::string stratum_toml(const Stratum& stratum) {
   std::string text = "\n[[stratum]]\nname = " + toml_string(stratum.name) + "\n";
-  if (stratum.sex) {
-    text += std::string("sex = ") + (*stratum.sex == Sex::kMale ? "\"male\"\n" : "\"female\"\n");
-  }
+  if (stratum.sex) text += "sex = " + toml_string(name_of(*stratum.sex)) + "\n";
   text += "share = " + toml_number(stratum.share) + "\n";
   if (stratum.age) text += "age_years = " + toml_number(*stratum.age) + "\n";
   for (const DrivingDimension& one : stratum.driving) text += driving_toml(one);

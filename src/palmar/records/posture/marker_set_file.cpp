@@ -14,6 +14,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
@@ -193,9 +194,7 @@ MarkerSet from_json(const std::string& text, const std::string& path, const Hand
 
 std::string plain(std::string_view label) {
   const auto colon = label.rfind(':');
-  std::string result(colon == label.npos ? label : label.substr(colon + 1));
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
+  return lower_case(colon == label.npos ? label : label.substr(colon + 1));
 }
 
 /// "a, b, c, ..." with at most eight of them.

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 
 namespace palmar {
@@ -13,13 +14,6 @@ namespace {
 
 constexpr std::size_t kEnds = 16384;  // bytes looked at on both ends
 constexpr std::size_t kIgesLine = 80;
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// Lines of 80 columns; the letter in column 73 shows the section, a number follows.
 bool is_iges_line(std::string_view line, char section) {
@@ -54,7 +48,7 @@ std::optional<CadFormat> cad_format_of_content(std::string_view head) {
 }
 
 std::optional<CadFormat> cad_format_of_name(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".step" || extension == ".stp" || extension == ".p21") return CadFormat::kStep;
   if (extension == ".iges" || extension == ".igs") return CadFormat::kIges;
   return std::nullopt;

@@ -13,20 +13,11 @@
 namespace palmar {
 namespace {
 
-/// The unit that the file states, if it is one of Palmar's.
-std::optional<LengthUnit> stated_unit(const ImportedCad& cad) {
-  if (cad.unit == "millimetre" || cad.unit == "mm") return LengthUnit::kMillimetre;
-  if (cad.unit == "centimetre" || cad.unit == "cm") return LengthUnit::kCentimetre;
-  if (cad.unit == "metre" || cad.unit == "m") return LengthUnit::kMetre;
-  if (cad.unit == "inch" || cad.unit == "in") return LengthUnit::kInch;
-  return std::nullopt;
-}
-
 /// In which unit the size is judged. A foot, say, is none of Palmar's: its lengths are in mm
 /// already.
 UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
                     const std::string& object) {
-  std::optional<LengthUnit> from_file = stated_unit(cad);
+  std::optional<LengthUnit> from_file = length_unit_named(cad.unit);
   if (!from_file && !cad.unit.empty() && !options.unit) from_file = LengthUnit::kMillimetre;
   const double per_unit =
       millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));

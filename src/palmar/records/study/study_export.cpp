@@ -14,6 +14,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/population/sex_names.h"
 #include "palmar/records/csv.h"
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/study/assessment/grasp_indices.h"
@@ -94,7 +95,7 @@ fs::path write_hands(const StudyPlan& plan, const fs::path& folder) {
         plan.populations[hand.population].population.name,
         sample.label,
         sample.stratum,
-        !sample.sex ? "" : (*sample.sex == Sex::kMale ? "male" : "female"),
+        sample.sex ? name_of(*sample.sex) : "",
         optional_cell(sample.age),
         sample.grip_strength > 0.0 ? shortest(sample.grip_strength) : ""};
     for (const HandDimension dimension : columns) {

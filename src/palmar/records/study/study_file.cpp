@@ -84,7 +84,7 @@ PopulationRequest read_population_request(const TomlSection& section) {
   }
   SamplingOptions& sampling = request.sampling;
   if (const auto design = section.text("design")) {
-    const auto known = design_named(*design);
+    const auto known = sampling_design_named(*design);
     if (!known) {
       section.fail("design", "is " + in_quotes(*design) +
                                  "; latin_hypercube, random, boundary or percentiles is allowed");
@@ -343,10 +343,6 @@ PopulationRequest population_request(const std::string& words) {
     request.table = words;
   }
   return request;
-}
-
-std::optional<SamplingDesign> design_named(const std::string& name) {
-  return name == "lhs" ? SamplingDesign::kLatinHypercube : sampling_design_named(name);
 }
 
 std::optional<Grip> asked_grip_named(const std::string& name) {

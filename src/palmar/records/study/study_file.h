@@ -74,8 +74,6 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
 /// `folder`, but nowhere as the study began with it.
 void check_products(const StudyPlan& plan, const std::filesystem::path& folder = {});
 
-/// "lhs", "latin_hypercube", "random", "boundary", "percentiles". Nothing for another word.
-std::optional<SamplingDesign> design_named(const std::string& name);
 /// "auto" (nothing inside) or a grip's name. Throws UsageError naming the nearest.
 std::optional<Grip> asked_grip_named(const std::string& name);
 

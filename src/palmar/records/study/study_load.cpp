@@ -9,6 +9,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/population/built_in_populations.h"
+#include "palmar/population/sex_names.h"
 #include "palmar/product/scaled_product.h"
 #include "palmar/records/population/dimension_table_file.h"
 #include "palmar/records/population/population_file.h"

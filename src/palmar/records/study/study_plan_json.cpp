@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/population/sex_names.h"
 #include "palmar/records/population/population_file.h"
 #include "palmar/records/product/made_product.h"
 
@@ -37,12 +38,10 @@ std::optional<double> optional_from(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
-Json sex_json(const std::optional<Sex>& sex) {
-  return sex ? Json(*sex == Sex::kMale ? "male" : "female") : Json();
-}
+Json sex_json(const std::optional<Sex>& sex) { return sex ? Json(name_of(*sex)) : Json(); }
 std::optional<Sex> sex_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  return json.get<std::string>() == "male" ? Sex::kMale : Sex::kFemale;
+  return sex_named(json.get<std::string>());
 }
 
 Json population_json(const StudyPopulation& one) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "palmar/core/error.h"
+#include "palmar/population/sex_names.h"
 #include "palmar/records/study/study_bytes.h"
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_store.h"
@@ -92,7 +93,7 @@ void insert_hands(SqliteFile& file, const StudyPlan& plan) {
         .bind(3, std::string_view(sample.label))
         .bind(4, std::string_view(sample.stratum));
     if (sample.sex) {
-      hand.bind(5, std::string_view(*sample.sex == Sex::kMale ? "male" : "female"));
+      hand.bind(5, name_of(*sample.sex));
     } else {
       hand.bind_null(5);
     }

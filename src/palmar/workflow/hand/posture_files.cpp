@@ -9,14 +9,14 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 
 std::optional<ScanPosture> posture_in_name(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   if (const auto known = scan_posture_in(name)) return known;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  name = lower_case(name);
   std::optional<ScanPosture> found;
   const auto look = [&](std::string_view word, ScanPosture posture) {
     if (name.find(word) != std::string::npos && !found) found = posture;

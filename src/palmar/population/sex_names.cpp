@@ -1,0 +1,28 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/population/sex_names.h"
+
+#include "palmar/core/text.h"
+
+namespace palmar {
+
+std::string name_of(Sex sex) { return sex == Sex::kMale ? "male" : "female"; }
+
+std::optional<Sex> sex_named(std::string_view name) {
+  if (name == "male") return Sex::kMale;
+  if (name == "female") return Sex::kFemale;
+  return std::nullopt;
+}
+
+std::optional<Sex> sex_of_text(std::string_view text) {
+  const std::string word = lower_case(text);
+  for (const char* male : {"m", "male", "males", "man", "men", "boy", "boys"}) {
+    if (word == male) return Sex::kMale;
+  }
+  for (const char* female : {"f", "female", "females", "w", "woman", "women", "girl", "girls"}) {
+    if (word == female) return Sex::kFemale;
+  }
+  return std::nullopt;
+}
+
+}  // namespace palmar
