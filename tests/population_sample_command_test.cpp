@@ -88,7 +88,7 @@ TEST(PopulationSampleCommand, DesignsDrawTheirHands) {
 TEST(PopulationSampleCommand, BadInputIsNamed) {
   const ProgramRun name = run_palmar("population show ansur3");
   EXPECT_EQ(name.exit_code, 2);
-  EXPECT_THAT(name.err, HasSubstr("did you mean \"ansur2\"?"));
+  EXPECT_THAT(name.err, HasSubstr("did you mean ansur2?"));
   const ProgramRun file = run_palmar("population show nobody.toml");
   EXPECT_EQ(file.exit_code, 3);
   EXPECT_THAT(file.err, HasSubstr("nobody.toml"));

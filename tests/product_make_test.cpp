@@ -101,7 +101,7 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
       {"pram --out none.step", "pram is no kind; did you mean prism? Known are cylinder, "},
       {"bottle --diametre-mm 70 --out none.step", "did you mean --diameter-mm?"},
       {"bottle --diameter-mm 700 --out none.step", "bottle: diameter_mm is 700 mm; 20 to 200 mm"},
-      {"bottle --param diametr_mm=70 --out none.step", "did you mean \"diameter_mm\"?"},
+      {"bottle --param diametr_mm=70 --out none.step", "did you mean diameter_mm?"},
       {"bottle --param diameter_mm --out none.step", "--param is \"diameter_mm\"; name=value"},
       {"bottle --diameter-mm 60:70:0 --out b/", "diameter_mm: the sweep's step is 0 mm"},
       {"bottle --diameter-mm 70:60:1 --out b/", "from 70 mm down to 60 mm"},

@@ -22,9 +22,28 @@
 #include "palmar/formats/process/worker.h"
 #include "verbs.h"
 
+namespace {
+
+/// The verb, with errors of OpenCASCADE as Palmar's.
+palmar::worker::Verb named_failures(const palmar::worker::Verb& verb) {
+  return [verb](const palmar::worker::Json& request, const std::filesystem::path& folder,
+                const palmar::Progress& progress) {
+    try {
+      return verb(request, folder, progress);
+    } catch (const Standard_OutOfMemory&) {
+      ::_exit(palmar::kWorkerOutOfMemory);
+    } catch (const Standard_Failure& failure) {
+      const char* const text = failure.GetMessageString();
+      throw palmar::NumericalError(
+          std::string("OpenCASCADE gave up: ") + failure.DynamicType()->Name() +
+          (text != nullptr && *text != '\0' ? std::string(", ") + text : ""));
+    }
+  };
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using palmar::worker::fail;
-  namespace fs = std::filesystem;
   const std::map<std::string, palmar::worker::Verb> verbs = {
       {"check", palmar::cad_worker::check},       {"convert", palmar::cad_worker::convert},
       {"features", palmar::cad_worker::features}, {"import", palmar::cad_worker::import},
@@ -35,28 +54,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();
-  const fs::path folder = argv[2];
   // In whatever thread it happens, and whoever would catch it: the parent says it by name.
   std::set_new_handler([] { ::_exit(palmar::kWorkerOutOfMemory); });
-  palmar::worker::end_with_parent(folder);
-  try {
-    const auto request = palmar::worker::Json::parse(palmar::read_file(folder / "request.json"));
-    const auto reply = verbs.at(argv[1])(request, folder, palmar::worker::line_progress());
-    palmar::write_file(folder / "reply.json", reply.dump());
-    return 0;
-  } catch (const palmar::Error& error) {
-    return fail(folder, error.what(), error.exit_code());
-  } catch (const Standard_OutOfMemory&) {
-    ::_exit(palmar::kWorkerOutOfMemory);
-  } catch (const Standard_Failure& failure) {
-    const char* const text = failure.GetMessageString();
-    return fail(folder,
-                std::string("OpenCASCADE gave up: ") + failure.DynamicType()->Name() +
-                    (text != nullptr && *text != '\0' ? std::string(", ") + text : ""),
-                palmar::NumericalError("").exit_code());
-  } catch (const std::bad_alloc&) {
-    ::_exit(palmar::kWorkerOutOfMemory);
-  } catch (const std::exception& error) {
-    return fail(folder, error.what(), 1);
-  }
+  return palmar::worker::answer(argv[2], named_failures(verbs.at(argv[1])));
 }

@@ -111,26 +111,12 @@ Json unpack(const Json& request, const fs::path& folder, const Progress& progres
 }  // namespace
 
 int main(int argc, char** argv) {
-  using palmar::worker::fail;
   if (argc != 3 || std::string_view(argv[1]) != "unpack") {
     std::fprintf(stderr, "palmar-dicom is started by palmar; see `palmar mri -h`\n");
     return 2;
   }
-  const fs::path folder = argv[2];
-  palmar::worker::end_with_parent(folder);
   gdcm::Trace::SetWarning(false);
   gdcm::Trace::SetError(false);
   gdcm::Trace::SetDebug(false);
-  try {
-    const Json request = Json::parse(palmar::read_file(folder / "request.json"));
-    const Json reply = unpack(request, folder, palmar::worker::line_progress());
-    palmar::write_file(folder / "reply.json", reply.dump());
-    return 0;
-  } catch (const palmar::Error& error) {
-    return fail(folder, error.what(), error.exit_code());
-  } catch (const std::bad_alloc&) {
-    ::_exit(palmar::kWorkerOutOfMemory);
-  } catch (const std::exception& error) {
-    return fail(folder, error.what(), 1);
-  }
+  return palmar::worker::answer(argv[2], unpack);
 }

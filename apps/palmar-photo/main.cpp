@@ -132,26 +132,16 @@ Json match(const Json& request, const fs::path& folder, const Progress& progress
 }  // namespace
 
 int main(int argc, char** argv) {
-  using palmar::worker::fail;
   const std::map<std::string, palmar::worker::Verb> verbs = {
       {"board", board}, {"corners", corners}, {"match", match}};
   if (argc != 3 || verbs.count(argv[1]) == 0) {
     std::fprintf(stderr, "palmar-photo is started by palmar; see `palmar photos -h`\n");
     return 2;
   }
-  const fs::path folder = argv[2];
-  palmar::worker::end_with_parent(folder);
-  try {
-    const Json request = Json::parse(palmar::read_file(folder / "request.json"));
-    palmar::set_thread_count(request.value("threads", 0));
-    const Json reply = verbs.at(argv[1])(request, folder, palmar::worker::line_progress());
-    palmar::write_file(folder / "reply.json", reply.dump());
-    return 0;
-  } catch (const palmar::Error& error) {
-    return fail(folder, error.what(), error.exit_code());
-  } catch (const std::bad_alloc&) {
-    ::_exit(palmar::kWorkerOutOfMemory);
-  } catch (const std::exception& error) {
-    return fail(folder, error.what(), 1);
-  }
+  const palmar::worker::Verb& verb = verbs.at(argv[1]);
+  return palmar::worker::answer(
+      argv[2], [&](const Json& request, const fs::path& folder, const Progress& progress) {
+        palmar::set_thread_count(request.value("threads", 0));
+        return verb(request, folder, progress);
+      });
 }

@@ -12,6 +12,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/setting_names.h"
+#include "palmar/core/text.h"
 #include "palmar/core/version.h"
 #include "text.h"
 
@@ -38,18 +39,14 @@ std::string full_name(const CLI::App* app) {
 /// "pram is no kind; did you mean prism? Known are cylinder, ..."
 std::string explain_verb(const CLI::App& where, const std::string& wrong) {
   std::vector<std::string> names;
-  std::string list;
-  for (const CLI::App* verb : where.get_subcommands(nullptr)) {
-    names.push_back(verb->get_name());
-    list += (list.empty() ? "" : ", ") + names.back();
-  }
+  for (const CLI::App* verb : where.get_subcommands(nullptr)) names.push_back(verb->get_name());
   std::string nearest = nearest_name(wrong, names);
   for (std::size_t i = 0; i < names.size() && nearest.empty(); ++i) {
     if (wrong.size() > 2 && names[i].starts_with(wrong.substr(0, 2))) nearest = names[i];
   }
   const char* const what = full_name(&where) == "palmar product make" ? "kind" : "command";
   return wrong + " is no " + what + (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") +
-         "Known are " + list + "\nTry: " + full_name(&where) + " --help";
+         "Known are " + joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
 }
 
 /// What was wrong with the command line, and the nearest thing that would have been right.

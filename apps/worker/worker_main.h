@@ -13,13 +13,16 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <thread>
 
+#include "palmar/core/error.h"
 #include "palmar/core/progress.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/process/worker.h"
 
 namespace palmar::worker {
 
@@ -56,6 +59,23 @@ inline void end_with_parent(const std::filesystem::path& folder) {
     std::filesystem::remove_all(folder, ignored);
     ::_exit(1);
   }).detach();
+}
+
+/// Reads request.json in the folder, leaves reply.json or error.json there; returns the code of the
+/// program.
+inline int answer(const std::filesystem::path& folder, const Verb& verb) {
+  end_with_parent(folder);
+  try {
+    const Json request = Json::parse(read_file(folder / "request.json"));
+    write_file(folder / "reply.json", verb(request, folder, line_progress()).dump());
+    return 0;
+  } catch (const Error& error) {
+    return fail(folder, error.what(), error.exit_code());
+  } catch (const std::bad_alloc&) {
+    ::_exit(kWorkerOutOfMemory);
+  } catch (const std::exception& error) {
+    return fail(folder, error.what(), 1);
+  }
 }
 
 }  // namespace palmar::worker

@@ -11,6 +11,7 @@
 #include "hand/posture_notes.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/formats/motion/marker_file.h"
@@ -48,11 +49,9 @@ Posture named(const Skeleton& skeleton, const std::string& name) {
   if (name.empty() || name == "reference") return reference_posture(skeleton);
   if (const auto found = named_posture(skeleton, name)) return *found;
   const std::string nearest = nearest_name(name, posture_names());
-  std::string known;
-  for (const std::string& one : posture_names()) known += (known.empty() ? "" : ", ") + one;
   throw UsageError("--posture: \"" + name + "\" is not known" +
                    (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
-                   " Known: reference, " + known);
+                   " Known: reference, " + joined(posture_names(), ", "));
 }
 
 /// Single angles "index_pip_flexion=60" (degrees) over a posture, held to the range of motion.

@@ -59,6 +59,29 @@ std::string in_quotes(std::string_view text) {
   return "\"" + shown + (text.size() > kLongest ? "...\"" : "\"");
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
 bool looks_like_text(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 1024);
   return std::all_of(start.begin(), start.end(), [](char c) {

@@ -21,6 +21,9 @@ std::string shortest(double value);
 /// Text in quotes for a message: at most 40 characters, control characters as '?'.
 std::string in_quotes(std::string_view text);
 
+/// Text for elements and attributes of XML: & < > " as entities.
+std::string xml_escaped(std::string_view text);
+
 /// True if the first bytes look like text (no control characters but white space).
 bool looks_like_text(std::string_view bytes);
 

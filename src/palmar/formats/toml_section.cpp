@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/text_scan.h"
 
 namespace palmar {
@@ -47,13 +48,10 @@ void TomlSection::allow(const std::vector<std::string>& keys) const {
   for (const auto& [key, ignored] : *table_) {
     const std::string name(key.str());
     if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
-    const std::string nearest = nearest_name(name, keys);
-    std::string list;
-    for (const std::string& one : keys) list += (list.empty() ? "" : ", ") + one;
-    throw InputError(
-        path_ + ":" + std::to_string(key.source().begin.line) + ": " +
-        (name_.empty() ? "the file" : name_) + ": key " + in_quotes(name) + " is not known; " +
-        (nearest.empty() ? "allowed are " + list : "did you mean \"" + nearest + "\"?"));
+    throw InputError(path_ + ":" + std::to_string(key.source().begin.line) + ": " +
+                     (name_.empty() ? "the file" : name_) + ": key " + in_quotes(name) +
+                     " is not known; " +
+                     did_you_mean(name, keys, "allowed are " + joined(keys, ", ")));
   }
 }
 

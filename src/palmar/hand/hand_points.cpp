@@ -78,11 +78,10 @@ HandPoint part_point(const std::string& part, const Vec3& reference) {
   if (part == kForearm) return {reference, {}, {JointId::kWrist}};
   if (part == kThumbMetacarpal) return {reference, {}, {JointId::kThumbCmc}};
   if (const auto segment = segment_named(part)) return {reference, {}, joints_to(*segment)};
-  const std::string nearest = nearest_name(part, part_names());
-  throw UsageError("\"" + part + "\" is no part of the hand" +
-                   (nearest.empty() ? "; a segment (palm, index_distal, ...), thumb_metacarpal or "
-                                      "forearm is needed"
-                                    : "; did you mean " + nearest + "?"));
+  throw UsageError("\"" + part + "\" is no part of the hand; " +
+                   did_you_mean(part, part_names(),
+                                "a segment (palm, index_distal, ...), thumb_metacarpal or forearm "
+                                "is needed"));
 }
 
 PosablePoints::PosablePoints(const Hand& hand, const std::vector<HandPoint>& points) {

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/population/segment_regressions.h"
 #include "palmar/population/survey_figures.h"
 
@@ -217,16 +218,13 @@ const std::vector<Population>& built_in_populations() {
 
 const Population& population_named(const std::string& name) {
   std::vector<std::string> names;
-  std::string list;
   for (const Population& population : built_in_populations()) {
     if (population.name == name) return population;
     names.push_back(population.name);
-    list += (list.empty() ? "" : ", ") + population.name;
   }
-  const std::string nearest = nearest_name(name, names);
-  throw UsageError("population \"" + name + "\" is not known; " +
-                   (nearest.empty() ? "built in are " + list + "; a file ends in .toml"
-                                    : "did you mean \"" + nearest + "\"?"));
+  throw UsageError(
+      "population \"" + name + "\" is not known; " +
+      did_you_mean(name, names, "built in are " + joined(names, ", ") + "; a file ends in .toml"));
 }
 
 }  // namespace palmar

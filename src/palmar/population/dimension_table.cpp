@@ -93,14 +93,11 @@ const TableColumn& DimensionTable::column(const std::string& name) const {
     if (c.name == ours) return c;
   }
   std::vector<std::string> names;
-  std::string list;
-  for (const TableColumn& c : columns) {
-    names.push_back(c.name);
-    list += (list.empty() ? "" : ", ") + c.name;
-  }
+  for (const TableColumn& c : columns) names.push_back(c.name);
   const std::string nearest = nearest_name(ours, names);
   throw UsageError(source + " has no column \"" + name + "\"" +
-                   (nearest.empty() ? "" : ", did you mean " + nearest + "?") + "; it has " + list);
+                   (nearest.empty() ? "" : ", did you mean " + nearest + "?") + "; it has " +
+                   joined(names, ", "));
 }
 
 std::vector<const TableColumn*> DimensionTable::measures() const {

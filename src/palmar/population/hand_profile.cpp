@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/hand/instance/scaled_hand.h"
 #include "palmar/hand/posture/named_postures.h"
 
@@ -132,16 +133,12 @@ const std::vector<HandProfile>& built_in_profiles() {
 
 const HandProfile& profile_named(const std::string& name) {
   std::vector<std::string> names;
-  std::string list;
   for (const HandProfile& profile : built_in_profiles()) {
     if (profile.name == name) return profile;
     names.push_back(profile.name);
-    list += (list.empty() ? "" : ", ") + profile.name;
   }
-  const std::string nearest = nearest_name(name, names);
-  throw UsageError(
-      "profile \"" + name + "\" is not known; " +
-      (nearest.empty() ? "built in are " + list : "did you mean \"" + nearest + "\"?"));
+  throw UsageError("profile \"" + name + "\" is not known; " +
+                   did_you_mean(name, names, "built in are " + joined(names, ", ")));
 }
 
 Hand with_range_share(const Hand& hand, double range_share) {

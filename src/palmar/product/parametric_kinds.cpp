@@ -32,6 +32,13 @@ KindRelation at_least(const std::string& parameter, const std::string& words,
   return {parameter, false, std::move(bound), words};
 }
 
+/// At most a multiple of another one: "a quarter of", 0.25, "depth_mm".
+KindRelation at_most(const std::string& parameter, const std::string& multiple, double factor,
+                     const std::string& of) {
+  return at_most(parameter, multiple + " " + of,
+                 [factor, of](const KindValues& v) { return factor * v.at(of); });
+}
+
 double half_of_smaller(const KindValues& v, const char* a, const char* b) {
   return 0.5 * std::min(v.at(a), v.at(b));
 }
@@ -54,18 +61,15 @@ ParametricKind elliptic_handle() {
            {"depth_mm", 38, 5, 200, "across the section, along y"},
            {"length_mm", 140, 20, 1000, "from end to end"},
            {"end_fillet_mm", 4, 0, 90, "radius of the edges of both ends; 0: sharp"}},
-          {at_most("width_mm", "three times depth_mm",
-                   [](const KindValues& v) { return 3.0 * v.at("depth_mm"); }),
-           at_most("depth_mm", "three times width_mm",
-                   [](const KindValues& v) { return 3.0 * v.at("width_mm"); }),
+          {at_most("width_mm", "three times", 3.0, "depth_mm"),
+           at_most("depth_mm", "three times", 3.0, "width_mm"),
            at_most("end_fillet_mm", "nine tenths of the ellipse's tightest radius",
                    [](const KindValues& v) {
                      const double small = std::min(v.at("width_mm"), v.at("depth_mm"));
                      const double large = std::max(v.at("width_mm"), v.at("depth_mm"));
                      return 0.9 * 0.5 * small * small / large;
                    }),
-           at_most("end_fillet_mm", "0.45 of length_mm",
-                   [](const KindValues& v) { return 0.45 * v.at("length_mm"); })}};
+           at_most("end_fillet_mm", "0.45 of", 0.45, "length_mm")}};
 }
 
 double thin_end(const KindValues& v) {
@@ -108,8 +112,7 @@ ParametricKind prism() {
                    [](const KindValues& v) { return half_of_smaller(v, "width_mm", "depth_mm"); }),
            at_most("end_fillet_mm", "nine tenths of fillet_mm, around which it must turn",
                    [](const KindValues& v) { return 0.9 * v.at("fillet_mm"); }),
-           at_most("end_fillet_mm", "0.45 of length_mm",
-                   [](const KindValues& v) { return 0.45 * v.at("length_mm"); })}};
+           at_most("end_fillet_mm", "0.45 of", 0.45, "length_mm")}};
 }
 
 ParametricKind sphere() {
@@ -153,8 +156,7 @@ ParametricKind bottle() {
                     [](const KindValues& v) {
                       return 0.5 * (v.at("diameter_mm") - v.at("neck_diameter_mm"));
                     }),
-           at_most("base_fillet_mm", "a quarter of diameter_mm",
-                   [](const KindValues& v) { return 0.25 * v.at("diameter_mm"); }),
+           at_most("base_fillet_mm", "a quarter of", 0.25, "diameter_mm"),
            at_least("height_mm", "cap, neck, shoulder and 20 mm above base_fillet_mm",
                     [](const KindValues& v) {
                       return v.at("height_mm") - body_of_bottle(v) + v.at("base_fillet_mm") + 20.0;
@@ -163,10 +165,8 @@ ParametricKind bottle() {
                    [](const KindValues& v) {
                      return body_of_bottle(v) - v.at("base_fillet_mm") - 1.0;
                    }),
-           at_most("waist_depth_mm", "a quarter of waist_length_mm",
-                   [](const KindValues& v) { return 0.25 * v.at("waist_length_mm"); }),
-           at_most("waist_depth_mm", "a quarter of diameter_mm",
-                   [](const KindValues& v) { return 0.25 * v.at("diameter_mm"); })}};
+           at_most("waist_depth_mm", "a quarter of", 0.25, "waist_length_mm"),
+           at_most("waist_depth_mm", "a quarter of", 0.25, "diameter_mm")}};
 }
 
 ParametricKind bicycle_grip() {
@@ -197,8 +197,7 @@ ParametricKind phone() {
                    [](const KindValues& v) {
                      return 0.98 * half_of_smaller(v, "width_mm", "height_mm");
                    }),
-           at_most("fillet_mm", "0.49 of thickness_mm",
-                   [](const KindValues& v) { return 0.49 * v.at("thickness_mm"); }),
+           at_most("fillet_mm", "0.49 of", 0.49, "thickness_mm"),
            at_most("fillet_mm", "nine tenths of corner_mm, around which it must turn",
                    [](const KindValues& v) { return 0.9 * v.at("corner_mm"); })}};
 }
@@ -217,17 +216,12 @@ ParametricKind pistol_grip() {
        {"flare_mm", 5, 0, 20, "by which the foot runs out under the little finger"},
        {"squareness", 0.3, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
        {"end_fillet_mm", 2.5, 0, 10, "radius of the edges of foot and frame; 0: sharp"}},
-      {at_most("palm_swell_mm", "a quarter of depth_mm",
-               [](const KindValues& v) { return 0.25 * v.at("depth_mm"); }),
-       at_most("tang_mm", "0.4 of depth_mm",
-               [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
-       at_most("flare_mm", "0.4 of depth_mm",
-               [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
-       at_most("depth_mm", "2.5 times width_mm",
-               [](const KindValues& v) { return 2.5 * v.at("width_mm"); }),
+      {at_most("palm_swell_mm", "a quarter of", 0.25, "depth_mm"),
+       at_most("tang_mm", "0.4 of", 0.4, "depth_mm"),
+       at_most("flare_mm", "0.4 of", 0.4, "depth_mm"),
+       at_most("depth_mm", "2.5 times", 2.5, "width_mm"),
        at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
-       at_most("end_fillet_mm", "a tenth of width_mm",
-               [](const KindValues& v) { return 0.1 * v.at("width_mm"); })},
+       at_most("end_fillet_mm", "a tenth of", 0.1, "width_mm")},
       [](const KindValues& v) {
         const double rake = v.at("rake_deg") * kDegree;
         return Vec3(0.0, -std::sin(rake), std::cos(rake));
@@ -245,17 +239,13 @@ ParametricKind knife_handle() {
            {"pommel_drop_mm", 6, 0, 25, "by which the butt runs out behind the little finger"},
            {"squareness", 0.45, 0, 1, "of the section: 0 is an ellipse, 1 nearly a rectangle"},
            {"end_fillet_mm", 1.5, 0, 8, "radius of the edges of both ends; 0: sharp"}},
-          {at_most("belly_mm", "0.2 of depth_mm",
-                   [](const KindValues& v) { return 0.2 * v.at("depth_mm"); }),
-           at_most("guard_mm", "0.4 of depth_mm",
-                   [](const KindValues& v) { return 0.4 * v.at("depth_mm"); }),
-           at_most("pommel_drop_mm", "half of depth_mm",
-                   [](const KindValues& v) { return 0.5 * v.at("depth_mm"); }),
+          {at_most("belly_mm", "0.2 of", 0.2, "depth_mm"),
+           at_most("guard_mm", "0.4 of", 0.4, "depth_mm"),
+           at_most("pommel_drop_mm", "half of", 0.5, "depth_mm"),
            at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
            at_least("width_mm", "a third of depth_mm",
                     [](const KindValues& v) { return v.at("depth_mm") / 3.0; }),
-           at_most("end_fillet_mm", "a tenth of width_mm",
-                   [](const KindValues& v) { return 0.1 * v.at("width_mm"); })}};
+           at_most("end_fillet_mm", "a tenth of", 0.1, "width_mm")}};
 }
 
 ParametricKind screwdriver_handle() {
@@ -283,16 +273,12 @@ ParametricKind screwdriver_handle() {
                     [](const KindValues& v) {
                       return 1.15 * (v.at("diameter_mm") - v.at("neck_diameter_mm"));
                     }),
-           at_most("neck_length_mm", "half of length_mm",
-                   [](const KindValues& v) { return 0.5 * v.at("length_mm"); }),
-           at_most("flute_depth_mm", "0.2 of diameter_mm",
-                   [](const KindValues& v) { return 0.2 * v.at("diameter_mm"); }),
+           at_most("neck_length_mm", "half of", 0.5, "length_mm"),
+           at_most("flute_depth_mm", "0.2 of", 0.2, "diameter_mm"),
            at_most("flute_depth_mm", "0.7 of diameter_mm / flutes",
                    [](const KindValues& v) { return 0.7 * v.at("diameter_mm") / v.at("flutes"); }),
-           at_most("end_fillet_mm", "0.3 of collar_diameter_mm",
-                   [](const KindValues& v) { return 0.3 * v.at("collar_diameter_mm"); }),
-           at_most("end_fillet_mm", "0.3 of neck_length_mm",
-                   [](const KindValues& v) { return 0.3 * v.at("neck_length_mm"); })}};
+           at_most("end_fillet_mm", "0.3 of", 0.3, "collar_diameter_mm"),
+           at_most("end_fillet_mm", "0.3 of", 0.3, "neck_length_mm")}};
 }
 
 const KindParameter* find_parameter(const ParametricKind& kind, const std::string& name) {
@@ -303,15 +289,11 @@ const KindParameter* find_parameter(const ParametricKind& kind, const std::strin
 
 [[noreturn]] void refuse_parameter(const ParametricKind& kind, const std::string& name) {
   std::vector<std::string> names;
-  std::string list;
-  for (const KindParameter& one : kind.parameters) {
-    names.push_back(one.name);
-    list += (list.empty() ? "" : ", ") + one.name;
-  }
+  for (const KindParameter& one : kind.parameters) names.push_back(one.name);
   const std::string nearest = nearest_name(name, names);
   throw UsageError(kind.name + " has no parameter \"" + name + "\"" +
-                   (nearest.empty() ? "; " : "; did you mean \"" + nearest + "\"? ") + "It has " +
-                   list);
+                   (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") + "It has " +
+                   joined(names, ", "));
 }
 
 void check_range(const ParametricKind& kind, const KindParameter& parameter, double value) {
@@ -356,12 +338,10 @@ const ParametricKind& parametric_kind(const std::string& name) {
     if (kind.name == name) return kind;
   }
   const std::vector<std::string> names = parametric_kind_names();
-  std::string list;
-  for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
   const std::string nearest = nearest_name(name, names);
   throw UsageError("kind \"" + name + "\" isn't known" +
-                   (nearest.empty() ? "; " : "; did you mean \"" + nearest + "\"? ") +
-                   "Known are " + list);
+                   (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") + "Known are " +
+                   joined(names, ", "));
 }
 
 std::string unit_of_parameter(const std::string& parameter) {

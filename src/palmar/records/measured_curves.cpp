@@ -107,10 +107,8 @@ class Reader {
 
   void require(Quantity quantity, const std::string& name) const {
     if (of_quantity_.count(quantity) > 0) return;
-    std::string found;
-    for (const std::string& one : file_.header) found += (found.empty() ? "" : ", ") + one;
     const std::string nearest = nearest_name(name.substr(0, name.find(' ')), curves_.ignored);
-    fail("column " + name + " is missing; the header has " + found +
+    fail("column " + name + " is missing; the header has " + joined(file_.header, ", ") +
          (nearest.empty() ? "" : " (is " + nearest + " meant?)"));
   }
 

@@ -15,6 +15,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/hand/tissue.h"
@@ -124,12 +125,8 @@ class TissueReader {
   [[noreturn]] void unknown(const toml::key& key, const std::string& section,
                             const std::vector<std::string>& known) const {
     const std::string name(key.str());
-    const std::string nearest = nearest_name(name, known);
-    std::string list;
-    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-    fail(key.source(),
-         section + ": key " + in_quotes(name) + " is not known; " +
-             (nearest.empty() ? "allowed are " + list : "did you mean \"" + nearest + "\"?"));
+    fail(key.source(), section + ": key " + in_quotes(name) + " is not known; " +
+                           did_you_mean(name, known, "allowed are " + joined(known, ", ")));
   }
 
   void check_version(const toml::key& key, const toml::node& node) const {

@@ -114,8 +114,8 @@ TEST(TissueFile, AValueWithoutARangeHasNone) {
 TEST(TissueFile, UnknownKeysNameTheNearestOne) {
   EXPECT_THAT(tissue_message("[finger.half_space]\ng0_mpa = 5\n"),
               HasSubstr("text.toml:2: [finger.half_space]: key \"g0_mpa\" is not known; did you "
-                        "mean \"g0_kpa\"?"));
-  EXPECT_THAT(tissue_message("[fingers]\n"), HasSubstr("did you mean \"finger\"?"));
+                        "mean g0_kpa?"));
+  EXPECT_THAT(tissue_message("[fingers]\n"), HasSubstr("did you mean finger?"));
   EXPECT_THAT(tissue_message("[finger]\nswelling_hight_mm = 1\n"), HasSubstr("swelling_height_mm"));
   EXPECT_THAT(tissue_message("[finger.halfspace]\ng0_kpa = 1\n"), HasSubstr("half_space"));
   EXPECT_THAT(tissue_message("[region.index_tip]\n"), HasSubstr("index_distal"));

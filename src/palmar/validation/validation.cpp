@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"
@@ -137,15 +138,11 @@ void ValidationOptions::check() const {
   for (const std::string& id : cases) {
     if (find_case(id) != nullptr) continue;
     std::vector<std::string> known;
-    std::string list;
-    for (const CaseEntry& entry : kCases) {
-      known.emplace_back(entry.id);
-      list += (list.empty() ? "" : ", ") + known.back();
-    }
+    for (const CaseEntry& entry : kCases) known.emplace_back(entry.id);
     const std::string nearest = nearest_name(id, known);
     throw UsageError("case \"" + id + "\" is not known" +
                      (nearest.empty() ? "" : ", did you mean " + nearest + "?") + "; allowed are " +
-                     list);
+                     joined(known, ", "));
   }
 }
 

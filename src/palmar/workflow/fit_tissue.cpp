@@ -35,10 +35,8 @@ std::vector<Region> regions_of(const std::string& name) {
     if (group && tissue_class_of(region) == *group) regions.push_back(region);
   }
   if (group) return regions;
-  const std::string nearest = nearest_name(name, known);
   throw UsageError("setting \"group\": \"" + name + "\" is not known; " +
-                   (nearest.empty() ? "finger, palm, dorsum or a region is allowed"
-                                    : "did you mean " + nearest + "?"));
+                   did_you_mean(name, known, "finger, palm, dorsum or a region is allowed"));
 }
 
 /// The default set with the fitted law in it.

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/text_scan.h"
 
 namespace palmar {
 namespace {
@@ -49,29 +50,6 @@ std::string plain(const std::string& text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80 && byte < 0xC0) continue;
     result += byte < 0x20 || byte >= 0x80 ? '?' : c;
-  }
-  return result;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
   }
   return result;
 }
@@ -202,7 +180,7 @@ std::string svg_of(const Drawing& drawing) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "version=\"1.1\" width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" viewBox=\"0 0 {0:.3f} {1:.3f}\">\n"
       "<title>{2}</title>\n<rect width=\"{0:.3f}\" height=\"{1:.3f}\" fill=\"#fff\"/>\n",
-      size.x(), size.y(), escaped(drawing.title));
+      size.x(), size.y(), xml_escaped(drawing.title));
   for (const DrawingLine& line : drawing.lines) {
     const DrawingLayer& layer = drawing.layers[static_cast<std::size_t>(line.layer)];
     out += fmt::format(
@@ -213,7 +191,7 @@ std::string svg_of(const Drawing& drawing) {
     for (const Eigen::Vector2d& p : line.points) {
       out += fmt::format("{:.4f},{:.4f} ", place(p).x(), place(p).y());
     }
-    out += fmt::format("\"><title>{}</title></{}>\n", escaped(layer.name),
+    out += fmt::format("\"><title>{}</title></{}>\n", xml_escaped(layer.name),
                        line.is_closed ? "polygon" : "polyline");
   }
   for (const DrawingText& text : drawing.texts) {
@@ -222,7 +200,7 @@ std::string svg_of(const Drawing& drawing) {
         "<text x=\"{:.3f}\" y=\"{:.3f}\" font-family=\"sans-serif\" font-size=\"{:.3f}\" "
         "fill=\"#{:02x}{:02x}{:02x}\">{}</text>\n",
         place(text.at).x(), place(text.at).y(), text.height / 0.72, layer.colour[0],
-        layer.colour[1], layer.colour[2], escaped(text.text));
+        layer.colour[1], layer.colour[2], xml_escaped(text.text));
   }
   return out + "</svg>\n";
 }

@@ -6,32 +6,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/bytes.h"
+#include "palmar/formats/text_scan.h"
 
 namespace palmar {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 /// Collects the arrays that stand behind the XML part.
 class Appended {
@@ -43,7 +21,7 @@ class Appended {
     append_value(block, static_cast<std::uint64_t>(raw.size()));
     // Header and data are encoded apart, so that a reader finds the length by itself.
     const std::string element = "<DataArray type=\"" + std::string(type) + "\" Name=\"" +
-                                escaped(name) + "\" NumberOfComponents=\"" +
+                                xml_escaped(name) + "\" NumberOfComponents=\"" +
                                 std::to_string(components) + "\" format=\"appended\" offset=\"" +
                                 std::to_string(data_.size()) + "\"/>\n";
     data_ += base64(block + std::string(raw));
@@ -67,7 +45,7 @@ std::string field_data(const std::vector<MeshNote>& notes) {
   if (notes.empty()) return "";
   std::string result = "<FieldData>\n";
   for (const MeshNote& note : notes) {
-    result += "<DataArray type=\"String\" Name=\"" + escaped(note.name) +
+    result += "<DataArray type=\"String\" Name=\"" + xml_escaped(note.name) +
               "\" NumberOfTuples=\"1\" format=\"ascii\">";
     for (const char c : note.text) {
       result += std::to_string(static_cast<int>(static_cast<unsigned char>(c))) + " ";
@@ -127,7 +105,7 @@ std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& 
   const std::string polys = appended.array("Int64", "connectivity", 1, connectivity) +
                             appended.array("Int64", "offsets", 1, offsets);
   const std::string active =
-      fields.empty() ? "" : " Scalars=\"" + escaped(fields.front().name) + "\"";
+      fields.empty() ? "" : " Scalars=\"" + xml_escaped(fields.front().name) + "\"";
   return "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\">\n"

@@ -173,11 +173,10 @@ HandPoint Landmarks::on_skin(const std::string& name, const Vec3& from,
 HandPoint Landmarks::at(const std::string& name) const {
   const auto found = meanings().find(name);
   if (found == meanings().end()) {
-    const std::string nearest = nearest_name(name, names());
-    throw UsageError("landmark \"" + name + "\" is not known" +
-                     (nearest.empty() ? "; such as index_dip_dorsal, thumb_nail, "
-                                        "third_metacarpal_head is needed"
-                                      : "; did you mean " + nearest + "?"));
+    throw UsageError("landmark \"" + name + "\" is not known; " +
+                     did_you_mean(name, names(),
+                                  "such as index_dip_dorsal, thumb_nail, third_metacarpal_head is "
+                                  "needed"));
   }
   const Meaning& meaning = found->second;
   if (meaning.kind == Kind::kStyloid) {

@@ -139,16 +139,9 @@ std::vector<Point2> air_from(const std::vector<std::vector<Point2>>& curves,
   return air;
 }
 
-double distance_to(const std::vector<std::vector<Point2>>& curves, const Point2& p) {
+double nearest_distance(const std::vector<std::vector<Point2>>& curves, const Point2& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::vector<Point2>& curve : curves) {
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-      const Point2 a = curve[i], ab = curve[(i + 1) % curve.size()] - a;
-      const double squared = ab.squaredNorm();
-      const double t = squared > 0.0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-      least = std::min(least, (p - a - t * ab).norm());
-    }
-  }
+  for (const std::vector<Point2>& curve : curves) least = std::min(least, distance_to(curve, p));
   return least;
 }
 
@@ -220,7 +213,7 @@ std::optional<PartOpening> loop_opening(const TriangleMesh& mesh, const std::vec
   Point2 centre = air.front();
   double radius = 0.0;
   for (const Point2& p : air) {
-    const double d = distance_to(curves, p);
+    const double d = nearest_distance(curves, p);
     if (d > radius) {
       radius = d;
       centre = p;

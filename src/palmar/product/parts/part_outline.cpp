@@ -29,17 +29,6 @@ Point2 centroid(const std::vector<Point2>& polygon) {
   return sum == 0.0 ? base : Point2(base + moment / sum);
 }
 
-double distance_to(const std::vector<Point2>& polygon, const Point2& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point2 a = polygon[i], ab = polygon[(i + 1) % polygon.size()] - a;
-    const double squared = ab.squaredNorm();
-    const double t = squared > 0.0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, (p - a - t * ab).norm());
-  }
-  return least;
-}
-
 }  // namespace
 
 PlaneFrame::PlaneFrame(const Vec3& through, const Vec3& unit_normal)
@@ -65,6 +54,17 @@ bool holds(const std::vector<Point2>& polygon, const Point2& point) {
     if (x > point.x()) is_in = !is_in;
   }
   return is_in;
+}
+
+double distance_to(const std::vector<Point2>& polygon, const Point2& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point2 a = polygon[i], ab = polygon[(i + 1) % polygon.size()] - a;
+    const double squared = ab.squaredNorm();
+    const double t = squared > 0.0 ? std::clamp((p - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, (p - a - t * ab).norm());
+  }
+  return least;
 }
 
 std::optional<OutlineMeasures> measure_hull(const PlaneFrame& plane,

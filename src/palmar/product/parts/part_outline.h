@@ -33,6 +33,8 @@ std::optional<OutlineMeasures> measure_hull(const PlaneFrame& plane,
 /// Twice the signed area of a polygon, and whether it holds a point.
 double twice_area(const std::vector<Eigen::Vector2d>& polygon);
 bool holds(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point);
+/// From a polygon's outline.
+double distance_to(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point);
 
 /// How outline_at() chooses outlines, mm.
 struct OutlineReach {

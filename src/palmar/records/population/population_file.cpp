@@ -37,10 +37,8 @@ HandDimension dimension_named(const TomlSection& section, std::string_view key,
   if (const auto dimension = hand_dimension_named(name)) return *dimension;
   std::vector<std::string> known;
   for (const HandDimension one : all_hand_dimensions()) known.push_back(name_of(one));
-  const std::string nearest = nearest_name(name, known);
   section.fail(key, "names " + in_quotes(name) + ", which is no dimension of a hand; " +
-                        (nearest.empty() ? "hand_length, index_middle_width ... are"
-                                         : "did you mean \"" + nearest + "\"?"));
+                        did_you_mean(name, known, "hand_length, index_middle_width ... are"));
 }
 
 HandDimension dimension_of(const TomlSection& section) {

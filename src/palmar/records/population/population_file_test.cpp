@@ -103,7 +103,7 @@ TEST(PopulationFile, WrittenPopulationsGiveTheSameHands) {
 
 TEST(PopulationFile, MessagesNameLineValueAndWhatIsAllowed) {
   EXPECT_THAT(message_with("mean_mm = 175.0", "mean_cm = 17.5"),
-              AllOf(HasSubstr("women.toml:13"), HasSubstr("did you mean \"mean_mm\"?")));
+              AllOf(HasSubstr("women.toml:13"), HasSubstr("did you mean mean_mm?")));
   EXPECT_THAT(message_with("mean_mm = 175.0", "mean_mm = 17.5"),
               AllOf(HasSubstr("women.toml:13"), HasSubstr("mean_mm of hand_length is 17.5 mm"),
                     HasSubstr("60 to 300 mm"), HasSubstr("look like cm")));
@@ -118,7 +118,7 @@ TEST(PopulationFile, MessagesNameLineValueAndWhatIsAllowed) {
               AllOf(HasSubstr("women.toml:14"), HasSubstr("sd_mm is 0 mm; 1e-06 to 35 mm")));
   EXPECT_THAT(message_with("sd_mm = 9.0", "sd_mm = -9.0"), HasSubstr("sd_mm is -9 mm"));
   EXPECT_THAT(message_with("\"hand_length\"\nmean", "\"hand_lenght\"\nmean"),
-              AllOf(HasSubstr("women.toml:12"), HasSubstr("did you mean \"hand_length\"?")));
+              AllOf(HasSubstr("women.toml:12"), HasSubstr("did you mean hand_length?")));
   EXPECT_THAT(message_with("r = 0.55", "r = 1.0"),
               AllOf(HasSubstr("women.toml:25"), HasSubstr("r is 1; between -1 and 1")));
   EXPECT_THAT(message_with("r = 0.55", "r = 1.5"), HasSubstr("r is 1.5; -1 to 1 is allowed"));
@@ -161,7 +161,7 @@ correlation = [
 TEST(PopulationFile, NamesOrFiles) {
   EXPECT_EQ(load_population("xie2014").name, "xie2014");
   EXPECT_THAT(message_of<UsageError>([] { load_population("xie2015"); }),
-              HasSubstr("did you mean \"xie2014\"?"));
+              HasSubstr("did you mean xie2014?"));
   EXPECT_THAT(message_of<InputError>([] { load_population("not_there.toml"); }),
               HasSubstr("not_there.toml"));
 }

@@ -111,12 +111,10 @@ MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
     if (name == "comment" || std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end()) {
       continue;
     }
-    const std::string nearest = nearest_name(name, kColumns);
     csv.fail(csv.header_line,
-             "column " + in_quotes(name) + " is not known" +
-                 (nearest.empty() ? "; label, landmark, vertex, part, x_mm, y_mm, z_mm and "
-                                    "height_mm are"
-                                  : "; did you mean " + nearest + "?"));
+             "column " + in_quotes(name) + " is not known; " +
+                 did_you_mean(name, kColumns,
+                              "label, landmark, vertex, part, x_mm, y_mm, z_mm and height_mm are"));
   }
   if (csv.column("label") < 0) csv.fail(csv.header_line, "column label is missing");
   Builder builder(hand);

@@ -52,10 +52,9 @@ AngleName angle_named(const std::string& name) {
   std::string stem = name;
   if (ends("_rad")) stem = name.substr(0, name.size() - 4) + "_deg";
   if (!ends("_rad") && !ends("_deg")) stem += "_deg";
-  const std::string nearest = nearest_name(stem, known_names());
-  throw InputError(in_quotes(name) + " is no joint angle" +
-                   (nearest.empty() ? "; `palmar hand info` lists the degrees of freedom"
-                                    : "; did you mean " + nearest + "?"));
+  throw InputError(
+      in_quotes(name) + " is no joint angle; " +
+      did_you_mean(stem, known_names(), "`palmar hand info` lists the degrees of freedom"));
 }
 
 /// Angles of one frame as they are read.

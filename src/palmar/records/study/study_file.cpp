@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/formats/toml_section.h"
@@ -314,7 +315,7 @@ StudyLimit read_limit(const TomlSection& section) {
   if (std::find(keys.begin(), keys.end(), limit.quantity) == keys.end()) {
     const std::string nearest = nearest_name(limit.quantity, keys);
     section.fail("quantity", "is " + in_quotes(limit.quantity) + ", which no grasp has" +
-                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+                                 (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
   }
   constexpr double kMost = 1e12;
   limit.lowest = section.number("lowest", "", -kMost, kMost);
@@ -350,11 +351,8 @@ std::optional<Grip> asked_grip_named(const std::string& name) {
   if (const auto grip = grip_named(name)) return grip;
   std::vector<std::string> known = {"auto"};
   for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
-  std::string list;
-  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-  const std::string nearest = nearest_name(name, known);
   throw UsageError("grip " + in_quotes(name) + " is not known; " +
-                   (nearest.empty() ? "allowed are " + list : "did you mean \"" + nearest + "\"?"));
+                   did_you_mean(name, known, "allowed are " + joined(known, ", ")));
 }
 
 StudyRequest read_study_file(const std::string& path) {

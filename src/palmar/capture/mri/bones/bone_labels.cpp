@@ -26,10 +26,9 @@ void check_names(const std::vector<BoneLabel>& labels, const Hand& model) {
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const BoneLabel& label = labels[k];
     if (std::find(known.begin(), known.end(), label.name) == known.end()) {
-      const std::string nearest = nearest_name(label.name, known);
-      throw InputError(label.place + ": \"" + label.name + "\" is no bone of the hand" +
-                       (nearest.empty() ? "; index_middle_phalanx, for one, is allowed"
-                                        : "; did you mean " + nearest + "?"));
+      throw InputError(
+          label.place + ": \"" + label.name + "\" is no bone of the hand; " +
+          did_you_mean(label.name, known, "index_middle_phalanx, for one, is allowed"));
     }
     for (std::size_t j = 0; j < k; ++j) {
       if (labels[j].name == label.name) {

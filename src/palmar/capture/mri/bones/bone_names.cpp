@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "palmar/capture/mri/bones/bone_pairing.h"
+#include "palmar/core/text.h"
 #include "palmar/hand/posture/posture_from_mesh.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/template_hand.h"
@@ -118,10 +119,8 @@ BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLeve
     names.name.emplace_back();
   }
   if (!missing.empty()) {
-    std::string list;
-    for (const std::string& name : missing) list += (list.empty() ? "" : ", ") + name;
-    names.notes.push_back(
-        fmt::format("{} of {} bones not found: {}", missing.size(), model.bones.size(), list));
+    names.notes.push_back(fmt::format("{} of {} bones not found: {}", missing.size(),
+                                      model.bones.size(), joined(missing, ", ")));
   }
   if (!known.side && names.other_misfit < 1.2 * names.misfit) {
     names.notes.push_back(fmt::format(
