@@ -180,11 +180,6 @@ std::string take_unit(std::string& heading) {
 
 }  // namespace
 
-std::optional<HandDimension> dimension_of_words(std::string_view words) {
-  const auto name = known_name(words);
-  return name ? hand_dimension_named(*name) : std::nullopt;
-}
-
 ColumnHeading heading_of(std::string_view header) {
   ColumnHeading heading;
   std::string text(header);

@@ -28,11 +28,6 @@ struct ColumnHeading {
 };
 ColumnHeading heading_of(std::string_view header);
 
-/// "Hand length", "handlength", "hand breadth", "index finger proximal length" ...: the dimension
-/// that the words mean, without a unit. A phalanx' length is none: the bone is longer than the
-/// segment.
-std::optional<HandDimension> dimension_of_words(std::string_view words);
-
 /// Sizes [mm] that hands from two years of age on can have, with room; for finding wrong units.
 struct SizeRange {
   double low = 0.0, high = 0.0;

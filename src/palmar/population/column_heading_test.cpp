@@ -68,11 +68,11 @@ TEST(ColumnHeading, OddHeadingsStayUsable) {
   EXPECT_EQ(heading_of("???").name, "???");
   EXPECT_EQ(heading_of("_mm").unit, "mm");
   EXPECT_EQ(heading_of("L\xC3\xA4nge [mm]").name, "l\xC3\xA4nge");
-  EXPECT_FALSE(dimension_of_words("proximal length"));
-  EXPECT_FALSE(dimension_of_words("thumb middle length"));  // a thumb has no middle phalanx
+  EXPECT_FALSE(heading_of("proximal length").dimension);
+  EXPECT_FALSE(heading_of("thumb middle length").dimension);  // a thumb has no middle phalanx
   // The bone reaches from the knuckle; our segment begins at the crease of the palm side.
-  EXPECT_FALSE(dimension_of_words("index finger proximal phalanx length"));
-  EXPECT_FALSE(dimension_of_words("index finger DIP joint breadth"));  // not the phalanx's width
+  EXPECT_FALSE(heading_of("index finger proximal phalanx length").dimension);
+  EXPECT_FALSE(heading_of("index finger DIP joint breadth").dimension);  // not the phalanx's width
 }
 
 TEST(SizeRange, TakesInTheHandsOfSurveysInTheRightUnitOnly) {

@@ -16,11 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity.
-std::string or_empty(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? shortest(*value) : std::string();
-}
-
 std::string better_words(Better better) {
   if (better == Better::kUp) return "more is better";
   return better == Better::kDown ? "less is better" : "";
@@ -55,18 +50,6 @@ nlohmann::ordered_json index_rows(const GraspIndices& indices) {
                     {"remark", index.remark}});
   }
   return rows;
-}
-
-CsvTable index_csv(const GraspIndices& indices) {
-  CsvTable table;
-  table.header = {"group",   "key",  "value",      "unit",   "better", "lowest",
-                  "highest", "name", "definition", "source", "remark"};
-  for (const GraspIndex& index : indices) {
-    table.rows.push_back({index.group, index.key, or_empty(index.value), index.unit,
-                          name_of(index.better), or_empty(index.lowest), or_empty(index.highest),
-                          index.name, index.definition, index.source, index.remark});
-  }
-  return table;
 }
 
 std::string index_text(const GraspIndices& indices) {

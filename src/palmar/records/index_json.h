@@ -6,7 +6,6 @@
 #include <string>
 
 #include "palmar/grasp/indices/grasp_index.h"
-#include "palmar/records/csv.h"
 
 namespace palmar {
 
@@ -18,10 +17,6 @@ nlohmann::ordered_json index_values(const GraspIndices& indices);
 /// "source", "remark"}, ...]: the rows in full, null where there is no value or no end of the
 /// range. What stands as "index_table".
 nlohmann::ordered_json index_rows(const GraspIndices& indices);
-
-/// The rows with one line each: group, key, value, unit, better, lowest, highest, name, definition,
-/// source, remark.
-CsvTable index_csv(const GraspIndices& indices);
 
 /// Table for a terminal: group, name, value with unit, which way is better, and the remark unless
 /// the row above has the same. Values with three significant digits, columns aligned; ends with a

@@ -73,13 +73,5 @@ TEST(IndexJson, TextGroupsRowsAndLeavesNoBlanksAtLineEnds) {
   EXPECT_THAT(text, ::testing::Not(HasSubstr(" \n")));
 }
 
-TEST(IndexJson, CsvHasARowPerIndex) {
-  const CsvTable table = index_csv(two_rows());
-  ASSERT_EQ(table.rows.size(), 2u);
-  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
-  EXPECT_EQ(table.rows[1][2], "");  // no value
-  EXPECT_THAT(format_csv(table), HasSubstr("\"distance from 0, in \"\"wrench\"\" space\""));
-}
-
 }  // namespace
 }  // namespace palmar

@@ -23,10 +23,6 @@ struct ResponseColumns {
   std::vector<std::int32_t> vertex;  ///< i
   std::vector<float> response;       ///< normal displacement at i times G per force at j, 1/mm
   std::vector<float> distance;       ///< on the skin, mm
-
-  std::size_t memory_bytes() const {
-    return begin.size() * sizeof(std::size_t) + vertex.size() * 3 * sizeof(float);
-  }
 };
 
 /// The responses of a skin. Of a mesh finer than needed only those up to 8 mm stand in the columns,

@@ -190,16 +190,6 @@ DistanceFieldPtr make_cylinder_distance(const CylinderShape& shape) {
       Vec3(shape.radius, shape.radius, std::min(half, 1000.0)));
 }
 
-DistanceFieldPtr make_flat_punch_distance(double radius, double length) {
-  check_length("flat punch", "radius", radius);
-  check_length("flat punch", "length", length);
-  const auto function = [radius, length](const Vec3& p) -> Value {
-    return swept(disc(p.head<2>(), radius), p.z() + 0.5 * length, 0.5 * length);
-  };
-  return std::make_shared<AnalyticDistance<decltype(function)>>(
-      function, Box3(Vec3(-radius, -radius, -length), Vec3(radius, radius, 0.0)));
-}
-
 DistanceFieldPtr make_box_distance(const Vec3& size, double edge_radius) {
   for (int k = 0; k < 3; ++k) check_length("box", "edge length", size[k]);
   check_rounding("box", "edge radius", edge_radius, 0.5 * size.minCoeff());
@@ -240,18 +230,6 @@ DistanceFieldPtr make_prism_distance(const PrismShape& shape) {
                      0.5 * shape.length);
       },
       0.5 * Vec3(shape.width, shape.depth, shape.length));
-}
-
-DistanceFieldPtr make_capsule_distance(double radius, double length) {
-  check_length("capsule", "radius", radius);
-  check_length("capsule", "length", length);
-  return make_field(
-      [radius, half = 0.5 * length](const Vec3& p) -> Value {
-        const Vec3 q(p.x(), p.y(), p.z() - std::clamp(p.z(), -half, half));
-        const double r = q.norm();
-        return {r - radius, r > 0.0 ? Vec3(q / r) : Vec3::UnitX()};
-      },
-      Vec3(radius, radius, 0.5 * length + radius));
 }
 
 DistanceFieldPtr make_ellipsoid_distance(const Vec3& semi_axes) {

@@ -30,10 +30,6 @@ struct CylinderShape {
 };
 DistanceFieldPtr make_cylinder_distance(const CylinderShape& shape);
 
-/// Flat-ended rigid punch with a sharp edge: a cylinder that ends in the disc z = 0, facing +z, and
-/// reaches down to z = -length.
-DistanceFieldPtr make_flat_punch_distance(double radius, double length);
-
 /// Box of edge lengths `size` about the origin, all edges rounded by `edge_radius` (at most half
 /// the smallest edge).
 DistanceFieldPtr make_box_distance(const Vec3& size, double edge_radius = 0.0);
@@ -50,9 +46,6 @@ struct PrismShape {
 };
 /// Bar with filleted long edges and flat, sharp-edged ends.
 DistanceFieldPtr make_prism_distance(const PrismShape& shape);
-
-/// Points within `radius` of the segment of `length` along z, centred on the origin.
-DistanceFieldPtr make_capsule_distance(double radius, double length);
 
 /// Ellipsoid about the origin with semi-axes a, b, c along x, y, z. The nearest point x of q solves
 /// x_i = a_i^2 q_i / (t + a_i^2), sum (x_i / a_i)^2 = 1, found by Newton's method from the side

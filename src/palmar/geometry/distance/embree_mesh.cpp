@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/geometry/distance/embree_mesh.h"
 
-#include <limits>
 #include <string>
 
 #include "palmar/core/error.h"
@@ -31,10 +30,7 @@ EmbreeMesh::EmbreeMesh(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     for (const int v : t) box_.extend(mesh.vertices[v]);
   }
-  if (!box_.isEmpty()) {
-    origin_ = box_.center();
-    float_error_ = box_.sizes().maxCoeff() * std::numeric_limits<float>::epsilon();
-  }
+  if (!box_.isEmpty()) origin_ = box_.center();
 
   scene_ = rtcNewScene(device());
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);

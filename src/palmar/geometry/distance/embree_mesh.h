@@ -22,14 +22,11 @@ class EmbreeMesh {
   RTCScene scene() const { return scene_; }
   const Vec3& origin() const { return origin_; }
   const Box3& box() const { return box_; }
-  /// Bound of the rounding of a coordinate when it became a float, mm.
-  double float_error() const { return float_error_; }
 
  private:
   RTCScene scene_ = nullptr;
   Vec3 origin_ = Vec3::Zero();
   Box3 box_;
-  double float_error_ = 0.0;
 };
 
 }  // namespace palmar

@@ -147,10 +147,6 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   return areas;
 }
 
-double corner_angle(const TriangleMesh& mesh, int triangle, int corner) {
-  return angle_at(mesh.vertices, mesh.triangles[triangle], corner);
-}
-
 std::vector<double> smallest_angles(const TriangleMesh& mesh) {
   std::vector<double> result;
   result.reserve(mesh.triangles.size());
@@ -159,24 +155,6 @@ std::vector<double> smallest_angles(const TriangleMesh& mesh) {
                                angle_at(mesh.vertices, t, 2)}));
   }
   return result;
-}
-
-double largest_fold_angle(const TriangleMesh& mesh) {
-  const MeshTopology topology = build_topology(mesh);
-  const std::vector<Vec3> normals = triangle_normals(mesh);
-  double largest = 0.0;
-  for (size_t h = 0; h < topology.twin.size(); ++h) {
-    const int twin = topology.twin[h];
-    if (twin <= static_cast<int>(h)) continue;
-    const Vec3& n = normals[h / 3];
-    // Neighbours that disagree about outside (both run along the edge the same way) are compared
-    // as if one of them were turned.
-    const bool agree = mesh.triangles[h / 3][h % 3] != mesh.triangles[twin / 3][twin % 3];
-    const Vec3 m = agree ? normals[twin / 3] : Vec3(-normals[twin / 3]);
-    if (n.isZero() || m.isZero()) continue;
-    largest = std::max(largest, angle_between(n, m));
-  }
-  return largest;
 }
 
 EdgeLengths edge_lengths(const TriangleMesh& mesh) {

@@ -48,15 +48,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 /// Source: Meyer, Desbrun, Schroeder, Barr 2003, section 3.3, A_mixed.
 std::vector<double> vertex_areas(const TriangleMesh& mesh);
 
-/// Angle of a triangle at its corner `corner`; 0 if degenerate.
-double corner_angle(const TriangleMesh& mesh, int triangle, int corner);
-
 /// Smallest angle of each triangle; 0 if degenerate.
 std::vector<double> smallest_angles(const TriangleMesh& mesh);
-
-/// Largest angle between the normals of two neighbouring triangles: 0 for a flat mesh, pi for a
-/// fold. Degenerate triangles are skipped.
-double largest_fold_angle(const TriangleMesh& mesh);
 
 struct EdgeLengths {
   int count = 0;

@@ -38,7 +38,6 @@ TEST(Measures, OfAnEmptyMeshAreZero) {
   EXPECT_TRUE(vertex_normals(empty).empty());
   EXPECT_TRUE(vertex_areas(empty).empty());
   EXPECT_EQ(edge_lengths(empty).count, 0);
-  EXPECT_EQ(largest_fold_angle(empty), 0.0);
 }
 
 TEST(VertexNormals, AtTheCornersOfACubeAreDiagonalHoweverTheFacesAreCut) {
@@ -119,20 +118,6 @@ TEST(SmallestAngles, OfAThreeFourFiveTriangle) {
   EXPECT_NEAR(smallest_angles(triangle({0, 0, 0}, {4, 0, 0}, {0, 3, 0}))[0], std::atan2(3.0, 4.0),
               1e-15);
   EXPECT_EQ(smallest_angles(triangle({0, 0, 0}, {1, 0, 0}, {2, 0, 0}))[0], 0.0);
-}
-
-TEST(CornerAngle, SumsToPiInATriangle) {
-  const TriangleMesh mesh = triangle({0.1, 0, 2}, {4, 1, 0}, {-1, 3, 1});
-  EXPECT_NEAR(corner_angle(mesh, 0, 0) + corner_angle(mesh, 0, 1) + corner_angle(mesh, 0, 2),
-              std::numbers::pi, 1e-14);
-}
-
-TEST(LargestFoldAngle, OfACubeIsARightAngleWhateverTheOrientation) {
-  TriangleMesh mesh = make_box({1, 2, 3}, 3);
-  EXPECT_NEAR(largest_fold_angle(mesh), std::numbers::pi / 2, 1e-14);
-  std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-  EXPECT_NEAR(largest_fold_angle(mesh), std::numbers::pi / 2, 1e-14);
-  EXPECT_EQ(largest_fold_angle(make_grid_patch(3, 3, 1.0)), 0.0);
 }
 
 TEST(EdgeLengths, OfASquareCutInTwo) {

@@ -67,8 +67,6 @@ void SlurmArray::check() const {
   }
 }
 
-std::string shard_file_name(int k, int n) { return fmt::format("shard-{}-of-{}.palmar", k, n); }
-
 std::string slurm_script(const SlurmArray& array) {
   array.check();
   const auto minutes = static_cast<long long>(std::ceil(array.seconds / 60.0));

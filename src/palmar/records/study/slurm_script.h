@@ -24,9 +24,6 @@ struct SlurmArray {
   void check() const;                ///< throws UsageError
 };
 
-/// Store of shard k in the folder: "shard-2-of-4.palmar".
-std::string shard_file_name(int k, int n);
-
 /// The batch script: each task is `palmar study run --shard k/n`, which goes on where its store
 /// stopped, and is put into the queue again when its node fails.
 std::string slurm_script(const SlurmArray& array);

@@ -152,11 +152,4 @@ std::vector<Rgb> field_colours(std::span<const double> field, double upper, Colo
 
 Rgb region_colour(Region region) { return kRegionColours[static_cast<std::size_t>(region)]; }
 
-std::vector<Rgb> region_colours(std::span<const Region> region) {
-  std::vector<Rgb> colours;
-  colours.reserve(region.size());
-  for (const Region r : region) colours.push_back(region_colour(r));
-  return colours;
-}
-
 }  // namespace palmar

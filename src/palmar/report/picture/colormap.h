@@ -43,7 +43,4 @@ std::vector<Rgb> field_colours(std::span<const double> field, double upper, Colo
 /// Neighbouring regions differ in lightness, too.
 Rgb region_colour(Region region);
 
-/// Vertex colours by region.
-std::vector<Rgb> region_colours(std::span<const Region> region);
-
 }  // namespace palmar
