@@ -32,7 +32,7 @@ MassProperties mass_properties(const Product& product) {
     }
     throw InputError(product.name + ": " + why.data() +
                      ", so its volume and centre of mass are not known; give setting \"mass\" or "
-                     "setting \"weight\" and the centre of mass, or close the mesh");
+                     "setting \"weight\" and setting \"mass at\", or close the mesh");
   }
   return {volume, centre_of_volume(mesh)};
 }
