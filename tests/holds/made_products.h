@@ -1,0 +1,30 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solid_shapes.h"
+
+namespace palmar {
+
+/// An everyday product made from simple solids, of the size of such things. tests/holds/made.toml
+/// says how people take hold of it.
+struct MadeShape {
+  std::string name;
+  Sdf solid;
+  Lattice lattice;
+};
+
+/// Things of kitchen and table, and vessels.
+std::vector<MadeShape> made_household();
+/// Tools, handles, and what else is carried or moved by hand.
+std::vector<MadeShape> made_tools();
+
+/// All of them.
+const std::vector<MadeShape>& made_shapes();
+/// By name. Throws UsageError for an unknown one.
+const MadeShape& made_shape(const std::string& name);
+
+}  // namespace palmar
