@@ -1,11 +1,12 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hold belongs to the product's shape: not to where it lies in its file, how it is meshed, on
-// which side the hand is, nor to a hundredth of the hand's size.
+// The hold belongs to the product's shape: it depends neither on where the product lies in its file
+// and how it is meshed, nor on the hand's side or a hundredth of its size.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -29,10 +30,18 @@ bool is_reversible(const std::string& product) {
   return names.contains(product);
 }
 
+// Laws that are known to be broken: "Law/product" and why. One that is listed here and holds fails,
+// too: then it is struck off.
+const std::map<std::string, std::string>& known_breaks() {
+  static const std::map<std::string, std::string> breaks = {};
+  return breaks;
+}
+
 struct FirstHold {
   bool is_found = false;
   RankedHold ranked;
-  double centre = 0.0;  // from the product's middle, mm
+  double part_length = 0.0;  // mm
+  double centre = 0.0;       // from the product's middle, mm
 };
 
 FirstHold first_hold(const Hand& hand, const Product& product) {
@@ -41,6 +50,7 @@ FirstHold first_hold(const Hand& hand, const Product& product) {
   if (found.holds.empty()) return first;
   first.is_found = true;
   first.ranked = std::move(found.holds.front());
+  first.part_length = found.parts.parts.at(first.ranked.hold.part - 1).length;
   first.centre = (centre_of(first.ranked) - centre_of_volume(product.mesh)).norm();
   return first;
 }
@@ -54,25 +64,39 @@ std::string words_of(const FirstHold& first) {
       first.ranked.score);
 }
 
-// Same part, grip, place and direction. Of fingertips: as far from the product's middle, because
-// the part's own length says little where only pads touch.
-void expect_same_hold(const FirstHold& a, const FirstHold& b, const std::string& product) {
-  SCOPED_TRACE(product + "\n  as it is: " + words_of(a) + "\n  this way: " + words_of(b));
-  ASSERT_TRUE(a.is_found);
-  ASSERT_TRUE(b.is_found);
+// What tells two holds apart, in words; "" if nothing does: part, grip, place and direction. Of
+// fingertips: how far from the product's middle, because places that symmetry makes equal have
+// other coordinates.
+std::string difference(const FirstHold& a, const FirstHold& b, const std::string& product) {
+  if (!a.is_found || !b.is_found) return a.is_found == b.is_found ? "" : "found once only";
   const Hold &p = a.ranked.hold, &q = b.ranked.hold;
-  EXPECT_EQ(p.part, q.part);
-  EXPECT_EQ(p.part_name, q.part_name);
-  EXPECT_EQ(p.grip, q.grip);
+  if (p.part != q.part || p.part_name != q.part_name) return "another part";
+  if (p.grip != q.grip) return "another grip";
   if (!is_power(p.grip)) {
-    EXPECT_EQ(p.fingertips.size(), q.fingertips.size());
-    EXPECT_NEAR(a.centre, b.centre, 3.0);  // mm, the finest lattice's step
-    return;
+    if (p.fingertips.size() != q.fingertips.size()) return "other fingers";
+    // A fiftieth of the part, at least the finest lattice's step.
+    const double tolerance = std::max(3.0, 0.02 * a.part_length);  // mm
+    return std::abs(a.centre - b.centre) <= tolerance
+               ? ""
+               : fmt::format("fingertips {:.1f} mm further out", b.centre - a.centre);
   }
   const bool is_same = p.toward == q.toward && std::abs(p.along - q.along) <= 0.02;
   const bool is_reverse = is_reversible(product) && p.toward == -q.toward &&
                           std::abs(p.along - (1.0 - q.along)) <= 0.02;
-  EXPECT_TRUE(is_same || is_reverse);
+  if (is_same || is_reverse) return "";
+  return p.toward == q.toward ? "another place along the part" : "the hand is turned round";
+}
+
+// Reports a difference unless it is known; `law` as known_breaks() has it.
+void expect_no_difference(const std::string& law, const std::string& product,
+                          const std::string& difference, const FirstHold& a, const FirstHold& b) {
+  const auto known = known_breaks().find(law + "/" + product);
+  if (known == known_breaks().end()) {
+    EXPECT_EQ(difference, "") << product << "\n  as it is: " << words_of(a)
+                              << "\n  this way: " << words_of(b);
+  } else {
+    EXPECT_NE(difference, "") << "the law holds; strike it off the known breaks: " << known->second;
+  }
 }
 
 class LawsOfHolds : public TemplateTest, public testing::WithParamInterface<std::string> {
@@ -91,45 +115,51 @@ class LawsOfHolds : public TemplateTest, public testing::WithParamInterface<std:
                ? found->second
                : known.emplace(GetParam(), first_hold(hand(), as_it_is())).first->second;
   }
+  static void expect_same(const std::string& law, const FirstHold& other) {
+    expect_no_difference(law, GetParam(), difference(first(), other, GetParam()), first(), other);
+  }
 };
 
 TEST_P(LawsOfHolds, StayWhenTheProductIsShiftedAndTurnedALittle) {
   const Rigid3 motion = {Quat(Eigen::AngleAxisd(5.0 * kLawDeg, Vec3(0.6, -0.48, 0.64))),
                          Vec3(100.0, 0.0, 0.0)};
-  expect_same_hold(first(), first_hold(hand(), moved(as_it_is(), motion)), GetParam());
+  expect_same("shifted", first_hold(hand(), moved(as_it_is(), motion)));
 }
 
 TEST_P(LawsOfHolds, StayWhenTheProductIsTurnedAnyhow) {
   const Rigid3 motion = {Quat(Eigen::AngleAxisd(2.2, Vec3(0.36, 0.48, -0.8))),
                          Vec3(-40.0, 25.0, 310.0)};
-  expect_same_hold(first(), first_hold(hand(), moved(as_it_is(), motion)), GetParam());
+  expect_same("turned", first_hold(hand(), moved(as_it_is(), motion)));
 }
 
 TEST_P(LawsOfHolds, StayOnAMeshWithHalfTheEdgeLength) {
-  expect_same_hold(first(), first_hold(hand(), with_finer_mesh(GetParam())), GetParam());
+  expect_same("finer", first_hold(hand(), with_finer_mesh(GetParam())));
 }
 
 TEST_P(LawsOfHolds, StayOnAMeshWithDoubleTheEdgeLength) {
-  expect_same_hold(first(), first_hold(hand(), with_coarser_mesh(GetParam())), GetParam());
+  expect_same("coarser", first_hold(hand(), with_coarser_mesh(GetParam())));
 }
 
 TEST_P(LawsOfHolds, StayWhenTrianglesAreShuffled) {
-  expect_same_hold(first(), first_hold(hand(), shuffled(as_it_is())), GetParam());
+  expect_same("shuffled", first_hold(hand(), shuffled(as_it_is())));
 }
 
 TEST_P(LawsOfHolds, AreMirroredWithProductAndHand) {
   const FirstHold mirror = first_hold(mirrored(hand()), mirrored(as_it_is()));
-  expect_same_hold(first(), mirror, GetParam());
-  if (!first().is_found || !mirror.is_found) return;
-  const Grasp &right = first().ranked.grasp, &left = mirror.ranked.grasp;
-  for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
-    EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d], 1e-4)  // rad
-        << name_of(static_cast<Dof>(d));
+  std::string what = difference(first(), mirror, GetParam());
+  if (what.empty() && first().is_found) {
+    double largest = 0.0;  // rad
+    for (std::size_t d = 0; d < mirror.ranked.grasp.posture.angle.size(); ++d) {
+      largest = std::max(largest, std::abs(mirror.ranked.grasp.posture.angle[d] -
+                                           first().ranked.grasp.posture.angle[d]));
+    }
+    if (largest > 1e-4) what = fmt::format("joints differ by up to {:.2f} deg", largest / kLawDeg);
   }
+  expect_no_difference("mirrored", GetParam(), what, first(), mirror);
 }
 
 TEST_P(LawsOfHolds, StayInAHandOneHundredthLarger) {
-  expect_same_hold(first(), first_hold(scaled(hand(), 1.01), as_it_is()), GetParam());
+  expect_same("larger", first_hold(scaled(hand(), 1.01), as_it_is()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Products, LawsOfHolds, testing::ValuesIn(tried_products()),
