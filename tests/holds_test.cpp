@@ -60,7 +60,9 @@ const RankedHolds& ranked(const Hand& hand, const std::string& product) {
 }
 
 std::string words_of(const RankedHold& found) {
-  return fmt::format("{} ({:.2f})", found.words, found.score);
+  const Vec3 centre = centre_of(found);
+  return fmt::format("{} ({:.2f}), centre ({:.0f}, {:.0f}, {:.0f}) mm", found.words, found.score,
+                     centre.x(), centre.y(), centre.z());
 }
 
 class PeoplesHolds : public TemplateTest, public testing::WithParamInterface<std::string> {};
@@ -122,7 +124,8 @@ TEST_F(Holds, TableOfWhatPeopleDoAndWhatIsFound) {
   const char* file = std::getenv("PALMAR_HOLDS_TABLE");
   if (file == nullptr) GTEST_SKIP() << "PALMAR_HOLDS_TABLE names no file to write to";
   std::ofstream out(file);
-  out << "| product | what people do | first hold found (score) | as people? | rank of people's "
+  out << "| product | what people do | first hold found (score), centre | as people? | rank of "
+         "people's "
          "hold |\n|---|---|---|---|---|\n";
   int hits = 0, products = 0;
   for (const std::string& product : tried_products()) {
