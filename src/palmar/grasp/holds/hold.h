@@ -45,7 +45,9 @@ struct HoldOptions {
   void check() const;               ///< throws UsageError: field, value, allowed range
 };
 
-/// Ways of holding a product, as people would choose: best first, each unlike those before it.
+/// Ways of holding a product, as people would choose: best first, each unlike those before it. Of
+/// holds whose scores are within 0.2 of the best, which the last digits decide, the one leads that
+/// comes first among the candidates.
 struct RankedHolds {
   ProductParts parts;
   std::vector<RankedHold> holds;

@@ -16,6 +16,7 @@ constexpr int kPalmSides = 8;
 constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off what was asked by
 constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
 constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
+constexpr double kStub = 1.8;          // length over diameter of a bar that is a knob; choice
 constexpr double kIndexBeyond = 0.25;  // one of four fingers lies beyond a short handle's end
 
 struct Place {
@@ -80,10 +81,10 @@ bool is_toward(const HoldOptions& options, const HoldSite& at) {
   return at.site.axis.dot(options.toward->normalized()) > std::cos(kTowardLimit);
 }
 
-Grip grip_for(const ProductPart& part, const HoldSite& at, const HoldOptions& options,
-              double hand_length) {
+Grip grip_for(const ProductPart& part, const HoldSite& at, bool is_over_end,
+              const HoldOptions& options, double hand_length) {
   if (options.grip) return *options.grip;
-  if (part.kind == PartKind::kBall) return Grip::kPowerSphere;
+  if (part.kind == PartKind::kBall || is_over_end) return Grip::kPowerSphere;
   return wrap_for(at.site.girth, hand_length);
 }
 
@@ -102,7 +103,8 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     HoldCandidate candidate;
     candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
     if (!is_toward(options, candidate.at)) return;
-    if (hold.grip != Grip::kFixedHook) hold.grip = grip_for(part, candidate.at, options, length);
+    if (hold.grip != Grip::kFixedHook)
+      hold.grip = grip_for(part, candidate.at, hold.is_over_end, options, length);
     candidate.terms = shape_terms(scene, hold, candidate.at);
     candidate.score = sum_of(candidate.terms);
     candidate.hold = std::move(hold);
@@ -136,7 +138,8 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
       }
     }
     // A knob or lid is taken from its free end; a whole ball from any side, so from these, too.
-    const bool is_capped = part.kind == PartKind::kBall || part.kind == PartKind::kBody;
+    const bool is_stub = part.kind == PartKind::kBar && part.length < kStub * part.diameter();
+    const bool is_capped = part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub;
     if (!is_capped || part.is_ring || options.along) continue;
     hold.is_over_end = true;
     hold.edge = 0.0;

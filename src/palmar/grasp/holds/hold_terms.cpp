@@ -32,6 +32,9 @@ constexpr double kWideShare = 0.04;  // of people's grasps
 constexpr double kBesideHandle = 0.1;
 constexpr double kThinnestHandle = 14.0;    // mm; thinner bars are shafts and stems
 constexpr double kShortestHandle = 45.0;    // mm; two fingers and a half
+constexpr double kInLine = 0.95;            // cosine of the angle between a neck and its bottle
+constexpr double kStubShare = 1.8;          // length over diameter: shorter bars are knobs; choice
+constexpr double kLargestKnob = 80.0;       // mm; as wide as hands span with ease; choice
 constexpr double kFewestFingers = 0.45;     // of the fingers' breadth through a loop: two fingers
 constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
 constexpr double kMoment =
@@ -240,6 +243,13 @@ HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldS
     return {"place along it", away, "mm", -0.5 * std::min(z * z, 4.0),
             fmt::format("{:.0f} mm from the middle of its weight", away)};
   }
+  if (scene.is_handle[part.number - 1] == 0) {
+    const double z = (scene.gravity_centre - at.site.point).norm() / breadth;
+    // What it stands on, or works with, is nothing to hold it by.
+    const double per = part.kind == PartKind::kPlate ? 1.0 : 0.5;
+    return {"place along it", z * breadth, "mm", -per * std::min(z * z, 4.0),
+            fmt::format("{:.0f} mm from the middle of its weight", z * breadth)};
+  }
   const double share = std::min(1.0, away / (span + std::abs(away - span)));
   return {"place along it", away, "mm", -1.0 * (1.0 - share),
           fmt::format("{:.0f} mm from the middle of its weight", away)};
@@ -290,10 +300,39 @@ HoldTerm room_term(const HoldScene& scene, const ProductPart& part, const HoldSi
           share < 0.1 ? "room for palm and fingers" : "something is in the hand's way"};
 }
 
-bool is_handle(const ProductPart& part, const ProductParts& parts) {
+double diagonal_of(const ProductPart& part) { return std::max(part.length, part.width); }
+
+// The neck of a bottle goes on where its body ends; the body is what hands take.
+bool is_neck(const ProductPart& part, const ProductParts& parts) {
+  const Vec3 line = part.line.back().centre - part.line.front().centre;
+  for (const int number : part.joined) {
+    const ProductPart& body = parts.parts[number - 1];
+    if (body.kind != PartKind::kBody || body.line.size() < 2) continue;
+    const Vec3 axis = body.line.back().centre - body.line.front().centre;
+    const bool is_in_line = std::abs(line.normalized().dot(axis.normalized())) > kInLine;
+    if (is_in_line && body.length > part.length && body.length > kShortestHandle) return true;
+  }
+  return false;
+}
+
+// A knob on something larger, which fingertips or the whole hand go round.
+bool is_knob(const ProductPart& part, const ProductParts& parts) {
+  const bool has_free_end = !part.ends[0].joined || !part.ends[1].joined;
+  if (part.joined.empty() || !has_free_end || diagonal_of(part) > kLargestKnob) return false;
+  const ProductPart& base = parts.parts[part.joined.front() - 1];
+  return base.kind == PartKind::kPlate || diagonal_of(base) > 2.0 * diagonal_of(part);
+}
+
+bool is_handle(const ProductPart& part, const ProductParts& parts, bool is_beside_loop) {
   if (part.kind == PartKind::kLoop) return parts.parts.size() > 1;
-  return part.kind == PartKind::kBar && !part.joined.empty() &&
-         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
+  const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter();
+  if (part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub) {
+    return is_knob(part, parts);
+  }
+  // Beside a loop that is there for the hand a bar is a spout.
+  return part.kind == PartKind::kBar && !is_beside_loop && !part.joined.empty() &&
+         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle &&
+         !is_neck(part, parts);
 }
 
 // A vessel has its mouth up: where its hollow reaches out. A solid body stands on its heavier end.
@@ -354,8 +393,16 @@ HoldScene hold_scene(const Hand& hand, const Product& product, const ProductPart
   scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
   scene.is_up_known = options.up || guess.is_vessel;
   scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
+  const bool has_loop_on_body =
+      std::any_of(parts.parts.begin(), parts.parts.end(), [&](const ProductPart& part) {
+        return part.kind == PartKind::kLoop && part.opening &&
+               part.opening->width > kFewestFingers * fingers_breadth(hand) &&
+               parts.parts.front().kind == PartKind::kBody;
+      });
   for (const ProductPart& part : parts.parts) {
-    scene.is_handle.push_back(is_handle(part, parts) ? 1 : 0);
+    const bool is_on_body =
+        std::find(part.joined.begin(), part.joined.end(), 1) != part.joined.end();
+    scene.is_handle.push_back(is_handle(part, parts, has_loop_on_body && is_on_body) ? 1 : 0);
     scene.has_handle = scene.has_handle || scene.is_handle.back() != 0;
   }
   return scene;

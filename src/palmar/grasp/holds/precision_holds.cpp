@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <optional>
 #include <utility>
 
+#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
@@ -22,20 +24,30 @@ struct GripPrior {
   double score;
 };
 
-constexpr double kSmallThing = 0.35;  // hand lengths: longer things aren't taken by fingertips
+constexpr double kSmallThing = 0.45;  // hand lengths: longer things aren't taken by fingertips
+constexpr double kTinyThing = 0.12;   // hand lengths: only two fingers find room on it
+constexpr double kFlatThing = 0.4;    // thickness over width: a key, a card
+constexpr double kStem = 14.0;        // mm; thicker bars are for the whole hand
+constexpr double kSmallKnob = 0.25;   // hand lengths: fingertips rather than the palm
 constexpr double kSpanned = 0.55;     // hand lengths that thumb and fingers span
 constexpr double kThinPlate = 30.0;   // mm
 
-std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part, double largest) {
+// Largest first, mm.
+Vec3 sorted_extents(const TriangleMesh& mesh) {
+  Vec3 extents = body_shape(mesh).extent;
+  std::sort(extents.begin(), extents.end(), std::greater<>());
+  return extents;
+}
+
+std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part,
+                              const Vec3& extents) {
   const double length = scene.hand->dimensions.hand_length;
   using enum Grip;
-  if (part.kind == PartKind::kPen) {
-    return {{kTripod, 0.0}, {kPalmarPinch, -1.5}, {kLateral, -2.5}};
-  }
-  if (largest < kSmallThing * length) {
-    if (largest < 0.12 * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
-    if (part.kind == PartKind::kPlate) return {{kLateral, -0.2}, {kPalmarPinch, -0.6}};
-    return {{kTripod, -0.4}, {kPrecisionSphere, -0.6}, {kPalmarPinch, -1.2}};
+  if (part.kind == PartKind::kPen) return {{kTripod, 0.0}, {kPalmarPinch, -1.5}};
+  if (extents[0] < kSmallThing * length) {
+    if (extents[0] < kTinyThing * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
+    if (extents[2] < kFlatThing * extents[1]) return {{kLateral, -0.2}, {kPalmarPinch, -0.6}};
+    return {{kPrecisionSphere, -0.4}, {kTripod, -0.6}, {kPalmarPinch, -1.2}};
   }
   if (part.kind == PartKind::kPlate && part.thickness < kThinPlate) {
     // Who can span it takes it into the palm.
@@ -43,20 +55,6 @@ std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part, d
     return {{kPalmarPinch, -1.5 - spanned}, {kLateral, -1.7 - spanned}};
   }
   return {};
-}
-
-Box3 box_of(const TriangleMesh& mesh) {
-  Box3 box;
-  for (const Vec3& v : mesh.vertices) box.extend(v);
-  return box;
-}
-
-// The longest distance between two vertices along the part's own axes is about this.
-double largest_extent(const TriangleMesh& mesh) {
-  const Vec3 middle = box_of(mesh).center();
-  double farthest = 0.0;
-  for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, (v - middle).norm());
-  return 2.0 * farthest;
 }
 
 RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
@@ -105,20 +103,38 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   std::vector<GripPrior> grips;
   if (options.grip) {
     grips.push_back({*options.grip, 0.0});
-  } else if (options.part || !options.part_name.empty() || scene.parts->parts.size() == 1) {
-    const auto asked =
-        std::find_if(scene.parts->parts.begin(), scene.parts->parts.end(),
-                     [&](const ProductPart& part) { return is_part_asked(part, options); });
-    if (asked == scene.parts->parts.end()) return found;
-    grips = priors(scene, *asked, largest_extent(scene.product->mesh));
+  } else {
+    grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene.product->mesh));
   }
-  for (const GripPrior& tried : grips) {
-    progress.throw_if_cancelled();
-    PrecisionGripOptions precision;
-    precision.grip = tried.grip;
-    const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
-    if (grasp.fingertips.empty()) continue;
-    found.push_back(ranked_of(scene, grasp, tried.score));
+  const auto try_grips = [&](const std::vector<GripPrior>& list, std::optional<Vec3> at) {
+    for (const GripPrior& tried : list) {
+      progress.throw_if_cancelled();
+      PrecisionGripOptions precision;
+      precision.grip = tried.grip;
+      precision.placement.at = at;
+      const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
+      if (grasp.fingertips.empty()) continue;
+      RankedHold ranked = ranked_of(scene, grasp, tried.score);
+      if (is_part_asked(scene.parts->parts[ranked.hold.part - 1], options)) {
+        found.push_back(std::move(ranked));
+      }
+    }
+  };
+  try_grips(grips, {});
+  if (options.grip || scene.parts->parts.size() < 2) return found;
+  // A small knob on something larger; the stem of what has no handle.
+  const double length = scene.hand->dimensions.hand_length;
+  for (const ProductPart& part : scene.parts->parts) {
+    const bool is_small = std::max(part.length, part.width) < kSmallKnob * length;
+    const Vec3 middle = part_frame(part, 0.5, 0.0).translation;
+    if (part.kind == PartKind::kBar && !scene.has_handle && part.diameter() < kStem) {
+      try_grips({{Grip::kTripod, -0.5}, {Grip::kPalmarPinch, -0.8}}, middle);
+    }
+    if (!is_small || part.kind == PartKind::kPlate || part.kind == PartKind::kLoop ||
+        scene.is_handle[part.number - 1] == 0) {
+      continue;
+    }
+    try_grips({{Grip::kPrecisionSphere, -0.3}, {Grip::kTripod, -0.3}}, middle);
   }
   return found;
 }

@@ -214,6 +214,22 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
   return result;
 }
 
+namespace {
+
+std::string place_words(const Hold& hold, const ProductPart& part, const ProductParts& parts) {
+  if (std::abs(hold.edge) < 0.1 || part.is_ring) {
+    return fmt::format(", {:.0f} % along it", 100.0 * std::clamp(hold.along, 0.0, 1.0));
+  }
+  if (part.opening) return ", index finger where the opening ends";
+  const std::size_t end = hold.along > 0.5 ? 1 : 0;
+  if (part.ends[end].joined) {
+    return ", up to the " + parts.parts[*part.ends[end].joined - 1].name;
+  }
+  return part.ends[1 - end].joined ? ", at its free end" : ", at one of its ends";
+}
+
+}  // namespace
+
 std::string words_of(const Hold& hold, const ProductParts& parts) {
   const ProductPart& part = part_of(hold, parts);
   std::string grip(name_of(hold.grip));
@@ -222,7 +238,7 @@ std::string words_of(const Hold& hold, const ProductParts& parts) {
   if (!is_power(hold.grip)) return words;
   if (hold.is_over_end) return words + ", palm over its end";
   if (part.kind == PartKind::kLoop) words += ", fingers through it";
-  words += fmt::format(", {:.0f} % along it", 100.0 * std::clamp(hold.along, 0.0, 1.0));
+  words += place_words(hold, part, parts);
   const std::size_t end = hold.toward > 0 ? 1 : 0;
   if (!part.is_ring && part.ends[end].joined && !part.ends[1 - end].joined) {
     words += ", thumb's side towards the " + parts.parts[*part.ends[end].joined - 1].name;
