@@ -16,7 +16,8 @@ constexpr int kPalmSides = 8;
 constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off what was asked by
 constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
 constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
-constexpr double kStub = 1.8;          // length over diameter of a bar that is a knob; choice
+constexpr double kSamePlace = 0.25;  // breadths of the fingers; nearer places are the same; choice
+constexpr double kStub = 1.8;        // length over diameter of a bar that is a knob; choice
 constexpr double kIndexBeyond = 0.25;  // one of four fingers lies beyond a short handle's end
 
 struct Place {
@@ -69,7 +70,10 @@ std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, in
   const double half = 0.5 * breadth / part.length;
   const auto add_middle = [&](double along) {
     const double kept = std::clamp(along, half, 1.0 - half);
-    if (std::abs(kept - 0.5) * part.length > 0.15 * breadth) places.push_back({kept, 0.0});
+    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Place& other) {
+      return other.edge == 0.0 && std::abs(kept - other.along) * part.length < kSamePlace * breadth;
+    });
+    if (is_new) places.push_back({kept, 0.0});
   };
   add_middle(place_of(part, scene.gravity_centre).along);
   for (const PartWaist& waist : part.waists) add_middle(waist.along);
@@ -108,6 +112,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     candidate.terms = shape_terms(scene, hold, candidate.at);
     candidate.score = sum_of(candidate.terms);
     candidate.hold = std::move(hold);
+    candidate.index = found.size();
     found.push_back(std::move(candidate));
   };
   for (const ProductPart& part : scene.parts->parts) {

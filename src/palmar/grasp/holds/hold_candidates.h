@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "palmar/grasp/holds/hold_terms.h"
@@ -14,6 +15,7 @@ struct HoldCandidate {
   HoldSite at;
   std::vector<HoldTerm> terms;
   double score = 0.0;
+  std::size_t index = 0;  ///< among all, before they are sorted
 };
 
 /// Power holds of every part, a few hundred: at its middle, its ends, its centre of gravity and its

@@ -325,7 +325,8 @@ bool is_knob(const ProductPart& part, const ProductParts& parts) {
 
 bool is_handle(const ProductPart& part, const ProductParts& parts, bool is_beside_loop) {
   if (part.kind == PartKind::kLoop) return parts.parts.size() > 1;
-  const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter();
+  const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter() &&
+                       (!part.ends[0].joined || !part.ends[1].joined);
   if (part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub) {
     return is_knob(part, parts);
   }

@@ -18,9 +18,10 @@
 namespace palmar {
 namespace {
 
-constexpr std::size_t kClosed = 14;      // holds that the hand is closed on
-constexpr std::size_t kClosedAlike = 3;  // of these with the same part and direction
-constexpr double kNearTie = 0.2;         // of the score: such a difference doesn't change the order
+constexpr std::size_t kClosed = 14;                 // holds that the hand is closed on
+constexpr std::size_t kClosedAlike = 3;             // of these with the same part and direction
+constexpr std::size_t kPrecisionOrder = 1'000'000;  // after all power holds where both are as good
+constexpr double kNearTie = 0.2;  // of the score: such a difference doesn't change the order
 // How well a closed hand holds, in the units of the scores (choices).
 constexpr double kPerMissingFinger = 0.5;
 constexpr double kPerMissingWrap = 6.0;    // per share of a turn below a third
@@ -174,7 +175,7 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
           place_of_hold(candidate.at, hold.grip, known->second, coarse, power, progress);
       ++result.closed;
       ClosedHold done;
-      done.order = k;
+      done.order = candidate.index;
       done.ranked.hold = hold;
       done.ranked.terms = candidate.terms;
       done.ranked.terms.push_back(grip_term(place, scene, hold));
@@ -185,7 +186,7 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
   for (RankedHold& ranked : precision_holds(scene, options, progress)) {
     ++result.considered;
     ++result.closed;
-    closed.push_back({std::move(ranked), closed.size() + 1000});
+    closed.push_back({std::move(ranked), kPrecisionOrder + closed.size()});
   }
   for (ClosedHold& hold : closed) {
     hold.ranked.score = sum_of(hold.ranked.terms);
