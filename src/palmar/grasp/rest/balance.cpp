@@ -27,7 +27,9 @@ constexpr double kBalanced = 0.01;   // residual over grip force; what counts as
 constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
 constexpr double kJointSaid = 0.05;  // the same; more is reported
 constexpr double kLevelAim = 0.005;  // of the grip force asked for
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 120;
+constexpr int kUsualSteps = 60;  // not there by then, the search goes on only while it gets nearer
+constexpr int kVainSteps = 25;   // without getting nearer: it goes round in circles
 constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
 constexpr double kLeastRelaxation = 0.1;
 constexpr double kReach = 40.0;      // mm; arm by which turns are counted as way
@@ -345,7 +347,9 @@ Balance Settling::run(const Progress& progress) {
     Misfit misfit;
     double muscles = 0.0;
     Vec3 moved = Vec3::Zero();
+    int step = 0;
   } best;
+  bool gives_up = false;  // the best state found is looked at once more
   best.misfit.of_product = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     progress.throw_if_cancelled();
@@ -384,18 +388,18 @@ Balance Settling::run(const Progress& progress) {
     balance.residual_force = now.force;
     balance.residual_moment = now.moment;
     balance.residual_share = now.of_product;
-    const bool is_last = i > kMostSteps;
     const bool is_there =
         now.of_product < options_->aim && now.of_joints < kJointAim && now.of_level < kLevelAim;
-    if (is_there || is_last) {
+    if (is_there || gives_up) {
       balance.status =
           now.of_product < kBalanced ? BalanceStatus::kBalanced : BalanceStatus::kNotConverged;
       break;
     }
-    if (now.sum() < best.misfit.sum()) best = {state_, now, muscles_, moved_};
+    if (now.sum() < best.misfit.sum()) best = {state_, now, muscles_, moved_, i};
     progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
                     "letting the grasp come to rest");
-    if (i < kMostSteps) {
+    gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps);
+    if (!gives_up) {
       step(now, (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals);
     } else {
       state_ = best.state;
@@ -424,7 +428,7 @@ Balance Settling::run(const Progress& progress) {
                                      100.0 * now.of_joints);
     }
   } else if (balance.status == BalanceStatus::kNotConverged) {
-    balance.message = fmt::format("not in balance after {} steps: ", kMostSteps) +
+    balance.message = fmt::format("not in balance after {} steps: ", balance.iterations) +
                       fmt::format("{:.1f} N are left over at a grip force of {:.0f} N",
                                   balance.residual_force, mechanics_.grip().force);
   }
