@@ -29,11 +29,11 @@ const most_rounds = 8;
 
 /** Products that are assessed in one go, with the same settings. */
 const groups = [
-  { settings: [], products: {
+  { settings: ["--limit-depths"], products: {
     bar: ["cylinder", "--diameter-mm", "35", "--length-mm", "130"],
     prism: ["prism", "--width-mm", "40", "--depth-mm", "30", "--length-mm", "120", "--fillet-mm", "4"],
     ball: ["sphere", "--diameter-mm", "70"] } },
-  { settings: ["--grip", "tripod"], products: { pen: ["cylinder", "--diameter-mm", "10", "--length-mm", "140"] } },
+  { settings: ["--grip", "tripod", "--limit-depths"], products: { pen: ["cylinder", "--diameter-mm", "10", "--length-mm", "140"] } },
 ];
 
 // ---- The copy with factors ----------------------------------------------------------------------

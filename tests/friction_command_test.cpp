@@ -109,11 +109,36 @@ TEST(FrictionCommand, GripForceAndStrengthAreAskedFor) {
         {"--strength-share 0.2 --person child,31", "male,AGE or female,AGE"},
         {"--strength-share 0.2 --person male,7", "17 to 90"},
         {"--no-balance --grip-force-n 5", "--no-balance"},
+        {"--limit-depths --grip-force-n 5",
+         "--limit-depths and --grip-force-n both say how firmly"},
+        {"--limit-depths --no-balance", "one is allowed"},
+        {"--acceleration-g 0.5", "--acceleration-g needs what is accelerated: --mass-kg"},
         {"--grip-force-n 0", "grip force is 0 N"}}) {
     const ProgramRun run = assess(arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_THAT(run.err, HasSubstr(text));
   }
+}
+
+TEST(FrictionCommand, UsualGripForceIsSaidWithItsSource) {
+  const ProgramRun usual = assess("");
+  ASSERT_EQ(usual.exit_code, 0) << usual.err;
+  EXPECT_THAT(usual.out, HasSubstr("107 N asked for: 25 % of the grip strength of women and men "
+                                   "of 45 years (mean; Steiber 2016), 427 N"));
+  EXPECT_THAT(read_text(folder() + "/report/report.html"),
+              HasSubstr("asked to grip with 107 N (25 % of the grip strength"));
+  const ProgramRun depths = assess("--limit-depths --json");
+  ASSERT_EQ(depths.exit_code, 0) << depths.err;
+  const Json one = Json::parse(depths.out).at("assessments").at(0);
+  EXPECT_TRUE(one.at("settings").at("grip_force_asked_n").is_null());
+  EXPECT_EQ(one.at("balance").at("status"), "balanced");
+}
+
+TEST(FrictionCommand, AccelerationAddsToTheWeight) {
+  const ProgramRun run = assess("--weight-n 4 --acceleration-g 0.5 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json friction = Json::parse(run.out).at("assessments").at(0).at("friction");
+  EXPECT_NEAR(friction.at("load").at("force_n").at(2).get<double>(), -6.0, 1e-12);
 }
 
 TEST(FrictionCommand, RefusesWhatMakesNoSense) {

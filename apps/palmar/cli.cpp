@@ -27,8 +27,8 @@ bool progress_line_open = false;
 std::vector<std::string> running_options;
 SettingOptions running_setting_options;
 /// Ends of options that say in which unit a number is.
-constexpr std::array kUnitEnds = {"-mm", "-mm2", "-mm3", "-deg", "-px",    "-mb",  "-n",
-                                  "-kg", "-kpa", "-mpa", "-s",   "-g-cm3", "-n-mm"};
+constexpr std::array kUnitEnds = {"-mm", "-mm2", "-mm3", "-deg", "-px",    "-mb",   "-n",
+                                  "-kg", "-kpa", "-mpa", "-s",   "-g-cm3", "-n-mm", "-g"};
 
 void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once

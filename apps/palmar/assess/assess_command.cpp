@@ -29,10 +29,9 @@ struct AssessArguments {
 };
 
 std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
-  std::string text =
-      fmt::format("== {}\n{}{}{}", product.name, grasp_text(assessment.grasp),
-                  balance_text(assessment.balance), contact_text(assessment.contact)) +
-      friction_text(hand, assessment) + index_text(assessment.indices);
+  std::string text = fmt::format("== {}\n{}{}{}", product.name, balance_text(assessment),
+                                 grasp_text(assessment.grasp), contact_text(assessment.contact)) +
+                     friction_text(hand, assessment) + index_text(assessment.indices);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
@@ -56,8 +55,7 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.friction = arguments.friction.settings();
   request.rest = arguments.balance.settings();
   // The thesis leaves the hand as it was closed.
-  if (arguments.contact.preset == "xie2014" && !request.rest.grip_force &&
-      !request.rest.strength_share) {
+  if (arguments.contact.preset == "xie2014" && request.rest.is_usual()) {
     request.rest.is_balanced = false;
   }
   request.model = arguments.contact.model();

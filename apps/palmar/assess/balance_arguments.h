@@ -6,13 +6,15 @@
 
 #include "cli.h"
 #include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace palmar::cli {
 
 /// How firmly the hand grips and whether the grasp comes to rest.
 class BalanceArguments {
  public:
-  /// Adds --no-balance, --grip-force-n, --strength-share, --strength-n and --person to a verb.
+  /// Adds --no-balance, --limit-depths, --grip-force-n, --strength-share, --strength-n and --person
+  /// to a verb.
   void add_to(CLI::App& verb);
   RestSettings settings() const;  ///< throws UsageError naming the option
 
@@ -22,7 +24,11 @@ class BalanceArguments {
   std::string person_;
 };
 
-/// How the grasp came to rest, in one or two lines; empty if it wasn't asked to.
-std::string balance_text(const Balance& balance);
+/// "107 N, 25 % of ... (15 to 23 N in a pinch)": the usual grip force, for help texts.
+std::string usual_words();
+
+/// The grip force, and how the grasp came to rest, in one to three lines; empty if it wasn't asked
+/// to.
+std::string balance_text(const Assessment& assessment);
 
 }  // namespace palmar::cli

@@ -29,6 +29,9 @@ void FrictionArguments::add_to(CLI::App& verb) {
                   "Density of the product, solid throughout, instead of its mass, g/cm3")
       ->excludes(mass)
       ->excludes(weight);
+  verb.add_option("--acceleration-g", settings_.acceleration,
+                  "Upward acceleration that the hand gives the product, in multiples of 9.81 m/s2: "
+                  "with 0.5 it weighs half as much again");
   verb.add_option("--gravity", gravity_,
                   "Direction of gravity in the product's frame, x,y,z; default 0,0,-1");
   verb.add_option("--mass-at", mass_at_,

@@ -13,8 +13,8 @@ namespace palmar::cli {
 /// The options of friction and load.
 class FrictionArguments {
  public:
-  /// Adds --friction, --mass-kg, --weight-n, --density-g-cm3, --gravity, --mass-at, --load-n,
-  /// --torque-n-mm and --load-at to a verb.
+  /// Adds --friction, --mass-kg, --weight-n, --density-g-cm3, --acceleration-g, --gravity,
+  /// --mass-at, --load-n, --torque-n-mm and --load-at to a verb.
   void add_to(CLI::App& verb);
   FrictionSettings settings() const;  ///< throws UsageError naming the option
 

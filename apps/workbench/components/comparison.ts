@@ -20,7 +20,7 @@ function card(one: Assessment, pictures: Picture[], index: number, vocabulary: V
     html`<div><dt>${name}</dt><dd>${shortNumber(value)} ${unit}</dd></div>`;
   // Seen from the palm's side, what is too large would hide the hand.
   const content: Child = isInHand(one)
-    ? html`${thumbnail(pictures, "map_open_hand")}${thumbnail(pictures, "grasp_palm")}<dl>${figure("Force", contact.force_n, "N")}${figure("Contact area", contact.contact_area_mm2, "mm²")}${figure("Peak on sensor cells", contact.peak_pressure_cells_mpa, "MPa")}${figure("Peak at one vertex", contact.peak_pressure_mpa, "MPa")}</dl>`
+    ? html`${thumbnail(pictures, "map_open_hand")}${thumbnail(pictures, "grasp_palm")}<dl>${figure("Grip force", contact.grip_force_n, "N")}${figure("Force", contact.force_n, "N")}${figure("Contact area", contact.contact_area_mm2, "mm²")}${figure("Peak on sensor cells", contact.peak_pressure_cells_mpa, "MPa")}${figure("Peak at one vertex", contact.peak_pressure_mpa, "MPa")}</dl>`
     : html`${thumbnail(pictures, "grasp_back")}<p>Not in the hand: no forces or pressures to compare.</p>`;
   return html`<div class="card"><h4><a href="#product-${index}">${one.product.name}</a> ${badge(statusVerdict(one), statusWords(one, vocabulary))}</h4>${content}</div>`;
 }

@@ -23,7 +23,7 @@ function resultCells(assessment: Assessment, vocabulary: Vocabulary): Child {
   const nearest = nearestToPain(contact, vocabulary);
   if (!isInHand(assessment) || !nearest) {
     // A posture that holds nothing has forces, too, but they say nothing about holding.
-    return [emptyCell(), emptyCell(), emptyCell(), emptyCell(), cell(nothing),
+    return [emptyCell(), emptyCell(), emptyCell(), emptyCell(), emptyCell(), cell(nothing),
             html`<td colspan="2">not in the hand: nothing to judge</td>`];
   }
   let hottest = contact.regions[0];
@@ -34,6 +34,7 @@ function resultCells(assessment: Assessment, vocabulary: Vocabulary): Child {
   const pain = nearest.share >= 1 ? "Above pain onset: " : nearest.share >= 0.5 ? "Near: " : "Below: ";
   const band = contact.band;
   return [
+    numberCell(contact.grip_force_n),
     rangeCell(contact.force_n, band && band.force_n),
     rangeCell(contact.contact_area_mm2, band && band.contact_area_mm2),
     rangeCell(contact.peak_pressure_mpa, band && band.peak_pressure_mpa),
@@ -49,7 +50,7 @@ function resultCells(assessment: Assessment, vocabulary: Vocabulary): Child {
 export function summaryTable(assessments: Assessment[], vocabulary: Vocabulary): Markup {
   return table({
     caption: "Results at a glance",
-    columns: [words("Product"), words("Does it fit?"), numbers("Force, N"), numbers("Contact area, mm²"),
+    columns: [words("Product"), words("Does it fit?"), numbers("Grip force, N"), numbers("Force, N"), numbers("Contact area, mm²"),
               numbers("Peak pressure, MPa"), numbers("Peak on sensor cells, MPa"),
               words("Hottest region (sensor cells)"), words("Firm grip for a moment: pain (film peak)"),
               words("Grip held long: blood flow (sensor cells)")],
@@ -180,8 +181,7 @@ export function settingsTable(assessment: Assessment): Markup {
     ["Limit depth of the fingers", shortNumber(s.finger_limit_depth_mm) + " mm"],
     ["Placement", isGiven ? "as asked" : "found from the product's shape"],
     ["Grip", assessment.grasp.grip],
-    ["Grip force", s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N requested"
-                                                 : "as firm as closing to the limit depths"],
+    ["Grip force", (s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N: " : "") + s.grip_force_from],
     ["Comes to rest", s.balance ? "yes" : "no"],
     ["Equations of the contact", s.contact_model],
     ["Kernel", s.kernel === "patch" ? "patch (uniform pressure on each vertex's area)" : "point (Xie 2014, r held at 0.5 mm)"],

@@ -70,8 +70,9 @@ export function readingAdvice(assessments: Assessment[], vocabulary: Vocabulary)
   const force = first ? first.settings.grip_force_asked_n : null;
   const advice = " Compare designs with each other; don't take the figures as absolute.";
   if (force !== null && first.settings.balance) {
-    return "The hand was asked to grip with " + shortNumber(force) +
-      " N; how that force spreads over the skin was computed, not measured." + advice;
+    const from = first.settings.grip_force_from;
+    return "The hand was asked to grip with " + shortNumber(force) + " N" + (from && " (" + from + ")") +
+      "; how that force spreads over the skin was computed, not measured." + advice;
   }
   if (first && !isPower(first, vocabulary)) {
     return "The fingertips are pressed in to a set depth; the force that this takes was computed, not measured." + advice;

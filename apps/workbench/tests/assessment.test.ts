@@ -53,7 +53,9 @@ test("the grip and what set its force are those that were asked for", () => {
   assert.match(readingAdvice([one], vocabulary), /fingertips are pressed in to a set depth/);
   one.settings.grip_force_asked_n = 10;
   one.settings.balance = true;
-  assert.match(readingAdvice([one], vocabulary), /asked to grip with 10.0 N/);
+  assert.match(readingAdvice([one], vocabulary), /asked to grip with 10.0 N;/);
+  one.settings.grip_force_from = "25 % of a strength";
+  assert.match(readingAdvice([one], vocabulary), /asked to grip with 10.0 N \(25 % of a strength\);/);
   assert.doesNotMatch(assessmentPage(page([one])), /power grip|nobody measured/);
   one.grasp.grip = "tip_pinch";
   assert.equal(gripWords(one, vocabulary), "tip pinch");

@@ -105,6 +105,7 @@ export interface RegionContact extends ContactTotals {
 export interface ContactResult extends ContactTotals {
   status: "solved" | "no_contact" | "not_converged" | "too_deep";
   message: string;
+  grip_force_n: number;
   complementarity_error_n_mm: number;
   residual_penetration_contact_mm: number;
   residual_penetration_other_mm: number;
@@ -141,7 +142,8 @@ export interface AssessmentSettings {
   turn_deg: number | null;
   balance: boolean;
   balance_friction: number;
-  grip_force_asked_n: number | null;
+  grip_force_asked_n: number | null; // null: as firm as it was closed
+  grip_force_from: string; // where it comes from, or why nothing is asked for, for people
   contact_model: string;
   kernel: "patch" | "point";
   tissue_model: "halfspace" | "layered";

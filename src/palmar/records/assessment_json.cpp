@@ -136,8 +136,11 @@ Json band_or_null(const ContactResult& contact, const RegionContact* region) {
   return nullptr;
 }
 
-Json contact_object(const ContactResult& contact) {
-  Json json = {{"status", name_of_status(contact.status)}, {"message", contact.message}};
+/// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
+Json contact_object(const ContactResult& contact, double grip_force) {
+  Json json = {{"status", name_of_status(contact.status)},
+               {"message", contact.message},
+               {"grip_force_n", grip_force}};
   add_totals(json, contact.total);
   json["band"] = band_or_null(contact, nullptr);
   json["complementarity_error_n_mm"] = contact.complementarity_error;
@@ -308,7 +311,8 @@ Json settings_object(const Assessment& assessment) {
           {"turn_deg", placed.turn ? Json(*placed.turn * kDegreesPerRadian) : Json(nullptr)},
           {"balance", options.balance.is_on},
           {"balance_friction", options.balance.friction},
-          {"grip_force_asked_n", or_null(options.balance.grip_force)},
+          {"grip_force_asked_n", or_null(options.balance.asked_grip_force(assessment.grasp.grip))},
+          {"grip_force_from", options.balance.asked_words(assessment.grasp.grip)},
           {"contact_model", name_of(assessment.contact.model)},
           {"kernel", name_of(assessment.contact.model.kernel)},
           {"tissue_model", name_of(assessment.contact.model.tissue)},
@@ -351,7 +355,7 @@ std::string assessment_json(const AssessmentSet& set) {
                   {"hand", std::move(hand)},
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
-                  {"contact", contact_object(assessment.contact)},
+                  {"contact", contact_object(assessment.contact, grip_force_of(one))},
                   {"indices", indices_object(assessment.contact, assessment.indices)},
                   {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};

@@ -58,7 +58,9 @@ std::vector<std::string> band_cells(const std::optional<ContactBand>& band,
 /// `band`: of this region, or null.
 std::vector<std::string> region_row(const AssessedProduct& one, const std::string& region,
                                     const RegionContact& contact, const ContactBandRow* band) {
-  std::vector<std::string> row = {one.product.name, one.assessment.hand_name, region};
+  const bool is_total = &contact == &one.assessment.contact.total;
+  std::vector<std::string> row = {one.product.name, one.assessment.hand_name, region,
+                                  is_total ? shortest(grip_force_of(one)) : ""};
   for (const double value : {contact.force, contact.area, contact.peak_pressure,
                              contact.peak_pressure_cells, contact.mean_pressure, contact.centre.x(),
                              contact.centre.y(), contact.centre.z(), contact.max_penetration}) {
@@ -92,6 +94,7 @@ CsvTable region_table(const AssessmentSet& set) {
   table.header = {"product",
                   "hand",
                   "region",
+                  "grip_force_n",
                   "force_n",
                   "contact_area_mm2",
                   "peak_pressure_mpa",

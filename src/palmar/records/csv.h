@@ -20,9 +20,9 @@ struct CsvTable {
 /// than the header.
 std::string format_csv(const CsvTable& table);
 
-/// One row per product and region in contact, then one per product named "total": force, area,
-/// pressures, centre of pressure, penetration, and the product's source, which keeps products of
-/// one name apart.
+/// One row per product and region in contact, then one per product named "total", which alone has
+/// the grip force: force, area, pressures, centre of pressure, penetration, and the product's
+/// source, which keeps products of one name apart.
 CsvTable region_table(const AssessmentSet& set);
 
 /// One row per face under pressure of products that have faces: title and number, force, area under

@@ -145,6 +145,7 @@ TEST(AssessmentJson, HasTheShapeThatOtherProgramsRelyOn) {
        {"product", "hand", "grasp", "contact", "indices", "settings", "times_s"}) {
     EXPECT_TRUE(one.contains(key)) << key;
   }
+  EXPECT_TRUE(one["contact"].contains("grip_force_n"));
   for (const char* key : {"force_n", "contact_area_mm2", "peak_pressure_mpa",
                           "peak_pressure_cells_mpa", "mean_pressure_mpa"}) {
     EXPECT_TRUE(one["contact"].contains(key)) << key;
@@ -238,9 +239,13 @@ TEST(PressTable, HasOneRowPerStepAndUnitsInTheHeader) {
 TEST(RegionTable, HasOneRowPerRegionAndATotal) {
   const CsvTable table = region_table(example());
   ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.header[3], "force_n");
-  EXPECT_THAT(format_csv(table), HasSubstr(",template,index_distal,0.30000000000000004,100,0.25,"));
+  EXPECT_EQ(table.header[3], "grip_force_n");
+  EXPECT_EQ(table.header[4], "force_n");
+  // A grip force is one of the whole hand.
+  EXPECT_THAT(format_csv(table),
+              HasSubstr(",template,index_distal,,0.30000000000000004,100,0.25,"));
   EXPECT_EQ(table.rows[1][2], "total");
+  EXPECT_NE(table.rows[1][3], "");
 }
 
 TEST(RegionTable, DistinguishesProductsOfOneNameBySource) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/workflow/assess.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 
@@ -46,10 +48,16 @@ std::vector<ProductTask> read_products(const AssessRequest& request, const Progr
   return tasks;
 }
 
+/// What has to be held, of all products: the usual grip force is the same for all of them.
+HeaviestLoad heaviest_of(const std::vector<ProductTask>& tasks) {
+  HeaviestLoad heaviest;
+  for (const ProductTask& task : tasks) heaviest.add(task.product, task.friction.load);
+  return heaviest;
+}
+
 AssessOptions options_of(const AssessRequest& request, const Skeleton& skeleton) {
   AssessOptions options;
   options.contact = request.contact;
-  options.balance = request.rest.options(request.friction.friction, request.grasp.grip);
   options.seed = request.seed;
   if (!request.natural_postures.empty()) {
     options.indices.coordination = read_coordination(request.natural_postures, skeleton);
@@ -67,7 +75,7 @@ void AssessRequest::check() const {
   grasp.check();
   contact.check();
   friction.options();
-  rest.options(friction.friction, grasp.grip);
+  rest.options(friction.friction);
 }
 
 AssessOutcome assess_products(const AssessRequest& request, const Progress& progress) {
@@ -78,6 +86,8 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(request.hand);
   AssessOptions options = options_of(request, hand->skeleton);
+  const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
+  options.balance = request.rest.options(request.friction.friction, heaviest);
   const PreparedHand prepared(hand, request.model);
 
   AssessOutcome outcome;
@@ -102,6 +112,12 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
       break;
     }
     const AssessedProduct& done = outcome.set.assessments.back();
+    const Grip grip = done.assessment.grasp.grip;
+    if (options.balance.share_of_strength && options.balance.share_of_strength->is_raised(grip)) {
+      note_to(request.note, fmt::format("{}: grip force {:.0f} N: {}", done.product.name,
+                                        options.balance.share_of_strength->force(grip),
+                                        options.balance.asked_words(grip)));
+    }
     if (done.assessment.contact.status == ContactStatus::kNotConverged) {
       note_to(request.note, done.product.name + ": " + done.assessment.contact.message);
       outcome.has_converged = false;

@@ -29,7 +29,7 @@ struct AssessRequest {
   ContactModel model;  ///< the equations of the skin
   ContactOptions contact = contact_with_band();
   FrictionSettings friction;
-  RestSettings rest;
+  RestSettings rest;  ///< one grip force for all products, unless it says otherwise
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
   /// ease; "": the built-in one.
   std::string natural_postures;

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/mesh/mesh_file.h"
@@ -14,7 +16,10 @@
 namespace palmar {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using workflow_test::coarse_hand;
 using workflow_test::handle;
 using workflow_test::TemporaryFolder;
@@ -51,6 +56,67 @@ TEST(AssessProducts, ForcesOnAHeldProductAddUpToNothing) {
   Vec3 sum = held.contact.total.force_vector - 6.0 * Vec3::UnitZ();
   for (const Vec3& force : held.balance.friction_force) sum += force;
   EXPECT_LT(sum.norm(), 0.4);  // N; 1 % of the grip force counts as balanced
+}
+
+TEST(AssessProducts, DesignsAreComparedAtOneGripForce) {
+  PrismProductOptions prism;
+  prism.width = 40.0;
+  prism.depth = 30.0;
+  prism.length = 140.0;
+  prism.fillet_radius = 5.0;
+  AssessRequest request = request_for({handle(30.0), handle(45.0), make_prism_product(prism)});
+  // 25 % of the mean of 53.0 and 34.1 kg (Steiber 2016, men and women of 45 to 49 years).
+  const double usual = 0.25 * 0.5 * (53.0 + 34.1) * 9.80665;
+  const AssessOutcome same = assess_products(request);
+  for (const AssessedProduct& one : same.set.assessments) {
+    const Assessment& held = one.assessment;
+    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+    EXPECT_NEAR(grip_force_of(one), usual, 0.01 * usual) << one.product.name;  // N
+    EXPECT_THAT(held.options.balance.asked_words(held.grasp.grip),
+                HasSubstr("women and men of 45 years"));
+  }
+  // The thesis' way each is held as firmly as its shape made the closing.
+  request.rest.limit_depths = true;
+  const AssessOutcome own = assess_products(request);
+  double least = 1e9, most = 0.0;
+  for (const AssessedProduct& one : own.set.assessments) {
+    EXPECT_FALSE(one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip));
+    least = std::min(least, grip_force_of(one));
+    most = std::max(most, grip_force_of(one));
+  }
+  EXPECT_GT(most, 1.05 * least);
+}
+
+TEST(AssessProducts, HeaviestDesignDecidesHowFirmlyAllAreHeld) {
+  AssessRequest request = request_for({handle(30.0), handle(45.0)});
+  request.friction.density = 20.0;  // g/cm^3: gold
+  request.friction.friction = 0.2;
+  std::vector<std::string> notes;
+  request.note = [&](const std::string& text) { notes.push_back(text); };
+  const AssessOutcome outcome = assess_products(request);
+  // pi/4 x 4.5^2 x 14 cm^3 of it; 1.4 times what two sides hold by friction. The mesh lies inside
+  // the cylinder by up to 0.1 mm.
+  const double weight = std::numbers::pi / 4.0 * 4.5 * 4.5 * 14.0 * 20e-3 * 9.80665;
+  ASSERT_EQ(outcome.set.assessments.size(), 2U);
+  for (const AssessedProduct& one : outcome.set.assessments) {
+    const auto asked = one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip);
+    EXPECT_NEAR(asked.value_or(0.0), 1.4 * weight / 0.4, 0.01 * 1.4 * weight / 0.4);
+  }
+  EXPECT_THAT(notes, Contains(AllOf(HasSubstr("raised from 107 N"),
+                                    HasSubstr("of " + handle(45.0).name + " by friction"))));
+}
+
+TEST(AssessProducts, ForceThatTheHandDoesNotReachIsSaid) {
+  AssessRequest request = request_for({handle(40.0)});
+  request.rest.grip_force = 1500.0;  // N; the strongest grip measured is below 1000 N
+  const AssessOutcome outcome = assess_products(request);
+  const Balance& balance = outcome.set.assessments.front().assessment.balance;
+  EXPECT_LT(balance.grip_force, 1400.0);
+  if (balance.status == BalanceStatus::kBalanced) {
+    EXPECT_THAT(balance.message, HasSubstr("1500 N were requested, which the hand doesn't reach"));
+  } else {
+    EXPECT_THAT(balance.message, Not(testing::IsEmpty()));
+  }
 }
 
 TEST(AssessProducts, ValueIsAssessedAsTheFileItCameFrom) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/workflow/effort.h"
 
+#include <fmt/format.h>
+
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
@@ -13,7 +15,7 @@ void EffortRequest::check() const {
   grasp.check();
   contact.check();
   friction.options();
-  rest.options(friction.friction, grasp.grip);
+  rest.options(friction.friction);
   effort.check();
 }
 
@@ -26,7 +28,9 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   options.contact = request.contact;
   options.contact.error_band = false;
   options.friction = request.friction.options_for(product);
-  options.balance = request.rest.options(request.friction.friction, request.grasp.grip);
+  HeaviestLoad load;
+  if (request.rest.is_usual()) load.add(product, options.friction.load);
+  options.balance = request.rest.options(request.friction.friction, load);
   options.balance.load = options.friction.load;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
@@ -39,6 +43,11 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
                    })
           : evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product), options,
                      progress);
+  if (const auto asked = options.balance.asked_grip_force(held.grasp.grip);
+      asked && request.grasp_file.empty()) {
+    note_to(request.note, fmt::format("grip force {:.0f} N: {}", *asked,
+                                      options.balance.asked_words(held.grasp.grip)));
+  }
   // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
   if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
     held.friction.force = held.balance.friction_force;

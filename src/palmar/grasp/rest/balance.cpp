@@ -65,7 +65,8 @@ class Settling {
       : hand_(&hand.hand()),
         options_(&options),
         is_by_muscles_(is_by_muscles),
-        has_level_(is_power(grasp.grip) || options.grip_force),
+        asked_(options.asked_grip_force(grasp.grip)),
+        has_level_(is_power(grasp.grip) || asked_),
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
         cones_(hand.hand()),
@@ -114,7 +115,8 @@ class Settling {
   const BalanceOptions* options_;
   bool is_by_muscles_;
   double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
-  bool has_level_;           // the squeeze is brought to the grip force asked for
+  std::optional<double> asked_;  // grip force, N
+  bool has_level_;               // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   FingerCones cones_;
   std::vector<RoundCone> start_cones_;
@@ -362,7 +364,7 @@ Balance Settling::run(const Progress& progress) {
     const double grip = mechanics_.grip().force;
     if (i == 0) {
       start_grip = grip;
-      target_ = options_->grip_force.value_or(grip + extra_grip());
+      target_ = asked_.value_or(grip + extra_grip());
       if (grip == 0.0) {
         balance.status = BalanceStatus::kNoContact;
         balance.message = "nothing is touched, so nothing can come to rest";
@@ -438,7 +440,23 @@ Balance Settling::run(const Progress& progress) {
 
 }  // namespace
 
+std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
+  if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
+  if (share_of_strength) return share_of_strength->force(grip);
+  return grip_force;
+}
+
+std::string BalanceOptions::asked_words(Grip grip) const {
+  if (!is_on) return "as the hand was closed to the limit depths";
+  if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
+  if (share_of_strength) return share_of_strength->words(grip);
+  return grip_force ? "as given" : "as firm as closing to the limit depths";
+}
+
 void BalanceOptions::check() const {
+  if (grip_force && share_of_strength) {
+    throw UsageError("balance: grip force and share of strength are both given; one is allowed");
+  }
   if (!(friction >= 0.0 && friction <= 5.0)) {
     throw UsageError(fmt::format("balance: friction is {:g}; 0 to 5 is allowed", friction));
   }

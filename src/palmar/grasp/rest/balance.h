@@ -11,6 +11,7 @@
 #include "palmar/contact/friction/friction.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/product/product.h"
 
 namespace palmar {
@@ -20,11 +21,19 @@ struct BalanceOptions {
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;
-  ProductLoad load;                  ///< weight and further forces; none by default
-  std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was closed
+  ProductLoad load;  ///< weight and further forces; none by default
+  // How firmly; at most one of the two. None: as firm as it was closed.
+  std::optional<double> grip_force;  ///< N, as grip_force()
+  std::optional<ShareOfStrength> share_of_strength;
   /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
   /// as balanced.
   double aim = 0.002;
+
+  /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
+  /// do: they carry and don't squeeze.
+  std::optional<double> asked_grip_force(Grip grip) const;
+  /// Where it comes from, to follow "107 N: ", or why nothing is asked for.
+  std::string asked_words(Grip grip) const;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 

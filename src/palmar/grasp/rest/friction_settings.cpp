@@ -12,6 +12,8 @@
 namespace palmar {
 namespace {
 
+constexpr double kMostAcceleration = 100.0;  // standard gravities; a blow with a hammer
+
 void require_positive(std::string_view field, const std::optional<double>& value,
                       std::string_view unit) {
   if (!value || (*value > 0.0 && *value <= 1e4)) return;
@@ -33,6 +35,16 @@ void FrictionSettings::check() const {
         "more than one of setting \"mass\", setting \"weight\" and setting \"density\" is given; "
         "one is allowed");
   }
+  if (acceleration && !(*acceleration >= 0.0 && *acceleration <= kMostAcceleration)) {
+    throw UsageError(
+        fmt::format("setting \"acceleration\" is {}; 0 to {:g} standard gravities are allowed",
+                    *acceleration, kMostAcceleration));
+  }
+  if (acceleration && !has_weight()) {
+    throw UsageError(
+        "setting \"acceleration\" needs what is accelerated: setting \"mass\", setting \"weight\" "
+        "or setting \"density\"");
+  }
   if (gravity.isZero(0.0)) {
     throw UsageError("setting \"gravity\" is 0,0,0; a direction is required");
   }
@@ -45,6 +57,7 @@ FrictionOptions FrictionSettings::options() const {
   ProductLoad& load = result.load;
   if (mass) load.weight = kStandardGravity * *mass;
   if (weight) load.weight = *weight;
+  load.weight *= 1.0 + acceleration.value_or(0.0);
   load.gravity = gravity;
   load.mass_centre = mass_centre;
   load.force = force.value_or(load.force);
@@ -58,7 +71,9 @@ FrictionOptions FrictionSettings::options_for(const Product& product) const {
   FrictionOptions result = options();
   if (density || (has_weight() && !mass_centre)) {
     const MassProperties solid = mass_properties(product);
-    if (density) result.load.weight = weight_of(solid.volume, *density);
+    if (density) {
+      result.load.weight = (1.0 + acceleration.value_or(0.0)) * weight_of(solid.volume, *density);
+    }
   }
   return result;
 }

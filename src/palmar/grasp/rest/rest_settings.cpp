@@ -4,10 +4,20 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/friction_settings.h"
 
 namespace palmar {
+namespace {
+
+std::string person_words(const PersonOfAge& person) {
+  return fmt::format("{} of {:g} years (mean; Steiber 2016)",
+                     person.sex == Sex::kMale ? "men" : "women", person.age);
+}
+
+}  // namespace
 
 void RestSettings::check() const {
   if (strength && person) {
@@ -28,6 +38,17 @@ void RestSettings::check() const {
         "setting \"grip force\" and setting \"strength share\" both say how firmly to grip; one is "
         "allowed");
   }
+  if (limit_depths && (grip_force || strength_share)) {
+    throw UsageError(
+        fmt::format("setting \"limit depths\" and setting \"{}\" both say how firmly to grip; one "
+                    "is allowed",
+                    grip_force ? "grip force" : "strength share"));
+  }
+  if (!is_balanced && limit_depths) {
+    throw UsageError(
+        "setting \"limit depths\" lets the grasp come to rest as firmly as it was closed, setting "
+        "\"no balance\" leaves it as it was closed; one is allowed");
+  }
   if (!is_balanced && (grip_force || strength_share)) {
     throw UsageError(
         "setting \"no balance\" keeps the hand at its limit depths; a grip force can't be given "
@@ -47,16 +68,20 @@ void RestSettings::check() const {
 }
 
 BalanceOptions RestSettings::options(std::optional<double> friction,
-                                     std::optional<Grip> grip) const {
+                                     const HeaviestLoad& heaviest) const {
   check();
   BalanceOptions result;
   result.is_on = is_balanced;
+  result.friction = friction.value_or(kUsualFriction);
   result.grip_force = grip_force;
   if (strength_share) {
-    const double largest = strength ? *strength : *palmar::grip_strength(person->sex, person->age);
-    result.grip_force = *strength_share * largest * (grip ? palmar::strength_share(*grip) : 1.0);
+    ShareOfStrength& share = result.share_of_strength.emplace();
+    share.share = *strength_share;
+    share.strength = strength ? *strength : *palmar::grip_strength(person->sex, person->age);
+    if (person) share.whose = person_words(*person);
+  } else if (is_usual()) {
+    result.share_of_strength = usual_share(result.friction, heaviest);
   }
-  result.friction = friction.value_or(kUsualFriction);
   result.check();
   return result;
 }

@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "palmar/grasp/grip.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/rest/task_force.h"
 
 namespace palmar {
 
@@ -21,18 +21,23 @@ struct PersonOfAge {
 struct RestSettings {
   /// Off: the hand stays as it was closed to the limit depths, forces out of balance (Xie 2014).
   bool is_balanced = true;
-  // How firmly; unset: as firm as closing to the limit depths. At most one of the two.
+  // How firmly; at most one of the three. None: usual_share(), the same for all designs and hands
+  // of a comparison.
+  /// As firm as closing to the limit depths made it, under a load a little more.
+  bool limit_depths = false;
   std::optional<double> grip_force;      ///< N, as a dynamometer reads it
   std::optional<double> strength_share;  ///< of the strength below, above 0 to 1
   // The user's largest grip force; one of the two where a share is given.
   std::optional<double> strength;                    ///< N
   std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
 
+  /// Nothing is said about how firmly.
+  bool is_usual() const { return is_balanced && !limit_depths && !grip_force && !strength_share; }
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
-  /// `friction`: coefficient while it settles; unset: kUsualFriction. `grip` turns a share of the
-  /// grip strength into that of a pinch; unset: a power grip. Throws UsageError.
-  BalanceOptions options(std::optional<double> friction, std::optional<Grip> grip) const;
+  /// `friction`: coefficient while it settles; unset: kUsualFriction. `heaviest` of all products of
+  /// the comparison raises the usual grip force. Throws UsageError.
+  BalanceOptions options(std::optional<double> friction, const HeaviestLoad& heaviest = {}) const;
 };
 
 }  // namespace palmar

@@ -44,6 +44,19 @@ TEST(FrictionSettings, DensityTimesVolumeIsTheWeight) {
               0.005);  // N; the mesh lies inside the cylinder
 }
 
+TEST(FrictionSettings, AccelerationUpwardsAddsToTheWeight) {
+  FrictionSettings settings;
+  settings.weight = 10.0;
+  settings.acceleration = 0.5;
+  EXPECT_DOUBLE_EQ(settings.options().load.weight, 15.0);  // N; m (g + a)
+  settings.weight = std::nullopt;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"acceleration\" needs what is accelerated"));
+  settings.mass = 1.0;
+  settings.acceleration = -0.1;
+  EXPECT_EQ(refusal(settings),
+            "setting \"acceleration\" is -0.1; 0 to 100 standard gravities are allowed");
+}
+
 TEST(FrictionSettings, LoadWithoutACoefficientGetsTheUsualOne) {
   FrictionSettings settings;
   EXPECT_EQ(settings.options().coefficient, 0.0);
@@ -71,10 +84,10 @@ TEST(RestSettings, ShareOfAStrengthIsTheGripForce) {
   RestSettings settings;
   settings.strength = 400.0;
   settings.strength_share = 0.25;
-  EXPECT_DOUBLE_EQ(*settings.options(std::nullopt, std::nullopt).grip_force, 100.0);  // N
+  const BalanceOptions options = settings.options(std::nullopt);
+  EXPECT_DOUBLE_EQ(options.asked_grip_force(Grip::kMediumWrap).value_or(0.0), 100.0);  // N
   // Mathiowetz 1985: a key pinch reaches 117.4 of 541.8 N.
-  EXPECT_NEAR(*settings.options(std::nullopt, Grip::kLateral).grip_force, 100.0 * 117.4 / 541.8,
-              0.05);
+  EXPECT_NEAR(options.asked_grip_force(Grip::kLateral).value_or(0.0), 100.0 * 117.4 / 541.8, 0.05);
 }
 
 TEST(RestSettings, CheckNamesFieldValueAndWhatIsAllowed) {
@@ -98,6 +111,25 @@ TEST(RestSettings, CheckNamesFieldValueAndWhatIsAllowed) {
   settings.grip_force = 20.0;
   EXPECT_THAT(refusal(settings),
               HasSubstr("setting \"no balance\" keeps the hand at its limit depths"));
+}
+
+TEST(RestSettings, LimitDepthsExcludeWhatElseSaysHowFirmly) {
+  RestSettings settings;
+  settings.limit_depths = true;
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.grip_force = 20.0;
+  EXPECT_EQ(refusal(settings),
+            "setting \"limit depths\" and setting \"grip force\" both say how firmly to grip; one "
+            "is allowed");
+  settings.grip_force = std::nullopt;
+  settings.strength_share = 0.3;
+  settings.strength = 300.0;
+  EXPECT_THAT(refusal(settings),
+              HasSubstr("setting \"limit depths\" and setting \"strength share\""));
+  settings = {};
+  settings.limit_depths = true;
+  settings.is_balanced = false;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"no balance\" leaves it as it was closed"));
 }
 
 TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {

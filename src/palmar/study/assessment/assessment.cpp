@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
@@ -21,6 +22,11 @@ class Stopwatch {
 };
 
 }  // namespace
+
+double grip_force_of(const AssessedProduct& one) {
+  if (one.product.distance == nullptr) return one.assessment.balance.grip_force;
+  return grip_force(one.assessment.contact, *one.product.distance).force;
+}
 
 Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
                     const AssessOptions& options, const Progress& progress, Balance balance) {

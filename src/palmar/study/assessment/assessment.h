@@ -62,6 +62,9 @@ struct AssessedProduct {
   Assessment assessment;
 };
 
+/// Grip force of its contact [N]; of a grasp that slips out that of the hand as it was closed.
+double grip_force_of(const AssessedProduct& one);
+
 /// What one `palmar assess` found: one hand, one or more products.
 struct AssessmentSet {
   std::shared_ptr<const Hand> hand;

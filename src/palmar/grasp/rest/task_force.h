@@ -1,0 +1,76 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "palmar/contact/friction/friction.h"
+#include "palmar/grasp/grip.h"
+#include "palmar/product/product.h"
+
+namespace palmar {
+
+// The force of the task: how firmly all designs and hands of one comparison are held when nothing
+// is said about it. Were each held as firmly as closing to the limit depths makes it, the more
+// loosely held design would look the more comfortable one.
+
+/// Share of the grip strength. 0.25 lies between what a hand can keep up for ten minutes (18.9 %,
+/// SD 2.5; Kwak et al. 2023, Eur J Appl Physiol 123) and the mean at work with a hand tool (28.3 %,
+/// measured with an instrumented knife; McGorry, Dowd & Dempsey 2003, Appl Ergon 34:375-382).
+inline constexpr double kUsualStrengthShare = 0.25;
+inline constexpr double kUsualAge = 45.0;  ///< years; about the middle of adult life: our choice
+
+/// Mean grip_strength() of women and men of kUsualAge [N], each sex counted once: 427 N.
+double usual_grip_strength();
+
+/// How much more than a load takes people press, so that it doesn't slip: by 10 to 40 % (Westling &
+/// Johansson 1984; Johansson & Flanagan 2009, both at second hand). The most of it.
+inline constexpr double kGripMargin = 1.4;
+
+/// Grip force [N] of two opposed contacts that hold a load [N] by friction, with that margin:
+///
+///     F = kGripMargin load / (2 mu)
+///
+/// 0 without friction, which then has no share in holding it.
+double holding_grip_force(double load, double friction);
+
+/// Density of a product whose mass isn't known [g/cm^3]: water's, that of most plastics. For the
+/// question alone whether the usual grip force holds it; nothing weighs on the hand.
+inline constexpr double kAssumedDensity = 1.0;
+
+/// The largest load among the products of a comparison.
+struct HeaviestLoad {
+  double force = 0.0;         ///< N; weight and further force
+  std::string product;        ///< that has it
+  bool is_estimated = false;  ///< its weight: from its volume and kAssumedDensity
+
+  /// Takes another product into account. Without a weight in `load` it is estimated, if the
+  /// product encloses a volume.
+  void add(const Product& product, const ProductLoad& load);
+};
+
+/// A grip force as a share of what a person reaches; which force that is depends on the grip.
+struct ShareOfStrength {
+  double share = kUsualStrengthShare;  ///< above 0 to 1
+  double strength = 0.0;               ///< N, of a power grip
+  std::string whose;                   ///< "women of 45 years (Steiber 2016)"; may be empty
+  double least = 0.0;                  ///< N; what holds a load: a smaller share is raised to it
+  std::string why_least;               ///< "the 12.0 N of kettle by friction ..."
+
+  double reached(Grip grip) const;  ///< N; strength times strength_share(grip)
+  /// N; the share of that, or `least` if it is more, but not above all of it.
+  double force(Grip grip) const;
+  bool is_raised(Grip grip) const;  ///< by `least`
+  /// Where the force comes from, to follow "107 N: ".
+  std::string words(Grip grip) const;
+};
+
+/// "women and men of 45 years (mean; Steiber 2016)": whose strength usual_grip_strength() is.
+std::string usual_people();
+
+/// What is asked for when nothing is said: kUsualStrengthShare of usual_grip_strength(), raised to
+/// what holds the heaviest product.
+ShareOfStrength usual_share(double friction, const HeaviestLoad& heaviest = {});
+
+}  // namespace palmar
