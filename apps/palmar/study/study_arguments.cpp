@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "assess/balance_arguments.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
@@ -34,6 +35,18 @@ void StudyArguments::add_to(CLI::App& verb) {
   add("--grip", quick_.grips, "auto, medium_wrap, tripod ...; may be given several times")
       ->allow_extra_args(false);
   add("--hand", quick_.hand, "Hand that is scaled: template or a *.hand.glb file");
+  add("--grip-force-n", quick_.grip_force,
+      fmt::format("Grip force, N; if not given for all hands and products {}, or what holds the "
+                  "heaviest",
+                  usual_words())
+          .c_str());
+  add("--strength-share", quick_.strength_share,
+      "Grip with this share (0 to 1) of each person's own strength");
+  verb.add_flag(
+          "--limit-depths", quick_.limit_depths,
+          "Grip as firmly as closing to the limit depths made it: every hand and product with "
+          "another force")
+      ->excludes(toml);
 }
 
 StudyRequest StudyArguments::request(const Context& context) const {

@@ -50,16 +50,16 @@ function listed(causes: { words: string; hands: number }[], others: [number, str
 export function overviewTable(page: StudyPage): Markup {
   const first = page.conditions[0];
   const rows = first.products.map((one, p) => {
-    const means = page.main_quantities.concat(["grip_force_n"]).map((key) => meanCell(one.quantities[key]));
+    const means = ["grip_force_n"].concat(page.main_quantities).map((key) => meanCell(one.quantities[key]));
     return html`<tr>${productHead(page, p)}<td class="n">${one.hands_holding} of ${one.hands}</td>${means}${shareCell(one.accommodation.inside)}</tr>
 `;
   });
   return table({
     caption: "Mean ± standard deviation over the hands that hold the product" +
       (page.conditions.length > 1 ? ": " + first.title : "") + ".",
-    columns: [words("Product"), numbers("Hands"), numbers("Peak on sensor cells, MPa"), numbers("Peak at a vertex, MPa"),
+    columns: [words("Product"), numbers("Hands"), numbers("Grip force, N"), numbers("Peak on sensor cells, MPa"), numbers("Peak at a vertex, MPa"),
               numbers("Mean pressure, MPa"), numbers("Contact area, mm²"), numbers("Sum of normal forces, N"),
-              numbers("Grip force, N"), numbers(page.limits.length === 0 ? "Held" : "Inside the limits")],
+              numbers(page.limits.length === 0 ? "Held" : "Inside the limits")],
     rows,
   });
 }

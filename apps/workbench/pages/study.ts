@@ -102,8 +102,7 @@ function populationItems(one: StudyProvenance["populations"][0]): Child[] {
 function settingWords(one: StudyProvenance["settings"][0]): string {
   return "Setting " + one.name + ": pressed in up to " + shortNumber(one.palm_limit_depth_mm) + " mm (palm) and " +
     shortNumber(one.finger_limit_depth_mm) + " mm (fingers)" +
-    (one.grip_force_n !== null ? ", grip force " + shortNumber(one.grip_force_n) + " N" : "") +
-    (one.strength_share !== null ? ", " + shortNumber(100 * one.strength_share) + " % of the person’s grip strength" : "") +
+    (one.grip_force_words && ", " + one.grip_force_words) +
     (one.is_balanced ? ", brought to rest with friction " + shortNumber(one.friction) : ", left as the hand was closed") +
     (one.is_place_per_hand ? "; place searched for every hand" : "; place found on the mean hand and kept") +
     "; equations: " + one.contact_model;

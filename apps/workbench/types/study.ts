@@ -156,8 +156,7 @@ export interface StudyProvenance {
     name: string;
     palm_limit_depth_mm: number;
     finger_limit_depth_mm: number;
-    grip_force_n: number | null;
-    strength_share: number | null;
+    grip_force_words: string; // "grip force 107 N: 25 % of ..."; "": not brought to rest
     is_balanced: boolean;
     friction: number;
     is_place_per_hand: boolean;

@@ -54,6 +54,18 @@ void check_setting(const StudySetting& setting) {
   if (setting.grip_force && setting.strength_share) {
     throw UsageError(what + ": grip force and strength share are both given; one is allowed");
   }
+  if (setting.limit_depths && (setting.grip_force || setting.strength_share)) {
+    throw UsageError(what + ": limit depths and " +
+                     (setting.grip_force ? "grip force" : "strength share") +
+                     " both say how firmly to grip; one is allowed");
+  }
+  if (setting.strength && !setting.strength_share) {
+    throw UsageError(what + ": strength is given without the share of it to grip with");
+  }
+  if (setting.strength) {
+    check_between(what, "strength", *setting.strength, 1.0, kLargestGripForce, "N");
+  }
+  check_between(what, "least grip force", setting.least_grip_force, 0.0, kLargestGripForce, "N");
   if (setting.grip_force) {
     check_between(what, "grip force", *setting.grip_force, 0.1, kLargestGripForce, "N");
   }
@@ -63,6 +75,18 @@ void check_setting(const StudySetting& setting) {
 }
 
 }  // namespace
+
+ShareOfStrength share_of_strength(const StudySetting& setting, double own) {
+  ShareOfStrength result;
+  result.share = setting.strength_share.value_or(kUsualStrengthShare);
+  result.strength = setting.strength.value_or(own);
+  if (setting.strength && std::abs(*setting.strength - usual_grip_strength()) < 1e-9) {
+    result.whose = usual_people();
+  }
+  result.least = setting.least_grip_force;
+  result.why_least = "the heaviest product by friction";
+  return result;
+}
 
 void check_product(const StudyPlan& plan, std::size_t number) {
   const StudyProduct& product = plan.products.at(number);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "palmar/grasp/grip.h"
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/population/hand_profile.h"
 #include "palmar/population/hand_sample.h"
 #include "palmar/population/population.h"
@@ -48,10 +49,15 @@ struct StudyProduct {
 /// One set of equations and grasp settings under which everything is run.
 struct StudySetting {
   std::string name = "default";
-  double palm_limit_depth = 7.0;         ///< mm
-  double finger_limit_depth = 4.0;       ///< mm
+  double palm_limit_depth = 7.0;    ///< mm
+  double finger_limit_depth = 4.0;  ///< mm
+  // How firmly; at most one of the three. Of a plan in which none is said limit depths decide;
+  // load_study() fills in the usual grip force before.
   std::optional<double> grip_force;      ///< N
-  std::optional<double> strength_share;  ///< of the person's own grip strength
+  std::optional<double> strength_share;  ///< of `strength`
+  bool limit_depths = false;             ///< as firm as closing to the limit depths made it
+  std::optional<double> strength;        ///< N; the same for all hands; unset: each person's own
+  double least_grip_force = 0.0;  ///< N; to which a share is raised, at most to all of `strength`
   double friction = 0.5;
   /// Whether a grasp comes to rest; if not, it stays as the hand was closed (Xie 2014).
   bool is_balanced = true;
@@ -69,6 +75,9 @@ struct StudyLimit {
   std::string quantity;  ///< key of a result: "peak_pressure_cells_mpa", "force_n", an index's key
   std::optional<double> lowest, highest;
 };
+
+/// What the setting's strength share is of: its strength, or `own` [N] of the person.
+ShareOfStrength share_of_strength(const StudySetting& setting, double own);
 
 /// Everything a study runs: populations x profiles x products x grips x settings.
 struct StudyPlan {

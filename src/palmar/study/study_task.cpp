@@ -319,12 +319,11 @@ class StudySubject {
     options.balance.load.weight = product.mass * kGravity;
     options.balance.grip_force = setting.grip_force;
     if (setting.strength_share) {
-      if (!(sample_.grip_strength > 0.0)) {
+      if (!setting.strength && !(sample_.grip_strength > 0.0)) {
         throw Failure{"a share of the grip strength is requested, but the person's isn't known"};
       }
-      const double of_grip = options.grasp.grip ? strength_share(*options.grasp.grip) : 1.0;
-      options.balance.grip_force =
-          *setting.strength_share * of_grip * with_profile(sample_, profile_).grip_strength;
+      options.balance.share_of_strength =
+          share_of_strength(setting, with_profile(sample_, profile_).grip_strength);
     }
     return options;
   }

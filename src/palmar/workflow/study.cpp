@@ -136,6 +136,19 @@ void QuickStudy::check() const {
         fmt::format("setting \"hands\" is {}; 1 to {} is allowed, 0 for the population's own",
                     hands, kMostHands));
   }
+  if (int(grip_force.has_value()) + int(strength_share.has_value()) + int(limit_depths) > 1) {
+    throw UsageError(
+        "more than one of setting \"grip force\", setting \"strength share\" and setting \"limit "
+        "depths\" is given; one is allowed");
+  }
+  if (grip_force && !(*grip_force >= 0.1 && *grip_force <= 5000.0)) {
+    throw UsageError(
+        fmt::format("setting \"grip force\" is {:g}; 0.1 to 5000 N is allowed", *grip_force));
+  }
+  if (strength_share && !(*strength_share >= 0.001 && *strength_share <= 1.0)) {
+    throw UsageError(
+        fmt::format("setting \"strength share\" is {:g}; 0.001 to 1 is allowed", *strength_share));
+  }
 }
 
 StudyRequest study_of(const QuickStudy& quick) {
@@ -160,6 +173,13 @@ StudyRequest study_of(const QuickStudy& quick) {
   for (const std::string& name : quick.profiles) request.profiles.push_back(profile_named(name));
   for (const std::string& name : quick.grips) request.grips.push_back(asked_grip_named(name));
   if (!quick.hand.empty()) request.hand = quick.hand;
+  if (quick.grip_force || quick.strength_share || quick.limit_depths) {
+    StudySetting setting;
+    setting.grip_force = quick.grip_force;
+    setting.strength_share = quick.strength_share;
+    setting.limit_depths = quick.limit_depths;
+    request.settings.push_back(std::move(setting));
+  }
   return request;
 }
 

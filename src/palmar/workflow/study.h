@@ -30,7 +30,11 @@ struct QuickStudy {
   std::vector<std::string> profiles;  ///< "none", "reduced_range", ...; empty: none
   std::vector<std::string> grips;     ///< "auto", "tripod", ...; empty: auto
   std::string hand;                   ///< that is scaled; "": the template
-  void check() const;                 ///< throws UsageError: setting, value, what is allowed
+  // How firmly; at most one. None: the usual grip force, the same for all hands and products.
+  std::optional<double> grip_force;      ///< N
+  std::optional<double> strength_share;  ///< of each person's own grip strength
+  bool limit_depths = false;             ///< as firm as closing to the limit depths made it
+  void check() const;                    ///< throws UsageError: setting, value, what is allowed
 };
 /// Throws UsageError also for names that aren't known. read_study_file() reads one from a file.
 StudyRequest study_of(const QuickStudy& quick);

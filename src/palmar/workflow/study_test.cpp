@@ -67,6 +67,44 @@ TEST_F(StudyWorkflow, EveryGraspIsRunAndCounted) {
   EXPECT_EQ(whole_->digest.size(), 64U);  // SHA-256
 }
 
+TEST_F(StudyWorkflow, HandsOfAllSizesGripWithOneForce) {
+  const StudySetting& setting = whole_->plan.settings.front();
+  EXPECT_EQ(setting.strength_share, 0.25);
+  // 53.0 and 34.1 kg (Steiber 2016, men and women of 45 to 49 years).
+  const double strength = 0.5 * (53.0 + 34.1) * 9.80665;
+  EXPECT_NEAR(setting.strength.value_or(0.0), strength, 1e-9);
+  EXPECT_EQ(setting.least_grip_force, 0.0);  // a handle of 42 mm is light enough
+  const StudyCompareOutcome outcome = compare_study(
+      {.store = *folder_ / "whole.palmar", .quantities = {"grip_force_n"}, .comparison = {}});
+  int at_rest = 0;
+  for (const StudyRecord& record : outcome.results.records) {
+    if (!record.is_balanced) continue;
+    ++at_rest;
+    EXPECT_NEAR(record.grip_force, 0.25 * strength, 0.01 * 0.25 * strength);
+  }
+  EXPECT_GE(at_rest, 2);  // of 3
+}
+
+TEST_F(StudyWorkflow, GripForceIsRaisedForAllByTheHeaviestProduct) {
+  QuickStudy quick;
+  quick.products = {"made: cylinder diameter_mm=42", "made: cylinder diameter_mm=30"};
+  quick.hands = 2;
+  quick.hand = hand_;
+  StudyRequest study = study_of(quick);
+  study.products.front().held.mass = 9.0;  // kg
+  const LoadedStudy loaded = load_study(study, NoteSink());
+  ASSERT_EQ(loaded.plan.settings.size(), 1U);
+  const StudySetting& setting = loaded.plan.settings.front();
+  // 1.4 times what two sides with mu 0.5 hold.
+  EXPECT_NEAR(setting.least_grip_force, 1.4 * 9.0 * 9.80665, 1e-9);
+  EXPECT_NEAR(share_of_strength(setting, 0.0).force(Grip::kMediumWrap), 1.4 * 9.0 * 9.80665, 1e-9);
+  EXPECT_THAT(loaded.notes,
+              testing::Contains(HasSubstr("raised from 107 N to hold the 88.3 N of")));
+  study.settings.emplace_back();
+  study.settings.back().limit_depths = true;
+  EXPECT_FALSE(load_study(study, NoteSink()).plan.settings.front().strength_share);
+}
+
 TEST_F(StudyWorkflow, RunAgainNothingIsLeftToDo) {
   const StudyRunOutcome again = run_study(run_into("whole.palmar"));
   EXPECT_EQ(again.run_now, 0);
@@ -173,6 +211,27 @@ TEST(StudyOf, UnknownNamesAndWhatDoesNotGoTogetherAreRefused) {
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("tripod"));
   }
+}
+
+TEST(StudyOf, HowFirmlyIsSaidOnce) {
+  QuickStudy quick;
+  quick.products = {"mug.stl"};
+  EXPECT_TRUE(study_of(quick).settings.empty());
+  quick.limit_depths = true;
+  ASSERT_EQ(study_of(quick).settings.size(), 1U);
+  EXPECT_TRUE(study_of(quick).settings.front().limit_depths);
+  quick.grip_force = 40.0;
+  try {
+    study_of(quick);
+    FAIL() << "two grip forces were taken";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("setting \"grip force\", setting \"strength share\" and setting \"limit "
+                          "depths\" is given; one is allowed"));
+  }
+  quick.limit_depths = false;
+  quick.grip_force = 1e6;
+  EXPECT_THROW(study_of(quick), UsageError);
 }
 
 TEST(StudyOf, FirstProductNamesTheStudyAndTheUsualPopulationHoldsIt) {

@@ -134,17 +134,20 @@ fs::path write_profiles(const StudyPlan& plan, const fs::path& folder) {
 }
 
 fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
-  CsvWriter file(folder / "settings.csv",
-                 {"setting", "name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
-                  "strength_share", "friction", "is_balanced", "equations", "indices",
-                  "wrench_volume", "place"});
+  CsvWriter file(
+      folder / "settings.csv",
+      {"setting", "name", "grip_force_n", "strength_share", "strength_n", "least_grip_force_n",
+       "limit_depths", "palm_limit_depth_mm", "finger_limit_depth_mm", "friction", "is_balanced",
+       "equations", "indices", "wrench_volume", "place"});
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const StudySetting& one = plan.settings[i];
-    file.add({std::to_string(i), one.name, shortest(one.palm_limit_depth),
-              shortest(one.finger_limit_depth), optional_cell(one.grip_force),
-              optional_cell(one.strength_share), shortest(one.friction),
-              one.is_balanced ? "1" : "0", name_of(one.model), one.indices ? "1" : "0",
-              one.wrench_volume ? "1" : "0", one.is_place_per_hand ? "per_hand" : "shared"});
+    file.add({std::to_string(i), one.name, optional_cell(one.grip_force),
+              optional_cell(one.strength_share), optional_cell(one.strength),
+              one.least_grip_force > 0.0 ? shortest(one.least_grip_force) : "",
+              one.limit_depths ? "1" : "0", shortest(one.palm_limit_depth),
+              shortest(one.finger_limit_depth), shortest(one.friction), one.is_balanced ? "1" : "0",
+              name_of(one.model), one.indices ? "1" : "0", one.wrench_volume ? "1" : "0",
+              one.is_place_per_hand ? "per_hand" : "shared"});
   }
   return file.finish();
 }
@@ -188,7 +191,7 @@ std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& rec
                                   std::string(name_of(record.grip)),
                                   record.is_balanced ? "1" : "0"};
   for (const double value :
-       {record.force, record.grip_force, record.area, record.peak_pressure,
+       {record.grip_force, record.force, record.area, record.peak_pressure,
         record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,
         record.demand.grip_strength, record.demand.nail_room}) {
     row.push_back(shortest(value));
@@ -223,8 +226,8 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
                                            "reason",
                                            "grip",
                                            "is_balanced",
-                                           "force_n",
                                            "grip_force_n",
+                                           "force_n",
                                            "contact_area_mm2",
                                            "peak_pressure_mpa",
                                            "peak_pressure_cells_mpa",

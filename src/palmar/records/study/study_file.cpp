@@ -259,8 +259,8 @@ void read_word(const TomlSection& section, const char* key, const std::array<Enu
 
 StudySetting read_setting(const TomlSection& section, const std::string& default_name) {
   section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
-                 "strength_share", "friction", "balance", "preset", "kernel", "tissue_model",
-                 "regions", "indices", "wrench_volume", "place"});
+                 "strength_share", "strength_n", "limit_depths", "friction", "balance", "preset",
+                 "kernel", "tissue_model", "regions", "indices", "wrench_volume", "place"});
   StudySetting setting;
   setting.name = section.text("name").value_or(default_name);
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
@@ -274,6 +274,16 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
   setting.strength_share = section.number("strength_share", "", 0.001, 1.0);
   if (setting.grip_force && setting.strength_share) {
     section.fail("strength_share", "and grip_force_n exclude each other; one is allowed");
+  }
+  setting.strength = section.number("strength_n", "N", 1.0, 5000.0);
+  if (setting.strength && !setting.strength_share) {
+    section.fail("strength_n", "needs strength_share, the share of it to grip with");
+  }
+  setting.limit_depths = section.boolean("limit_depths").value_or(false);
+  if (setting.limit_depths && (setting.grip_force || setting.strength_share)) {
+    section.fail("limit_depths", std::string("and ") +
+                                     (setting.grip_force ? "grip_force_n" : "strength_share") +
+                                     " exclude each other; one is allowed");
   }
   if (const auto preset = section.text("preset")) {
     const auto model = contact_model_named(*preset);

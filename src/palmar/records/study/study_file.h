@@ -61,11 +61,13 @@ struct StudyRequest {
 StudyRequest read_study_file(const std::string& path);
 
 /// What was left out is filled in: the profile "none", the power grip that suits the shape, one
-/// setting. Throws UsageError or InputError.
+/// setting, in each the usual grip force (grasp/rest/task_force.h). Throws UsageError or
+/// InputError.
 struct LoadedStudy {
   StudyPlan plan;
   StudyInputs inputs;
-  std::vector<std::string> notes;  ///< for the user: proposed units, cautions of populations
+  std::vector<std::string> notes;  ///< for the user: proposed units, cautions of populations, the
+                                   ///< grip force that was filled in
 };
 /// Draws the hands, reads and makes the products. `hand`: the one that `request.hand` names.
 LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand);

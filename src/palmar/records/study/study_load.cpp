@@ -1,15 +1,20 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/setting_names.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/sex_names.h"
+#include "palmar/product/mass.h"
 #include "palmar/product/scaled_product.h"
 #include "palmar/records/population/dimension_table_file.h"
 #include "palmar/records/population/population_file.h"
@@ -162,10 +167,43 @@ std::string lacking_for_strength(const HandSample& sample) {
   return "the strength at that age is";
 }
 
+/// Settings that say nothing about how firmly get the usual grip force: the same for all hands and
+/// products, whatever sizes and profiles there are.
+void fill_in_grip_force(LoadedStudy& study) {
+  HeaviestLoad heaviest;
+  for (std::size_t i = 0; i < study.plan.products.size(); ++i) {
+    ProductLoad load;
+    load.weight = kStandardGravity * study.plan.products[i].mass;
+    heaviest.add(study.inputs.products[i], load);
+  }
+  std::set<std::string> words;
+  for (StudySetting& setting : study.plan.settings) {
+    if (!setting.is_balanced || setting.limit_depths) continue;
+    if (setting.grip_force || setting.strength_share) continue;
+    const ShareOfStrength usual = usual_share(setting.friction, heaviest);
+    setting.strength_share = usual.share;
+    setting.strength = usual.strength;
+    for (const std::optional<Grip>& grip : study.plan.grips) {
+      for (int g = 0; g < kGripCount; ++g) {
+        const bool is_possible = !grip || *grip == static_cast<Grip>(g);
+        if (!is_possible || !usual.is_raised(static_cast<Grip>(g))) continue;
+        setting.least_grip_force = usual.least;
+      }
+      const Grip told = grip.value_or(Grip::kMediumWrap);
+      words.insert(fmt::format(
+          "{}{}grip force {:.0f} N for all hands and products: {}",
+          study.plan.settings.size() > 1 ? "setting " + setting.name + ": " : std::string(),
+          grip ? "grip " + std::string(name_of(*grip)) + ": " : std::string(), usual.force(told),
+          usual.words(told)));
+    }
+  }
+  study.notes.insert(study.notes.end(), words.begin(), words.end());
+}
+
 /// Refuses shares of a grip strength that isn't known, before every grasp fails for it.
 void check_strengths(const StudyPlan& plan) {
   for (const StudySetting& setting : plan.settings) {
-    if (!setting.strength_share) continue;
+    if (!setting.strength_share || setting.strength) continue;
     for (std::size_t p = 0; p < plan.populations.size(); ++p) {
       std::size_t hands = 0, unknown = 0;
       const HandSample* first = nullptr;
@@ -277,6 +315,7 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   for (std::size_t i = 0; i < places.size(); ++i) {
     at_place(places[i], [&] { check_product(plan, i); });
   }
+  fill_in_grip_force(study);
   at_place(request.where.empty() ? "" : request.where + ": ", [&] {
     plan.check();
     check_strengths(plan);

@@ -169,6 +169,9 @@ Json setting_json(const StudySetting& setting) {
           {"finger_limit_depth_mm", setting.finger_limit_depth},
           {"grip_force_n", optional_json(setting.grip_force)},
           {"strength_share", optional_json(setting.strength_share)},
+          {"limit_depths", setting.limit_depths},
+          {"strength_n", optional_json(setting.strength)},
+          {"least_grip_force_n", setting.least_grip_force},
           {"friction", setting.friction},
           {"is_balanced", setting.is_balanced},
           {"kernel", name_of(model.kernel)},
@@ -188,6 +191,12 @@ StudySetting setting_from(const Json& json) {
   setting.finger_limit_depth = json.at("finger_limit_depth_mm");
   setting.grip_force = optional_from(json.at("grip_force_n"));
   setting.strength_share = optional_from(json.at("strength_share"));
+  // Before these were written, who asked for no force got that of the limit depths.
+  const bool is_old = !json.contains("limit_depths");
+  setting.limit_depths =
+      is_old ? !setting.grip_force && !setting.strength_share : json.at("limit_depths").get<bool>();
+  if (!is_old) setting.strength = optional_from(json.at("strength_n"));
+  if (!is_old) setting.least_grip_force = json.at("least_grip_force_n");
   setting.friction = json.at("friction");
   setting.is_balanced = json.at("is_balanced");
   setting.model.kernel = word_from(json.at("kernel"), kKernels);

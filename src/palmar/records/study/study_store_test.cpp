@@ -13,6 +13,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "palmar/core/error.h"
@@ -524,7 +525,7 @@ TEST(StudyStore, ExportsEveryTableWithUnits) {
   const auto files = export_study(StudyStore(folder / "a.palmar"), folder / "tables", true);
   EXPECT_EQ(files.size(), 11U);
   const std::string grasps = read_file(folder / "tables/grasps.csv");
-  EXPECT_THAT(grasps, HasSubstr("force_n,grip_force_n,contact_area_mm2,peak_pressure_mpa"));
+  EXPECT_THAT(grasps, HasSubstr("grip_force_n,force_n,contact_area_mm2,peak_pressure_mpa"));
   EXPECT_EQ(std::count(grasps.begin(), grasps.end(), '\n'), 21);
   EXPECT_THAT(grasps, HasSubstr("\n5,1,given,person 1,none,default,cylinder,tripod,failed,\"no, "
                                 "\"\"reason\"\"\",medium_wrap,0,0,"));
@@ -540,6 +541,10 @@ TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
   EXPECT_EQ(format_plan(back), format_plan(study.plan));
   EXPECT_TRUE(plan_differences(study.plan, back).empty());
   StudyPlan now = study.plan;
+  now.settings[0].limit_depths = true;
+  EXPECT_THAT(plan_differences(study.plan, now),
+              testing::ElementsAre("setting \"default\": limit_depths was false, now true"));
+  now = study.plan;
   now.products[1].content_hash = std::string(64, '0');
   now.hands[3].sample.dimensions[0].value += 1e-9;
   now.seed = 8;
@@ -552,6 +557,17 @@ TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
                            "had 2 grips, now 1", "hand \"person 3\": its dimensions have changed"));
   EXPECT_THAT(message_of<InputError>([&] { parse_plan("{\"name\": 3}", "x.palmar"); }),
               HasSubstr("x.palmar: its plan can't be read"));
+}
+
+TEST(StudyPlanJson, OlderPlanWithoutAForceWasHeldAtLimitDepths) {
+  nlohmann::json plan = nlohmann::json::parse(format_plan(small_study().plan));
+  nlohmann::json& setting = plan.at("settings").at(0);
+  for (const char* key : {"limit_depths", "strength_n", "least_grip_force_n"}) setting.erase(key);
+  const StudySetting old = parse_plan(plan.dump(), "plan").settings.at(0);
+  EXPECT_TRUE(old.limit_depths);
+  EXPECT_FALSE(old.grip_force || old.strength_share || old.strength);
+  setting["grip_force_n"] = 40.0;
+  EXPECT_FALSE(parse_plan(plan.dump(), "plan").settings.at(0).limit_depths);
 }
 
 }  // namespace

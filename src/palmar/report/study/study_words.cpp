@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
@@ -85,7 +86,20 @@ std::string grip_force_words(const StudyResults& results, const StudyCondition& 
          short_number(forces->second) + " N)" +
          (setting.grip_force || setting.strength_share
               ? ": not every hand reaches the requested force."
-              : ": set grip_force_n (or strength_share) to compare at equal force.");
+              : ": leave out limit_depths to compare at equal force.");
+}
+
+std::string grip_force_words(const StudySetting& setting) {
+  if (!setting.is_balanced) return "";
+  if (setting.grip_force) return "grip force " + short_number(*setting.grip_force) + " N";
+  if (!setting.strength_share) return "as firm as closing to the limit depths";
+  if (!setting.strength) {
+    return "grip force " + short_number(100.0 * *setting.strength_share) +
+           " % of the person’s own strength";
+  }
+  const ShareOfStrength share = share_of_strength(setting, 0.0);
+  return "grip force " + short_number(share.force(Grip::kMediumWrap)) +
+         " N: " + share.words(Grip::kMediumWrap) + "; a pinch as much of what it reaches";
 }
 
 std::string grasp_words(const StudyRecord& record) {

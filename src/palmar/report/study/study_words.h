@@ -43,11 +43,15 @@ std::string p_words(double p);
 std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
                        const ProductPair& pair);
 
-/// "They are held at different grip forces (47 and 80 N): set grip_force_n (or strength_share) to
-/// compare at equal force."; "" if the mean grip forces over hands that hold both differ by 10 %
-/// or less, or aren't known.
+/// "They are held at different grip forces (47 and 80 N): leave out limit_depths to compare at
+/// equal force."; "" if the mean grip forces over hands that hold both differ by 10 % or less, or
+/// aren't known.
 std::string grip_force_words(const StudyResults& results, const StudyCondition& condition,
                              int first, int second);
+
+/// How firmly a setting has hands grip: "grip force 107 N: 25 % of the grip strength of ...";
+/// "" where they stay as they were closed.
+std::string grip_force_words(const StudySetting& setting);
 
 /// What left hands out of a pair: "handle r3: 2 slip out, 1 not run"; empty if nothing did.
 std::string left_out_words(const StudyPlan& plan, const ProductPair& pair);

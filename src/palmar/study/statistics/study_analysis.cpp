@@ -81,7 +81,7 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
   add(warnings, false, "Grip force",
       "products are held at different grip forces: " + words + ". Pressures differ by that, too; " +
           (is_stated ? "not every hand reaches the requested force."
-                     : "set grip_force_n (or strength_share) to compare at equal force."));
+                     : "leave out limit_depths to compare at equal force."));
 }
 
 void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) {

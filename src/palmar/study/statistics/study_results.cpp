@@ -190,7 +190,8 @@ std::vector<StudyQuantity> quantities_of(const StudyResults& results) {
         std::any_of(results.records.begin(), results.records.end(), [&](const StudyRecord& record) {
           return is_in_hand(record) && hand_value(record, one.key).value_or(0.0) != 0.0;
         });
-    if (is_known) found.push_back(one);
+    // How firmly comes first: everything else is to be read at that force.
+    if (is_known) found.insert(one.key == "grip_force_n" ? found.begin() : found.end(), one);
   }
   std::vector<std::string> seen;
   for (const StudyQuantity& one : hand_quantities()) seen.push_back(one.key);

@@ -50,6 +50,7 @@ StudyRequest study_of(const RedesignRequest& asked) {
   request.products.push_back(std::move(product));
   StudySetting setting;
   if (asked.grip_force > 0.0) setting.grip_force = asked.grip_force;
+  setting.limit_depths = !setting.grip_force;
   request.settings = {setting};
   return request;
 }
