@@ -204,7 +204,8 @@ struct ContactResult {
 /// along the product's normal, the rest along its own normal (eq. 3-15). Where the nearest surface
 /// is on the far side of a thin product (its normal points along the skin's own), the surface is
 /// looked for against the skin's normal, the way the skin came; where there is none, the vertex is
-/// left out and reported in `message`.
+/// left out and reported in `message`. Skin that has gone right through a thin product, so that the
+/// product lies in its flesh, is pushed back the same way (surface_passed()).
 ///
 /// Never throws on a numerical failure: see status. Throws UsageError on bad options or if
 /// posed_skin has not one point per skin vertex.

@@ -154,6 +154,18 @@ TEST(HandContact, ThinSheetPushesBackFromTheSideTheSkinCameFrom) {
   EXPECT_LT(thin.residual_penetration_contact, 1e-6);
 }
 
+TEST(HandContact, SkinThatIsThroughAFoilIsPushedBackAllTheSame) {
+  // Half a millimetre of sheet in 2 mm of flesh: most of the skin is beyond it.
+  const PreparedHand& hand = prepared_ball();
+  const double top = 2.0 - kRadius;
+  const ContactResult thick = press_on_plane(2.0);
+  const ContactResult foil =
+      solve_hand_contact(hand, hand.hand().skin.vertices, {}, Sheet(top - 0.5, top));
+  EXPECT_NEAR(foil.total.force, thick.total.force, 0.02 * thick.total.force);
+  EXPECT_NEAR(foil.total.area, thick.total.area, 0.05 * thick.total.area);
+  EXPECT_LT(foil.residual_penetration_contact, 1e-6);
+}
+
 TEST(HandContact, SkinFarInsideCarriesNoForceAndIsReported) {
   // A ball of skin in the middle of a ball of 40 mm: every vertex is 30 mm deep.
   const PreparedHand& hand = prepared_ball();

@@ -16,11 +16,30 @@ namespace {
 /// this (cosine), the nearest surface is one that the skin can't have come through.
 constexpr double kSameSide = 0.5;
 constexpr double kOnSurface = 1e-7;  // mm; a trace ends here
+constexpr double kAhead = 1e-4;      // mm; a trace from outside ends here
+constexpr double kLift = 1.0;  // mm; outside the surface, from where its nearest point is asked
 constexpr int kMaxTraceSteps = 60;
+constexpr double kFleshDepth = 7.0;   // mm; most
+constexpr double kFleshShare = 0.25;  // of the hand's thickness: half a finger's
+/// From where to where the surface that the skin came through replaces the nearest one: cosine of
+/// the nearest one's normal and the skin's.
+constexpr double kTurned = 0.7;
 
 /// A sampler asks this far, so that skin has some way to go before it must be asked about again.
 constexpr double kWatchRange = 9.0;  // mm
 constexpr double kRounding = 1e-9;   // mm; of a distance and of the way gone
+constexpr double kSurely = 0.7;  // of the distance is left: the nearest surface is about the same
+
+/// The sample of a point that has come through the surface at `here`: straight back to it.
+DistanceSample back_through(const DistanceField& product, const Vec3& point,
+                            const DistanceSample& here) {
+  const double depth = std::max(0.0, (here.closest - point).dot(here.normal));
+  DistanceSample found = product.at(point + (depth + kLift) * here.normal);
+  const Vec3 way = found.closest - point;
+  found.distance = -way.norm();
+  found.normal = way.norm() > kAhead ? Vec3(way.normalized()) : here.normal;
+  return found;
+}
 
 /// Looks for the surface from an inner point against the skin's normal by sphere tracing. Nothing
 /// if there is none within kMaxContactDepth or if it faces the wrong way.
@@ -31,10 +50,7 @@ std::optional<DistanceSample> surface_behind(const DistanceField& product, const
   for (int step = 0; step < kMaxTraceSteps; ++step) {
     if (here.distance > -kOnSurface) {
       if (skin_normal.dot(here.normal) > -kSameSide / 2) return std::nullopt;
-      DistanceSample found = here;
-      // Depth along the surface's normal, as for every other vertex.
-      found.distance = -t * std::abs(skin_normal.dot(here.normal));
-      return found;
+      return back_through(product, point, here);
     }
     t -= here.distance;
     if (t > kMaxContactDepth) return std::nullopt;
@@ -43,12 +59,54 @@ std::optional<DistanceSample> surface_behind(const DistanceField& product, const
   return std::nullopt;
 }
 
+/// Weight of the surface that skin came through against the nearest one, which looks the skin's own
+/// way by `cosine`. Smooth, so that forces don't jump as skin is pressed through a thin rod.
+double turned_weight(double cosine) {
+  const double t = std::clamp(cosine / kTurned, 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Between the nearest surface and the one that the skin came through.
+DistanceSample between(const DistanceField& product, const Vec3& point,
+                       const DistanceSample& nearest, const DistanceSample& behind, double weight) {
+  const Vec3 way = (1.0 - weight) * (nearest.closest - point) + weight * (behind.closest - point);
+  if (weight >= 1.0 || way.norm() < kAhead) return behind;
+  const double depth = way.norm();
+  DistanceSample found = product.at(point + (1.0 + kLift / depth) * way);
+  if (found.distance <= 0.0) return weight > 0.5 ? behind : nearest;
+  found.normal = way / depth;
+  found.distance = -((1.0 - weight) * -nearest.distance + weight * -behind.distance);
+  return found;
+}
+
 std::string one_decimal(double value) {
   const auto tenths = std::lround(value * 10.0);
   return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
 }
 
 }  // namespace
+
+double flesh_depth(const Hand& hand) {
+  const double thickness = hand.dimensions.hand_thickness;
+  return thickness > 0.0 ? std::min(kFleshDepth, kFleshShare * thickness) : kFleshDepth;
+}
+
+std::optional<DistanceSample> surface_passed(const DistanceField& product, const Vec3& point,
+                                             const Vec3& skin_normal, double flesh) {
+  double t = flesh;
+  for (int step = 0; step < kMaxTraceSteps; ++step) {
+    const DistanceSample here = product.at(point - t * skin_normal);
+    if (here.distance < kAhead) {
+      // Bone would be in the product.
+      if (here.distance < -kAhead) return std::nullopt;
+      if (skin_normal.dot(here.normal) > -kSameSide / 2) return std::nullopt;
+      return back_through(product, point, here);
+    }
+    t -= here.distance;
+    if (t <= 0.0) return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
                      const std::vector<int>& vertices, double range,
@@ -77,8 +135,8 @@ void resample_vertices(const DistanceField& product, const std::vector<Vec3>& po
 }
 
 void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& posed,
-                         const std::vector<int>& near, double wanted,
-                         std::vector<DistanceSample>& samples) {
+                         const std::vector<Vec3>& normal, const std::vector<int>& near,
+                         double wanted, std::vector<DistanceSample>& samples) {
   const bool is_new = product.id() != product_ || sample_.size() != posed.size();
   if (is_new) {
     product_ = product.id();
@@ -93,7 +151,10 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
   for (const int v : near) {
     if (may_skip && is_known_[v]) {
       const double least = sample_[v].distance - (posed[v] - position_[v]).norm();
-      if (least > wanted + kRounding) continue;
+      // Skin that looks at the product can't have passed it.
+      const bool looks =
+          least > kSurely * sample_[v].distance && normal[v].dot(sample_[v].normal) < 0.0;
+      if (least > wanted + kRounding && (least > kFleshDepth || looks)) continue;
     }
     asked_.push_back(v);
     points_.push_back(posed[v]);
@@ -136,7 +197,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
   double range = kNearRange;
   if (sampler) {
-    sampler->sample(product, posed, skin.near, wanted, skin.sample);
+    sampler->sample(product, posed, skin.normal, skin.near, wanted, skin.sample);
     range = kWatchRange;
   } else {
     sample_vertices(product, posed, skin.near, kNearRange, skin.sample);
@@ -150,21 +211,35 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
   sample_vertices(product, posed, deep, std::numeric_limits<double>::infinity(), skin.sample);
 
+  const double flesh = flesh_depth(hand);
   double deepest = 0.0;
   int deepest_vertex = -1;
   int far_side = 0;
   for (const int v : skin.near) {
     DistanceSample& sample = skin.sample[v];
-    if (!(sample.distance < 0.0)) continue;
-    if (skin.normal[v].dot(sample.normal) > kSameSide) {
+    const double cosine = skin.normal[v].dot(sample.normal);
+    const double weight = turned_weight(cosine);
+    if (!(sample.distance < 0.0)) {
+      // Skin may have gone right through a thin part of the product, which then is behind it.
+      if (weight == 0.0 || !(sample.distance < std::min(flesh, kNearRange))) continue;
+      const auto passed = surface_passed(product, posed[v], skin.normal[v], flesh);
+      if (!passed || !(passed->distance < 0.0)) continue;
+      sample = *passed;
+      sample.distance *= weight;
+      skin.traced.push_back(v);
+      skin.collision.push_back(v);
+      continue;
+    }
+    if (weight > 0.0) {
       const auto behind = surface_behind(product, posed[v], skin.normal[v]);
-      if (!behind) {
+      if (behind) {
+        sample = between(product, posed[v], sample, *behind, weight);
+        skin.traced.push_back(v);
+      } else if (cosine > kSameSide) {
         skin.left_out.push_back(v);
         ++far_side;
         continue;
       }
-      sample = *behind;
-      skin.traced.push_back(v);
     }
     if (-sample.distance > kMaxContactDepth) {
       skin.left_out.push_back(v);

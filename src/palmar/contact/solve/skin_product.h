@@ -41,7 +41,8 @@ class SkinSampler {
   friend void find_skin_on_product(const Hand&, const std::vector<Vec3>&, const DistanceField&,
                                    std::optional<Region>, SkinSampler*, SkinOnProduct&, double);
   void sample(const DistanceField& product, const std::vector<Vec3>& posed,
-              const std::vector<int>& near, double wanted, std::vector<DistanceSample>& samples);
+              const std::vector<Vec3>& normal, const std::vector<int>& near, double wanted,
+              std::vector<DistanceSample>& samples);
 
   std::uint64_t product_ = 0;           // id of the field the rest is about; 0: none
   std::vector<Vec3> position_;          // where a vertex was last sampled
@@ -51,6 +52,16 @@ class SkinSampler {
   std::vector<Vec3> points_;
   std::vector<DistanceSample> found_;
 };
+
+/// Skin whose flesh is right through a thin product (a card between thumb and finger): the surface
+/// it came through, found from `flesh` [mm] under the skin outwards; distance is how far it is
+/// behind that, negative. Nothing where no product lies in there or where it begins inside it.
+std::optional<DistanceSample> surface_passed(const DistanceField& product, const Vec3& point,
+                                             const Vec3& skin_normal, double flesh);
+
+/// Flesh that a thin product may be pressed into without having come from the finger's other side,
+/// mm: half a finger's thickness, at most 7.
+double flesh_depth(const Hand& hand);
 
 /// Samples the product near the skin and decides for each penetrating vertex to which side of the
 /// product it belongs (see solve_hand_contact()).
