@@ -25,6 +25,10 @@ constexpr std::array<GripDescription, kGripCount> kGrips = {{
      "key key_pinch lateral_pinch"},
     {Grip::kPrecisionSphere, "precision_sphere", "Precision Sphere", 13, GripFamily::kPrecision,
      "five_finger five_fingers precision"},
+    {Grip::kPrecisionDisk, "precision_disk", "Precision Disk", 12, GripFamily::kPrecision,
+     "disc disk lid"},
+    {Grip::kWritingTripod, "writing_tripod", "Writing Tripod", 20, GripFamily::kPrecision,
+     "writing pen"},
 }};
 
 std::string plain(std::string_view text) {

@@ -23,8 +23,10 @@ enum class Grip : std::uint8_t {
   kTripod,           ///< 14: thumb against index and middle finger
   kLateral,          ///< 16: thumb pad against the side of the index finger ("key pinch")
   kPrecisionSphere,  ///< 13: five fingertips spread round a body
+  kPrecisionDisk,    ///< 12: five fingertips round the rim of a lid or knob, palm over its face
+  kWritingTripod,    ///< 20: thumb and index finger press a pen on the side of the middle finger
 };
-inline constexpr int kGripCount = 10;
+inline constexpr int kGripCount = 12;
 
 enum class GripFamily : std::uint8_t { kPower, kPrecision, kIntermediate };
 

@@ -93,6 +93,8 @@ double strength_share(Grip grip) {
     case Grip::kPalmarPinch:
     case Grip::kTripod:
     case Grip::kPrecisionSphere:
+    case Grip::kPrecisionDisk:
+    case Grip::kWritingTripod:
       return 109.9 / kGrip;
     default:
       return 1.0;

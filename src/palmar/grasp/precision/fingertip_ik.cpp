@@ -231,7 +231,7 @@ void FingertipSystem::add_sliding_goal(const State& state, const FingerMotion& m
     add((there - goal.point)[c] / goal.slide, row);
   }
   const Touch touch = touch_of(state, motion, goal, h_ != nullptr);
-  touches_.push_back(touch);
+  if (!goal.is_rest) touches_.push_back(touch);
   Row height = Row::Zero();
   point_row(state, moving, touch.in_hand, touch.normal, 1.0 / stage.reach, height);
   add((touch.height + goal.depth) / stage.reach, height);
@@ -276,7 +276,10 @@ void FingertipSystem::add_goals(const State& state, const FingerMotion& motion,
 void FingertipSystem::add_balance(const State& state, const FingerMotion& motion) {
   // The thumb, which comes first, against the rest.
   const std::size_t count = touches_.size();
-  if (count < 2 || count != problem_->goals.size()) return;
+  const auto pressing = static_cast<std::size_t>(
+      std::count_if(problem_->goals.begin(), problem_->goals.end(),
+                    [](const FingertipGoal& goal) { return !goal.is_rest; }));
+  if (count < 2 || count != pressing) return;
   Vec3 others = Vec3::Zero();
   for (std::size_t k = 1; k < count; ++k) others += touches_[k].normal;
   const double length = others.norm();
@@ -515,7 +518,7 @@ FingertipSolution FingertipSystem::solution(const State& state) {
     const Vec3 n = state.product_from_hand.rotation *
                    (motion.posed().segment[s].rotation * goal.fingertip.normal);
     result.tilt.push_back(normal ? std::acos(std::clamp(-n.dot(*normal), -1.0, 1.0)) : 0.0);
-    result.worst_miss = std::max(result.worst_miss, result.miss.back());
+    if (!goal.is_rest) result.worst_miss = std::max(result.worst_miss, result.miss.back());
   }
   return result;
 }

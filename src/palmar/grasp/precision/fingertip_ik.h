@@ -22,6 +22,8 @@ struct FingertipGoal {
   bool is_sliding = false;
   double square = 0.3;  ///< spread of its skin's normal about the product's, rad
   double slide = 6.0;   ///< how far it likes to go from there, mm
+  /// The product only leans there: no part of what thumb and fingers press against each other.
+  bool is_rest = false;
 };
 
 struct FingertipProblem {

@@ -17,6 +17,8 @@ namespace {
 constexpr double kPadShare = 0.55;
 constexpr double kTipShare = 0.72, kTipTilt = 50.0 * kDegree;
 constexpr double kSideShare = 0.65, kSideTilt = 20.0 * kDegree;
+constexpr double kTipSideShare = 0.4, kTipSideTilt = 30.0 * kDegree;
+constexpr double kWebShare = -0.1, kWebTilt = -25.0 * kDegree;
 constexpr double kNormalRadius = 4.0;  // mm; the skin's normal is a mean over that much pulp
 
 struct SkinHit {
@@ -25,15 +27,17 @@ struct SkinHit {
   Vec3 weight = Vec3::Zero();
 };
 
-// Moeller and Trumbore 1997; only skin of one finger, the farthest hit: the outside.
-std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3& origin,
-                                     const Vec3& direction) {
+// Moeller and Trumbore 1997; only skin of one finger, the farthest hit: the outside. At its root
+// the palm's skin, too, and the nearest hit: farther out is the thumb's ball.
+std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, bool is_root,
+                                     const Vec3& origin, const Vec3& direction) {
   std::optional<SkinHit> best;
   for (std::size_t t = 0; t < hand.skin.triangles.size(); ++t) {
     const Triangle& corner = hand.skin.triangles[t];
     bool belongs = false;
     for (const int v : corner) {
-      belongs = belongs || finger_of(hand.segment[v]) == finger;
+      belongs = belongs || finger_of(hand.segment[v]) == finger ||
+                (is_root && hand.segment[v] == Segment::kPalm);
     }
     if (!belongs) continue;
     const Vec3& a = hand.skin.vertices[corner[0]];
@@ -48,7 +52,8 @@ std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3
     const double v = direction.dot(q) / det;
     if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
     const double distance = ac.dot(q) / det;
-    if (distance <= 0.0 || (best && distance <= best->distance)) continue;
+    if (distance <= 0.0) continue;
+    if (best && (distance <= best->distance) != is_root) continue;
     best = SkinHit{t, distance, Vec3(1.0 - u - v, u, v)};
   }
   return best;
@@ -78,6 +83,10 @@ std::string_view name_of(FingertipPart part) {
       return "tip";
     case FingertipPart::kRadialSide:
       return "radial_side";
+    case FingertipPart::kTipSide:
+      return "tip_side";
+    case FingertipPart::kWeb:
+      return "web";
   }
   return "unknown";
 }
@@ -85,16 +94,20 @@ std::string_view name_of(FingertipPart part) {
 FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart part) {
   const Skeleton& skeleton = hand.skeleton;
   const auto segments = segments_of(finger);
-  const bool is_side = part == FingertipPart::kRadialSide;
+  const bool is_side = part == FingertipPart::kRadialSide || part == FingertipPart::kTipSide ||
+                       part == FingertipPart::kWeb;
   if (is_side && finger == Finger::kThumb) {
     throw Error("fingertip point: the thumb has no radial side that grips use");
   }
   const std::size_t last = finger == Finger::kThumb ? 1 : 2;
-  const Segment segment = *segments[is_side ? 1 : last];
+  const std::size_t level = part == FingertipPart::kWeb          ? 0
+                            : part == FingertipPart::kRadialSide ? 1
+                                                                 : last;
+  const Segment segment = *segments[level];
   const JointDof& flexion = skeleton.joint(joint_of(segment)).dofs.back();
   const Vec3 from = skeleton.joint(joint_of(segment)).centre;
-  const Vec3 to = is_side ? skeleton.joint(joint_of(*segments[2])).centre
-                          : skeleton.fingertips[index_of(finger)];
+  const Vec3 to = level < last ? skeleton.joint(joint_of(*segments[level + 1])).centre
+                               : skeleton.fingertips[index_of(finger)];
   const Vec3 along = (to - from).normalized();
   const Vec3 palmar = flexion.axis.cross(along).normalized();
   Vec3 radial = along.cross(palmar);
@@ -108,18 +121,24 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
     share = kTipShare;
     direction = std::cos(kTipTilt) * palmar + std::sin(kTipTilt) * along;
   } else if (is_side) {
-    share = kSideShare;
-    direction = std::cos(kSideTilt) * radial + std::sin(kSideTilt) * palmar;
+    share = part == FingertipPart::kWeb       ? kWebShare
+            : part == FingertipPart::kTipSide ? kTipSideShare
+                                              : kSideShare;
+    const double tilt = part == FingertipPart::kWeb       ? kWebTilt
+                        : part == FingertipPart::kTipSide ? kTipSideTilt
+                                                          : kSideTilt;
+    direction = std::cos(tilt) * radial + std::sin(tilt) * palmar;
   }
   const Vec3 origin = from + share * (to - from);
-  const std::optional<SkinHit> hit = outermost_hit(hand, finger, origin, direction);
+  const bool is_root = part == FingertipPart::kWeb;
+  const std::optional<SkinHit> hit = outermost_hit(hand, finger, is_root, origin, direction);
   if (!hit) {
     throw Error("fingertip point: no skin of " + std::string(name_of(segment)) +
                 " is on the side of its " + std::string(name_of(part)));
   }
   FingertipPoint result;
   result.finger = finger;
-  result.segment = segment;
+  result.segment = is_root ? Segment::kPalm : segment;
   result.part = part;
   result.point = origin + hit->distance * direction;
   result.normal = mean_normal(hand, result.point, direction);

@@ -10,11 +10,13 @@ namespace palmar {
 
 /// Which part of a fingertip touches the product.
 enum class FingertipPart {
-  kPad,        ///< middle of the pulp of the distal phalanx
-  kTip,        ///< end of the pulp, below the nail's edge
-  kRadialSide  ///< thumb side of the middle phalanx near its end, where a key is pressed
+  kPad,         ///< middle of the pulp of the distal phalanx
+  kTip,         ///< end of the pulp, below the nail's edge
+  kRadialSide,  ///< thumb side of the middle phalanx near its end, where a key is pressed
+  kTipSide,     ///< thumb side of the distal phalanx, where a pen lies
+  kWeb          ///< thumb side of the finger's root, where a pen's long end leans
 };
-std::string_view name_of(FingertipPart part);  ///< "pad", "tip", "radial_side"
+std::string_view name_of(FingertipPart part);  ///< "pad", "tip", "radial_side", ...
 
 /// A point of the skin by which a finger touches things. Reference posture, hand frame, mm.
 struct FingertipPoint {
@@ -35,9 +37,12 @@ struct FingertipPoint {
 ///     pad          from 55 % of the distal phalanx, palmar
 ///     tip          from 72 %, half way between palmar and distal (50 degrees)
 ///     radial side  from 65 % of the middle phalanx, radial and 20 degrees palmar
+///     tip side     from 40 % of the distal phalanx, radial and 30 degrees palmar
+///     web          from the knuckle, a tenth of the proximal phalanx behind it, radial and 25
+///                  degrees dorsal; carried by the palm
 ///
 /// The shares are our choice. Throws Error naming the finger where the ray meets no skin, or for a
-/// radial side of the thumb.
+/// side of the thumb.
 FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart part);
 
 }  // namespace palmar

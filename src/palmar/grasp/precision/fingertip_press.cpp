@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/contact/response/skin_geometry.h"
+#include "palmar/contact/solve/skin_product.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {
@@ -17,6 +19,7 @@ constexpr int kRounds = 8;
 constexpr double kTolerance = 0.05;  // mm
 constexpr double kMissed = 0.3;      // mm; a goal missed by more isn't pressed on
 constexpr int kIterations = 30;
+constexpr double kFarSide = 0.5;  // cosine of skin's and product's normal; such skin came through
 
 std::vector<int> all_vertices(const Hand& hand) {
   std::vector<int> vertices(hand.skin.vertices.size());
@@ -27,7 +30,9 @@ std::vector<int> all_vertices(const Hand& hand) {
 }  // namespace
 
 FingertipPress::FingertipPress(const FingertipIk& ik)
-    : ik_(&ik), skin_(ik.hand(), all_vertices(ik.hand())) {}
+    : ik_(&ik), skin_(ik.hand(), all_vertices(ik.hand())) {
+  vertex_normals(ik.hand().skin.vertices, ik.hand().skin.triangles, normal_);
+}
 
 SkinDepth FingertipPress::look(const DistanceField& product, const Posture& posture,
                                const Rigid3& product_from_hand) const {
@@ -53,6 +58,8 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
                                              const FingertipSolution& solution,
                                              const std::vector<FingertipGoal>& goals) const {
   const Hand& hand = ik_->hand();
+  const double flesh = flesh_depth(hand);
+  const PosedSkeleton motion = pose_skeleton(hand.skeleton, solution.posture);
   std::vector<double> result;
   for (const FingertipGoal& goal : goals) {
     std::vector<int> pulp;
@@ -60,13 +67,25 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
       if (hand.segment[v] != goal.fingertip.segment) continue;
       if ((hand.skin.vertices[v] - goal.fingertip.point).norm() < kPulpReach) pulp.push_back(v);
     }
+    const Quat turn = solution.product_from_hand.rotation *
+                      motion.segment[index_of(goal.fingertip.segment)].rotation;
+    std::vector<Vec3> normal;
+    for (const int v : pulp) normal.push_back(turn * normal_[v]);
     std::vector<Vec3> posed;
     PosableSkin(hand, std::move(pulp)).pose(solution.posture, posed);
     for (Vec3& p : posed) p = solution.product_from_hand * p;
     std::vector<DistanceSample> samples(posed.size());
     product.sample(posed, kRange, samples);
     double deepest = -kRange;
-    for (const DistanceSample& sample : samples) deepest = std::max(deepest, -sample.distance);
+    for (std::size_t k = 0; k < posed.size(); ++k) {
+      double depth = -samples[k].distance;
+      // Skin may be through a thin product.
+      if (-depth < flesh && normal[k].dot(samples[k].normal) > kFarSide) {
+        const auto passed = surface_passed(product, posed[k], normal[k], flesh);
+        if (passed) depth = -passed->distance;
+      }
+      deepest = std::max(deepest, depth);
+    }
     result.push_back(deepest);
   }
   return result;
@@ -75,7 +94,9 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
 FingertipSolution FingertipPress::press(FingertipProblem& problem, double depth) const {
   problem.max_iterations = kIterations;
   problem.is_refining = true;
-  for (FingertipGoal& goal : problem.goals) goal.depth = depth;
+  for (FingertipGoal& goal : problem.goals) {
+    if (!goal.is_rest) goal.depth = depth;
+  }
   FingertipSolution best;
   for (int round = 0; round < kRounds; ++round) {
     best = ik_->solve(problem);
@@ -84,6 +105,7 @@ FingertipSolution FingertipPress::press(FingertipProblem& problem, double depth)
     const std::vector<double> reached = depth_at(*problem.product, best, problem.goals);
     double worst = 0.0;
     for (std::size_t k = 0; k < problem.goals.size(); ++k) {
+      if (problem.goals[k].is_rest) continue;
       const double lack = depth - reached[k];
       if (best.miss[k] > kMissed && lack > 0.0) continue;
       worst = std::max(worst, std::abs(lack));

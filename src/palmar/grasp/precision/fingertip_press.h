@@ -37,6 +37,7 @@ class FingertipPress {
  private:
   const FingertipIk* ik_;
   PosableSkin skin_;
+  std::vector<Vec3> normal_;  ///< of the skin, reference posture
 };
 
 }  // namespace palmar

@@ -3,6 +3,7 @@
 #include "palmar/grasp/precision/opposing_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/grip_axis.h"
+#include "palmar/grasp/precision/cost_order.h"
 
 namespace palmar {
 namespace {
@@ -29,6 +31,12 @@ constexpr double kPenLength = 80.0;            // mm
 constexpr double kPenGrip = 35.0;              // mm behind the tip ...
 constexpr double kPenShare = 0.28;             // ... or this share of the length if that is less
 constexpr double kAlike = 0.92;                // ends whose girths differ less look alike
+constexpr double kEqualSpread = 0.02;          // relative; axes of spreads that near are no axes
+constexpr double kSkewed = 1e-6;               // of a third moment, relative; less has no sign
+constexpr double kRound = 0.9;                 // breadth over breadth of something round
+constexpr double kRollStep = 2.0;              // mm; over which the surface's bend is looked at
+constexpr double kRollWeight = 0.5;
+constexpr double kMostRolling = 6.0;
 
 void add_points(const std::array<Vec3, 3>& c, double longest, int depth, const Vec3& normal,
                 std::vector<SurfacePoint>& points) {
@@ -47,6 +55,104 @@ void add_points(const std::array<Vec3, 3>& c, double longest, int depth, const V
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The point r of a mesh, from `centre`, with the largest `size(r)`; the first of those.
+template <class Size>
+Vec3 largest(const TriangleMesh& mesh, const Vec3& centre, const Size& size) {
+  Vec3 best = Vec3::Zero();
+  double most = 0.0;
+  for (const Vec3& v : mesh.vertices) {
+    const double one = size(Vec3(v - centre));
+    if (one <= most * (1.0 + 1e-6)) continue;
+    most = one;
+    best = v - centre;
+  }
+  return best;
+}
+
+/// Three directions that turn and mirror with a mesh, whatever its symmetry: to the farthest
+/// vertex, to the one farthest off that line, to the one farthest off the plane of both.
+std::array<Vec3, 3> landmarks(const TriangleMesh& mesh, const Vec3& centre) {
+  std::array<Vec3, 3> result;
+  result[0] = largest(mesh, centre, [](const Vec3& r) { return r.norm(); });
+  const Vec3 line = result[0].normalized();
+  const auto off_line = [&](const Vec3& r) -> Vec3 { return r - line * line.dot(r); };
+  result[1] = off_line(largest(mesh, centre, [&](const Vec3& r) { return off_line(r).norm(); }));
+  const Vec3 normal = line.cross(result[1]).normalized();
+  const Vec3 out = largest(mesh, centre, [&](const Vec3& r) { return std::abs(normal.dot(r)); });
+  result[2] = normal * normal.dot(out);
+  return result;
+}
+
+/// PinchShape::axes.
+Eigen::Matrix3d pinch_axes(const TriangleMesh& mesh, const Vec3& centre) {
+  Eigen::Matrix3d axes = principal_frame(mesh).axes;
+  const std::vector<double> area = vertex_areas(mesh);
+  const std::array<Vec3, 3> marks = landmarks(mesh, centre);
+  const auto moment = [&](const Vec3& axis, int power) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      sum += area[v] * std::pow(axis.dot(mesh.vertices[v] - centre), power);
+    }
+    return sum;
+  };
+  const Vec3 spread(moment(axes.col(0), 2), moment(axes.col(1), 2), moment(axes.col(2), 2));
+  const auto is_equal = [&](int a, int b) {
+    return std::abs(spread[a] - spread[b]) < kEqualSpread * spread.maxCoeff();
+  };
+  const auto aim = [&](int first, int second) {
+    // Within the plane of two axes: towards the farthest vertex.
+    const Vec3 normal = axes.col(first).cross(axes.col(second));
+    const Vec3 flat = marks[0] - normal * normal.dot(marks[0]);
+    if (flat.norm() < 1e-3 * marks[0].norm()) return;
+    axes.col(first) = flat.normalized();
+    axes.col(second) = normal.cross(axes.col(first));
+  };
+  if (is_equal(0, 1) && is_equal(1, 2)) {
+    for (int c = 0; c < 3; ++c) {
+      if (marks[static_cast<std::size_t>(c)].norm() > 0.0) {
+        axes.col(c) = marks[static_cast<std::size_t>(c)].normalized();
+      }
+    }
+  } else if (is_equal(0, 1)) {
+    aim(0, 1);
+  } else if (is_equal(1, 2)) {
+    aim(1, 2);
+  }
+  for (int c = 0; c < 3; ++c) {
+    const Vec3 axis = axes.col(c);
+    const double third = moment(axis, 3), size = std::pow(spread.maxCoeff(), 1.5);
+    double sign = std::abs(third) > kSkewed * size ? third : 0.0;
+    for (const Vec3& mark : marks) {
+      if (sign == 0.0 && std::abs(axis.dot(mark)) > 1e-6 * mark.norm()) sign = axis.dot(mark);
+    }
+    if (sign < 0.0) axes.col(c) = -axis;
+  }
+  return axes;
+}
+
+/// Radius of the surface (the smaller one) about a point with its normal over half the width
+/// between the fingers, inverse: 0 for a flat face, 1 for a ball.
+double rolling(const Product& product, const Vec3& point, const Vec3& normal, const Vec3& towards,
+               double width) {
+  const Vec3 t = (towards - normal * normal.dot(towards)).normalized();  // never along the normal
+  const Vec3 b = normal.cross(t);
+  const Vec3 off = point + kPadOffset * normal;
+  Eigen::Matrix2d bend;
+  for (int c = 0; c < 2; ++c) {
+    const Vec3 step = kRollStep * (c == 0 ? t : b);
+    const Vec3 change =
+        (product.distance->at(off + step).normal - product.distance->at(off - step).normal) /
+        (2.0 * kRollStep);
+    bend.col(c) = Eigen::Vector2d(t.dot(change), b.dot(change));
+  }
+  const double mean = 0.5 * bend.trace();
+  const double half = 0.5 * (bend(0, 0) - bend(1, 1)), shear = 0.5 * (bend(0, 1) + bend(1, 0));
+  const double most = mean + std::sqrt(half * half + shear * shear);
+  if (most < 1e-6) return 0.0;
+  const double radius = std::max(0.25, 1.0 / most - kPadOffset);
+  return std::min(kMostRolling, 0.5 * width / radius);
 }
 
 }  // namespace
@@ -76,7 +182,7 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count) {
 PinchShape pinch_shape(const TriangleMesh& mesh) {
   PinchShape shape;
   shape.centre = centre_of_volume(mesh);
-  shape.axes = principal_frame(mesh).axes;
+  shape.axes = pinch_axes(mesh, shape.centre);
   shape.lower.setConstant(1e9);
   shape.upper.setConstant(-1e9);
   for (const Vec3& v : mesh.vertices) {
@@ -88,6 +194,11 @@ PinchShape pinch_shape(const TriangleMesh& mesh) {
   const double breadth = std::max(size.y(), size.z());
   shape.is_pen =
       size.x() > kPenLength && breadth < kPenBreadth && size.x() > kPenSlenderness * breadth;
+  for (int c = 0; c < 3; ++c) {
+    const double p = size[(c + 1) % 3], q = size[(c + 2) % 3];
+    if (std::min(p, q) > kRound * std::max(p, q)) shape.disc_axes.push_back(shape.axes.col(c));
+  }
+  if (shape.disc_axes.empty()) shape.disc_axes.push_back(shape.axes.col(2));
   if (!shape.is_pen) return shape;
   // The writing end is the thinner one: mean distance of the skin from the axis over 15 mm.
   std::array<double, 2> girth = {0.0, 0.0};
@@ -118,6 +229,8 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
   std::vector<Vec3> places = {shape.centre};
   if (options.at) {
     places = {*options.at};
+  } else if (!options.places.empty()) {
+    places = options.places;
   } else if (shape.is_pen) {
     places.clear();
     const double length = shape.upper.x() - shape.lower.x();
@@ -161,14 +274,15 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
       for (const Vec3& place : places) away = std::min(away, (pair.middle() - place).norm());
       const double wide = std::max(0.0, pair.width() - options.comfortable) / kWidthUnit;
       const double slant = pair.angle / kAngleUnit;
-      pair.cost = options.central * away * away / (kAway * kAway) + slant * slant + wide * wide;
+      const Vec3 towards = shape.axes.col(std::abs(line.dot(shape.axes.col(0))) < 0.7 ? 0 : 1);
+      const double roll = std::max(rolling(product, pair.a, pair.normal_a, towards, pair.width()),
+                                   rolling(product, pair.b, pair.normal_b, towards, pair.width()));
+      pair.cost = options.central * away * away / (kAway * kAway) + slant * slant + wide * wide +
+                  kRollWeight * roll * roll;
       pairs.push_back(pair);
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const OpposingPair& p, const OpposingPair& q) {
-    // Rounded, so that a turned product with equal costs keeps its order.
-    return std::llround(1e6 * p.cost) < std::llround(1e6 * q.cost);
-  });
+  sort_by_cost(pairs, kRoundedTie, [](const OpposingPair& pair) { return pair.cost; });
   if (static_cast<int>(pairs.size()) > options.most) {
     pairs.resize(options.most);
   }

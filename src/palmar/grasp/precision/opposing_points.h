@@ -23,11 +23,17 @@ struct OpposingPair {
 
 /// What matters of a product's shape for where it is pinched. Product frame, mm.
 struct PinchShape {
-  Vec3 centre = Vec3::Zero();                          ///< of volume
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< principal, largest spread first
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();     ///< extents along them from the centre
-  bool is_pen = false;                                 ///< long and thin: taken near one end
+  Vec3 centre = Vec3::Zero();  ///< of volume
+  /// Principal axes, largest spread first. Signs, and directions among axes of equal spread, are
+  /// those of the farthest vertex, so that they turn and mirror with the product; left-handed at
+  /// times.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< extents along them from the centre
+  bool is_pen = false;                              ///< long and thin: taken near one end
   std::vector<Vec3> tips;  ///< ends of the pen that write: one, or both if they look alike
+  /// Axes about which it is as broad one way as the other (within a tenth): of a lid, a knob, a
+  /// jar. The shortest axis of something that is round about none.
+  std::vector<Vec3> disc_axes;
 };
 PinchShape pinch_shape(const TriangleMesh& mesh);
 
@@ -37,6 +43,7 @@ struct OpposingOptions {
   double central = 1.0;       ///< weight of being near the centre (a pen: near the tip)
   int most = 200;             ///< pairs to return
   std::optional<Vec3> at;     ///< stay near this point instead
+  std::vector<Vec3> places;   ///< stay near one of these; empty: the centre (a pen: near the tip)
 };
 
 /// Antipodal pairs (both normals within 35 degrees of the line through them), cheapest first. About
@@ -46,6 +53,10 @@ struct OpposingOptions {
 /// left out. The same for a moved, turned or mirrored product.
 ///
 ///     cost = central (|m - c| / 50 mm)^2 + (angle / 20 deg)^2 + (width beyond comfortable / 20)^2
+///            + (w / 2 R)^2 / 2
+///
+/// The last term: a thing of width w between two fingertips rolls over the more easily the smaller
+/// the radius R of its surface there. Flat faces: 0; across a round bar: 1/2.
 std::vector<OpposingPair> find_opposing_pairs(const Product& product, const PinchShape& shape,
                                               const OpposingOptions& options);
 

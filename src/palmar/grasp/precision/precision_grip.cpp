@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
+#include "palmar/grasp/precision/cost_order.h"
 #include "palmar/grasp/precision/fingertip_press.h"
 #include "palmar/grasp/precision/precision_search.h"
 
@@ -19,7 +21,7 @@ namespace {
 constexpr double kReached = 1.0;      // mm; what counts as reached
 constexpr double kOffSurface = 2.0;   // mm; targets may be that far from the surface
 constexpr double kPadOffset = 3.0;    // mm off the surface, where its distance is smooth
-constexpr double kThinShare = 0.4;    // of a thin product's width may be pressed in from each side
+constexpr double kLeans = 3.0;        // mm; a pen nearer than that leans on the web
 constexpr std::size_t kPressed = 5;   // holds that are pressed and looked at by all their skin
 constexpr double kSkinUnit = 2.0;     // mm; cost of skin deeper than the fingertips
 constexpr double kAtLimit = 0.15;     // mm; that near to the depth counts as there
@@ -91,7 +93,8 @@ struct PressedHold {
   FingertipSolution solution;
   std::vector<FingertipGoal> goals;
   SkinDepth skin;
-  double depth = 0.0;  ///< asked, after the product's thickness, mm
+  std::vector<double> reached;  ///< depth of every pulp, mm, per goal
+  double depth = 0.0;           ///< asked, mm
   double cost = 0.0;
 };
 
@@ -105,11 +108,12 @@ PressedHold pressed(const FingertipPress& press, const PrecisionHold& hold,
   for (std::size_t k = 0; k < problem.goals.size(); ++k) {
     if (problem.goals[k].is_sliding) problem.goals[k].point = hold.solution.reached[k];
   }
-  result.depth = std::min(fingertip_depth, std::max(0.05, kThinShare * hold.width));
+  result.depth = fingertip_depth;
   result.solution = press.press(problem, result.depth);
   result.goals = problem.goals;
   result.skin =
       press.look(*problem.product, result.solution.posture, result.solution.product_from_hand);
+  result.reached = press.depth_at(*problem.product, result.solution, result.goals);
   double excess = 0.0;
   for (const double depth : result.skin.any) {
     excess = std::max(excess, depth - result.depth - 2.0 * kAtLimit);
@@ -124,10 +128,11 @@ void finish_stops(const PressedHold& hold, Grasp& grasp) {
     stop.segment = static_cast<Segment>(s);
     stop.penetration = hold.skin.palmar[s];
     stop.reason = stop.penetration > 0.0 ? StopReason::kDistalStop : StopReason::kNotReached;
-    for (const FingertipGoal& goal : hold.goals) {
-      if (static_cast<std::size_t>(goal.fingertip.segment) != s) continue;
+    for (std::size_t k = 0; k < hold.goals.size(); ++k) {
+      const FingertipGoal& goal = hold.goals[k];
+      if (goal.is_rest || static_cast<std::size_t>(goal.fingertip.segment) != s) continue;
       // The side of a finger counts as a pad where the grip uses it.
-      stop.penetration = std::max(stop.penetration, hold.skin.any[s]);
+      stop.penetration = std::max({stop.penetration, hold.skin.any[s], hold.reached[k]});
       stop.reason = stop.penetration > hold.depth - kAtLimit ? StopReason::kLimitDepth
                     : stop.penetration > 0.0                 ? StopReason::kRangeOfMotion
                                                              : StopReason::kNotReached;
@@ -135,8 +140,7 @@ void finish_stops(const PressedHold& hold, Grasp& grasp) {
   }
 }
 
-void judge(const PressedHold& hold, const GripOpenings& openings,
-           const PrecisionGripOptions& options, double width, Grasp& grasp) {
+void judge(const PressedHold& hold, double widest_span, double width, Grasp& grasp) {
   std::vector<std::string> held, missing;
   double worst = 0.0;
   for (const FingertipContact& contact : grasp.fingertips) {
@@ -148,20 +152,23 @@ void judge(const PressedHold& hold, const GripOpenings& openings,
       worst = std::max(worst, contact.miss);
     }
   }
-  const bool is_too_wide = width > openings.widest() + 4.0;
+  const bool is_too_wide = width > widest_span + 4.0;
   if (missing.empty()) {
     grasp.status = GraspStatus::kHeld;
     grasp.message = fmt::format("held between {}, {:.0f} mm apart", list_of(held), width);
-    if (hold.depth < options.fingertip_depth) {
-      grasp.message += fmt::format(
-          "; pressed in by {:.1f} mm only, for it is {:.1f} mm thick there", hold.depth, width);
+    for (std::size_t k = 0; k < hold.goals.size(); ++k) {
+      if (!hold.goals[k].is_rest) continue;
+      const double miss = hold.solution.miss[k];
+      grasp.message +=
+          miss < kLeans ? "; its long end leans over the web of the thumb"
+                        : fmt::format("; its long end is {:.0f} mm off the web of the thumb", miss);
     }
   } else {
     grasp.status = is_too_wide ? GraspStatus::kTooLarge : GraspStatus::kPartlyHeld;
     grasp.message = list_of(missing);
     if (is_too_wide) {
       grasp.message += fmt::format("; the points are {:.0f} mm apart, the hand spans {:.0f} mm",
-                                   width, openings.widest());
+                                   width, widest_span);
     }
   }
   double deepest = 0.0;
@@ -189,6 +196,48 @@ void judge(const PressedHold& hold, const GripOpenings& openings,
   }
 }
 
+/// What a grasp says about the hold it is.
+void describe(const Hand& hand, const Product& product, const PressedHold& hold, double widest,
+              Grasp& grasp) {
+  grasp.posture = hold.solution.posture;
+  grasp.product_from_hand = hold.solution.product_from_hand;
+  grasp.fingertips.clear();
+  const auto count = static_cast<std::size_t>(
+      std::count_if(hold.goals.begin(), hold.goals.end(),
+                    [](const FingertipGoal& goal) { return !goal.is_rest; }));
+  Vec3 others = Vec3::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    FingertipContact contact;
+    contact.finger = hold.goals[k].fingertip.finger;
+    contact.target = hold.goals[k].point;
+    contact.reached = hold.solution.reached[k];
+    contact.normal = hold.solution.normal[k];
+    if (hold.goals[k].is_sliding) {
+      contact.target = contact.reached;
+      contact.miss = hold.solution.miss[k];
+    } else {
+      contact.miss = (contact.reached - contact.target).norm();
+    }
+    grasp.fingertips.push_back(contact);
+    if (k > 0) others += contact.reached / static_cast<double>(count - 1);
+  }
+  const Vec3 thumb = grasp.fingertips[0].reached;
+  const double width = (others - thumb).norm();
+  const Vec3 line = width > 0.0 ? Vec3((others - thumb) / width) : Vec3(Vec3::UnitZ());
+  const Vec3 radial =
+      grasp.product_from_hand.rotation * (hand.skeleton.joint(JointId::kIndexMcp).centre -
+                                          hand.skeleton.joint(JointId::kLittleMcp).centre);
+  grasp.grip_point = 0.5 * (thumb + others);
+  grasp.grip_axis = (radial - line * line.dot(radial)).normalized();
+  std::vector<Vec3> section;
+  for (const SectionCurve& curve : plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
+    section.insert(section.end(), curve.point.begin(), curve.point.end());
+  }
+  grasp.grip_girth = girth(section, grasp.grip_axis);
+  finish_stops(hold, grasp);
+  judge(hold, widest, width, grasp);
+}
+
 /// Nobody holds it: the hand is shown beside the product, touching nothing.
 void put_beside(const Hand& hand, const Product& product, Grasp& grasp) {
   const Box3 box = product.distance->bounding_box();
@@ -202,7 +251,7 @@ void PrecisionGripOptions::check() const {
   if (is_power(grip)) {
     throw UsageError(
         fmt::format("grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
-                    "lateral or precision_sphere is allowed",
+                    "writing_tripod, lateral, precision_sphere or precision_disk is allowed",
                     name_of(grip)));
   }
   if (!(fingertip_depth > 0.0) || fingertip_depth > 6.0) {
@@ -265,9 +314,17 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
   grasp.candidates = search.candidates;
   if (search.holds.empty()) {
     grasp.status = GraspStatus::kNotGraspable;
-    grasp.message = fmt::format(
-        "no two opposite places of it within the hand's span of {:.0f} mm for grip {}{}",
-        search.widest, name_of(options.grip), options.placement.at ? " near the given point" : "");
+    grasp.message =
+        options.grip == Grip::kWritingTripod
+            ? fmt::format(
+                  "it is no pen for grip {}: longer than 80 mm, 4.5 times as long as "
+                  "broad, at most {:.0f} mm thick behind its tip",
+                  name_of(options.grip), search.widest)
+            : fmt::format(
+                  "no two opposite places of it within the hand's span of {:.0f} mm for "
+                  "grip {}{}",
+                  search.widest, name_of(options.grip),
+                  options.placement.at ? " near the given point" : "");
     put_beside(hand, product, grasp);
     return grasp;
   }
@@ -280,53 +337,48 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     progress.throw_if_cancelled();
     holds.push_back(pressed(press, hold, options.fingertip_depth));
   }
-  std::vector<std::size_t> order(holds.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::llround(1e6 * holds[a].cost) < std::llround(1e6 * holds[b].cost);
-  });
-  const PressedHold& best = holds[order[0]];
+  sort_by_cost(holds, kIteratedTie, [](const PressedHold& hold) { return hold.cost; });
+  const PressedHold& best = holds.front();
   const auto score_of = [](double cost) { return 1.0 / (1.0 + std::max(0.0, cost)); };
-  grasp.posture = best.solution.posture;
-  grasp.product_from_hand = best.solution.product_from_hand;
   grasp.score = score_of(best.cost);
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    const PressedHold& other = holds[order[i]];
+  for (std::size_t i = 1; i < holds.size(); ++i) {
+    const PressedHold& other = holds[i];
     grasp.runners_up.push_back({options.grip, other.solution.posture,
                                 other.solution.product_from_hand, score_of(other.cost)});
   }
-  Vec3 others = Vec3::Zero();
-  for (std::size_t k = 0; k < best.goals.size(); ++k) {
-    FingertipContact contact;
-    contact.finger = best.goals[k].fingertip.finger;
-    contact.target = best.goals[k].point;
-    contact.reached = best.solution.reached[k];
-    contact.normal = best.solution.normal[k];
-    if (best.goals[k].is_sliding) {
-      contact.target = contact.reached;
-      contact.miss = best.solution.miss[k];
-    } else {
-      contact.miss = (contact.reached - contact.target).norm();
-    }
-    grasp.fingertips.push_back(contact);
-    if (k > 0) others += contact.reached / static_cast<double>(best.goals.size() - 1);
-  }
-  const Vec3 thumb = grasp.fingertips[0].reached;
-  const double width = (others - thumb).norm();
-  const Vec3 line = width > 0.0 ? Vec3((others - thumb) / width) : Vec3(Vec3::UnitZ());
-  const Vec3 radial =
-      grasp.product_from_hand.rotation * (hand.skeleton.joint(JointId::kIndexMcp).centre -
-                                          hand.skeleton.joint(JointId::kLittleMcp).centre);
-  grasp.grip_point = 0.5 * (thumb + others);
-  grasp.grip_axis = (radial - line * line.dot(radial)).normalized();
-  std::vector<Vec3> section;
-  for (const SectionCurve& curve : plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
-    section.insert(section.end(), curve.point.begin(), curve.point.end());
-  }
-  grasp.grip_girth = girth(section, grasp.grip_axis);
-  finish_stops(best, grasp);
-  judge(best, openings, options, width, grasp);
+  describe(hand, product, best, openings.widest(), grasp);
   return grasp;
+}
+
+void take_runner_up(const Hand& hand, const Product& product, std::size_t index, Grasp& grasp) {
+  const GraspRunnerUp chosen = grasp.runners_up.at(index);
+  grasp.runners_up[index] = {grasp.grip, grasp.posture, grasp.product_from_hand, grasp.score};
+  grasp.grip = chosen.grip;
+  grasp.score = chosen.score;
+  const FingertipIk ik(hand);
+  PressedHold hold;
+  FingertipProblem problem;
+  problem.product = product.distance.get();
+  problem.natural = problem.start = chosen.posture;
+  problem.product_from_hand = chosen.product_from_hand;
+  problem.is_refining = true;
+  problem.max_iterations = 0;  // as it is
+  for (const FingertipPoint& tip : fingertips_of(hand, grasp.grip)) {
+    FingertipGoal& goal = problem.goals.emplace_back();
+    goal.fingertip = tip;
+    goal.is_sliding = true;
+  }
+  hold.solution = ik.solve(problem);
+  const FingertipPress press(ik);
+  hold.reached = press.depth_at(*product.distance, hold.solution, problem.goals);
+  for (std::size_t k = 0; k < problem.goals.size(); ++k) {
+    problem.goals[k].point = hold.solution.reached[k];
+    hold.solution.miss[k] = std::max(0.0, -hold.reached[k]);
+  }
+  hold.depth = *std::max_element(hold.reached.begin(), hold.reached.end());
+  hold.goals = std::move(problem.goals);
+  hold.skin = press.look(*product.distance, hold.solution.posture, hold.solution.product_from_hand);
+  describe(hand, product, hold, std::numeric_limits<double>::infinity(), grasp);
 }
 
 }  // namespace palmar

@@ -34,4 +34,7 @@ struct PrecisionGripOptions {
 Grasp close_precision_grip(const Hand& hand, const Product& product,
                            const PrecisionGripOptions& options, const Progress& progress = {});
 
+/// Makes one of a precision grip's runners-up the grasp itself; what it was becomes that runner-up.
+void take_runner_up(const Hand& hand, const Product& product, std::size_t index, Grasp& grasp);
+
 }  // namespace palmar

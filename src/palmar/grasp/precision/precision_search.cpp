@@ -8,6 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/grasp/precision/cost_order.h"
 
 namespace palmar {
 namespace {
@@ -22,10 +23,20 @@ constexpr double kTiltUnit = 40.0 * kDegree;
 constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
 constexpr double kBalanceUnit = 30.0 * kDegree;
-constexpr double kOffsetUnit = 10.0;  // mm
-constexpr double kPenLean = 0.4;      // cost of a pen perpendicular to the way it likes to lean
-constexpr double kAxisWeight = 2.0;   // of the asked axis
-constexpr double kLikeShift = 12.0;   // mm; holds nearer than that ...
+constexpr double kOffsetUnit = 10.0;      // mm, at most ...
+constexpr double kOffsetShare = 0.5;      // of the width; less than
+constexpr double kLeastOffsetUnit = 2.0;  // mm
+constexpr double kSlideShare = 0.25;      // of a thing's middle extent, that fingertips may slide
+constexpr double kLeastSlide = 1.0, kMostSlide = 6.0;  // mm
+constexpr double kPenLean = 0.4;         // cost of a pen perpendicular to the way it likes to lean
+constexpr double kAxisWeight = 2.0;      // of the asked axis
+constexpr double kDiscWeight = 3.0;      // of a disc's axis off the way fingers hold it
+constexpr double kDiscEnd = 8.0;         // mm from the end of a long body to fingertips on its rim
+constexpr double kDiscLong = 15.0;       // mm from its centre; a shorter one is held in the middle
+constexpr double kPenPlace = 32.0;       // mm behind the tip are fingertips that write ...
+constexpr double kPenPlaceShare = 0.28;  // ... or this share of the length if that is less
+constexpr double kWebUnit = 4.0;         // mm; cost of a pen that doesn't lean over the web
+constexpr double kLikeShift = 12.0;      // mm; holds nearer than that ...
 constexpr double kLikeTurn = 25.0 * kDegree;  // ... and turned less are the same
 constexpr std::size_t kMostHolds = 8;
 
@@ -42,6 +53,26 @@ HandAxes hand_axes(const Skeleton& skeleton) {
   axes.distal = Vec3::UnitY();
   axes.dorsal = -Vec3::UnitZ();
   return axes;
+}
+
+/// Turns go the other way round for a left hand, so that it tries what a right hand would in the
+/// mirror, in the same order.
+double turn_sign(const Hand& hand) { return hand.side == Side::kLeft ? -1.0 : 1.0; }
+
+/// Rotation that takes `in_hand` to `in_product` and turns by `turn` about that.
+Quat aligned(const Vec3& in_hand, const Vec3& in_product, const Vec3& zero, double turn) {
+  const auto frame = [](const Vec3& z, const Vec3& towards) {
+    Eigen::Matrix3d axes;
+    axes.col(2) = z;
+    axes.col(0) = (towards - z * z.dot(towards)).normalized();
+    axes.col(1) = z.cross(axes.col(0));
+    return axes;
+  };
+  const Eigen::Matrix3d to =
+      frame(in_product, zero) * Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+  // Any direction of the hand will do, as long as it isn't the axis itself.
+  const Vec3 towards = std::abs(in_hand.z()) < 0.8 ? Vec3::UnitZ() : Vec3::UnitY();
+  return Quat(Eigen::Matrix3d(to * frame(in_hand, towards).transpose())).normalized();
 }
 
 /// Rigid motion that places the hand's opening on two points, the thumb at `thumb`.
@@ -86,8 +117,6 @@ struct Candidate {
   double cost = 0.0;
 };
 
-bool costs_less(double a, double b) { return std::llround(1e6 * a) < std::llround(1e6 * b); }
-
 class Search {
  public:
   Search(const FingertipIk& ik, const GripOpenings& openings, const Product& product,
@@ -103,6 +132,9 @@ class Search {
 
  private:
   std::vector<OpposingPair> pairs(double& widest) const;
+  std::vector<Candidate> opposed(const std::vector<OpposingPair>& all,
+                                 const Progress& progress) const;
+  PrecisionSearch write(const Progress& progress) const;
   double placing_cost(const Rigid3& product_from_hand) const;
   PrecisionHold set_down(const Candidate& candidate, const OpposingPair& pair) const;
   double hold_cost(const PrecisionHold& hold) const;
@@ -117,7 +149,8 @@ class Search {
 
 std::vector<OpposingPair> Search::pairs(double& widest) const {
   const bool is_lateral = openings_->grip() == Grip::kLateral;
-  const bool is_ball = openings_->grip() == Grip::kPrecisionSphere;
+  const bool is_disc = openings_->grip() == Grip::kPrecisionDisk;
+  const bool is_ball = is_disc || openings_->grip() == Grip::kPrecisionSphere;
   const double length = ik_->hand().dimensions.hand_length;
   OpposingOptions options;
   options.widest = std::min(openings_->widest() + 4.0, is_lateral ? 0.25 * length : 0.55 * length);
@@ -126,6 +159,21 @@ std::vector<OpposingPair> Search::pairs(double& widest) const {
   options.most = options_->candidates;
   options.at = options_->placement.at;
   widest = options.widest;
+  if (is_disc) {
+    for (const Vec3& axis : shape_.disc_axes) {
+      double low = 0.0, high = 0.0;
+      for (const Vec3& v : product_->mesh.vertices) {
+        low = std::min(low, axis.dot(v - shape_.centre));
+        high = std::max(high, axis.dot(v - shape_.centre));
+      }
+      if (std::max(high, -low) < kDiscLong) {
+        options.places.push_back(shape_.centre);
+      } else {
+        options.places.push_back(shape_.centre + (high - kDiscEnd) * axis);
+        options.places.push_back(shape_.centre + (low + kDiscEnd) * axis);
+      }
+    }
+  }
   return find_opposing_pairs(*product_, shape_, options);
 }
 
@@ -135,7 +183,14 @@ double Search::placing_cost(const Rigid3& product_from_hand) const {
     const Vec3 radial = product_from_hand.rotation * axes_.radial;
     cost += kAxisWeight * (1.0 - radial.dot(options_->placement.axis->normalized()));
   }
-  if (shape_.is_pen && openings_->grip() != Grip::kLateral) {
+  if (openings_->grip() == Grip::kPrecisionDisk) {
+    const Vec3 held = product_from_hand.rotation * openings_->all().front().axis;
+    double along = 0.0;
+    for (const Vec3& axis : shape_.disc_axes) along = std::max(along, std::abs(held.dot(axis)));
+    cost += kDiscWeight * (1.0 - along);
+  }
+  const bool leans = openings_->grip() == Grip::kTripod || openings_->fingertips().size() == 2;
+  if (shape_.is_pen && leans && openings_->grip() != Grip::kLateral) {
     // The far end of a pen lies on the web between thumb and index finger or sticks out over it.
     const Vec3 grip = product_from_hand * Vec3(openings_->all().front().thumb);
     const Vec3& tip = *std::min_element(
@@ -157,11 +212,15 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
   problem.start = opening.posture;
   problem.product_from_hand = candidate.product_from_hand;
   const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
+  Vec3 size = shape_.upper - shape_.lower;
+  std::sort(size.data(), size.data() + 3);
+  const double slide = std::clamp(kSlideShare * size[1], kLeastSlide, kMostSlide);
   for (const FingertipPoint& tip : openings_->fingertips()) {
     FingertipGoal goal;
     goal.fingertip = tip;
     goal.is_sliding = true;
-    if (openings_->grip() == Grip::kPrecisionSphere) {
+    if (openings_->fingertips().size() == 2) goal.slide = slide;
+    if (openings_->fingertips().size() == 5) {
       goal.slide = kBallSlide;
       goal.square = kBallSquare;
     }
@@ -184,18 +243,21 @@ double Search::hold_cost(const PrecisionHold& hold) const {
   cost += solution.strain / kStrainUnit;
   cost += std::pow(solution.clash / kClashUnit, 2);
   Vec3 others = Vec3::Zero(), push = Vec3::Zero();
-  for (std::size_t k = 0; k < solution.reached.size(); ++k) {
+  const std::size_t count = openings_->fingertips().size();
+  for (std::size_t k = 0; k < count; ++k) {
     cost += 0.5 * std::pow(solution.tilt[k] / kTiltUnit, 2);
     cost += std::pow(solution.miss[k] / kMissUnit, 2);
     if (k == 0) continue;
-    others += solution.reached[k] / static_cast<double>(solution.reached.size() - 1);
+    others += solution.reached[k] / static_cast<double>(count - 1);
     push -= solution.normal[k];
   }
+  if (solution.miss.size() > count) cost += std::pow(solution.miss[count] / kWebUnit, 2);
   const Vec3 thumb = -solution.normal[0];
   const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
   cost += std::pow(balance / kBalanceUnit, 2);
   const Vec3 arm = others - solution.reached[0];
-  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / kOffsetUnit, 2);
+  const double unit = std::clamp(kOffsetShare * arm.norm(), kLeastOffsetUnit, kOffsetUnit);
+  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / unit, 2);
   return cost;
 }
 
@@ -211,9 +273,7 @@ bool is_like(const PrecisionHold& a, const PrecisionHold& b) {
 }
 
 void sort_and_thin(std::vector<PrecisionHold>& holds) {
-  std::stable_sort(holds.begin(), holds.end(), [](const PrecisionHold& a, const PrecisionHold& b) {
-    return costs_less(a.cost, b.cost);
-  });
+  sort_by_cost(holds, kIteratedTie, [](const PrecisionHold& hold) { return hold.cost; });
   std::vector<PrecisionHold> kept;
   for (PrecisionHold& hold : holds) {
     if (kept.size() == kMostHolds) break;
@@ -224,19 +284,18 @@ void sort_and_thin(std::vector<PrecisionHold>& holds) {
   holds = std::move(kept);
 }
 
-double width_of(const FingertipSolution& solution) {
+double width_of(const FingertipSolution& solution, std::size_t count) {
   Vec3 others = Vec3::Zero();
-  for (std::size_t k = 1; k < solution.reached.size(); ++k) {
-    others += solution.reached[k] / static_cast<double>(solution.reached.size() - 1);
+  for (std::size_t k = 1; k < count; ++k) {
+    others += solution.reached[k] / static_cast<double>(count - 1);
   }
   return (others - solution.reached[0]).norm();
 }
 
-PrecisionSearch Search::run(const Progress& progress) const {
-  PrecisionSearch result;
-  const std::vector<OpposingPair> all = pairs(result.widest);
-  result.pairs = static_cast<int>(all.size());
+std::vector<Candidate> Search::opposed(const std::vector<OpposingPair>& all,
+                                       const Progress& progress) const {
   std::vector<Candidate> candidates;
+  const double sign = turn_sign(ik_->hand());
   for (std::size_t i = 0; i < all.size(); ++i) {
     progress.throw_if_cancelled();
     const OpposingPair& pair = all[i];
@@ -249,7 +308,7 @@ PrecisionSearch Search::run(const Progress& progress) const {
       const Vec3 zero = zero_for(shape_, (one.other - one.thumb).normalized());
       for (int turn = 0; turn < kTurns; ++turn) {
         one.product_from_hand = placed_opening(opening, axes_.radial, one.thumb, one.other, zero,
-                                               2.0 * std::numbers::pi * turn / kTurns);
+                                               sign * 2.0 * std::numbers::pi * turn / kTurns);
         one.way = turn + (is_swapped ? kTurns : 0);
         const double clash = ik_->clash_of(*product_->distance, opening.posture,
                                            one.product_from_hand, openings_->fingertips());
@@ -259,9 +318,67 @@ PrecisionSearch Search::run(const Progress& progress) const {
       }
     }
   }
+  return candidates;
+}
+
+/// The writing tripod: behind each end that may write, the hand turned all round the pen.
+PrecisionSearch Search::write(const Progress& progress) const {
+  PrecisionSearch result;
+  result.widest = openings_->widest();
+  if (!shape_.is_pen) return result;
+  const double length = shape_.upper.x() - shape_.lower.x();
+  for (const Vec3& tip : shape_.tips) {
+    const Vec3 back = (shape_.centre - tip).normalized();
+    Vec3 place = tip + std::min(kPenPlace, kPenPlaceShare * length) * back;
+    if (options_->placement.at) place = tip + back * back.dot(*options_->placement.at - tip);
+    const double width = std::max(1.0, -2.0 * product_->distance->at(place).distance);
+    if (width > openings_->widest() + 4.0) continue;
+    const GripOpening& opening = openings_->at(width);
+    const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
+    for (int turn = 0; turn < kTurns; ++turn) {
+      progress.throw_if_cancelled();
+      PrecisionHold hold;
+      FingertipProblem& problem = hold.problem;
+      problem.product = product_->distance.get();
+      problem.natural = problem.start = opening.posture;
+      Rigid3& placed = problem.product_from_hand;
+      placed.rotation = aligned(opening.axis, back, shape_.axes.col(1),
+                                turn_sign(ik_->hand()) * 2.0 * std::numbers::pi * turn / kTurns);
+      placed.translation = place - placed.rotation * opening.centre;
+      const auto there = [&](const FingertipPoint& tip_point) -> Vec3 {
+        return placed * (posed.segment[index_of(tip_point.segment)] * tip_point.point);
+      };
+      for (const FingertipPoint& fingertip : openings_->fingertips()) {
+        FingertipGoal goal;
+        goal.fingertip = fingertip;
+        goal.is_sliding = true;
+        goal.square = kBallSquare;
+        goal.point = product_->distance->at(there(fingertip)).closest;
+        problem.goals.push_back(goal);
+      }
+      FingertipGoal web = web_goal(ik_->hand());
+      web.point = product_->distance->at(there(web.fingertip)).closest;
+      problem.goals.push_back(web);
+      hold.solution = ik_->solve(problem);
+      hold.width = width;
+      hold.cost = hold_cost(hold);
+      result.holds.push_back(std::move(hold));
+    }
+  }
+  result.candidates = static_cast<int>(result.holds.size());
+  result.pairs = result.candidates;
+  sort_and_thin(result.holds);
+  return result;
+}
+
+PrecisionSearch Search::run(const Progress& progress) const {
+  if (openings_->grip() == Grip::kWritingTripod) return write(progress);
+  PrecisionSearch result;
+  const std::vector<OpposingPair> all = pairs(result.widest);
+  result.pairs = static_cast<int>(all.size());
+  std::vector<Candidate> candidates = opposed(all, progress);
   result.candidates = static_cast<int>(candidates.size());
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return costs_less(a.cost, b.cost); });
+  sort_by_cost(candidates, kRoundedTie, [](const Candidate& one) { return one.cost; });
   std::vector<std::vector<int>> used(all.size());
   std::size_t taken = 0;
   for (const Candidate& candidate : candidates) {
@@ -277,7 +394,8 @@ PrecisionSearch Search::run(const Progress& progress) const {
     progress.throw_if_cancelled();
     ++taken;
     result.holds.push_back(set_down(candidate, all[candidate.pair]));
-    result.holds.back().width = width_of(result.holds.back().solution);
+    result.holds.back().width =
+        width_of(result.holds.back().solution, openings_->fingertips().size());
   }
   sort_and_thin(result.holds);
   return result;
@@ -308,12 +426,24 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
   if ((other - thumb).norm() < 0.1) other = thumb - 0.1 * goals[0].normal.value_or(Vec3::UnitZ());
   const GripOpening& opening = openings.at((other - thumb).norm());
   const Vec3 zero = zero_for(shape, (other - thumb).normalized());
+  const double sign = turn_sign(ik.hand());
+  const bool is_writing = openings.grip() == Grip::kWritingTripod;
   std::vector<Candidate> candidates;
   const PosedSkeleton posed = pose_skeleton(ik.hand().skeleton, opening.posture);
   for (int turn = 0; turn < 2 * kTurns; ++turn) {
     Candidate one;
-    one.product_from_hand =
-        placed_opening(opening, axes.radial, thumb, other, zero, std::numbers::pi * turn / kTurns);
+    const double angle = sign * std::numbers::pi * turn / kTurns;
+    one.product_from_hand = placed_opening(opening, axes.radial, thumb, other, zero, angle);
+    if (is_writing) {
+      // The pen's long end over the web; which end is long is seen from where the points are.
+      const Vec3 middle = (thumb + 2.0 * other) / 3.0;
+      const double along = shape.axes.col(0).dot(shape.centre - middle);
+      const Vec3 back = (along < 0.0 ? -1.0 : 1.0) * shape.axes.col(0);
+      one.product_from_hand.rotation = aligned(opening.axis, back, shape.axes.col(1), 2.0 * angle);
+      one.product_from_hand.translation =
+          middle -
+          one.product_from_hand.rotation * Vec3((opening.thumb + 2.0 * opening.others) / 3.0);
+    }
     one.cost = 0.1 * kClashRate *
                ik.clash_of(*product.distance, opening.posture, one.product_from_hand,
                            openings.fingertips());
@@ -325,8 +455,7 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
     candidates.push_back(one);
   }
   result.candidates = static_cast<int>(candidates.size());
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return costs_less(a.cost, b.cost); });
+  sort_by_cost(candidates, kRoundedTie, [](const Candidate& one) { return one.cost; });
   for (std::size_t i = 0; i < std::min(kStarts, candidates.size()); ++i) {
     progress.throw_if_cancelled();
     PrecisionHold hold;
@@ -335,10 +464,19 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
     hold.problem.natural = hold.problem.start = opening.posture;
     hold.problem.product_from_hand = candidates[i].product_from_hand;
     hold.problem.max_iterations = 150;
+    if (is_writing) {
+      FingertipGoal web = web_goal(ik.hand());
+      const Vec3 there = candidates[i].product_from_hand *
+                         (posed.segment[index_of(web.fingertip.segment)] * web.fingertip.point);
+      web.point = product.distance->at(there).closest;
+      hold.problem.goals.push_back(web);
+    }
     hold.solution = ik.solve(hold.problem);
     hold.width = (other - thumb).norm();
-    for (const double miss : hold.solution.miss) hold.cost += std::pow(miss / kMissUnit, 2);
-    for (const double tilt : hold.solution.tilt) hold.cost += 0.5 * std::pow(tilt / kTiltUnit, 2);
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+      hold.cost += std::pow(hold.solution.miss[k] / kMissUnit, 2) +
+                   0.5 * std::pow(hold.solution.tilt[k] / kTiltUnit, 2);
+    }
     hold.cost += std::pow(hold.solution.clash / kClashUnit, 2) + hold.solution.strain / kStrainUnit;
     result.holds.push_back(hold);
   }

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "palmar/geometry/distance/analytic_distance.h"
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
 
 namespace palmar {
 
-/// Round a ball, fingers slide up to this far and touch with their sides.
+/// Round a ball or a disc, fingers slide up to this far and touch with their sides.
 inline constexpr double kBallSlide = 8.0;   // mm
 inline constexpr double kBallSquare = 0.9;  // rad
 
@@ -17,18 +19,26 @@ inline constexpr double kBallSquare = 0.9;  // rad
 /// touches.
 std::vector<FingertipPoint> fingertips_of(const Hand& hand, Grip grip);
 
+/// Where the long end of a pen leans in the writing tripod: the thumb's side of the index finger's
+/// root, over the web.
+FingertipGoal web_goal(const Hand& hand);
+
 /// How a hand likes to hold by a grip: the posture that the others are measured against. From the
 /// stored postures (named_postures.h), with straighter end joints for a pinch of pads and spread
 /// fingers round a ball.
 Posture natural_posture(const Skeleton& skeleton, Grip grip);
 
-/// A hand opened for a thing of some width between thumb and the other fingertips.
+/// A hand opened for a thing of some width between thumb and the other fingertips. Of a disc, the
+/// width is its diameter and `others` the place opposite to the thumb.
 struct GripOpening {
   double width = 0.0;  ///< mm
   Posture posture;
   Vec3 thumb = Vec3::Zero();   ///< thumb's fingertip point, hand frame, mm
   Vec3 others = Vec3::Zero();  ///< mean of the others'
   double strain = 0.0;         ///< of the posture against natural_posture()
+  /// Of the pen (towards its long end) or disc that it was opened for, hand frame; else zero.
+  Vec3 axis = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();  ///< of that, between the fingertips, hand frame, mm
 };
 
 /// Openings from nearly closed to the widest that the hand can do with its fingertips perpendicular
@@ -47,6 +57,16 @@ class GripOpenings {
   Grip grip_;
   std::vector<FingertipPoint> fingertips_;
   std::vector<GripOpening> openings_;
+  FingertipGoal web_;  ///< of the writing tripod
+
+  /// A hand with its fingertips about something of `width`, before they are put on it.
+  struct Start {
+    FingertipProblem problem;
+    DistanceFieldPtr thing;  ///< a ball, disc or pen; none: fingertips go to points in thin air
+  };
+  Start start_for(const Skeleton& skeleton, const Posture& natural, const Posture& start,
+                  double width) const;
+  std::optional<GripOpening> solved(const FingertipIk& ik, const Start& start, double width) const;
 };
 
 }  // namespace palmar

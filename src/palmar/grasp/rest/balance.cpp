@@ -16,7 +16,9 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/power/skin_advance.h"
+#include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/finger_cones.h"
+#include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/hand/skeleton.h"
 
@@ -32,10 +34,14 @@ constexpr int kUsualSteps = 60;  // not there by then, the search goes on only w
 constexpr int kVainSteps = 25;   // without getting nearer: it goes round in circles
 constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
 constexpr double kLeastRelaxation = 0.1;
-constexpr double kReach = 40.0;      // mm; arm by which turns are counted as way
-constexpr double kOut = 25.0;        // mm; a product that went farther has left the hand
-constexpr double kOutTurn = 0.8;     // rad
-constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
+constexpr double kShifted = 5.0;  // mm; a precision grip in which the product shifts more is poor
+constexpr double kLongestPress = 0.7;  // mm, of fingertips in one step
+constexpr double kLongestTurn = 0.06;  // rad, of what they hold
+constexpr double kNothing = 0.1;       // N; less left over is nothing to a hand: the weight of 10 g
+constexpr double kReach = 40.0;        // mm; arm by which turns are counted as way
+constexpr double kOut = 25.0;          // mm; a product that went farther has left the hand
+constexpr double kOutTurn = 0.8;       // rad
+constexpr double kLostShare = 0.05;    // of the grip force at the start; less is a lost grip
 // Passive coupling of DIP and PIP (Rijkpema & Girard 1991; tolerance: joint_coupling table of
 // modelling rules, 15 deg): beyond it a moment of kCouplingStiffness per radian.
 constexpr double kDipPerPip = 2.0 / 3.0;
@@ -71,6 +77,7 @@ class Settling {
         state_(start_),
         cones_(hand.hand()),
         start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
+        closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_) {
     is_held_[index_of(Finger::kThumb)] = is_by_muscles_;
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
@@ -107,6 +114,9 @@ class Settling {
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
+  void step_fingertips(const Misfit& misfit, double missing);
+  double share_of(const GripVector& way, double longest);
+  void move_product(const Vec3& shift, const Vec3& turn);
   void finish(Balance& balance) const;
   bool judge_way(Balance& balance) const;
   Posture without_crossing(const Posture& next);
@@ -120,6 +130,7 @@ class Settling {
   GripState start_, state_;
   FingerCones cones_;
   std::vector<RoundCone> start_cones_;
+  FingertipClosing closing_;                  // how a precision grip presses
   std::array<bool, kFingerCount> is_held_{};  // stays as it is: the thumb, a finger that met it
   GripMechanics mechanics_;
   Wrench load_;  // product frame
@@ -288,18 +299,7 @@ void Settling::step(const Misfit& misfit, double missing) {
 
   double longest = std::max(way.segment<3>(kSqueezeJoints).norm(), kReach * way.tail<3>().norm());
   for (int j = 0; j < kSqueezeJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
-  double share = std::min(1.0, kLongestStep / longest);
-  // Going to and fro says that forces change faster than the stiffness says: shorter steps.
-  GripVector scaled = way;
-  scaled.head<kSqueezeJoints>() *= kReach;
-  scaled.tail<3>() *= kReach;
-  const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
-  relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
-                                          : cosine > 0.2 ? 1.25
-                                                         : 1.0),
-                           kLeastRelaxation, 1.0);
-  last_way_ = scaled;
-  share *= relaxation_;
+  const double share = share_of(way, longest);
   way *= share;
   level *= share;
   if (is_by_muscles_) muscles_ = std::min(muscles_ + level, kMostMuscles);
@@ -312,7 +312,25 @@ void Settling::step(const Misfit& misfit, double missing) {
                                  std::min(dof.lower, angle), std::max(dof.upper, angle));
   }
   state_.posture = without_crossing(turned);
-  const Vec3 turn = way.tail<3>(), shift = way.segment<3>(kSqueezeJoints);
+  move_product(way.segment<3>(kSqueezeJoints), way.tail<3>());
+}
+
+/// How much of a step is taken; `longest` is the longest way that something goes in it, mm.
+double Settling::share_of(const GripVector& way, double longest) {
+  // Going to and fro says that forces change faster than the stiffness says: shorter steps.
+  GripVector scaled = way;
+  scaled.head<kSqueezeJoints>() *= kReach;
+  scaled.tail<3>() *= kReach;
+  const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
+  relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
+                                          : cosine > 0.2 ? 1.25
+                                                         : 1.0),
+                           kLeastRelaxation, 1.0);
+  last_way_ = scaled;
+  return relaxation_ * std::min(1.0, kLongestStep / longest);
+}
+
+void Settling::move_product(const Vec3& shift, const Vec3& turn) {
   Rigid3 motion;
   if (turn.norm() > 0.0) {
     motion = Rigid3::about_axis(turn.normalized(), mechanics_.centre(), turn.norm());
@@ -320,6 +338,49 @@ void Settling::step(const Misfit& misfit, double missing) {
   motion.translation += shift;
   moved_ += shift;
   state_.product_from_hand = state_.product_from_hand * motion.inverse();
+}
+
+/// The same for a precision grip: joints are held stiff, and fingertips go straight into the
+/// product, all alike, until the grip force is there.
+void Settling::step_fingertips(const Misfit& misfit, double missing) {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, 6> k = misfit.stiffness.bottomRightCorner<6, 6>();
+  for (const int begin : {0, 3}) {
+    k.diagonal().segment<3>(begin).array() +=
+        kSoftest * k.diagonal().segment<3>(begin).mean() + 1e-9;
+  }
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(k);
+  const Vector6 squeeze = mechanics_.squeeze().tail<6>();
+  Vector6 force = misfit.residual.tail<6>();
+  Posture rate;
+  double level = 0.0;
+  if (has_level_) {
+    rate = closing_.rate(state_.posture, state_.product_from_hand, missing > 0.0 ? 1.0 : -1.0);
+    const GripMechanics::Closing closing = mechanics_.closing(state_.posture, rate);
+    const double per_mm = closing.squeeze + squeeze.dot(factor.solve(closing.force));
+    if (per_mm > 1e-12) {
+      level = std::clamp((missing - squeeze.dot(factor.solve(force))) / per_mm, -kLongestPress,
+                         kLongestPress);
+      force += level * closing.force;
+    }
+  }
+  // A thing between two fingertips turns much more easily than it moves: the turn is limited by
+  // itself, and the shift is that which suits it.
+  Vector6 way = factor.solve(force);
+  const double turn = way.tail<3>().norm();
+  way.tail<3>() *= std::min(1.0, kLongestTurn / std::max(turn, 1e-12));
+  const Eigen::LDLT<Eigen::Matrix3d> shift(k.topLeftCorner<3, 3>());
+  way.head<3>() = shift.solve(Vec3(force.head<3>() - k.topRightCorner<3, 3>() * way.tail<3>()));
+  GripVector whole = GripVector::Zero();
+  whole.tail<6>() = way;
+  const double share = share_of(whole, std::max(way.head<3>().norm(), 1e-12));
+  for (int d = 0; d < kDofCount; ++d) {
+    const JointDof& dof = hand_->skeleton.dof(static_cast<Dof>(d));
+    double& angle = state_.posture[dof.dof];
+    angle = std::clamp(angle + share * level * rate[dof.dof], std::min(dof.lower, angle),
+                       std::max(dof.upper, angle));
+  }
+  move_product(share * way.head<3>(), share * way.tail<3>());
 }
 
 bool Settling::judge_way(Balance& balance) const {
@@ -393,8 +454,9 @@ Balance Settling::run(const Progress& progress) {
     const bool is_there =
         now.of_product < options_->aim && now.of_joints < kJointAim && now.of_level < kLevelAim;
     if (is_there || gives_up) {
-      balance.status =
-          now.of_product < kBalanced ? BalanceStatus::kBalanced : BalanceStatus::kNotConverged;
+      balance.status = now.of_product < kBalanced || now.of_product * grip < kNothing
+                           ? BalanceStatus::kBalanced
+                           : BalanceStatus::kNotConverged;
       break;
     }
     if (now.sum() < best.misfit.sum()) best = {state_, now, muscles_, moved_, i};
@@ -402,7 +464,8 @@ Balance Settling::run(const Progress& progress) {
                     "letting the grasp come to rest");
     gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps);
     if (!gives_up) {
-      step(now, (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals);
+      const double missing = (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals;
+      is_by_muscles_ || closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);
     } else {
       state_ = best.state;
       muscles_ = best.muscles;
@@ -438,40 +501,42 @@ Balance Settling::run(const Progress& progress) {
   return balance;
 }
 
+/// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
+/// elsewhere: where the search found the next best places.
+Balance settle_precision(const PreparedHand& hand, const Product& product, Grasp& grasp,
+                         const BalanceOptions& options, const ContactOptions& contact,
+                         const Progress& progress) {
+  const std::size_t others = grasp.status == GraspStatus::kHeld ? grasp.runners_up.size() : 0;
+  Balance first;
+  Grasp nearest = grasp;  // where it is at rest or the first comes near to that
+  for (std::size_t i = 0; i <= others; ++i) {
+    Grasp there = grasp;
+    if (i > 0) take_runner_up(hand.hand(), product, i - 1, there);
+    if (i > 0 && there.status != GraspStatus::kHeld) continue;
+    Settling settling(hand, product, there, options, contact, false);
+    Balance balance = settling.run(progress);
+    const bool is_at_rest = balance.status == BalanceStatus::kBalanced;
+    const bool is_near = balance.status == BalanceStatus::kNotConverged;
+    if (is_at_rest || is_near) {
+      there.posture = settling.state().posture;
+      there.product_from_hand = settling.state().product_from_hand;
+    }
+    if (is_at_rest && balance.moved < kShifted) {
+      if (i > 0) there.message += "; the place first chosen: " + first.message;
+      grasp = std::move(there);
+      return balance;
+    }
+    if (i == 0 || (is_at_rest && first.status != BalanceStatus::kBalanced)) {
+      if (is_near || is_at_rest) nearest = std::move(there);
+      first = std::move(balance);
+    }
+    if (first.status == BalanceStatus::kNoContact || first.status == BalanceStatus::kFailed) break;
+  }
+  grasp = std::move(nearest);
+  return first;
+}
+
 }  // namespace
-
-std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
-  if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
-  if (share_of_strength) return share_of_strength->force(grip);
-  return grip_force;
-}
-
-std::string BalanceOptions::asked_words(Grip grip) const {
-  if (!is_on) return "as the hand was closed to the limit depths";
-  if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
-  if (share_of_strength) return share_of_strength->words(grip);
-  return grip_force ? "as given" : "as firm as closing to the limit depths";
-}
-
-void BalanceOptions::check() const {
-  if (grip_force && share_of_strength) {
-    throw UsageError("balance: grip force and share of strength are both given; one is allowed");
-  }
-  if (!(friction >= 0.0 && friction <= 5.0)) {
-    throw UsageError(fmt::format("balance: friction is {:g}; 0 to 5 is allowed", friction));
-  }
-  if (grip_force && !(*grip_force > 0.0 && *grip_force <= 2000.0)) {
-    throw UsageError(fmt::format(
-        "balance: grip force is {:g} N; more than 0 and at most 2000 N is allowed", *grip_force));
-  }
-  if (!(aim >= 1e-4 && aim <= kBalanced)) {
-    throw UsageError(fmt::format("balance: aim is {:g}; 0.0001 to 0.01 is allowed", aim));
-  }
-  FrictionOptions with_load;
-  with_load.coefficient = 1.0;
-  with_load.load = load;
-  with_load.check();
-}
 
 Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,
                       const BalanceOptions& options, const ContactOptions& contact,
@@ -481,6 +546,9 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   if (!options.is_on) return {};
   ContactOptions plain = contact;
   plain.error_band = false;
+  if (!is_power(grasp.grip)) {
+    return settle_precision(hand, product, grasp, options, plain, progress);
+  }
   // A large body slips past fingers that all give the same share of their strength. Then the hand
   // is tried stiff: all joints held as they were closed. Hooked fingers meet no palm that would
   // hold against them: stiff from the start.
@@ -502,24 +570,6 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
     if (!slips) break;
   }
   return balance;
-}
-
-std::string_view name_of(BalanceStatus status) {
-  switch (status) {
-    case BalanceStatus::kOff:
-      return "off";
-    case BalanceStatus::kBalanced:
-      return "balanced";
-    case BalanceStatus::kSlipsOut:
-      return "slips_out";
-    case BalanceStatus::kNoContact:
-      return "no_contact";
-    case BalanceStatus::kNotConverged:
-      return "not_converged";
-    case BalanceStatus::kFailed:
-      return "failed";
-  }
-  return "unknown";
 }
 
 }  // namespace palmar

@@ -72,7 +72,9 @@ struct Balance {
 /// friction and load add up to nothing on the product; in a power grip also at every flexion joint
 /// of a finger in contact, with muscle moments in the proportions of flexion_strength(); palm and
 /// thumb hold against them. `grasp` gets the new posture and placement. Precision grips: joints are
-/// held, all of them close or open together to reach a grip force.
+/// held stiff and fingertips press straight into the product, all alike, to reach a grip force
+/// (fingertip_closing.h). One that doesn't come to rest where fingertips were first put is tried at
+/// its runners-up; `grasp` is then the first of those that does, and its message says so.
 ///
 /// Friction is that of skin that sticks where it was when the hand was closed and gives way
 /// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal

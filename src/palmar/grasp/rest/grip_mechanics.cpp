@@ -77,6 +77,8 @@ bool GripMechanics::look(const GripState& state) {
   is_loaded_.fill(false);
   tangential_.clear();
   normal_.clear();
+  stiff_.clear();
+  drag_.clear();
   friction_use_ = 0.0;
   grip_ = {};
   if (contact_.status == ContactStatus::kNotConverged) return false;
@@ -136,6 +138,8 @@ bool GripMechanics::look(const GripState& state) {
       drag *= share * share;  // of skin that slips little resists further motion
     }
     tangential_.push_back(pull);
+    stiff_.push_back(stiff);
+    drag_.push_back(drag);
     rubbing += pull.norm();
     limit += most;
     const Vec3 total = p * n + pull;  // of the product on the skin
@@ -155,6 +159,28 @@ bool GripMechanics::look(const GripState& state) {
   friction_use_ = limit > 0.0 ? rubbing / limit : 0.0;
   grip_ = squeeze_of_normals();
   return true;
+}
+
+GripMechanics::Closing GripMechanics::closing(const Posture& posture, const Posture& rate) const {
+  Closing result;
+  double largest = 0.0;
+  for (const double r : rate.angle) largest = std::max(largest, std::abs(r));
+  if (largest == 0.0 || loaded_.empty()) return result;
+  const double step = kTurn / largest;
+  Posture moved = posture;
+  for (std::size_t d = 0; d < moved.angle.size(); ++d) moved.angle[d] += step * rate.angle[d];
+  const std::vector<Vec3> there = pose_skin_vertices(hand_->hand(), moved, loaded_);
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const Vec3& n = normal_[k];
+    const Vec3 speed = (there[k] - posed_[loaded_[k]]) / step;
+    const Vec3 along = n * n.dot(speed);
+    // On the product: against what the skin meets.
+    const Vec3 force = stiff_[k] * along + drag_[k] * (speed - along);
+    result.squeeze -= stiff_[k] * n.dot(speed);
+    result.force.head<3>() += force;
+    result.force.tail<3>() += (posed_[loaded_[k]] - centre_).cross(force);
+  }
+  return result;
 }
 
 Squeeze GripMechanics::squeeze_of_normals() const {

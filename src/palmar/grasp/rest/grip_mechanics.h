@@ -45,6 +45,14 @@ class GripMechanics {
   /// Solves the contact of a state and fills what follows. False if it can't be solved.
   bool look(const GripState& state);
 
+  /// What a common motion of joints by `rate` [rad per mm] does in the state last looked at.
+  struct Closing {
+    double squeeze = 0.0;  ///< change of the sum of normal forces, N/mm
+    /// Change of the contact's force and moment on the product's coordinates, N/mm and N.
+    Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+  };
+  Closing closing(const Posture& posture, const Posture& rate) const;
+
   const ContactResult& contact() const { return contact_; }
   const GripVector& force() const { return force_; }  ///< of the contact on the coordinates
   const GripMatrix& stiffness() const { return stiffness_; }
@@ -80,6 +88,7 @@ class GripMechanics {
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
   std::vector<int> loaded_;
   std::vector<Vec3> normal_, tangential_;  ///< per loaded vertex, hand frame; on the skin, N
+  std::vector<double> stiff_, drag_;       ///< per loaded vertex, normal and tangential, N/mm
   Quat hand_from_product_;
   GripVector force_, squeeze_;
   GripMatrix stiffness_;

@@ -6,6 +6,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/rest/other_grip.h"
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar {
@@ -20,6 +21,16 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// A clause about what would hold a product that the precision grip asked for doesn't.
+std::string other_grip_words(const PreparedHand& hand, const Product& product,
+                             const AssessOptions& options, const Progress& progress) {
+  progress.update(0.55, "looking for a grip that would do");
+  const std::optional<Grip> other = other_grip_that_holds(
+      hand, product, options.grasp, options.balance, options.contact, progress);
+  return other ? "; " + std::string(name_of(*other)) + " would hold it"
+               : "; no other grip holds it either";
+}
 
 }  // namespace
 
@@ -104,6 +115,12 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   if (balance.status == BalanceStatus::kSlipsOut) {
     grasp.status = GraspStatus::kPartlyHeld;
     grasp.message += "; but it " + balance.message;
+  }
+  const bool is_at_rest =
+      balance.status == BalanceStatus::kBalanced || balance.status == BalanceStatus::kOff;
+  if (options.grasp.grip && !is_power(*options.grasp.grip) &&
+      (grasp.status != GraspStatus::kHeld || !is_at_rest)) {
+    grasp.message += other_grip_words(hand, product, options, stoppable);
   }
   Assessment result = evaluate(hand, product, grasp, options, progress, std::move(balance));
   result.times.grasp = seconds;

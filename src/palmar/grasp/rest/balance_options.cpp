@@ -1,0 +1,66 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/rest/balance.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kLargestAim = 0.01;  // residual over grip force that counts as balanced
+
+}  // namespace
+
+std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
+  if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
+  if (share_of_strength) return share_of_strength->force(grip);
+  return grip_force;
+}
+
+std::string BalanceOptions::asked_words(Grip grip) const {
+  if (!is_on) return "as the hand was closed to the limit depths";
+  if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
+  if (share_of_strength) return share_of_strength->words(grip);
+  return grip_force ? "as given" : "as firm as closing to the limit depths";
+}
+
+void BalanceOptions::check() const {
+  if (grip_force && share_of_strength) {
+    throw UsageError("balance: grip force and share of strength are both given; one is allowed");
+  }
+  if (!(friction >= 0.0 && friction <= 5.0)) {
+    throw UsageError(fmt::format("balance: friction is {:g}; 0 to 5 is allowed", friction));
+  }
+  if (grip_force && !(*grip_force > 0.0 && *grip_force <= 2000.0)) {
+    throw UsageError(fmt::format(
+        "balance: grip force is {:g} N; more than 0 and at most 2000 N is allowed", *grip_force));
+  }
+  if (!(aim >= 1e-4 && aim <= kLargestAim)) {
+    throw UsageError(fmt::format("balance: aim is {:g}; 0.0001 to 0.01 is allowed", aim));
+  }
+  FrictionOptions with_load;
+  with_load.coefficient = 1.0;
+  with_load.load = load;
+  with_load.check();
+}
+
+std::string_view name_of(BalanceStatus status) {
+  switch (status) {
+    case BalanceStatus::kOff:
+      return "off";
+    case BalanceStatus::kBalanced:
+      return "balanced";
+    case BalanceStatus::kSlipsOut:
+      return "slips_out";
+    case BalanceStatus::kNoContact:
+      return "no_contact";
+    case BalanceStatus::kNotConverged:
+      return "not_converged";
+    case BalanceStatus::kFailed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+}  // namespace palmar

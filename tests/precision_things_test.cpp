@@ -1,0 +1,267 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Small things held by precision grips at forces that people use. The forces were looked up before
+// the grips were tried; sources in docs/method/precision.md:
+//
+//   key, card  10.5 N  nine of twelve tasks with a lateral pinch need less (Smaby et al. 2004)
+//   pen         5 N    within the 2.6 to 8.1 N of a measured pinch (Sci Rep 2022, 12, 13247, table
+//                      2); of writing adults no figure was found at first hand
+//   pill        2.6 N  fingertips on the centre of a thing, same table
+//   ring        3.7 N  finger pulps on the centre of a thing, same table
+//   cube       15 N    five fingers that hold 1 kg, spans of 45 and 65 mm (Radwin et al. 1992)
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/grasp/precision/precision_grip.h"
+#include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/rest/other_grip.h"
+#include "palmar/hand/skin/skinning.h"
+#include "template_fixture.h"
+
+namespace palmar {
+namespace {
+
+using ::testing::HasSubstr;
+
+Product thing_of(TriangleMesh mesh, const std::string& name) {
+  Product product;
+  product.name = name;
+  product.mesh = std::move(mesh);
+  product.distance = std::make_shared<MeshDistance>(product.mesh);
+  return product;
+}
+
+/// A bow of 24 x 24 mm and a blade of 8 x 30 mm, 2.2 mm thick.
+TriangleMesh key_mesh() {
+  TriangleMesh mesh = make_box({24.0, 54.0, 2.2}, 27);
+  for (Vec3& v : mesh.vertices) {
+    const double from_bow = v.y() + 3.0;  // the bow ends at y = -3
+    const double t = std::clamp(from_bow / 4.0, 0.0, 1.0);
+    v.x() *= 1.0 + t * (8.0 / 24.0 - 1.0);
+  }
+  return mesh;
+}
+
+TriangleMesh cylinder_mesh(double diameter, double length) {
+  CylinderOptions options;
+  options.radius = 0.5 * diameter;
+  options.length = length;
+  return make_cylinder(options);
+}
+
+struct Thing {
+  std::string name;
+  TriangleMesh mesh;
+  Grip grip;
+  double force;  ///< N
+};
+
+std::vector<Thing> six_things() {
+  return {{"key", key_mesh(), Grip::kLateral, 10.5},
+          {"card", make_box({85.6, 54.0, 0.76}, 24), Grip::kLateral, 10.5},
+          {"pen", cylinder_mesh(8.0, 140.0), Grip::kWritingTripod, 5.0},
+          {"pill", cylinder_mesh(8.0, 4.0), Grip::kTipPinch, 2.6},
+          {"ring", make_torus(14.0, 1.0, 96, 12), Grip::kPalmarPinch, 3.7},
+          {"cube", make_box({60.0, 60.0, 60.0}, 24), Grip::kPrecisionSphere, 15.0}};
+}
+
+struct Held {
+  Grasp grasp;
+  Balance balance;
+  ContactResult contact;
+
+  double force_of(Finger finger, const Hand& hand) const {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < contact.force.size(); ++v) {
+      if (finger_of(hand.segment[v]) == finger) sum += contact.force[v];
+    }
+    return sum;
+  }
+};
+
+Held hold(const PreparedHand& hand, const Product& product, Grip grip, double force,
+          const ProductLoad& load = {}) {
+  PrecisionGripOptions options;
+  options.grip = grip;
+  Held held{
+      .grasp = close_precision_grip(hand.hand(), product, options), .balance = {}, .contact = {}};
+  BalanceOptions balance;
+  balance.grip_force = force;
+  balance.load = load;
+  held.balance = balance_grasp(hand, product, held.grasp, balance);
+  held.contact = solve_hand_contact(hand, pose_skin(hand.hand(), held.grasp.posture),
+                                    held.grasp.product_from_hand, *product.distance);
+  return held;
+}
+
+class PrecisionThings : public TemplateTest {
+ protected:
+  static const PreparedHand& prepared() {
+    static const PreparedHand made(std::make_shared<const Hand>(hand()));
+    return made;
+  }
+  static const PreparedHand& left() {
+    static const PreparedHand made(std::make_shared<const Hand>(mirrored(hand())));
+    return made;
+  }
+};
+
+TEST_F(PrecisionThings, AreHeldAtRestAtForcesThatPeopleUse) {
+  for (const Thing& thing : six_things()) {
+    SCOPED_TRACE(thing.name);
+    const Product product = thing_of(thing.mesh, thing.name);
+    const Held held = hold(prepared(), product, thing.grip, thing.force);
+    EXPECT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
+    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+    EXPECT_NEAR(held.balance.grip_force, thing.force, 0.01 * thing.force);
+    for (const FingertipContact& tip : held.grasp.fingertips) {
+      // Even shares among the fingers against the thumb would be a quarter at least.
+      EXPECT_GT(held.force_of(tip.finger, hand()), 0.1 * thing.force) << name_of(tip.finger);
+    }
+    // What friction lets people do, they don't need here: nothing is lifted.
+    EXPECT_LT(held.balance.moved, 3.0);
+  }
+}
+
+TEST_F(PrecisionThings, CubeOfOneKilogramDoesNotSlipFromFiveFingers) {
+  const Product cube = thing_of(make_box({60.0, 60.0, 60.0}, 24), "cube");
+  ProductLoad load;
+  load.weight = 9.81;  // N
+  const Held held = hold(prepared(), cube, Grip::kPrecisionSphere, 15.0, load);
+  EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+  EXPECT_NEAR(held.balance.grip_force, 15.0, 0.15);
+}
+
+TEST_F(PrecisionThings, AMovedAndTurnedThingIsHeldAlike) {
+  const Rigid3 motion =
+      Rigid3::about_axis(Vec3(0.3, -0.8, 0.52).normalized(), Vec3(3.0, -7.0, 11.0), 1.1);
+  for (const Thing& thing : six_things()) {
+    SCOPED_TRACE(thing.name);
+    TriangleMesh moved = thing.mesh;
+    for (Vec3& v : moved.vertices) v = motion * v + Vec3(40.0, -25.0, 300.0);
+    const Held a = hold(prepared(), thing_of(thing.mesh, thing.name), thing.grip, thing.force);
+    const Held b = hold(prepared(), thing_of(moved, thing.name), thing.grip, thing.force);
+    EXPECT_EQ(b.balance.status, a.balance.status) << b.balance.message;
+    EXPECT_NEAR(b.balance.grip_force, a.balance.grip_force, 0.01 * thing.force);
+    EXPECT_NEAR(b.contact.total.force, a.contact.total.force, 0.01 * a.contact.total.force);
+    EXPECT_NEAR(b.contact.total.area, a.contact.total.area, 0.01 * a.contact.total.area);
+    for (int d = 0; d < kDofCount; ++d) {
+      EXPECT_NEAR(b.grasp.posture.angle[d], a.grasp.posture.angle[d], 0.01) << d;  // rad
+    }
+  }
+}
+
+TEST_F(PrecisionThings, AMirroredThingIsHeldMirroredByTheLeftHand) {
+  for (const Thing& thing : six_things()) {
+    SCOPED_TRACE(thing.name);
+    TriangleMesh mirror = thing.mesh;
+    for (Vec3& v : mirror.vertices) v.x() = -v.x();
+    for (Triangle& t : mirror.triangles) std::swap(t[1], t[2]);
+    const Held a = hold(prepared(), thing_of(thing.mesh, thing.name), thing.grip, thing.force);
+    const Held b = hold(left(), thing_of(mirror, thing.name), thing.grip, thing.force);
+    EXPECT_EQ(b.balance.status, a.balance.status) << b.balance.message;
+    EXPECT_NEAR(b.contact.total.force, a.contact.total.force, 1e-6 * a.contact.total.force);
+    EXPECT_NEAR(b.contact.total.area, a.contact.total.area, 1e-6 * a.contact.total.area);
+    for (int d = 0; d < kDofCount; ++d) {
+      EXPECT_NEAR(b.grasp.posture.angle[d], a.grasp.posture.angle[d], 1e-6) << d;  // rad
+    }
+  }
+}
+
+TEST_F(PrecisionThings, APenIsHeldForWriting) {
+  // As writing is taught: fingertips about 30 mm behind the tip, the pen between thumb and index
+  // finger on the side of the middle finger, its long end over the web, towards the forearm and
+  // over the back of the hand's thumb side.
+  const Product pen = thing_of(cylinder_mesh(8.0, 140.0), "pen");
+  const Held held = hold(prepared(), pen, Grip::kWritingTripod, 5.0);
+  ASSERT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
+  EXPECT_THAT(held.grasp.message, HasSubstr("leans over the web"));
+  ASSERT_EQ(held.grasp.fingertips.size(), 3u);
+  double mean = 0.0;
+  for (const FingertipContact& tip : held.grasp.fingertips) mean += tip.reached.z() / 3.0;
+  const double sign = mean < 0.0 ? -1.0 : 1.0;  // which end writes
+  for (const FingertipContact& tip : held.grasp.fingertips) {
+    const double behind = 70.0 - sign * tip.reached.z();
+    EXPECT_GT(behind, 15.0) << name_of(tip.finger);
+    EXPECT_LT(behind, 50.0) << name_of(tip.finger);
+  }
+  const Rigid3 hand_from_product = held.grasp.product_from_hand.inverse();
+  const Vec3 back = hand_from_product.rotation * Vec3(0.0, 0.0, -sign);
+  EXPECT_LT(back.y(), 0.0);  // towards the forearm
+  EXPECT_LT(back.z(), 0.0);  // towards the back of the hand
+  // The axis passes the knuckle of the index finger, on the thumb's side.
+  const Vec3 knuckle = hand().skeleton.joint(JointId::kIndexMcp).centre;
+  const Vec3 on_axis = hand_from_product * Vec3(0.0, 0.0, 0.0);
+  const Vec3 off = on_axis - knuckle;
+  const Vec3 nearest = knuckle + off - back * back.dot(off);
+  EXPECT_LT((nearest - knuckle).norm(), 30.0);
+  EXPECT_GT(nearest.x(), knuckle.x());
+  // Three sides: no two press from the same one.
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_LT(held.grasp.fingertips[i].normal.dot(held.grasp.fingertips[j].normal), 0.5);
+    }
+  }
+}
+
+TEST_F(PrecisionThings, ALidIsHeldByItsRim) {
+  for (const double diameter : {55.0, 70.0}) {
+    SCOPED_TRACE(diameter);
+    const Product lid = thing_of(cylinder_mesh(diameter, 15.0), "lid");
+    const Held held = hold(prepared(), lid, Grip::kPrecisionDisk, 15.0);
+    ASSERT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
+    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+    ASSERT_EQ(held.grasp.fingertips.size(), 5u);
+    for (const FingertipContact& tip : held.grasp.fingertips) {
+      EXPECT_LT(std::abs(tip.normal.z()), 0.5) << name_of(tip.finger);
+      EXPECT_GT(held.force_of(tip.finger, hand()), 0.5) << name_of(tip.finger);
+    }
+    // The palm is over a face, not beside the rim.
+    const Vec3 palm =
+        held.grasp.product_from_hand * hand().skeleton.joint(JointId::kMiddleMcp).centre;
+    EXPECT_GT(std::abs(palm.z()), 20.0);
+    // All round: the fingers leave no gap of more than 160 degrees.
+    std::vector<double> angle;
+    for (const FingertipContact& tip : held.grasp.fingertips) {
+      angle.push_back(std::atan2(tip.reached.y(), tip.reached.x()));
+    }
+    std::sort(angle.begin(), angle.end());
+    double widest = angle.front() + 2.0 * std::acos(-1.0) - angle.back();
+    for (std::size_t k = 1; k < angle.size(); ++k) {
+      widest = std::max(widest, angle[k] - angle[k - 1]);
+    }
+    EXPECT_LT(widest, 2.8);  // rad
+  }
+}
+
+TEST_F(PrecisionThings, WhatAGripCannotHoldAnotherDoes) {
+  // A lateral pinch opens to a quarter of the hand's length; the cube is 60 mm wide.
+  const Product cube = thing_of(make_box({60.0, 60.0, 60.0}, 24), "cube");
+  GraspOptions asked;
+  asked.grip = Grip::kLateral;
+  EXPECT_NE(find_grasp(hand(), cube, asked).status, GraspStatus::kHeld);
+  BalanceOptions balance;
+  balance.grip_force = 15.0;
+  const std::optional<Grip> other = other_grip_that_holds(prepared(), cube, asked, balance);
+  ASSERT_TRUE(other.has_value());
+  const Held held = hold(prepared(), cube, *other, 15.0);
+  EXPECT_EQ(held.grasp.status, GraspStatus::kHeld);
+  EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced);
+
+  // Nothing of a hand spans 300 mm.
+  const Product block = thing_of(make_box({300.0, 310.0, 320.0}, 8), "block");
+  EXPECT_FALSE(other_grip_that_holds(prepared(), block, asked, balance).has_value());
+}
+
+}  // namespace
+}  // namespace palmar
