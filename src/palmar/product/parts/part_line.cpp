@@ -99,16 +99,37 @@ double median_girth(const Outlines& outlines) {
 // Share of the median girth up to which a section shows the bar alone.
 double largest_share(bool is_free) { return is_free ? kFlare : kGirthOfJoint; }
 
-// The longest run of sections that show the bar alone, as [begin, end).
+// The longest run of sections that show the bar alone, as [begin, end). What it joins is at its
+// ends: a grip between thinner legs is the bar's own.
 std::array<std::size_t, 2> own_run(const Outlines& outlines, double girth,
-                                   const std::array<bool, 2>& is_free) {
+                                   const LineRequest& request) {
+  const std::array<bool, 2>& is_free = request.is_free;
+  const std::size_t n = outlines.size();
+  std::vector<char> is_own(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = largest_share(is_free[2 * i < n ? 0 : 1]);
+    is_own[i] = outlines[i] && outlines[i]->girth <= girth * share ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (is_own[i] != 0) continue;
+    const std::size_t begin = i;
+    bool is_grip = true;
+    for (; i < n && is_own[i] == 0; ++i) {
+      is_grip = is_grip && outlines[i] && outlines[i]->girth <= girth * kFlare;
+    }
+    // The legs of a loop may be short. Of another bar there has to be as much on either side: else
+    // the thin bit may be a notch in what the bar joins.
+    constexpr std::size_t kLeg = 3;  // sections
+    const std::size_t leg = request.is_in_loop ? kLeg : i - begin;
+    if (is_grip && begin >= leg && n - i >= leg) {
+      std::fill(is_own.begin() + static_cast<std::ptrdiff_t>(begin),
+                is_own.begin() + static_cast<std::ptrdiff_t>(i), 1);
+    }
+  }
   std::array<std::size_t, 2> best = {0, 0};
   std::size_t begin = 0;
-  for (std::size_t i = 0; i <= outlines.size(); ++i) {
-    const bool is_own =
-        i < outlines.size() && outlines[i] &&
-        outlines[i]->girth <= girth * largest_share(is_free[2 * i < outlines.size() ? 0 : 1]);
-    if (is_own) continue;
+  for (std::size_t i = 0; i <= n; ++i) {
+    if (i < n && is_own[i] != 0) continue;
     if (i - begin > best[1] - best[0]) best = {begin, i};
     begin = i + 1;
   }
@@ -227,7 +248,7 @@ MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) 
         if (outlines[i] && outlines[i]->girth <= kFlare * girth) line[i] = outlines[i]->centre;
       }
     } else {
-      const auto [begin, end] = own_run(outlines, girth, request.is_free);
+      const auto [begin, end] = own_run(outlines, girth, request);
       if (end - begin < 3) return result;
       std::vector<Vec3> next;
       for (std::size_t i = begin; i < end; ++i) next.push_back(outlines[i]->centre);
@@ -240,7 +261,7 @@ MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) 
   if (!request.is_ring) {
     std::vector<Vec3> axes = axes_of(line, false, window_for(line));
     Outlines outlines = outlines_along(mesh, line, axes, reach);
-    const auto [begin, end] = own_run(outlines, girth, request.is_free);
+    const auto [begin, end] = own_run(outlines, girth, request);
     if (end - begin < 3) return result;
     const auto keep = [begin = begin, end = end](auto& values) {
       values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
@@ -262,7 +283,9 @@ MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) 
       if (request.is_free[k]) {
         double farthest = 0.0;
         for (const Vec3& p : request.points) {
-          farthest = std::max(farthest, out.dot(p - line[at]));
+          const double d = out.dot(p - line[at]);
+          // Not the other leg of a crook; half a girth is at least the width.
+          if ((p - line[at] - d * out).norm() <= 0.5 * girth) farthest = std::max(farthest, d);
         }
         ends[k] = line[at] + farthest * out;
       } else {

@@ -13,12 +13,14 @@
 namespace palmar {
 namespace {
 
-// Directions in which hulls are measured: primitive vectors of whole numbers up to 2.
+// Directions in which hulls are measured: primitive vectors of whole numbers up to 3, at most 18
+// degrees apart along a circle, so that a disc's hull reaches beyond it by 1.3 % of its radius.
 std::vector<Vec3> hull_directions() {
+  constexpr int kLargest = 3;
   std::vector<Vec3> result;
-  for (int i = -2; i <= 2; ++i) {
-    for (int j = -2; j <= 2; ++j) {
-      for (int k = -2; k <= 2; ++k) {
+  for (int i = -kLargest; i <= kLargest; ++i) {
+    for (int j = -kLargest; j <= kLargest; ++j) {
+      for (int k = -kLargest; k <= kLargest; ++k) {
         if (std::gcd(std::gcd(i, j), k) != 1) continue;
         if (i < 0 || (i == 0 && (j < 0 || (j == 0 && k < 0)))) continue;
         result.push_back(Vec3(i, j, k).normalized());
@@ -66,6 +68,9 @@ PartRegions part_regions(const SolidGrid& grid, const std::vector<SolidBall>& ba
   nothing.high.assign(directions.size(), -std::numeric_limits<double>::infinity());
   result.region.assign(parts, nothing);
   std::vector<std::vector<PartRegion>> of_slice((grid.size[2] + stride - 1) / stride);
+  const std::size_t row = (grid.size[0] + stride - 1) / stride;
+  const std::size_t layer = row * ((grid.size[1] + stride - 1) / stride);
+  std::vector<int> owner(layer * of_slice.size(), -1);  // of every voxel that is looked at
   parallel_for(static_cast<int>(of_slice.size()), [&](int slice) {
     std::vector<PartRegion>& mine = of_slice[slice];
     mine.assign(parts, nothing);
@@ -74,7 +79,9 @@ PartRegions part_regions(const SolidGrid& grid, const std::vector<SolidBall>& ba
         const std::size_t n = grid.index(i, j, slice * stride);
         if (grid.is_solid[n] == 0) continue;
         const Vec3 x = grid.centre(n);
-        PartRegion& r = mine[nearest_part(balls, x)];
+        const int part = nearest_part(balls, x);
+        owner[i / stride + row * (j / stride) + layer * slice] = part;
+        PartRegion& r = mine[part];
         r.count += 1.0;
         r.deepest = std::max<double>(r.deepest, grid.depth[n]);
         for (std::size_t d = 0; d < directions.size(); ++d) {
@@ -88,6 +95,14 @@ PartRegions part_regions(const SolidGrid& grid, const std::vector<SolidBall>& ba
   for (const std::vector<PartRegion>& slice : of_slice) {
     for (int p = 0; p < parts; ++p) {
       if (slice[p].count > 0.0) result.region[p] = united(result.region[p], slice[p]);
+    }
+  }
+  const double face = std::pow(stride * grid.spacing, 2.0);
+  // The grid's border is air: the voxel after the last of a row or layer is never solid.
+  for (const std::size_t step : {std::size_t{1}, row, layer}) {
+    for (std::size_t n = 0; n + step < owner.size(); ++n) {
+      const int a = owner[n], b = owner[n + step];
+      if (a >= 0 && b >= 0 && a != b) result.border[std::minmax(a, b)] += face;
     }
   }
   return result;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "palmar/geometry/types.h"
@@ -33,6 +35,7 @@ struct PartRegions {
   int stride = 1;                ///< voxels: every second one per axis of a large grid
   std::vector<Vec3> directions;  ///< unit, of the hulls' planes
   std::vector<PartRegion> region;
+  std::map<std::pair<int, int>, double> border;  ///< between two of them, a < b; mm^2
 };
 
 PartRegions part_regions(const SolidGrid& grid, const std::vector<SolidBall>& balls, int parts);

@@ -19,6 +19,19 @@ Spread spread_of(const TriangleMesh& piece);
 /// shares.
 Spread facing_of(const TriangleMesh& piece);
 
+/// The three directions that a piece of surface faces most sharply: the orthonormal axes a_k with
+/// the largest sum of A (n . a_k)^4 (quartimax, Neuhaus, Wrigley 1954). Of a cube, whose principal
+/// directions are all alike, they are still those of its faces.
+struct FaceAxes {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// How closely the normals gather at the axes, in the plane of any two where they do so least:
+  /// 1 of a box, 0 of something round about one of the axes.
+  double sharpness = 0.0;
+  bool is_box() const;
+};
+
+FaceAxes face_axes_of(const TriangleMesh& piece);
+
 /// Mean of the points of a surface, by area.
 Vec3 surface_middle(const TriangleMesh& mesh);
 
@@ -28,8 +41,13 @@ Vec3 extents_of(const TriangleMesh& piece, const Eigen::Matrix3d& axes);
 /// Farthest / root mean square distance of a surface from its middle.
 double roundness_of(const TriangleMesh& piece, const Spread& spread);
 
-/// The axis of a long body is its longest; of one as long as wide the one that it is round about:
-/// it shows in where the surface lies or in where it faces.
-Vec3 body_axis(const Spread& spread, const Spread& facing);
+/// The axis of a box is the longest way between its faces, that of another long body the direction
+/// in which it spreads most. One as long as wide has the axis that it is round about: it shows in
+/// where the surface lies or in where it faces.
+Vec3 body_axis(const TriangleMesh& piece, const Spread& spread, const Spread& facing);
+
+/// The axis of a plate, in its plane: of a box the longer way between its edges, else the direction
+/// in which it spreads most.
+Vec3 plate_axis(const TriangleMesh& piece, const Spread& spread, const Vec3& normal);
 
 }  // namespace palmar

@@ -3,7 +3,10 @@
 #include "palmar/product/parts/piece_groups.h"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "palmar/product/parts/node_tree.h"
@@ -18,6 +21,9 @@ constexpr double kStubLength = 2.0;  // depths of the body: its far side is one 
 constexpr double kHollow = 8.0, kHollowShare = 0.4;
 // Between a limb and what it stands on: less than any gap that a finger enters.
 constexpr double kHollowAtLimb = 5.0;
+// Area of a border by the square of the smaller depth from which on it is wide: half as much again
+// as the square section of a bar. Choice.
+constexpr double kWideBorder = 6.0;
 // mm; less than a finger's breadth: belongs to what it is on.
 constexpr double kSmallestPart = 15.0;
 
@@ -43,7 +49,7 @@ bool has_ring(const SkeletonPieces& skeleton) {
 class Grouping {
  public:
   Grouping(const SolidGrid& grid, const SkeletonPieces& skeleton, const PartRegions& regions)
-      : grid_(grid), skeleton_(skeleton), regions_(regions) {
+      : grid_(grid), skeleton_(skeleton), regions_(regions), border_(regions.border) {
     const int count = piece_count();
     groups_.region = regions.region;
     groups_.group.resize(count);
@@ -103,9 +109,7 @@ class Grouping {
     while (true) {
       double best = 1.0;  // hollowness as a share of what is allowed
       std::pair<int, int> chosen(-1, -1);
-      for (const PieceJoint& joint : groups_.joints) {
-        const auto [a, b] = groups_of(joint);
-        if (a == b) continue;
+      for (const auto& [a, b] : neighbours()) {
         const double share = hollow_share(a, b);
         if (share < best) {
           best = share;
@@ -114,6 +118,35 @@ class Grouping {
       }
       if (chosen.first < 0) return;
       merge(chosen.first, chosen.second);
+    }
+  }
+
+  // A neck on which no finger has room belongs to that side of it with which it is more convex.
+  void join_necks() {
+    for (int p = 0; p < piece_count(); ++p) {
+      const SkeletonPiece& neck = piece(p);
+      if (groups_.group[p] != p || neck.node[0] < 0 || neck.is_free[0] || neck.is_free[1]) continue;
+      if (std::count(groups_.group.begin(), groups_.group.end(), p) != 1) continue;
+      double length = neck.length;  // without what is within the parts at its ends
+      for (std::size_t k = 0; k < 2; ++k) {
+        if (!neck.is_cut[k]) length -= k == 0 ? neck.radius.front() : neck.radius.back();
+      }
+      if (length >= kSmallestPart) continue;
+      int host = -1;
+      double least = std::numeric_limits<double>::infinity();
+      for (const PieceJoint& joint : groups_.joints) {
+        const auto [a, b] = groups_of(joint);
+        if (a == b || (a != p && b != p)) continue;
+        const int other = a == p ? b : a;
+        constexpr double kFarthest = 40.0;  // mm
+        const double hollow =
+            hollowness_of(united(groups_.region[p], groups_.region[other]), kFarthest);
+        if (hollow < least) {
+          least = hollow;
+          host = other;
+        }
+      }
+      if (host >= 0) merge(p, host);
     }
   }
 
@@ -158,6 +191,25 @@ class Grouping {
     return std::minmax({groups_.group[joint.a], groups_.group[joint.b]});
   }
 
+  // Groups that share a node or a wide border: lines that run side by side through a plate, or
+  // cross below a knob, needn't meet.
+  std::set<std::pair<int, int>> neighbours() const {
+    std::set<std::pair<int, int>> result;
+    for (const PieceJoint& joint : groups_.joints) result.insert(groups_of(joint));
+    for (const auto& [pair, area] : border_) {
+      if (has_wide_border(pair.first, pair.second)) result.insert(pair);
+    }
+    std::erase_if(result, [](const auto& pair) { return pair.first == pair.second; });
+    return result;
+  }
+
+  bool has_wide_border(int a, int b) const {
+    const auto found = border_.find({a, b});
+    if (found == border_.end()) return false;
+    const double depth = std::min(groups_.region[a].deepest, groups_.region[b].deepest);
+    return found->second >= kWideBorder * depth * depth;
+  }
+
   double hollowness_of(const PartRegion& region, double limit) const {
     return hollowness(grid_, regions_, region, limit);
   }
@@ -171,8 +223,19 @@ class Grouping {
             return joint.is_limb && groups_of(joint) == std::pair(a, b);
           });
       const PartRegion both = united(groups_.region[a], groups_.region[b]);
-      const double limit = is_limb ? kHollowAtLimb : limit_of(both);
-      entry->second = hollowness_of(both, limit) / limit;
+      double limit = is_limb ? kHollowAtLimb : limit_of(both);
+      double hollow = hollowness_of(both, limit);
+      if (hollow > limit && !is_limb && has_wide_border(a, b)) {
+        // What a single one of them has already (the foot of a knob on one of a board's lines)
+        // doesn't part them.
+        constexpr double kFarthest = 40.0;  // mm
+        limit = std::max({limit, hollowness_of(groups_.region[a], kFarthest),
+                          hollowness_of(groups_.region[b], kFarthest)}) +
+                0.5 * grid_.spacing;
+        limit = std::min(limit, kFarthest);
+        hollow = hollowness_of(both, limit);
+      }
+      entry->second = hollow / limit;
     }
     return entry->second;
   }
@@ -181,6 +244,13 @@ class Grouping {
     const int keep = std::min(a, b), drop = std::max(a, b);
     groups_.region[keep] = united(groups_.region[keep], groups_.region[drop]);
     std::replace(groups_.group.begin(), groups_.group.end(), drop, keep);
+    std::map<std::pair<int, int>, double> border;
+    for (const auto& [pair, area] : border_) {
+      const int first = pair.first == drop ? keep : pair.first;
+      const int second = pair.second == drop ? keep : pair.second;
+      if (first != second) border[std::minmax(first, second)] += area;
+    }
+    border_ = std::move(border);
     std::erase_if(known_, [&](const auto& entry) {
       const auto& [x, y] = entry.first;
       return x == keep || y == keep || x == drop || y == drop;
@@ -192,6 +262,7 @@ class Grouping {
   const PartRegions& regions_;
   PieceGroups groups_;
   std::map<std::pair<int, int>, double> known_;
+  std::map<std::pair<int, int>, double> border_;  // between groups, a < b; mm^2
 };
 
 }  // namespace
@@ -202,6 +273,7 @@ PieceGroups grouped_pieces(const SolidGrid& grid, const SkeletonPieces& skeleton
   grouping.join_whole();
   grouping.join_stubs();
   grouping.join_convex();
+  grouping.join_necks();
   grouping.join_small();
   return std::move(grouping).result();
 }

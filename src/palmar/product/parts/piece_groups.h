@@ -26,7 +26,8 @@ struct PieceGroups {
 
 /// Puts together pieces whose common hull has no deep hollow (Lien, Amato 2007: approximate convex
 /// decomposition), the nearest to convex first; so a body, however many lines run through it, is
-/// one group and a handle on it another. `regions` has one region per piece.
+/// one group and a handle on it another. Neighbours share a node or a wide border. `regions` has
+/// one region per piece.
 PieceGroups grouped_pieces(const SolidGrid& grid, const SkeletonPieces& skeleton,
                            const PartRegions& regions);
 

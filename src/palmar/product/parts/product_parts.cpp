@@ -71,12 +71,8 @@ bool measure_as_bar(const TriangleMesh& mesh, const TriangleMesh& piece, const S
 
 void measure_as_body(const TriangleMesh& piece, const Spread& spread, const Spread& facing,
                      bool is_plate, ProductPart& part, std::vector<Vec3>& line) {
-  Vec3 axis = body_axis(spread, facing);
-  if (is_plate) {
-    const Vec3 n = facing.axes.col(0);
-    axis = spread.axes.col(0);
-    axis = (axis - n * n.dot(axis)).normalized();
-  }
+  const Vec3 axis =
+      is_plate ? plate_axis(piece, spread, facing.axes.col(0)) : body_axis(piece, spread, facing);
   MeasuredLine measured = measure_axis(piece, spread.middle, axis);
   part.sections = std::move(measured.sections);
   part.length = measured.length;

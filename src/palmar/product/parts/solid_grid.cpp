@@ -12,10 +12,13 @@
 namespace palmar {
 namespace {
 
-// A pocket is open on at most this share of its surface: a cup as deep as wide on 1/5, a bowl half
-// as deep as wide on 1/3, a tube longer than wide on less than 1/3; the opening of a handle, whose
-// bar is thinner than the opening is wide, on about a half.
+// A pocket without a floor is open on at most this share of its surface: a tube longer than wide on
+// less than 1/3; the opening of a handle, whose bar is thinner than the opening is wide, on about a
+// half.
 constexpr double kLargestMouth = 0.36;
+// What has a floor is a dish, however shallow: one end is open, the other at most on this share as
+// much (holes of a sieve, faults of a scan).
+constexpr double kFloorLeak = 0.1;
 // Columns run beside the voxel centres by these shares of a voxel, so that they meet no edge of a
 // mesh whose vertices lie on round numbers.
 constexpr double kOffsetU = 1.37e-4, kOffsetV = 0.91e-4;
@@ -204,15 +207,16 @@ void fill_pockets(int axis, SolidGrid& grid) {
     if (grid.is_solid[start] != 0 || is_open[start] != 0 || is_seen[start] != 0) continue;
     piece.assign(1, static_cast<int>(start));
     is_seen[start] = 1;
-    long walls = 0, mouth = 0;
+    long walls = 0;
+    std::array<long, 2> mouths = {0, 0};  // towards either end of the axis
     for (std::size_t next = 0; next < piece.size(); ++next) {
       const int n = piece[next];
       for (const int s : stride) {
         for (const int m : {n - s, n + s}) {
           if (grid.is_solid[m] != 0) {
             ++walls;
-          } else if (is_open[m] != 0) {
-            ++mouth;
+          } else if (is_open[m] != 0) {  // in another slice: its own slice encloses the piece
+            ++mouths[m < n ? 0 : 1];
           } else if (is_seen[m] == 0) {
             is_seen[m] = 1;
             piece.push_back(m);
@@ -220,7 +224,10 @@ void fill_pockets(int axis, SolidGrid& grid) {
         }
       }
     }
-    if (static_cast<double>(mouth) <= kLargestMouth * static_cast<double>(mouth + walls)) {
+    const auto [smaller, larger] = std::minmax(mouths[0], mouths[1]);
+    const auto mouth = static_cast<double>(mouths[0] + mouths[1]);
+    if (mouth <= kLargestMouth * (mouth + static_cast<double>(walls)) ||
+        static_cast<double>(smaller) <= kFloorLeak * static_cast<double>(larger)) {
       fill.insert(fill.end(), piece.begin(), piece.end());
     }
   }

@@ -55,8 +55,9 @@ struct SolidGrid {
 
 /// Fills what a hand takes for solid: the inside by the sign of the crossings along three axes
 /// (majority), thin walls, gaps and tunnels narrower than a finger (`closing`), voids, and the
-/// pockets of cups and tubes: what the outline of a slice encloses and what is open on little of
-/// its surface. The opening of a handle is open on two wide sides and stays. Works on open and
+/// pockets of dishes, cups and tubes: what the outline of a slice encloses and what is open on one
+/// side only or on little of its surface. The opening of a handle is open on two wide sides and
+/// stays. Works on open and
 /// crossing meshes. A mesh without triangles gives an empty grid.
 SolidGrid make_solid_grid(const TriangleMesh& mesh, const SolidGridOptions& options = {});
 

@@ -18,8 +18,10 @@ constexpr int kMostTips = 60;       // plates have many
 // A line to a tip has to keep its depth, outside of the ball at its beginning, over a finger's
 // breadth and half the depth there.
 constexpr double kFinger = 15.0, kSpur = 0.5;
-constexpr double kCorner = 0.3;   // depth gained per length from a corner or an edge inwards:
-                                  // 0.58 and more for square ones; bars taper less (17 deg)
+constexpr double kCorner = 0.3;     // depth gained per length from a corner or an edge inwards:
+                                    // 0.58 and more for square ones; bars taper less (17 deg)
+constexpr double kKnobDepth = 6.0;  // mm of depth: what two fingers hold, 12 mm thick
+constexpr double kRegrown = 1.2;  // ratio of a knob's depth to its neck's: a finger feels it as one
 constexpr double kAsDeep = 0.98;  // share of the largest depth that counts as deepest
 
 using Queue = std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>,
@@ -328,6 +330,21 @@ double even_length(const SolidGrid& grid, const SkeletonEdge& edge, const Vec3& 
   return sum;
 }
 
+// Whether the solid becomes thicker again along a line from `start`: the line leads through a neck
+// to a knob. Towards a corner, an edge or a flat end it only becomes thinner.
+bool leads_to_knob(const SolidGrid& grid, const SkeletonEdge& edge, int start) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  const std::size_t n = edge.point.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double depth = grid.depth_at(edge.point[edge.node[0] == start ? i : n - 1 - i]);
+    if (depth >= kKnobDepth && depth >= kRegrown * thinnest && depth >= thinnest + grid.spacing) {
+      return true;
+    }
+    thinnest = std::min(thinnest, depth);
+  }
+  return false;
+}
+
 std::vector<int> degrees(const SkeletonGraph& graph) {
   std::vector<int> degree(graph.node.size(), 0);
   for (const SkeletonEdge& e : graph.edges) {
@@ -390,6 +407,7 @@ void drop_spurs(const SolidGrid& grid, SkeletonGraph& graph) {
       const bool is_free0 = degree[node[0]] == 1, is_free1 = degree[node[1]] == 1;
       if (is_free0 == is_free1) continue;  // inner, or the whole
       const int start = is_free0 ? node[1] : node[0];
+      if (leads_to_knob(grid, graph.edges[e], start)) continue;
       const double radius = graph.node_radius[start];
       const double excess = even_length(grid, graph.edges[e], graph.node[start], radius) /
                             std::max(kFinger, kSpur * radius);

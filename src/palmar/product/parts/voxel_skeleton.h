@@ -35,7 +35,8 @@ bool can_leave(std::uint32_t around);
 /// corners of a flat end). Then takes away voxels from the shallowest on as long as neither
 /// topology nor tips are lost (homotopic thinning, Couprie, Coeurjolly, Zrour 2007), so that the
 /// rings are those of the solid. Lines to tips are dropped that keep their depth over less than a
-/// finger's breadth: corners, edges, flat ends. Deterministic.
+/// finger's breadth and don't become thicker again: corners, edges, flat ends, but no knob.
+/// Deterministic.
 SkeletonGraph skeleton_of(const SolidGrid& grid);
 
 }  // namespace palmar
