@@ -32,9 +32,12 @@ constexpr double kSmallKnob = 0.25;   // hand lengths: fingertips rather than th
 constexpr double kSpanned = 0.55;     // hand lengths that thumb and fingers span
 constexpr double kThinPlate = 30.0;   // mm
 
-// Largest first, mm.
-Vec3 sorted_extents(const TriangleMesh& mesh) {
-  Vec3 extents = body_shape(mesh).extent;
+// Largest first, mm. Of a single part its own: principal axes of a cube are chance.
+Vec3 sorted_extents(const HoldScene& scene) {
+  const std::vector<ProductPart>& parts = scene.parts->parts;
+  const ProductPart& only = parts.front();
+  Vec3 extents = parts.size() > 1 ? body_shape(scene.product->mesh).extent
+                                  : Vec3(only.length, only.width, only.thickness);
   std::sort(extents.begin(), extents.end(), std::greater<>());
   return extents;
 }
@@ -104,7 +107,7 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   if (options.grip) {
     grips.push_back({*options.grip, 0.0});
   } else {
-    grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene.product->mesh));
+    grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
   }
   const auto try_grips = [&](const std::vector<GripPrior>& list, std::optional<Vec3> at) {
     for (const GripPrior& tried : list) {
