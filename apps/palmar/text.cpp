@@ -140,6 +140,7 @@ std::string placements_text(const Grasp& grasp) {
 
 std::string grasp_text(const Grasp& grasp) {
   std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  if (grasp.hold) text += fmt::format("hold: {}\n", grasp.hold_words);
   if (!grasp.fingertips.empty()) {
     text +=
         fmt::format("grip {}; fingertip      reached (mm)       miss (mm)\n", name_of(grasp.grip));

@@ -9,6 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
+#include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
 #include "product/cad_arguments.h"
 #include "text.h"
@@ -32,6 +33,9 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
   std::string text = fmt::format("== {}\n{}{}{}", product.name, balance_text(assessment),
                                  grasp_text(assessment.grasp), contact_text(assessment.contact)) +
                      friction_text(hand, assessment) + index_text(assessment.indices);
+  for (const HoldDoubt& doubt : doubts_of(assessment)) {
+    if (doubt.key == "few_contacts") text += "to be doubted: " + doubt.words + "\n";
+  }
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,

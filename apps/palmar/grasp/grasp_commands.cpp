@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
 #include "grasp/grasp_evaluate_command.h"
+#include "grasp/grasp_holds_command.h"
 #include "grasp/grasp_options.h"
 #include "grasp/grasp_reach_command.h"
 #include "palmar/formats/file.h"
@@ -66,6 +67,7 @@ void add_grasp_commands(CLI::App& app, Context& context) {
                   .out = "JSON file to write: the list with postures and placements",
                   .json = placements_json,
                   .text = placements_text});
+  add_grasp_holds(*grasp, context);
   add_grasp_evaluate(*grasp, context);
   add_grasp_reach(*grasp, context);
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "palmar/core/error.h"
-#include "palmar/core/nearest_name.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -15,24 +14,6 @@ RegionCoupling parse_regions(const std::string& text) {
   if (text == "coupled") return RegionCoupling::kCoupled;
   if (text == "independent") return RegionCoupling::kIndependent;
   throw UsageError("--regions: \"" + text + "\" is not known; coupled or independent is allowed");
-}
-
-/// "power, medium_wrap, ...".
-std::string grip_list() {
-  std::string list = "power";
-  for (int g = 0; g < kGripCount; ++g) list += fmt::format(", {}", name_of(static_cast<Grip>(g)));
-  return list;
-}
-
-std::optional<Grip> parse_grip(const std::string& text) {
-  if (text == "power") return std::nullopt;
-  if (const std::optional<Grip> grip = grip_named(text)) return grip;
-  std::vector<std::string> known = {"power"};
-  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
-  const std::string nearest = nearest_name(text, known);
-  throw UsageError(fmt::format("--grip: \"{}\" is not known{}; {} is allowed", text,
-                               nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
-                               grip_list()));
 }
 
 FingertipTarget parse_fingertip(const std::string& text) {
@@ -65,9 +46,12 @@ Box3 parse_region(const std::string& text) {
 void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option("--hand", hand, "\"template\" or a .hand.glb file")->capture_default_str();
   verb.add_option("--grip", grip_,
-                  "Kind of grip: power (what suits the shape) or a name of the GRASP taxonomy: " +
+                  "Kind of grip: any (as people would choose), power (what suits the shape), or a "
+                  "name of the GRASP taxonomy; allowed: " +
                       grip_list())
       ->capture_default_str();
+  holds_.add_hold_to(verb);
+  holds_.add_to(verb);
   verb.add_option("--unit", unit, "Unit of files that carry none (STL, OBJ, PLY): mm, cm, m, inch");
   verb.add_option("--at", at_,
                   "Point of the product that is in the middle of the palm (precision grips: "
@@ -100,6 +84,8 @@ void GraspArguments::add_to(CLI::App& verb) {
 GraspSettings GraspArguments::settings() const {
   GraspSettings result = settings_;
   result.grip = parse_grip(grip_);
+  result.is_power_only = grip_ == "power";
+  result.holding = holds_.request();
   PlacementRequest& placement = result.placement;
   if (!at_.empty()) placement.at = parse_vector("--at", at_);
   if (!region_.empty()) placement.region = parse_region(region_);

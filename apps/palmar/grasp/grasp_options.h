@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli.h"
+#include "grasp/hold_arguments.h"
 #include "palmar/contact/contact.h"
 #include "palmar/grasp/grasp_settings.h"
 
@@ -17,14 +18,15 @@ class GraspArguments {
  public:
   std::string hand = "template", unit;
 
-  /// Adds --hand, --grip, --unit, --at, --axis, --region, --turn-deg, --fingertip, --place-per-hand
-  /// and the depths to a verb.
+  /// Adds --hand, --grip, --hold, --part, --along, --toward, --up, --purpose, --unit, --at, --axis,
+  /// --region, --turn-deg, --fingertip, --place-per-hand and the depths to a verb.
   void add_to(CLI::App& verb);
   GraspSettings settings() const;  ///< throws UsageError naming the option
 
  private:
   GraspSettings settings_;
-  std::string grip_ = "power", at_, axis_, region_;
+  HoldArguments holds_;
+  std::string grip_ = "any", at_, axis_, region_;
   std::optional<double> turn_deg_;
   std::vector<std::string> fingertips_;  ///< "FINGER:X,Y,Z"
 };

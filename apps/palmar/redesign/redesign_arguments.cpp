@@ -25,6 +25,8 @@ void RedesignArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
   verb.add_option("--hand", request.hand, "Hand that is scaled: template or a *.hand.glb file");
   verb.add_option("--grip", grips, "auto, medium_wrap, tripod ...")->expected(1);
+  holds.add_hold_to(verb);
+  holds.add_to(verb);
   verb.add_option("--at", at, "Where it is held, product frame: x,y,z mm");
   verb.add_option("--axis", axis, "Direction of the handle there: x,y,z");
   verb.add_option("--posture", posture,
@@ -43,6 +45,7 @@ RedesignRequest RedesignArguments::read(const Context& context) const {
   for (const std::string& name : grips) result.grips.push_back(asked_grip_named(name));
   if (!at.empty()) result.at = parse_vector("--at", at);
   if (!axis.empty()) result.axis = parse_vector("--axis", axis);
+  result.holding = holds.request();
   result.out = out;
   result.seed = context.common.seed;
   result.command = context.command_line;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli.h"
+#include "grasp/hold_arguments.h"
 #include "palmar/workflow/redesign/held_original.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
@@ -22,6 +23,7 @@ struct RedesignArguments {
   RedesignRequest request;  ///< with what needs no reading
   std::string unit, at, axis, out;
   std::vector<std::string> grips;
+  HoldArguments holds;
   std::string posture = name_of(RedesignRequest{}.posture);
 
   void add_to(CLI::App& verb);

@@ -34,6 +34,11 @@ void StudyArguments::add_to(CLI::App& verb) {
       ->allow_extra_args(false);
   add("--grip", quick_.grips, "auto, medium_wrap, tripod ...; may be given several times")
       ->allow_extra_args(false);
+  holds_.add_hold_to(verb);
+  holds_.add_to(verb);
+  for (const char* name : {"--hold", "--part", "--along", "--toward", "--up", "--purpose"}) {
+    verb.get_option(name)->excludes(toml);
+  }
   add("--hand", quick_.hand, "Hand that is scaled: template or a *.hand.glb file");
   add("--grip-force-n", quick_.grip_force,
       fmt::format("Grip force, N; if not given for all hands and products {}, or what holds the "
@@ -59,6 +64,7 @@ StudyRequest StudyArguments::request(const Context& context) const {
       throw UsageError("what is to be studied is not said: FILE.toml or --product is required");
     }
     quick.unit = parse_unit(unit_);
+    quick.holding = holds_.request();
     if (!populations_.empty()) quick.populations = populations_;
     request = study_of(quick);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli.h"
+#include "grasp/hold_arguments.h"
 #include "palmar/study/study_plan.h"
 #include "palmar/workflow/study.h"
 
@@ -28,6 +29,7 @@ class StudyArguments {
  private:
   std::string file_, unit_;
   std::vector<std::string> populations_;
+  HoldArguments holds_;
   QuickStudy quick_;
 };
 

@@ -88,6 +88,18 @@ export function comparisonTable(page: StudyPage, one: StudyConditionResult): Mar
   });
 }
 
+/// By which part and how hands hold each product.
+export function holdTable(page: StudyPage, one: StudyConditionResult): Markup | null {
+  if (!one.products.some((product) => product.holds.some((hold) => hold.words !== null))) return null;
+  const rows = one.products.map((product, p) => product.holds.map((hold) => html`<tr>${productHead(page, p)}${cell(hold.part === null ? "" : hold.part + " " + hold.part_name)}${hold.along === null ? emptyCell() : valueCell(hold.along, percent(hold.along))}${cell(capitalised(hold.words || "where coordinates say"))}<td class="n">${hold.hands} of ${product.hands}</td></tr>
+`));
+  return table({
+    caption: "How the product is held: found once and the same for every hand, unless there are several lines.",
+    columns: [words("Product"), words("Part"), numbers("Along it"), words("Hold"), numbers("Hands")],
+    rows,
+  });
+}
+
 export function accommodationSection(page: StudyPage, one: StudyConditionResult): Markup {
   const rows = one.products.map((product, p) => {
     const { accommodation: a, exclusion } = product;

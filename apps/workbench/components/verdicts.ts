@@ -39,9 +39,11 @@ export function isInHand(assessment: Assessment): boolean {
   return (status === "held" || status === "partly_held") && assessment.contact.regions.length > 0;
 }
 
+/// Green only for a hold that nothing speaks against: at rest, with all that its grip needs.
 export function statusVerdict(assessment: Assessment): Verdict {
   const status = assessment.grasp.status;
-  if (status === "held") return isInHand(assessment) ? "good" : "fair"; // held without contact: doubtful
+  // Held without contact is doubtful, too.
+  if (status === "held") return isInHand(assessment) && assessment.doubts.length === 0 ? "good" : "fair";
   return status === "partly_held" ? "fair" : "bad";
 }
 
@@ -54,8 +56,16 @@ export function statusWords(assessment: Assessment, vocabulary: Vocabulary): str
   if (assessment.grasp.status === "not_graspable" && !isPower(assessment, vocabulary)) {
     return "No place for this grip";
   }
-  return vocabulary.statuses[assessment.grasp.status];
+  const words = vocabulary.statuses[assessment.grasp.status];
+  const doubts = assessment.doubts.map((one) => doubtWords[one.key]);
+  return doubts.length > 0 && assessment.grasp.status === "held" ? words + ", but " + doubts.join(" and ") : words;
 }
+
+const doubtWords = {
+  not_at_rest: "not at rest",
+  slips_out: "slips out",
+  few_contacts: "with too few fingers",
+};
 
 /// "power grip", "tripod grip", "tip pinch"
 export function gripWords(assessment: Assessment, vocabulary: Vocabulary): string {
@@ -117,7 +127,9 @@ export function pressureVerdict(assessment: Assessment, vocabulary: Vocabulary):
 /// What happened to the grasp, and what to know about mesh and contact.
 export function graspNotes(assessment: Assessment, vocabulary: Vocabulary): Markup {
   const { grasp, contact, product } = assessment;
-  return html`${note(statusVerdict(assessment), statusWords(assessment, vocabulary) + ".", capitalised(grasp.message))}${contact.message && note("fair", "Contact.", contact.message)}${product.notes.length > 0 && note("", "About the mesh.", joined(product.notes, html`<br>`))}`;
+  const doubts = assessment.doubts.filter((one) => one.key === "few_contacts").map((one) => one.words);
+  const message = [grasp.message, ...doubts].filter((one) => one !== "").map(capitalised).join(". ");
+  return html`${note(statusVerdict(assessment), statusWords(assessment, vocabulary) + ".", message)}${assessment.hold && note("", "How it is held.", capitalised(assessment.hold.words) + ".")}${contact.message && note("fair", "Contact.", contact.message)}${product.notes.length > 0 && note("", "About the mesh.", joined(product.notes, html`<br>`))}`;
 }
 
 function leftOver(contact: ContactResult): Markup {

@@ -7,8 +7,8 @@ import { comparison } from "../components/comparison";
 import { faceSection, frictionSection, placementTable, postureTable, regionTable, settingsTable, stopTable, summaryTable } from "../components/contact_tables";
 import { indexSection } from "../components/indices";
 import { Markup, html } from "../components/markup";
-import { shortNumber } from "../components/numbers";
-import { charts, colourBar, folded, licence, note, pictureFigures, turnableView } from "../components/parts";
+import { capitalised, shortNumber } from "../components/numbers";
+import { charts, colourBar, folded, licence, list, note, pictureFigures, turnableView } from "../components/parts";
 import { balanceVerdict, graspNotes, gripWords, isInHand, plainSummary, pressureVerdict, readingAdvice } from "../components/verdicts";
 import { documentPage } from "./document";
 
@@ -19,7 +19,7 @@ function productSection(one: Assessment, view: AssessmentView, index: number): M
   const contact = isJudged
     ? html`${charts(shown.charts.map((chart) => chart.svg))}${regionTable(one.contact, vocabulary)}${faceSection(one)}${errorBandSection(one, shown.sensitivity_chart, vocabulary)}`
     : one.contact.regions.length > 0 && folded("What the hand touches all the same", regionTable(one.contact, vocabulary));
-  const pictures = pictureFigures(shown.pictures);
+  const pictures = pictureFigures(shown.pictures.filter((picture) => picture.name !== "holds"));
   return html`<h2 id="product-${index}">${one.product.name}</h2>
 ${graspNotes(one, vocabulary)}${pressureVerdict(one, vocabulary)}${isJudged && balanceVerdict(one)}<h3>Turn it</h3>${turnableView({
     id: "scene-" + index,
@@ -35,7 +35,18 @@ ${graspNotes(one, vocabulary)}${pressureVerdict(one, vocabulary)}${isJudged && b
       { key: "see-through", words: "See through the product", isOn: true },
     ],
     scene: shown.scene,
-  })}${contact}${frictionSection(one.friction, shown.friction_words, vocabulary)}${indexSection(one.index_table)}${pictures && html`<h3>Pictures</h3>${pictures}`}${folded("What stopped each segment", stopTable(one, vocabulary))}${folded("Posture and placement", html`${postureTable(one, vocabulary)}${placementTable(one)}`)}${folded("Settings and product", html`${settingsTable(one)}<p>Product from ${one.product.source}; unit ${one.product.unit} (${one.product.unit_from}); ${one.product.triangles} triangles.</p>`)}`;
+  })}${contact}${frictionSection(one.friction, shown.friction_words, vocabulary)}${indexSection(one.index_table)}${pictures && html`<h3>Pictures</h3>${pictures}`}${waysSection(shown)}${folded("What stopped each segment", stopTable(one, vocabulary))}${folded("Posture and placement", html`${postureTable(one, vocabulary)}${placementTable(one)}`)}${folded("Settings and product", html`${settingsTable(one)}<p>Product from ${one.product.source}; unit ${one.product.unit} (${one.product.unit_from}); ${one.product.triangles} triangles.</p>`)}`;
+}
+
+/// Other ways to hold the product, to look at and choose from.
+function waysSection(shown: AssessmentView["products"][0]): Markup | null {
+  if (shown.ways.length < 2) return null;
+  const sheet = pictureFigures(shown.pictures.filter((picture) => picture.name === "holds"));
+  const items = shown.ways.map((way) => html`${way.number}. ${capitalised(way.words)}${way.score !== null && " (score " + way.score.toFixed(1) + ")"}${way.against && "; against it: " + way.against}${way.number === shown.way_taken && html` <strong>This one is shown here.</strong>`}`);
+  const other = shown.ways.filter((way) => way.number !== shown.way_taken && way.number >= 3)[0] ||
+    shown.ways.filter((way) => way.number !== shown.way_taken)[0];
+  return html`<h3>Other ways to hold it</h3><p>Add <code>--hold ${other.number}</code> to the command to take number ${other.number}; <code>palmar grasp holds</code> writes each to a file. Score 0 is best.</p>
+${sheet}${list(items)}`;
 }
 
 /// What the equations that ran leave out.

@@ -5,7 +5,7 @@ import { StudyConditionResult, StudyPage, StudyProvenance } from "../types";
 import { Child, Markup, html, trusted } from "../components/markup";
 import { capitalised, counted, shortNumber } from "../components/numbers";
 import { colourBar, folded, licence, list, pictureFigures, turnableView } from "../components/parts";
-import { accommodationSection, comparisonTable, dependenceTable, faceStatisticsSection, overviewTable, quantityTable, sizeSections, studyRegionTable } from "../components/study_tables";
+import { accommodationSection, comparisonTable, dependenceTable, faceStatisticsSection, holdTable, overviewTable, quantityTable, sizeSections, studyRegionTable } from "../components/study_tables";
 import { documentPage } from "./document";
 
 function summary(page: StudyPage): Markup {
@@ -25,7 +25,7 @@ function condition(page: StudyPage, one: StudyConditionResult, index: number): M
 `
     : index === 0 ? drawn : folded("Figures", drawn);
   return html`<h2 id="condition-${index}">${capitalised(one.title)}</h2>
-${figures}${faceStatisticsSection(page, one)}${comparisonTable(page, one)}${accommodationSection(page, one)}${sizeSections(page, one)}${dependenceTable(page, one)}${studyRegionTable(page, one)}${quantityTable(page, one)}`;
+${figures}${holdTable(page, one)}${faceStatisticsSection(page, one)}${comparisonTable(page, one)}${accommodationSection(page, one)}${sizeSections(page, one)}${dependenceTable(page, one)}${studyRegionTable(page, one)}${quantityTable(page, one)}`;
 }
 
 function thresholdWords(page: StudyPage): string {

@@ -8,7 +8,7 @@ import { bandComparison, errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, placementTable, settingsTable, summaryTable } from "../components/contact_tables";
 import { indexComparison, indexSection } from "../components/indices";
-import { gripWords, nearestToPain, plainVerdict, pressureVerdict, readingAdvice, regionsWithoutBloodFlow, statusWords } from "../components/verdicts";
+import { gripWords, nearestToPain, plainVerdict, pressureVerdict, readingAdvice, regionsWithoutBloodFlow, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
 import { assessmentPage } from "../pages/assessment";
 import { assessment, page, vocabulary, withBand } from "./fixture";
 
@@ -61,6 +61,36 @@ test("the grip and what set its force are those that were asked for", () => {
   assert.equal(gripWords(one, vocabulary), "tip pinch");
   one.grasp.status = "not_graspable";
   assert.equal(statusWords(one, vocabulary), "No place for this grip");
+});
+
+test("a hold that is not at rest or touches with too little has an amber badge", () => {
+  const one = assessment();
+  assert.equal(statusVerdict(one), "good");
+  assert.equal(statusWords(one, vocabulary), "Held");
+  one.doubts = [{ key: "slips_out", words: "it slips" }];
+  assert.equal(statusVerdict(one), "fair");
+  assert.equal(statusWords(one, vocabulary), "Held, but slips out");
+  one.doubts = [{ key: "not_at_rest", words: "it moves" }, { key: "few_contacts", words: "the thumb doesn't touch it" }];
+  assert.equal(statusVerdict(one), "fair");
+  assert.equal(statusWords(one, vocabulary), "Held, but not at rest and with too few fingers");
+  assert.match(text(graspNotes(one, vocabulary)), /class="note fair"[^]*The thumb doesn/);
+  const table = text(summaryTable([one], vocabulary));
+  assert.match(table, /class="badge fair"/);
+  assert.doesNotMatch(table, /class="badge good"/);
+  one.grasp.status = "too_large";
+  assert.equal(statusVerdict(one), "bad");
+});
+
+test("other ways to hold it are shown with the option that takes one", () => {
+  const shown = page([assessment()]);
+  assert.doesNotMatch(assessmentPage(shown), /Other ways to hold it/);
+  shown.view.products[0].ways = [1, 2, 3].map((number) => ({ number, words: "medium wrap of the <handle>", score: -number, against: number === 3 ? "no room" : "" }));
+  shown.view.products[0].way_taken = 1;
+  const made = assessmentPage(shown);
+  assert.match(made, /Other ways to hold it/);
+  assert.match(made, /--hold 3/);
+  assert.match(made, /Medium wrap of the &lt;handle&gt; \(score -3.0\); against it: no room/);
+  assert.match(made, /This one is shown here/);
 });
 
 test("two products stand side by side with their differences", () => {

@@ -39,6 +39,8 @@ export function assessment(): Assessment {
                size_mm: [20, 60, 20], notes: [] },
     hand: { name: "ball <hand>", side: "right", hand_length_mm: 186.5, hand_circumference_mm: 200, hand_width_mm: 80,
             hand_thickness_mm: 30, vertices: 10, triangles: 16, provenance: "made for a test" },
+    hold: null,
+    doubts: [],
     grasp: {
       grip: "medium_wrap", status: "held", message: "held by <five> fingers",
       posture: { wrist_flexion_deg: 0, index_pip_flexion_deg: 45.678 },
@@ -90,7 +92,7 @@ export function page(assessments: Assessment[]): AssessmentPage {
                neutral: "#888888", ticks: [{ value: 0, text: "0.0" }, { value: 0.5, text: "≥ 0.5" }] },
       products: assessments.map(() => ({
         charts: [{ title: "Force, N", svg: "<svg>force</svg>" }], sensitivity_chart: "<svg>stiffer</svg>",
-        friction_words: "It slips.", scene: "{}",
+        friction_words: "It slips.", scene: "{}", ways: [], way_taken: null,
         pictures: [{ name: "grasp_palm", title: "Grasp", alt: "A hand", src: "attachment:p", thumbnail: "attachment:t" }],
       })),
     },
@@ -104,6 +106,7 @@ export function proportion(count: number, n: number): Proportion {
 export function study(): StudyPage {
   const product = {
     hands: 6, hands_holding: 5,
+    holds: [{ hands: 6, words: "medium wrap of the handle", part: 2, part_name: "handle", along: 0.4 }],
     quantities: { peak: { n: 5, mean: 0.25, sd: 0.05, median: 0.24, p5: 0.2, p95: 0.3 } },
     regions: { thenar: { force_n: 3, area_mm2: 100, peak_pressure_cells_mpa: 0.1, touching: 1 } },
     accommodation: { in_hand: proportion(5, 6), inside: proportion(4, 6),

@@ -215,9 +215,43 @@ export interface FrictionResult {
   }[];
 }
 
+/// One reason for or against a hold; scores add up.
+export interface HoldTerm {
+  name: string;
+  value: number | null;
+  unit: string;
+  score: number | null;
+  words: string;
+}
+
+/// By which part of the product the hand holds it, and how.
+export interface HoldResult {
+  part: number;
+  part_name: string;
+  kind: string | null;
+  grip: string;
+  along: number;
+  edge: number;
+  toward: number;
+  turn_deg: number;
+  over_end: boolean;
+  words: string;
+  fingertips?: { finger: string; along: number; turn_deg: number; height_mm: number }[];
+  score?: number | null; // where it was ranked
+  terms?: HoldTerm[];
+}
+
+/// Why a hold is to be doubted though the product is in the hand.
+export interface HoldDoubt {
+  key: "not_at_rest" | "slips_out" | "few_contacts";
+  words: string;
+}
+
 export interface Assessment {
   product: ProductResult;
   hand: HandResult;
+  hold: HoldResult | null; // null: where coordinates say
+  doubts: HoldDoubt[];
   grasp: GraspResult;
   balance: BalanceResult;
   contact: ContactResult;
@@ -247,6 +281,8 @@ export interface AssessmentView {
     sensitivity_chart: TrustedMarkup | null;
     friction_words: string;
     pictures: Picture[];
+    ways: { number: number; words: string; score: number | null; against: string }[]; // best first
+    way_taken: number | null; // which of them
     scene: TrustedMarkup; // JSON for the 3-D view
   }[];
 }

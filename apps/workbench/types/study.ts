@@ -45,6 +45,8 @@ export interface CausedHands {
 export interface StudyProductResult {
   hands: number;
   hands_holding: number;
+  /// How they hold it, that of most hands first; null: where coordinates say.
+  holds: { hands: number; words: string | null; part: number | null; part_name: string; along: number | null }[];
   quantities: { [key: string]: QuantitySummary };
   regions: {
     [name: string]: { force_n: number; area_mm2: number; peak_pressure_cells_mpa: number; touching: number };

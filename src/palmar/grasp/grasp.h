@@ -93,6 +93,7 @@ struct Grasp {
   std::vector<FingertipContact> fingertips;  ///< of a precision grip, else empty
   std::optional<Hold> hold;  ///< which hold it is; unset: placed by coordinates or given
   std::string hold_words;    ///< "medium wrap of the handle, 40 % along it"; empty without hold
+  std::optional<PartKind> hold_kind;      ///< kind of the part that is held, with `hold`
   std::vector<HoldTerm> hold_terms;       ///< what speaks for and against it, if it was ranked
   double score = 0.0;                     ///< of the search that found it
   int candidates = 0;                     ///< placements that the search tried

@@ -114,6 +114,7 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   }
   grasp.hold = hold;
   grasp.hold_words = words_of(*hold, ranked.parts);
+  grasp.hold_kind = part_of(*hold, ranked.parts).kind;
   grasp.candidates = std::max(grasp.candidates, ranked.considered);
   for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
     const RankedHold& other = ranked.holds[k];
@@ -204,6 +205,8 @@ GraspPlace& GraspPlace::operator=(GraspPlace&&) noexcept = default;
 
 const Grasp& GraspPlace::reference_grasp() const { return impl_->grasp; }
 
+const RankedHolds& GraspPlace::ranked() const { return impl_->ranked; }
+
 Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const {
   if (hand.hand().skin.vertices == impl_->reference->skin.vertices) return impl_->grasp;
   const bool has_place = impl_->place ? impl_->place->is_found : !impl_->grasp.fingertips.empty();
@@ -212,6 +215,7 @@ Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const
                              : impl_->hold_precisely(hand.hand(), progress);
   grasp.hold = impl_->hold;
   grasp.hold_words = impl_->grasp.hold_words;
+  grasp.hold_kind = impl_->grasp.hold_kind;
   grasp.hold_terms = impl_->grasp.hold_terms;
   if (is_held(grasp) || !is_held(impl_->grasp)) return grasp;
   // Never silently another way of holding: it is told, and stands first among the runners-up.

@@ -45,6 +45,9 @@ class GraspPlace {
   /// As the reference hand holds the product.
   const Grasp& reference_grasp() const;
 
+  /// The holds among which it was chosen; without holds where coordinates or a hold were given.
+  const RankedHolds& ranked() const;
+
   /// How `hand` holds it there. A hand that can't hold it that way, while the reference hand can,
   /// is a result like others: its message says what it would do by itself, and that stands first
   /// among the runners-up. On a product that the reference hand found no place on, each hand

@@ -7,8 +7,11 @@
 
 #include "palmar/core/version.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/records/hold/hold_json.h"
 #include "palmar/records/index_json.h"
 #include "palmar/records/json_values.h"
+#include "palmar/records/posture/placement_json.h"
+#include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {
 namespace {
@@ -18,18 +21,6 @@ using Json = nlohmann::ordered_json;
 /// File names may hold bytes that are no UTF-8; they must not stop the output.
 std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
-Json placement(const Rigid3& product_from_hand) {
-  const Quat& q = product_from_hand.rotation;
-  const Eigen::Matrix3d r = q.toRotationMatrix();
-  const Vec3& t = product_from_hand.translation;
-  Json matrix = Json::array();
-  for (int row = 0; row < 3; ++row) matrix.push_back({r(row, 0), r(row, 1), r(row, 2), t[row]});
-  matrix.push_back({0.0, 0.0, 0.0, 1.0});
-  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_mm", vector3(t)},
-          {"matrix_rows_mm", std::move(matrix)}};
 }
 
 Json posture_object(const Posture& angles) {
@@ -45,7 +36,7 @@ Json runner_up_object(const GraspRunnerUp& other) {
   return {{"grip", name_of(other.grip)},
           {"score", other.score},
           {"posture", posture_object(other.posture)},
-          {"product_from_hand", placement(other.product_from_hand)}};
+          {"product_from_hand", placement_with_matrix(other.product_from_hand)}};
 }
 
 Json grasp_object(const Grasp& grasp) {
@@ -69,7 +60,7 @@ Json grasp_object(const Grasp& grasp) {
           {"status", name_of(grasp.status)},
           {"message", grasp.message},
           {"posture", posture_object(grasp.posture)},
-          {"product_from_hand", placement(grasp.product_from_hand)},
+          {"product_from_hand", placement_with_matrix(grasp.product_from_hand)},
           {"grip_point_mm", vector3(grasp.grip_point)},
           {"grip_axis", vector3(grasp.grip_axis)},
           {"grip_girth_mm", grasp.grip_girth},
@@ -301,6 +292,14 @@ Json coating_array(const std::vector<Coating>& coatings) {
   return array;
 }
 
+Json doubts_array(const Assessment& assessment) {
+  Json doubts = Json::array();
+  for (const HoldDoubt& one : doubts_of(assessment)) {
+    doubts.push_back({{"key", one.key}, {"words", one.words}});
+  }
+  return doubts;
+}
+
 Json settings_object(const Assessment& assessment) {
   const AssessOptions& options = assessment.options;
   const PlacementRequest& placed = options.grasp.power.placement;
@@ -327,7 +326,11 @@ Json settings_object(const Assessment& assessment) {
 
 }  // namespace
 
-std::string grasp_json(const Grasp& grasp) { return dumped(grasp_object(grasp)); }
+std::string grasp_json(const Grasp& grasp) {
+  Json json = grasp_object(grasp);
+  json["hold"] = hold_object(grasp);
+  return dumped(json);
+}
 
 std::string placements_json(const Grasp& grasp) {
   Json list = Json::array();
@@ -353,6 +356,8 @@ std::string assessment_json(const AssessmentSet& set) {
     Json hand = set.hand ? hand_object(*set.hand) : Json{{"name", assessment.hand_name}};
     Json entry = {{"product", product_object(one.product)},
                   {"hand", std::move(hand)},
+                  {"hold", hold_object(assessment.grasp)},
+                  {"doubts", doubts_array(assessment)},
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
                   {"contact", contact_object(assessment.contact, grip_force_of(one))},

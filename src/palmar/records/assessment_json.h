@@ -8,10 +8,11 @@
 
 namespace palmar {
 
-/// assessment.json: one object {"assessments": [{"product", "hand", "grasp", "contact", "indices",
-/// "settings", "friction" (if it is on), "versions", "times_s"}], ...}. Keys carry units (force_n,
-/// contact_area_mm2, peak_pressure_mpa, ..._mm, ..._deg); doubles are printed shortest so that they
-/// read back exactly. Without times_s the text depends on input and seed alone.
+/// assessment.json: one object {"assessments": [{"product", "hand", "hold", "doubts", "grasp",
+/// "contact", "indices", "settings", "friction" (if it is on), "versions", "times_s"}], ...}. Keys
+/// carry units (force_n, contact_area_mm2, peak_pressure_mpa, ..._mm, ..._deg); doubles are printed
+/// shortest so that they read back exactly. Without times_s the text depends on input and seed
+/// alone.
 std::string assessment_json(const AssessmentSet& set);
 
 /// Whether a file's content is an assessment.json that Palmar wrote.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/grasp/grasp_settings.h"
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/rest/task_force.h"
 #include "palmar/population/hand_profile.h"
@@ -39,6 +40,7 @@ struct StudyProduct {
   std::string content_hash;      ///< SHA-256 of mesh in mm, hex
   std::string unit = "mm";       ///< of the file, as it was settled
   std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
+  HoldRequest holding;           ///< by which part and how; excludes `at` and `axis`
   double mass = 0.0;             ///< kg; 0: no load
   /// Name of the product of the same study and size whose grasp at rest is kept, posture and
   /// placement as they are (Xie 2014, 5.5.3: prisms with two fillets in one posture); TOML

@@ -24,4 +24,11 @@ std::string name_of(StudyOutcome outcome) {
   return "failed";
 }
 
+bool is_same(const StudyHold& a, const StudyHold& b) {
+  const Hold &x = a.hold, &y = b.hold;
+  return x.part == y.part && x.grip == y.grip && x.along == y.along && x.edge == y.edge &&
+         x.toward == y.toward && x.turn == y.turn && x.is_over_end == y.is_over_end &&
+         a.words == b.words;
+}
+
 }  // namespace palmar

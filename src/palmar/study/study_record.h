@@ -44,6 +44,14 @@ struct IndexRecord {
   double value = 0.0;
 };
 
+/// By which part of the product a hand holds it, and how.
+struct StudyHold {
+  Hold hold;                     ///< without its fingertips
+  std::optional<PartKind> kind;  ///< of the part
+  std::string words;             ///< "medium wrap of the handle, 40 % along it"
+};
+bool is_same(const StudyHold& a, const StudyHold& b);
+
 /// What a grasp asks of its owner; decides who is excluded (docs/method/profiles.md).
 struct GraspDemand {
   double range_share = 0.0;    ///< smallest HandProfile::range_share that allows the posture
@@ -58,6 +66,7 @@ struct StudyRecord {
   std::string reason;  ///< empty if held
   Grip grip = Grip::kMediumWrap;
   bool is_balanced = false;
+  std::optional<StudyHold> hold;  ///< nothing: placed by coordinates, or of an older study
   // Of the whole hand; 0 without contact.
   double force = 0.0;                ///< N; sum of normal forces
   double grip_force = 0.0;           ///< N; across the plane of largest squeeze

@@ -168,6 +168,7 @@ struct StudyBench::Impl {
     if (product.at) options.power.placement.at = product.size * *product.at;
     options.power.placement.axis = product.axis;
     options.precision.placement = options.power.placement;
+    product.holding.apply_to(options);
     return options;
   }
 
@@ -248,6 +249,9 @@ class StudySubject {
     StudyRecord record;
     record.outcome = outcome_of(held);
     record.grip = held.grasp.grip;
+    if (held.grasp.hold) {
+      record.hold = StudyHold{*held.grasp.hold, held.grasp.hold_kind, held.grasp.hold_words};
+    }
     record.posture = held.grasp.posture;
     record.product_from_hand = held.grasp.product_from_hand;
     record.is_balanced = held.balance.status == BalanceStatus::kBalanced;

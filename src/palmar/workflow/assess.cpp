@@ -100,13 +100,16 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     options.grasp = task.grasp;
     options.friction = task.friction;
     options.balance.load = task.friction.load;
+    HeldProduct held;
     try {
       Assessment assessment =
           assess(prepared, task.product, options,
                  part_of(progress, start, start + step, task.product.name), [&](const Progress& p) {
-                   return hold_product(hand, task.product, request.grasp, options.grasp, p);
+                   held = take_product(hand, task.product, request.grasp, options.grasp, p);
+                   return held.grasp;
                  });
-      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment)});
+      outcome.set.assessments.push_back(
+          {std::move(task.product), std::move(assessment), held.ways, held.ways_hand});
     } catch (const Cancelled&) {
       outcome.is_cancelled = true;
       break;

@@ -159,6 +159,7 @@ StudyRequest study_of(const QuickStudy& quick) {
     ProductRequest product;
     product.file = name;
     product.unit = quick.unit;
+    product.held.holding = quick.holding;
     request.products.push_back(std::move(product));
   }
   for (const std::string& name : quick.populations) {

@@ -29,6 +29,7 @@ struct QuickStudy {
   int hands = 0;                      ///< to draw from each population; 0: 30
   std::vector<std::string> profiles;  ///< "none", "reduced_range", ...; empty: none
   std::vector<std::string> grips;     ///< "auto", "tripod", ...; empty: auto
+  HoldRequest holding;                ///< by which part and how all products are held
   std::string hand;                   ///< that is scaled; "": the template
   // How firmly; at most one. None: the usual grip force, the same for all hands and products.
   std::optional<double> grip_force;      ///< N

@@ -141,5 +141,76 @@ TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {
               HasSubstr("setting \"region\": grip tripod takes fingertips to points"));
 }
 
+TEST(GraspSettings, AHoldIsSaidInOneWay) {
+  GraspSettings settings;
+  Hold hook;
+  hook.grip = Grip::kFixedHook;
+  settings.holding.hold = hook;
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.grip = Grip::kFixedHook;
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.grip = Grip::kMediumWrap;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"grip\" is medium_wrap, but the hold is a "
+                                           "fixed_hook"));
+  settings.grip.reset();
+  settings.holding.number = 3;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"hold\" is given as a hold and as a number"));
+  settings.holding.number.reset();
+  settings.holding.part_name = "handle";
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"hold\" and setting \"part\" are both given"));
+  settings.holding.part_name = "";
+  settings.placement.at = Vec3(1.0, 2.0, 3.0);
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"hold\" and setting \"at\" are both given"));
+  settings.holding.hold.reset();
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.holding.number = 3;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"hold\" and setting \"at\" are both given"));
+  settings.holding.number.reset();
+  settings.holding.toward = Vec3::UnitZ();
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"toward\" and setting \"at\" are both given"));
+  settings.placement.at.reset();
+  settings.holding.part_name = "handle";
+  settings.holding.number = 3;
+  settings.holding.along = 0.4;
+  EXPECT_EQ(refusal(settings), "accepted");
+  settings.is_place_per_hand = true;
+  EXPECT_THAT(refusal(settings), HasSubstr("a hold is the same for every hand"));
+}
+
+TEST(GraspSettings, PartsAndDirectionsHaveTheirRanges) {
+  GraspSettings settings;
+  settings.holding.along = 1.2;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"along\" is 1.2; a fraction of the part's "
+                                           "length, 0 to 1, is required"));
+  settings.holding.along.reset();
+  settings.holding.part = 0;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"part\" is 0; a number from 1 or a name"));
+  settings.holding.part.reset();
+  settings.holding.number = 0;
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"hold\" is 0; 1 (the best) or more"));
+  settings.holding.number.reset();
+  settings.holding.toward = Vec3::Zero();
+  EXPECT_THAT(refusal(settings), HasSubstr("setting \"toward\" has no direction"));
+}
+
+TEST(GraspSettings, WhatIsSaidOfTheHoldReachesTheSearch) {
+  GraspSettings settings;
+  settings.grip = Grip::kLateral;
+  settings.holding.part = 2;
+  settings.holding.along = 0.25;
+  settings.holding.toward = -Vec3::UnitX();
+  settings.holding.up = Vec3::UnitY();
+  settings.holding.purpose = HoldPurpose::kHandOver;
+  settings.holding.number = 4;
+  const GraspOptions options = settings.options();
+  EXPECT_EQ(options.holds.grip, Grip::kLateral);
+  EXPECT_EQ(options.holds.part, 2);
+  EXPECT_EQ(options.holds.along, 0.25);
+  EXPECT_EQ(options.holds.toward, -Vec3::UnitX());
+  EXPECT_EQ(options.holds.up, Vec3::UnitY());
+  EXPECT_EQ(options.holds.purpose, HoldPurpose::kHandOver);
+  EXPECT_EQ(options.hold_rank, 4);
+}
+
 }  // namespace
 }  // namespace palmar

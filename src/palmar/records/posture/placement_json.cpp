@@ -75,4 +75,17 @@ Rigid3 placement_from_json(const PlainJson& json) {
           Vec3(finite(t[0]), finite(t[1]), finite(t[2]))};
 }
 
+nlohmann::ordered_json placement_with_matrix(const Rigid3& product_from_hand) {
+  using PlacementJson = nlohmann::ordered_json;
+  const Quat& q = product_from_hand.rotation;
+  const Eigen::Matrix3d r = q.toRotationMatrix();
+  const Vec3& t = product_from_hand.translation;
+  PlacementJson matrix = PlacementJson::array();
+  for (int row = 0; row < 3; ++row) matrix.push_back({r(row, 0), r(row, 1), r(row, 2), t[row]});
+  matrix.push_back({0.0, 0.0, 0.0, 1.0});
+  return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_mm", {t.x(), t.y(), t.z()}},
+          {"matrix_rows_mm", std::move(matrix)}};
+}
+
 }  // namespace palmar

@@ -14,4 +14,7 @@ namespace palmar {
 /// matrix is no rotation with a translation.
 Rigid3 placement_from_json(const nlohmann::json& json);
 
+/// As it stands there: "quaternion_wxyz", "translation_mm" and "matrix_rows_mm".
+nlohmann::ordered_json placement_with_matrix(const Rigid3& product_from_hand);
+
 }  // namespace palmar

@@ -230,4 +230,18 @@ std::string record_bytes(const StudyRecord& record) {
   return bytes;
 }
 
+std::string hold_bytes(const StudyHold& held) {
+  const Hold& hold = held.hold;
+  std::string bytes;
+  append_value(bytes, static_cast<std::int64_t>(hold.part));
+  append_text(bytes, hold.part_name);
+  append_text(bytes, std::string(name_of(hold.grip)));
+  for (const double value : {hold.along, hold.edge, static_cast<double>(hold.toward), hold.turn}) {
+    append_value(bytes, value);
+  }
+  bytes += hold.is_over_end ? '\1' : '\0';
+  append_text(bytes, held.words);
+  return bytes;
+}
+
 }  // namespace palmar

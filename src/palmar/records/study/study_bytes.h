@@ -39,5 +39,7 @@ Rigid3 rigid_from_bytes(std::string_view bytes);
 
 /// Everything of a record but fields and time, for checksums.
 std::string record_bytes(const StudyRecord& record);
+/// A hold, for the digest; not in record_bytes(), so that older programs can check a record.
+std::string hold_bytes(const StudyHold& held);
 
 }  // namespace palmar

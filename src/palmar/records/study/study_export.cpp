@@ -196,6 +196,15 @@ std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& rec
         record.demand.grip_strength, record.demand.nail_room}) {
     row.push_back(shortest(value));
   }
+  if (!record.hold) {
+    row.resize(row.size() + 7);
+    return row;
+  }
+  const Hold& hold = record.hold->hold;
+  row.insert(row.end(), {std::to_string(hold.part), hold.part_name,
+                         record.hold->kind ? name_of(*record.hold->kind) : "", shortest(hold.along),
+                         std::to_string(hold.toward), shortest(hold.turn * kDegreesPerRadian),
+                         record.hold->words});
   return row;
 }
 
@@ -234,7 +243,14 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
                                            "mean_pressure_mpa",
                                            "demand_range_share",
                                            "demand_grip_strength_n",
-                                           "demand_nail_room_mm"});
+                                           "demand_nail_room_mm",
+                                           "part",
+                                           "part_name",
+                                           "part_kind",
+                                           "along",
+                                           "toward",
+                                           "turn_deg",
+                                           "hold"});
   CsvWriter regions(folder / "regions.csv",
                     {"number", "region", "force_n", "contact_area_mm2", "peak_pressure_mpa",
                      "peak_pressure_cells_mpa", "mean_pressure_mpa"});

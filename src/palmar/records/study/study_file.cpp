@@ -16,6 +16,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/formats/toml_section.h"
 #include "palmar/product/parametric_kinds.h"
+#include "palmar/records/hold/hold_file.h"
 #include "palmar/records/product/parameter_sweep.h"
 #include "palmar/study/assessment/grasp_indices.h"
 #include "palmar/study/statistics/study_results.h"
@@ -176,10 +177,76 @@ std::vector<double> read_sweep(const TomlSection& section, const KindParameter& 
   }
 }
 
+/// "+x", "-z", "up", "down" or a list of three numbers.
+std::optional<Vec3> read_direction(const TomlSection& section, const char* key, const Vec3& up) {
+  const toml::node* node = section.values().get(key);
+  if (node == nullptr) return std::nullopt;
+  if (!node->is_string()) {
+    const auto direction = read_vector(section, key, "");
+    if (direction && !(direction->norm() > 0.0)) {
+      section.fail(key, "is 0, 0, 0; a direction is required");
+    }
+    return direction;
+  }
+  const std::string text = *section.text(key);
+  if (text == "up") return up;
+  if (text == "down") return Vec3(-up);
+  const bool has_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
+  const std::string axis = has_sign ? text.substr(1) : text;
+  if (axis != "x" && axis != "y" && axis != "z") {
+    section.fail(key,
+                 "is " + in_quotes(text) + "; up, down, an axis as \"+x\" or [x, y, z] is allowed");
+  }
+  return Vec3((text[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(axis[0] - 'x'));
+}
+
+/// By which part and how a product is held, without coordinates.
+HoldRequest read_holding(const TomlSection& section) {
+  constexpr int kMostNumber = 10'000;
+  HoldRequest holding;
+  const auto is_text = [&](const char* key) {
+    const toml::node* node = section.values().get(key);
+    return node != nullptr && node->is_string();
+  };
+  if (is_text("hold")) {
+    holding.hold = read_hold(from_folder(section, *section.text("hold"))).hold;
+  } else if (const auto number = section.integer("hold", 1, kMostNumber)) {
+    holding.number = static_cast<int>(*number);
+  }
+  if (is_text("part")) {
+    holding.part_name = *section.text("part");
+  } else if (const auto part = section.integer("part", 1, kMostNumber)) {
+    holding.part = static_cast<int>(*part);
+  }
+  holding.along = section.number("along", "", 0.0, 1.0);
+  holding.up = read_direction(section, "up", Vec3::UnitZ());
+  holding.toward = read_direction(section, "toward", holding.up.value_or(Vec3::UnitZ()));
+  if (const auto purpose = section.text("purpose")) {
+    if (*purpose != "use" && *purpose != "hand_over") {
+      section.fail("purpose", "is " + in_quotes(*purpose) + "; use or hand_over is allowed");
+    }
+    if (*purpose == "hand_over") holding.purpose = HoldPurpose::kHandOver;
+  }
+  return holding;
+}
+
+void check_holding(const TomlSection& section, const StudyProduct& product) {
+  GraspSettings settings;
+  settings.placement.at = product.at;
+  settings.placement.axis = product.axis;
+  settings.holding = product.holding;
+  try {
+    settings.check();
+  } catch (const UsageError& error) {
+    section.fail(error.what());
+  }
+}
+
 /// A product of the file; a sweep over a parameter makes several.
 std::vector<ProductRequest> read_products(const TomlSection& section) {
-  std::vector<std::string> known = {"name", "file",    "unit",       "sizes", "at_mm",
-                                    "axis", "mass_kg", "posture_of", "kind",  "family"};
+  std::vector<std::string> known = {"name",    "file",       "unit", "sizes",  "at_mm", "axis",
+                                    "mass_kg", "posture_of", "kind", "family", "hold",  "part",
+                                    "along",   "toward",     "up",   "purpose"};
   const std::string kind = section.text("kind").value_or("");
   const ParametricKind* made = nullptr;
   if (section.has("kind")) {
@@ -213,6 +280,8 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   if (request.held.axis && !(request.held.axis->norm() > 0.0)) {
     section.fail("axis", "is 0, 0, 0; a direction is required");
   }
+  request.held.holding = read_holding(section);
+  check_holding(section, request.held);
   request.held.mass = section.number("mass_kg", "kg", 0.0, 100.0).value_or(0.0);
   request.held.posture_of = section.text("posture_of").value_or("");
   request.held.family = section.text("family").value_or("");

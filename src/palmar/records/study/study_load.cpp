@@ -144,7 +144,9 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
     StudyProduct one = request.held;
     one.name = sized_name(name, size);
     if (one.family.empty()) one.family = name;
-    if (!read && !one.at && !one.axis) one.axis = thumb_side_of(request.made);
+    if (!read && !one.at && !one.axis && !one.holding.hold && !one.holding.toward) {
+      one.holding.toward = thumb_side_of(request.made);
+    }
     one.size = size;
     one.file = !read                     ? words_of(request.made)
                : request.written.empty() ? request.file

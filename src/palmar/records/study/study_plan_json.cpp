@@ -134,17 +134,92 @@ StudyHand hand_from(const Json& json, const std::string& name) {
   return hand;
 }
 
+Json fingertips_json(const Hold& hold) {
+  Json list = Json::array();
+  for (const HoldFingertip& tip : hold.fingertips) {
+    list.push_back({{"finger", name_of(tip.finger)},
+                    {"along", tip.place.along},
+                    {"turn_rad", tip.place.turn},
+                    {"height_mm", tip.place.height}});
+  }
+  return list;
+}
+
+Json hold_json(const std::optional<Hold>& hold) {
+  if (!hold) return nullptr;
+  return {{"part", hold->part},
+          {"part_name", hold->part_name},
+          {"grip", name_of(hold->grip)},
+          {"along", hold->along},
+          {"edge", hold->edge},
+          {"toward", hold->toward},
+          {"turn_rad", hold->turn},
+          {"over_end", hold->is_over_end},
+          {"fingertips", fingertips_json(*hold)}};
+}
+
+std::optional<Hold> hold_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  Hold hold;
+  const auto grip = grip_named(json.at("grip").get<std::string>());
+  if (!grip) throw InputError("its plan has an unknown grip: " + json.at("grip").dump());
+  hold.part = json.at("part");
+  hold.part_name = json.at("part_name");
+  hold.grip = *grip;
+  hold.along = json.at("along");
+  hold.edge = json.at("edge");
+  hold.toward = json.at("toward");
+  hold.turn = json.at("turn_rad");
+  hold.is_over_end = json.at("over_end");
+  for (const Json& tip : json.at("fingertips")) {
+    const auto finger = finger_named(tip.at("finger").get<std::string>());
+    if (!finger) throw InputError("its plan has an unknown finger: " + tip.at("finger").dump());
+    hold.fingertips.push_back({*finger,
+                               {.along = tip.at("along").get<double>(),
+                                .turn = tip.at("turn_rad").get<double>(),
+                                .height = tip.at("height_mm").get<double>()}});
+  }
+  return hold;
+}
+
+/// How a product is to be held without coordinates; only written where something is said.
+Json holding_json(const HoldRequest& holding) {
+  return {{"hold", hold_json(holding.hold)},
+          {"number", holding.number ? Json(*holding.number) : Json()},
+          {"part", holding.part ? Json(*holding.part) : Json()},
+          {"part_name", holding.part_name},
+          {"along", optional_json(holding.along)},
+          {"toward", vector_json(holding.toward)},
+          {"up", vector_json(holding.up)},
+          {"is_hand_over", holding.purpose == HoldPurpose::kHandOver}};
+}
+
+HoldRequest holding_from(const Json& json) {
+  HoldRequest holding;
+  holding.hold = hold_from(json.at("hold"));
+  if (!json.at("number").is_null()) holding.number = json.at("number").get<int>();
+  if (!json.at("part").is_null()) holding.part = json.at("part").get<int>();
+  holding.part_name = json.at("part_name");
+  holding.along = optional_from(json.at("along"));
+  holding.toward = vector_from(json.at("toward"));
+  holding.up = vector_from(json.at("up"));
+  if (json.at("is_hand_over").get<bool>()) holding.purpose = HoldPurpose::kHandOver;
+  return holding;
+}
+
 Json product_json(const StudyProduct& product) {
-  return {{"name", product.name},
-          {"family", product.family},
-          {"size", product.size},
-          {"file", product.file},
-          {"content_sha256", product.content_hash},
-          {"unit", product.unit},
-          {"at_mm", vector_json(product.at)},
-          {"axis", vector_json(product.axis)},
-          {"mass_kg", product.mass},
-          {"posture_of", product.posture_of}};
+  Json json = {{"name", product.name},
+               {"family", product.family},
+               {"size", product.size},
+               {"file", product.file},
+               {"content_sha256", product.content_hash},
+               {"unit", product.unit},
+               {"at_mm", vector_json(product.at)},
+               {"axis", vector_json(product.axis)},
+               {"mass_kg", product.mass},
+               {"posture_of", product.posture_of}};
+  if (!product.holding.is_empty()) json["holding"] = holding_json(product.holding);
+  return json;
 }
 
 StudyProduct product_from(const Json& json) {
@@ -159,6 +234,7 @@ StudyProduct product_from(const Json& json) {
   product.axis = vector_from(json.at("axis"));
   product.mass = json.at("mass_kg");
   product.posture_of = json.at("posture_of");
+  if (json.contains("holding")) product.holding = holding_from(json.at("holding"));
   return product;
 }
 

@@ -30,6 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TriangleMesh tetrahedron(double size) {
   return {{{0, 0, 0}, {size, 0, 0.1}, {0, size / 3, 0}, {0, 0, size}},
@@ -116,6 +117,20 @@ StudyRecord record_for(std::int64_t number) {
   }
   record.grip = number % 2 == 0 ? Grip::kMediumWrap : Grip::kTripod;
   record.is_balanced = number % 3 == 0;
+  if (number % 4 != 2) {  // the others are placed by coordinates
+    StudyHold held;
+    held.hold.part = 2;
+    held.hold.part_name = "handle";
+    held.hold.grip = record.grip;
+    held.hold.along = x / 3.0;
+    held.hold.edge = -x / 9.0;
+    held.hold.toward = number % 2 == 0 ? 1 : -1;
+    held.hold.turn = x;
+    held.hold.is_over_end = number % 3 == 1;
+    if (number % 3 != 0) held.kind = PartKind::kLoop;
+    held.words = "medium wrap of the \"handle\"";
+    record.hold = held;
+  }
   record.force = 10.0 + x;
   record.grip_force = 5.0 + x;
   record.area = 1000.0 * x;
@@ -147,6 +162,12 @@ void expect_same(const StudyRecord& a, const StudyRecord& b) {
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.grip, b.grip);
   EXPECT_EQ(a.is_balanced, b.is_balanced);
+  ASSERT_EQ(a.hold.has_value(), b.hold.has_value());
+  if (a.hold) {
+    EXPECT_TRUE(is_same(*a.hold, *b.hold));
+    EXPECT_EQ(a.hold->kind, b.hold->kind);
+    EXPECT_EQ(a.hold->hold.part_name, b.hold->hold.part_name);
+  }
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.grip_force, b.grip_force);
   EXPECT_EQ(a.area, b.area);
@@ -529,10 +550,45 @@ TEST(StudyStore, ExportsEveryTableWithUnits) {
   EXPECT_EQ(std::count(grasps.begin(), grasps.end(), '\n'), 21);
   EXPECT_THAT(grasps, HasSubstr("\n5,1,given,person 1,none,default,cylinder,tripod,failed,\"no, "
                                 "\"\"reason\"\"\",medium_wrap,0,0,"));
+  EXPECT_THAT(grasps, HasSubstr("demand_nail_room_mm,part,part_name,part_kind,along,toward,"
+                                "turn_deg,hold\n"));
+  EXPECT_THAT(grasps, HasSubstr(",2,handle,loop,"));
+  EXPECT_THAT(grasps, HasSubstr("\"medium wrap of the \"\"handle\"\"\"\n"));
   EXPECT_THAT(read_file(folder / "tables/hands.csv"),
               HasSubstr("hand,population,label,stratum,sex,age_years,grip_strength_n,"
                         "hand_length_mm\n0,given,person 0,,male,,,180\n"));
   EXPECT_THAT(read_file(folder / "tables/postures.csv"), HasSubstr("_deg,"));
+}
+
+TEST(StudyPlanJson, KeepsHowAProductIsHeld) {
+  Study study = small_study();
+  const std::string without = format_plan(study.plan);
+  EXPECT_THAT(without, Not(HasSubstr("holding")));  // as before there was anything to say
+  HoldRequest& asked = study.plan.products[1].holding;
+  asked.hold = Hold{};
+  asked.hold->grip = Grip::kTripod;
+  asked.hold->turn = 0.1 + 0.2;
+  asked.hold->fingertips = {{Finger::kIndex, {.along = 0.3, .turn = -1.0 / 3.0, .height = 7.5}}};
+  asked.part = 3;
+  asked.part_name = "lid";
+  asked.along = 0.25;
+  asked.toward = Vec3(0.0, 0.6, 0.8);
+  asked.purpose = HoldPurpose::kHandOver;
+  const StudyPlan back = parse_plan(format_plan(study.plan), "plan");
+  EXPECT_EQ(format_plan(back), format_plan(study.plan));
+  const HoldRequest& read = back.products[1].holding;
+  ASSERT_TRUE(read.hold.has_value());
+  EXPECT_EQ(read.hold->grip, Grip::kTripod);
+  EXPECT_EQ(read.hold->turn, 0.1 + 0.2);
+  ASSERT_EQ(read.hold->fingertips.size(), 1U);
+  EXPECT_EQ(read.hold->fingertips[0].place.turn, -1.0 / 3.0);
+  EXPECT_EQ(read.part, 3);
+  EXPECT_EQ(read.part_name, "lid");
+  EXPECT_EQ(read.along, 0.25);
+  EXPECT_EQ(read.toward, Vec3(0.0, 0.6, 0.8));
+  EXPECT_EQ(read.purpose, HoldPurpose::kHandOver);
+  EXPECT_TRUE(back.products[0].holding.is_empty());
+  EXPECT_FALSE(plan_differences(study.plan, parse_plan(without, "plan")).empty());
 }
 
 TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {

@@ -51,6 +51,9 @@ CREATE TABLE region(number INTEGER NOT NULL, region TEXT NOT NULL, force_n REAL 
   PRIMARY KEY(number, region)) WITHOUT ROWID;
 CREATE TABLE grasp_index(number INTEGER NOT NULL, quantity INTEGER NOT NULL, value REAL NOT NULL,
   PRIMARY KEY(number, quantity)) WITHOUT ROWID;
+CREATE TABLE hold(number INTEGER PRIMARY KEY, part INTEGER NOT NULL, part_name TEXT NOT NULL,
+  part_kind TEXT NOT NULL, grip TEXT NOT NULL, along REAL NOT NULL, edge REAL NOT NULL,
+  toward INTEGER NOT NULL, turn_rad REAL NOT NULL, over_end INTEGER NOT NULL, words TEXT NOT NULL);
 CREATE TABLE field(number INTEGER PRIMARY KEY, skin_pressure BLOB NOT NULL,
   product_pressure BLOB NOT NULL);
 )sql";
@@ -66,6 +69,18 @@ std::uint32_t checksum(const std::string& bytes) {
 std::optional<StudyOutcome> outcome_named(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(StudyOutcome::kFailed); ++i) {
     if (name_of(static_cast<StudyOutcome>(i)) == name) return static_cast<StudyOutcome>(i);
+  }
+  return std::nullopt;
+}
+
+bool has_table(SqliteFile& file, const std::string& name) {
+  return file.integer("SELECT count(*) FROM sqlite_schema WHERE name = '" + name + "'") > 0;
+}
+
+std::optional<PartKind> part_kind_named(const std::string& name) {
+  for (const PartKind kind : {PartKind::kBar, PartKind::kPen, PartKind::kLoop, PartKind::kBody,
+                              PartKind::kBall, PartKind::kPlate}) {
+    if (name_of(kind) == name) return kind;
   }
   return std::nullopt;
 }
@@ -171,6 +186,9 @@ StudyTableWriter::StudyTableWriter(SqliteFile& file, const StudyPlan& plan)
       region_(file, "INSERT INTO region VALUES(?,?,?,?,?,?,?)"),
       index_(file, "INSERT INTO grasp_index VALUES(?,?,?)"),
       field_(file, "INSERT INTO field VALUES(?,?,?)") {
+  // A study that an older program began goes on without.
+  if (has_table(file, "hold"))
+    hold_.emplace(file, "INSERT INTO hold VALUES(?,?,?,?,?,?,?,?,?,?,?)");
   SqliteStatement rows(file, "SELECT quantity, key FROM quantity");
   while (rows.next()) quantity_[rows.text(1)] = rows.integer(0);
 }
@@ -242,6 +260,24 @@ void StudyTableWriter::write(const StudyRecord& record) {
     index_.bind(1, record.number).bind(2, quantity_id(index.key)).bind(3, index.value).run();
   }
   field_.bind(1, record.number).bind_blob(2, pack(skin)).bind_blob(3, pack(product)).run();
+  if (record.hold && hold_) write_hold(record.number, *record.hold);
+}
+
+void StudyTableWriter::write_hold(std::int64_t number, const StudyHold& held) {
+  const Hold& hold = held.hold;
+  digest_.add(hold_bytes(held));
+  hold_->bind(1, number)
+      .bind(2, hold.part)
+      .bind(3, std::string_view(hold.part_name))
+      .bind(4, std::string_view(held.kind ? name_of(*held.kind) : ""))
+      .bind(5, name_of(hold.grip))
+      .bind(6, hold.along)
+      .bind(7, hold.edge)
+      .bind(8, hold.toward)
+      .bind(9, hold.turn)
+      .bind(10, hold.is_over_end ? 1 : 0)
+      .bind(11, std::string_view(held.words))
+      .run();
 }
 
 void StudyTableWriter::write_time(const StudyRecord& record) {
@@ -255,10 +291,6 @@ namespace {
 
 std::string only_number(const std::string& column, std::optional<std::int64_t> only) {
   return only ? " WHERE " + column + " = " + std::to_string(*only) : "";
-}
-
-bool has_table(SqliteFile& file, const std::string& name) {
-  return file.integer("SELECT count(*) FROM sqlite_schema WHERE name = '" + name + "'") > 0;
 }
 
 std::string grasp_query(bool with_fields, bool with_times, std::optional<std::int64_t> only) {
@@ -300,6 +332,13 @@ StudyTableReader::StudyTableReader(SqliteFile& file, bool with_fields,
   while (rows.next()) quantity_[rows.integer(0)] = rows.text(1);
   has_region_ = region_.next();
   has_index_ = index_.next();
+  // Studies of older programs have no such table.
+  if (!has_table(file, "hold")) return;
+  hold_.emplace(file,
+                "SELECT number, part, part_name, part_kind, grip, along, edge, toward, turn_rad, "
+                "over_end, words FROM hold" +
+                    only_number("number", only) + " ORDER BY number");
+  has_hold_ = hold_->next();
 }
 
 bool StudyTableReader::next(StudyRecord& record) {
@@ -334,6 +373,7 @@ bool StudyTableReader::next(StudyRecord& record) {
   }
   read_regions(record);
   read_indices(record);
+  read_hold(record);
   if (checksum(record_bytes(record)) != static_cast<std::uint32_t>(grasp_.integer(16))) {
     throw InputError(what + " is damaged: its values don't have the checksum they were kept with");
   }
@@ -367,6 +407,27 @@ void StudyTableReader::read_indices(StudyRecord& record) {
     record.indices.push_back({key->second, index_.number(2)});
     has_index_ = index_.next();
   }
+}
+
+void StudyTableReader::read_hold(StudyRecord& record) {
+  if (!hold_) return;
+  while (has_hold_ && hold_->integer(0) < record.number) has_hold_ = hold_->next();
+  if (!has_hold_ || hold_->integer(0) != record.number) return;
+  StudyHold held;
+  const auto grip = grip_named(hold_->text(4));
+  if (!grip) throw InputError("grasp " + std::to_string(record.number) + ": its hold is damaged");
+  held.hold.part = static_cast<int>(hold_->integer(1));
+  held.hold.part_name = hold_->text(2);
+  held.kind = part_kind_named(hold_->text(3));
+  held.hold.grip = *grip;
+  held.hold.along = hold_->number(5);
+  held.hold.edge = hold_->number(6);
+  held.hold.toward = static_cast<int>(hold_->integer(7));
+  held.hold.turn = hold_->number(8);
+  held.hold.is_over_end = hold_->integer(9) != 0;
+  held.words = hold_->text(10);
+  record.hold = std::move(held);
+  has_hold_ = hold_->next();
 }
 
 void build_store(const std::filesystem::path& path, const StudyHead& head, bool is_finished,

@@ -38,12 +38,14 @@ class StudyTableWriter {
 
  private:
   std::int64_t quantity_id(const std::string& key);
+  void write_hold(std::int64_t number, const StudyHold& hold);
 
   SqliteFile& file_;
   const StudyPlan& plan_;
   std::map<std::string, std::int64_t> quantity_;
   Sha256 digest_;
   SqliteStatement grasp_, region_, index_, field_;
+  std::optional<SqliteStatement> hold_;
 };
 
 /// Reads records one by one, ascending by number. Throws InputError: a record is damaged.
@@ -56,11 +58,13 @@ class StudyTableReader {
  private:
   void read_regions(StudyRecord& record);
   void read_indices(StudyRecord& record);
+  void read_hold(StudyRecord& record);
 
   bool with_fields_, has_times_;
   std::map<std::int64_t, std::string> quantity_;
   SqliteStatement grasp_, region_, index_;
-  bool has_region_ = false, has_index_ = false;  ///< a row that isn't taken yet
+  std::optional<SqliteStatement> hold_;
+  bool has_region_ = false, has_index_ = false, has_hold_ = false;  ///< a row that isn't taken yet
 };
 
 /// Text of a key of table `study`, or "".

@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "palmar/core/error.h"
+#include "palmar/records/json_values.h"
 #include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/page/friction_words.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
+#include "palmar/report/picture/holds_picture.h"
 #include "palmar/report/picture/scene_data.h"
 
 namespace palmar {
@@ -66,6 +68,20 @@ PageJson charts_json(const ContactResult& contact, const std::string& name,
   return list;
 }
 
+/// Ways to hold the product, as many as the sheet shows.
+PageJson ways_json(const AssessedProduct& one) {
+  PageJson list = PageJson::array();
+  if (one.ways == nullptr) return list;
+  for (const RankedHold& way : one.ways->holds) {
+    if (list.size() == static_cast<std::size_t>(HoldsPictureOptions{}.most)) break;
+    list.push_back({{"number", list.size() + 1},
+                    {"words", way.words},
+                    {"score", finite_or_null(way.score)},
+                    {"against", way.against}});
+  }
+  return list;
+}
+
 PageJson product_json(const Hand& hand, const AssessedProduct& one, const ColourScale& scale,
                       const std::vector<EncodedPicture>& pictures, const std::string& name,
                       Attachments& attachments) {
@@ -79,6 +95,8 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
           {"sensitivity_chart", std::move(sensitivity)},
           {"friction_words", friction_verdict(hand, one.assessment)},
           {"pictures", pictures_json(pictures, name, attachments)},
+          {"ways", ways_json(one)},
+          {"way_taken", one.ways ? PageJson(one.assessment.options.grasp.hold_rank) : nullptr},
           {"scene", attached(attachments, name + "-scene",
                              script_escaped(scene_data_json(hand, one, scale)))}};
 }

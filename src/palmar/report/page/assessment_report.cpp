@@ -15,12 +15,15 @@
 #include "palmar/records/csv.h"
 #include "palmar/report/page/assessment_page.h"
 #include "palmar/report/picture/assessment_pictures.h"
+#include "palmar/report/picture/holds_picture.h"
 
 namespace palmar {
 
 namespace {
 
 constexpr int kEmbeddedWidth = 720;   // pixels; the page shows pictures about 540 wide
+constexpr int kSheetWidth = 1280;     // pixels; the sheet of holds, as wide as the page
+constexpr int kSheetTile = 320;       // pixels
 constexpr int kThumbnailWidth = 440;  // pixels; on the cards of products side by side
 
 // A folder name that every file system takes, different from those already used.
@@ -124,27 +127,44 @@ bool has_thumbnail(const Picture& picture, bool are_compared) {
                           picture.name == "grasp_back");
 }
 
+/// Other ways to hold the product, if they are known.
+void add_sheet_of_holds(const AssessedProduct& one, const Progress& progress,
+                        std::vector<Picture>& pictures) {
+  if (one.ways == nullptr || one.ways->holds.size() < 2 || progress.is_cancelled()) return;
+  HoldsPictureOptions drawing;
+  drawing.tile_width = kSheetTile;
+  drawing.up = one.assessment.options.grasp.holds.up;
+  try {
+    pictures.push_back({"holds", "Ways to hold it, best first",
+                        one.product.name + ": hands holding it in different ways, numbered.",
+                        holds_picture(*one.ways_hand, one.product, *one.ways, drawing, progress)});
+  } catch (const Cancelled&) {
+    return;
+  }
+}
+
 // Writes the pictures at full size and gives them back at the size in which report.html shows them.
 std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, const Hand& hand,
                                            const AssessedProduct& one, const ColourScale& scale,
                                            const ReportOptions& options, bool are_compared,
                                            const Progress& progress) {
-  const std::vector<Picture> pictures = assessment_pictures(
+  std::vector<Picture> pictures = assessment_pictures(
       hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
       progress);
+  add_sheet_of_holds(one, progress, pictures);
   std::vector<EncodedPicture> embedded(pictures.size());
   std::vector<std::string> full(pictures.size());
   parallel_for(static_cast<int>(pictures.size()), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     const Picture& picture = pictures[i];
     full[i] = encode_png(picture.image);
-    embedded[i] = {.name = picture.name,
-                   .title = picture.title,
-                   .alt = picture.alt,
-                   .png = small_png(picture.image, kEmbeddedWidth),
-                   .thumbnail = has_thumbnail(picture, are_compared)
-                                    ? small_png(picture.image, kThumbnailWidth)
-                                    : ""};
+    embedded[i] = {
+        .name = picture.name,
+        .title = picture.title,
+        .alt = picture.alt,
+        .png = small_png(picture.image, picture.name == "holds" ? kSheetWidth : kEmbeddedWidth),
+        .thumbnail =
+            has_thumbnail(picture, are_compared) ? small_png(picture.image, kThumbnailWidth) : ""};
   });
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     write_file(folder / (pictures[i].name + ".png"), full[i]);

@@ -9,6 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
+#include "palmar/report/picture/thumb_inset.h"
 
 namespace palmar {
 
@@ -112,6 +113,17 @@ void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& sc
     picture.image = std::move(images[i]);
     decorate(picture.image, product_name, picture.title, kind.has_bar ? &scale : nullptr);
     pictures.push_back(std::move(picture));
+  }
+}
+
+/// The pad of the thumb in the last picture, which shows the opened hand; cancelled: without it.
+void add_thumb(std::vector<Picture>& pictures, const Hand& hand, const Scene& open_hand,
+               const Progress& progress) {
+  if (pictures.empty() || progress.is_cancelled()) return;
+  try {
+    add_thumb_inset(pictures.back().image, hand, open_hand, progress);
+  } catch (const Cancelled&) {
+    pictures.pop_back();
   }
 }
 
@@ -251,6 +263,7 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
   };
   add({"map", "Pressure on the opened hand", "pressure drawn on the opened hand"},
       {coloured(hand.skin, pressure)}, {{"open_hand", "palm side", {0.0, 0.0, -1.0}}});
+  add_thumb(pictures, hand, {coloured(hand.skin, pressure)}, progress);
   add({"pressure", "Pressure on the skin", "hand with the product hidden, coloured by pressure"},
       {coloured(deformed_skin(hand, assessment), pressure)}, all);
   add({"grasp", "Hand and product", "hand holding the product", false},
@@ -264,6 +277,7 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
               friction_scene(hand.skin, assessment, used),
               {{"open_hand", "palm side", {0.0, 0.0, -1.0}}}, assessed.product.name, used, options,
               progress);
+    add_thumb(pictures, hand, friction_scene(hand.skin, assessment, used), progress);
     add_views(pictures,
               {"friction", "Friction in use on the skin", "hand with the product hidden, " + shows},
               friction_scene(deformed_skin(hand, assessment), assessment, used), all,

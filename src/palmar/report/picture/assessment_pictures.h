@@ -35,7 +35,8 @@ ColourScale pressure_scale(const AssessmentSet& set);
 
 /// Pictures of one grasp; all in the same pressure scale:
 ///
-///     map_open_hand           pressure drawn on the hand in its reference posture, palm side
+///     map_open_hand           pressure drawn on the hand in its reference posture, palm side, with
+///                             the thumb's pad beside it
 ///     pressure_palm ...       deformed skin coloured by pressure, product hidden
 ///     grasp_palm ...          the hand holding the product
 ///     friction_palm ...       skin coloured by the share of friction in use (0 to 1), if friction

@@ -8,6 +8,7 @@
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
+#include "palmar/report/picture/thumb_inset.h"
 
 namespace palmar {
 namespace {
@@ -111,12 +112,16 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                     name + ": mean pressure over hands on the skin of the open hand, palm side.",
                     palm, Vec3::UnitY()},
                    name, "Mean pressure over " + hands, mean, options, progress));
+    add_thumb_inset(pictures.back().image, base,
+                    {painted(base.skin, maps.skin.mean, scales.mean, kSkinColour)}, progress);
     pictures.push_back(picture_of(
         {painted(base.skin, maps.skin.above, share, kSkinColour)},
         {"above_hand", "Share of " + hands + " above " + limit + ", on the open hand",
          name + ": share of hands whose pressure is above " + limit + ", on the open hand.", palm,
          Vec3::UnitY()},
         name, "Share of " + hands + " above " + limit, percent, options, progress));
+    add_thumb_inset(pictures.back().image, base,
+                    {painted(base.skin, maps.skin.above, share, kSkinColour)}, progress);
     Scene held = {painted(surface, maps.on_product.mean, scales.mean, kProductColour)};
     for (SceneObject& threads : threads_on_borders(product)) held.push_back(std::move(threads));
     pictures.push_back(picture_of(

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/study/study_csv.h"
 
+#include "palmar/geometry/degrees.h"
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/study_words.h"
+#include "palmar/study/statistics/study_holds.h"
 
 namespace palmar {
 namespace {
@@ -69,6 +71,29 @@ CsvTable outcome_table(const StudyResults& results, const StudyAnalysis& analysi
       add(row);
     }
   });
+}
+
+CsvTable holds_table(const StudyResults& results, const StudyAnalysis& analysis) {
+  return table_of(
+      results, analysis,
+      {"product", "hands", "part", "part_name", "part_kind", "held_in", "along", "toward",
+       "turn_deg", "hold"},
+      [&](const ConditionAnalysis& one, const auto& add) {
+        for (const ProductStatistics& product : one.products) {
+          const std::string& name = results.plan.products[at(product.product)].name;
+          for (const HandsByHold& held : holds_of(results, one.condition, product.product)) {
+            if (!held.hold) {
+              add({name, count(held.hands), "", "", "", "", "", "", "", ""});
+              continue;
+            }
+            const Hold& hold = held.hold->hold;
+            add({name, count(held.hands), count(hold.part), hold.part_name,
+                 held.hold->kind ? name_of(*held.hold->kind) : "", std::string(name_of(hold.grip)),
+                 text(hold.along), count(hold.toward), text(hold.turn * kDegreesPerRadian),
+                 held.hold->words});
+          }
+        }
+      });
 }
 
 CsvTable accommodation_table(const StudyResults& results, const StudyAnalysis& analysis) {
@@ -240,6 +265,7 @@ std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalys
           {"comparison.csv", comparison_csv(results, analysis)},
           {"accommodation.csv", accommodation_table(results, analysis)},
           {"outcomes.csv", outcome_table(results, analysis)},
+          {"holds.csv", holds_table(results, analysis)},
           {"regions.csv", region_table_of(results, analysis)},
           {"size_dependence.csv", dependence_table(results, analysis)},
           {"sizes.csv", size_table(results, analysis)}};

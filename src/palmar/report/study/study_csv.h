@@ -17,7 +17,8 @@ struct NamedTable {
 };
 
 /// The statistics of a study in full digits: statistics.csv (per condition, product and quantity),
-/// comparison.csv (per pair), accommodation.csv, outcomes.csv (how grasps ended), regions.csv,
+/// comparison.csv (per pair), accommodation.csv, outcomes.csv (how grasps ended), holds.csv (by
+/// which part and how each product is held), regions.csv,
 /// size_dependence.csv, sizes.csv. Units stand in the headers or in a column beside the quantity.
 std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis);
 

@@ -11,6 +11,7 @@
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_words.h"
+#include "palmar/study/statistics/study_holds.h"
 
 namespace palmar {
 namespace {
@@ -89,12 +90,26 @@ PageJson exclusion_json(const Exclusion& one) {
           {"unknown", one.unknown}};
 }
 
-PageJson products_json(const ConditionAnalysis& one) {
+PageJson holds_json(const StudyResults& results, const ConditionAnalysis& one, int product) {
+  PageJson list = PageJson::array();
+  for (const HandsByHold& held : holds_of(results, one.condition, product)) {
+    const Hold* hold = held.hold ? &held.hold->hold : nullptr;
+    list.push_back({{"hands", held.hands},
+                    {"words", hold ? PageJson(held.hold->words) : PageJson(nullptr)},
+                    {"part", hold ? PageJson(hold->part) : PageJson(nullptr)},
+                    {"part_name", hold ? hold->part_name : ""},
+                    {"along", hold ? PageJson(hold->along) : PageJson(nullptr)}});
+  }
+  return list;
+}
+
+PageJson products_json(const StudyResults& results, const ConditionAnalysis& one) {
   PageJson list = PageJson::array();
   for (std::size_t p = 0; p < one.products.size(); ++p) {
     const ProductStatistics& product = one.products[p];
     list.push_back({{"hands", product.outcomes.hands()},
                     {"hands_holding", product.outcomes.in_hand()},
+                    {"holds", holds_json(results, one, product.product)},
                     {"quantities", summaries_json(product)},
                     {"regions", regions_json(product)},
                     {"accommodation", accommodation_json(one.accommodation[p])},
@@ -235,7 +250,7 @@ PageJson condition_json(const StudyPage& page, std::size_t index, Attachments& a
           {"words", condition_words(plan, one.condition)},
           {"are_figures_shown", index < kMostDrawnConditions},
           {"figures", std::move(figures)},
-          {"products", products_json(one)},
+          {"products", products_json(page.results, one)},
           {"comparisons", comparisons_json(plan, one)},
           {"sizes", sizes_json(one)},
           {"dependence", dependence_json(page, one)},

@@ -60,6 +60,10 @@ struct Assessment {
 struct AssessedProduct {
   Product product;
   Assessment assessment;
+  /// Ways to hold the product, of which one was taken, and the hand that they were ranked with;
+  /// null where nothing was ranked.
+  std::shared_ptr<const RankedHolds> ways = nullptr;
+  std::shared_ptr<const Hand> ways_hand = nullptr;
 };
 
 /// Grip force of its contact [N]; of a grasp that slips out that of the hand as it was closed.

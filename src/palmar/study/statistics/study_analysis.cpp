@@ -10,6 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/study/statistics/study_holds.h"
 
 namespace palmar {
 namespace {
@@ -82,6 +83,30 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
       "products are held at different grip forces: " + words + ". Pressures differ by that, too; " +
           (is_stated ? "not every hand reaches the requested force."
                      : "leave out limit_depths to compare at equal force."));
+}
+
+void warn_of_holds(const StudyResults& results, std::vector<StudyWarning>& warnings) {
+  const StudyPlan& plan = results.plan;
+  for (int product = 0; product < static_cast<int>(plan.products.size()); ++product) {
+    bool is_told = false;
+    int little = 0;
+    for (const StudyCondition& condition : conditions_of(plan)) {
+      // Conditions of all populations together come first and hold what the others do.
+      if (condition.population && plan.populations.size() > 1) continue;
+      const std::vector<HandsByHold> holds = holds_of(results, condition, product);
+      little += hands_with_little(results, condition, product);
+      if (holds.size() < 2 || is_told) continue;
+      is_told = true;
+      add(warnings, false, plan.products[product].name,
+          "hands differ in how they hold it, so figures differ by that, too: " + words_of(holds) +
+              ".");
+    }
+    if (little == 0) continue;
+    add(warnings, false, plan.products[product].name,
+        fmt::format("in {} grasp{} fewer parts of the hand touch it than the grip needs: those "
+                    "hands would hold it otherwise.",
+                    little, little == 1 ? "" : "s"));
+  }
 }
 
 void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) {
@@ -248,6 +273,7 @@ std::vector<StudyWarning> study_warnings(const StudyResults& results,
   warn_of_settings(results.plan, warnings);
   warn_of_products(results.plan, products, warnings);
   warn_of_outcomes(results, warnings);
+  warn_of_holds(results, warnings);
   warn_of_grip_forces(results, warnings);
   warn_of_design(results.plan, warnings);
   warn_of_hands(results.plan, base, warnings);

@@ -41,7 +41,8 @@ struct StudyWarning {
 };
 /// Depths beyond those the tissue was fitted to; hands much larger or smaller than the template;
 /// products thinner or thicker than those that were checked; grasps that slip, fail, don't come to
-/// rest or weren't run; products held at different grip forces; hands that aren't
+/// rest or weren't run; hands that hold a product in different ways or by fewer parts than their
+/// grip needs; products held at different grip forces; hands that aren't
 /// drawn by chance; less strength without a load; few hands; what the populations say of
 /// themselves. Those outside first.
 std::vector<StudyWarning> study_warnings(const StudyResults& results,

@@ -19,22 +19,39 @@ std::shared_ptr<const Hand> built_in_hand() {
   }
 }
 
+void take_ways(const GraspPlace& place, const std::shared_ptr<const Hand>& hand,
+               HeldProduct& held) {
+  if (place.ranked().holds.empty()) return;
+  held.ways = std::make_shared<const RankedHolds>(place.ranked());
+  held.ways_hand = hand;
+}
+
 }  // namespace
+
+HeldProduct take_product(const std::shared_ptr<const Hand>& hand, const Product& product,
+                         const GraspSettings& settings, const GraspOptions& options,
+                         const Progress& progress) {
+  HeldProduct held;
+  const bool is_alone = settings.is_place_per_hand || settings.placement.product_from_hand;
+  const std::shared_ptr<const Hand> built_in = is_alone ? nullptr : built_in_hand();
+  if (built_in == nullptr || hand->skin.vertices == built_in->skin.vertices) {
+    const GraspPlace place(*hand, product, options, progress);
+    held.grasp = place.reference_grasp();
+    take_ways(place, hand, held);
+    return held;
+  }
+  const auto reference =
+      hand->side == Side::kLeft ? std::make_shared<const Hand>(mirrored(*built_in)) : built_in;
+  const GraspPlace place(*reference, product, options, progress);
+  held.grasp = place.hold(GraspingHand(hand), progress);
+  take_ways(place, reference, held);
+  return held;
+}
 
 Grasp hold_product(const std::shared_ptr<const Hand>& hand, const Product& product,
                    const GraspSettings& settings, const GraspOptions& options,
                    const Progress& progress) {
-  if (settings.is_place_per_hand || settings.placement.product_from_hand) {
-    return find_grasp(*hand, product, options, progress);
-  }
-  const std::shared_ptr<const Hand> built_in = built_in_hand();
-  if (built_in == nullptr || hand->skin.vertices == built_in->skin.vertices) {
-    return find_grasp(*hand, product, options, progress);
-  }
-  const bool is_left = hand->side == Side::kLeft;
-  const Hand mirror = is_left ? mirrored(*built_in) : Hand{};
-  const GraspPlace place(is_left ? mirror : *built_in, product, options, progress);
-  return place.hold(GraspingHand(hand), progress);
+  return take_product(hand, product, settings, options, progress).grasp;
 }
 
 }  // namespace palmar

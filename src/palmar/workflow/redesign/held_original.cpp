@@ -47,6 +47,7 @@ StudyRequest study_of(const RedesignRequest& asked) {
   }
   product.held.at = asked.at;
   product.held.axis = asked.axis;
+  product.held.holding = asked.holding;
   request.products.push_back(std::move(product));
   StudySetting setting;
   if (asked.grip_force > 0.0) setting.grip_force = asked.grip_force;

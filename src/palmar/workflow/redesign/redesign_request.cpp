@@ -28,6 +28,11 @@ void RedesignRequest::check() const {
   if (populations.empty()) {
     throw UsageError("setting \"populations\" is empty; one or more are required");
   }
+  GraspSettings how;
+  how.placement.at = at;
+  how.placement.axis = axis;
+  how.holding = holding;
+  how.check();
   constexpr int kMostHands = 100'000;
   if (hands < 1 || hands > kMostHands) {
     throw UsageError(

@@ -11,6 +11,7 @@
 
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
+#include "palmar/grasp/grasp_settings.h"
 #include "palmar/grasp/grip.h"
 
 namespace palmar {
@@ -35,6 +36,7 @@ struct RedesignRequest {
   std::vector<std::optional<Grip>> grips;  ///< nothing inside: the one that suits the shape
   std::optional<Vec3> at;                  ///< where it is held, product frame, mm
   std::optional<Vec3> axis;                ///< of the handle there, product frame
+  HoldRequest holding;                     ///< by which part and how, in place of `at` and `axis`
   RedesignPosture posture = RedesignPosture::kKept;
   /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: as closed. A kept
   /// posture decides the force itself, so it goes with kNew only.

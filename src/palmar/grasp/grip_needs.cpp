@@ -1,0 +1,85 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/grip_needs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace palmar {
+namespace {
+
+constexpr int kFingersOfWrap = 2;    // a handle with room for two is still wrapped: choice
+constexpr int kFingersOfSphere = 3;  // "five fingertips", of which one may miss: choice
+
+std::string called(Finger finger) {
+  return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
+}
+
+std::string listed_fingers(const std::vector<Finger>& fingers) {
+  std::string words;
+  for (std::size_t k = 0; k < fingers.size(); ++k) {
+    words += k == 0 ? "" : k + 1 == fingers.size() ? " and " : ", ";
+    words += called(fingers[k]);
+  }
+  return words;
+}
+
+std::string plain_grip(Grip grip) {
+  std::string name(name_of(grip));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::set<Finger> fingers_touching(const std::vector<Region>& touching) {
+  std::set<Finger> fingers;
+  for (const Region region : touching) {
+    const auto segment = segment_of(region);
+    if (const auto finger = segment ? finger_of(*segment) : std::nullopt) fingers.insert(*finger);
+  }
+  return fingers;
+}
+
+}  // namespace
+
+GripNeeds needs_of(Grip grip) {
+  switch (grip) {
+    case Grip::kMediumWrap:
+    case Grip::kLargeDiameter:
+    case Grip::kSmallDiameter:
+      return {{Finger::kThumb}, kFingersOfWrap};
+    case Grip::kPowerSphere:
+    case Grip::kPrecisionSphere:
+      return {{Finger::kThumb}, kFingersOfSphere};
+    case Grip::kFixedHook:
+      return {{}, kFingersOfWrap};
+    case Grip::kTipPinch:
+    case Grip::kPalmarPinch:
+    case Grip::kLateral:
+      return {{Finger::kThumb, Finger::kIndex}, 1};
+    case Grip::kTripod:
+      return {{Finger::kThumb, Finger::kIndex, Finger::kMiddle}, 2};
+  }
+  return {};
+}
+
+std::string lacking_contact(Grip grip, const std::vector<Region>& touching) {
+  const GripNeeds needs = needs_of(grip);
+  const std::set<Finger> fingers = fingers_touching(touching);
+  std::vector<Finger> missing;
+  for (const Finger finger : needs.fingers) {
+    if (!fingers.contains(finger)) missing.push_back(finger);
+  }
+  const int others = static_cast<int>(fingers.size()) - (fingers.contains(Finger::kThumb) ? 1 : 0);
+  if (missing.empty() && others >= needs.least_fingers) return "";
+  if (!missing.empty()) {
+    return fmt::format("the {} {} touch it, which a {} needs", listed_fingers(missing),
+                       missing.size() == 1 ? "doesn't" : "don't", plain_grip(grip));
+  }
+  return fmt::format("only {} finger{} besides the thumb touch{} it; a {} needs {}", others,
+                     others == 1 ? "" : "s", others == 1 ? "es" : "", plain_grip(grip),
+                     needs.least_fingers);
+}
+
+}  // namespace palmar

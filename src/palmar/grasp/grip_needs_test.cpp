@@ -1,0 +1,51 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/grip_needs.h"
+
+#include <gtest/gtest.h>
+
+namespace palmar {
+namespace {
+
+// What a grip needs is what the taxonomy's pictures show, not what the program found.
+
+TEST(GripNeeds, AWrapWithoutItsThumbIsNone) {
+  const std::vector<Region> fingers = {Region::kIndexDistal, Region::kMiddleDistal,
+                                       Region::kRingDistal, Region::kCentralPalm};
+  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, fingers),
+            "the thumb doesn't touch it, which a medium wrap needs");
+  std::vector<Region> all = fingers;
+  all.push_back(Region::kThumbDistal);
+  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, all), "");
+}
+
+TEST(GripNeeds, TheBallOfTheThumbIsPalm) {
+  EXPECT_EQ(lacking_contact(Grip::kSmallDiameter,
+                            {Region::kThenar, Region::kIndexDistal, Region::kMiddleDistal}),
+            "the thumb doesn't touch it, which a small diameter needs");
+}
+
+TEST(GripNeeds, AHookNeedsNoThumb) {
+  EXPECT_EQ(lacking_contact(Grip::kFixedHook, {Region::kIndexMiddle, Region::kMiddleMiddle}), "");
+  EXPECT_EQ(lacking_contact(Grip::kFixedHook, {Region::kIndexMiddle, Region::kIndexDistal}),
+            "only 1 finger besides the thumb touches it; a fixed hook needs 2");
+}
+
+TEST(GripNeeds, ATripodIsThreeFingers) {
+  EXPECT_EQ(lacking_contact(Grip::kTripod, {Region::kThumbDistal, Region::kIndexDistal}),
+            "the middle finger doesn't touch it, which a tripod needs");
+  EXPECT_EQ(lacking_contact(Grip::kTripod, {Region::kRingDistal}),
+            "the thumb, index finger and middle finger don't touch it, which a tripod needs");
+  EXPECT_EQ(lacking_contact(Grip::kTripod,
+                            {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal}),
+            "");
+}
+
+TEST(GripNeeds, WithoutContactEveryGripLacksSomething) {
+  for (int g = 0; g < kGripCount; ++g) {
+    EXPECT_NE(lacking_contact(static_cast<Grip>(g), {}), "") << name_of(static_cast<Grip>(g));
+  }
+}
+
+}  // namespace
+}  // namespace palmar

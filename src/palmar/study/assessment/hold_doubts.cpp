@@ -1,0 +1,26 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/hold_doubts.h"
+
+#include "palmar/grasp/grip_needs.h"
+
+namespace palmar {
+
+std::vector<HoldDoubt> doubts_of(const Assessment& assessment) {
+  const GraspStatus held = assessment.grasp.status;
+  if (held != GraspStatus::kHeld && held != GraspStatus::kPartlyHeld) return {};
+  std::vector<HoldDoubt> doubts;
+  const BalanceStatus rest = assessment.balance.status;
+  if (rest == BalanceStatus::kSlipsOut) {
+    doubts.push_back({"slips_out", assessment.balance.message});
+  } else if (rest != BalanceStatus::kOff && rest != BalanceStatus::kBalanced) {
+    doubts.push_back({"not_at_rest", assessment.balance.message});
+  }
+  std::vector<Region> touching;
+  for (const RegionContact& region : assessment.contact.regions) touching.push_back(region.region);
+  const std::string lacking = lacking_contact(assessment.grasp.grip, touching);
+  if (!lacking.empty()) doubts.push_back({"few_contacts", lacking});
+  return doubts;
+}
+
+}  // namespace palmar

@@ -1,0 +1,62 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/hold_doubts.h"
+
+#include <gtest/gtest.h>
+
+namespace palmar {
+namespace {
+
+Assessment wrap_with(const std::vector<Region>& touching) {
+  Assessment assessment;
+  assessment.grasp.grip = Grip::kMediumWrap;
+  assessment.grasp.status = GraspStatus::kHeld;
+  assessment.balance.status = BalanceStatus::kBalanced;
+  for (const Region region : touching) {
+    RegionContact contact;
+    contact.region = region;
+    assessment.contact.regions.push_back(contact);
+  }
+  return assessment;
+}
+
+std::string keys_of(const std::vector<HoldDoubt>& doubts) {
+  std::string keys;
+  for (const HoldDoubt& one : doubts) keys += (keys.empty() ? "" : " ") + one.key;
+  return keys;
+}
+
+const std::vector<Region> kWhole = {Region::kThumbDistal, Region::kIndexDistal,
+                                    Region::kMiddleDistal, Region::kCentralPalm};
+const std::vector<Region> kThumbless = {Region::kIndexDistal, Region::kMiddleDistal,
+                                        Region::kCentralPalm};
+
+TEST(HoldDoubts, AWholeHoldAtRestHasNone) { EXPECT_TRUE(doubts_of(wrap_with(kWhole)).empty()); }
+
+TEST(HoldDoubts, AWrapWithoutThumbIsDoubtful) {
+  const std::vector<HoldDoubt> doubts = doubts_of(wrap_with(kThumbless));
+  EXPECT_EQ(keys_of(doubts), "few_contacts");
+  EXPECT_EQ(doubts.front().words, "the thumb doesn't touch it, which a medium wrap needs");
+}
+
+TEST(HoldDoubts, WhatSlipsOrDoesntComeToRestIsDoubtful) {
+  Assessment assessment = wrap_with(kWhole);
+  assessment.balance.status = BalanceStatus::kSlipsOut;
+  EXPECT_EQ(keys_of(doubts_of(assessment)), "slips_out");
+  assessment.balance.status = BalanceStatus::kNotConverged;
+  EXPECT_EQ(keys_of(doubts_of(assessment)), "not_at_rest");
+  assessment.balance.status = BalanceStatus::kOff;  // nobody asked for it
+  EXPECT_EQ(keys_of(doubts_of(assessment)), "");
+  assessment = wrap_with(kThumbless);
+  assessment.balance.status = BalanceStatus::kSlipsOut;
+  EXPECT_EQ(keys_of(doubts_of(assessment)), "slips_out few_contacts");
+}
+
+TEST(HoldDoubts, WhatIsNotHeldNeedsNoDoubt) {
+  Assessment assessment = wrap_with({});
+  assessment.grasp.status = GraspStatus::kTooLarge;
+  EXPECT_TRUE(doubts_of(assessment).empty());
+}
+
+}  // namespace
+}  // namespace palmar
