@@ -51,6 +51,7 @@ GripNeeds needs_of(Grip grip) {
       return {{Finger::kThumb}, kFingersOfWrap};
     case Grip::kPowerSphere:
     case Grip::kPrecisionSphere:
+    case Grip::kPrecisionDisk:
       return {{Finger::kThumb}, kFingersOfSphere};
     case Grip::kFixedHook:
       return {{}, kFingersOfWrap};
@@ -59,6 +60,7 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kLateral:
       return {{Finger::kThumb, Finger::kIndex}, 1};
     case Grip::kTripod:
+    case Grip::kWritingTripod:
       return {{Finger::kThumb, Finger::kIndex, Finger::kMiddle}, 2};
   }
   return {};
