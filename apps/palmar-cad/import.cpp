@@ -31,8 +31,8 @@ void check_size(const CadFile& file, const std::string& object) {
   std::snprintf(text, sizeof text, "%.4g", size);
   throw InputError(object + ": its longest side is " + text + " mm (unit " +
                    (file.unit.empty() ? "not stated" : file.unit) +
-                   "); up to 10000 mm is allowed. If the unit is wrong, give it with --unit mm, "
-                   "cm, m or inch");
+                   "); up to 10000 mm is allowed. If the unit is wrong, give it by setting "
+                   "\"unit\": mm, cm, m or inch");
 }
 
 /// Geometry with numbers that are none gives triangles that are none.
