@@ -322,7 +322,7 @@ TEST_F(StudyCommand, BadStudyFilesAreNamedWithTheirLine) {
       {"hands = [\n", "bad.toml:1: no TOML"},
       {"[[populations]]\n",
        "bad.toml:1: the file: key \"populations\" is not known; did you mean "
-       "\"population\"?"},
+       "population?"},
       {people, "bad.toml:1: no [[product]]"},
       {thing, "bad.toml:1: no [[population]]"},
       {people + "[[product]]\nname = \"x\"\n", "bad.toml:4: product 1: has neither file nor kind"},
