@@ -43,7 +43,7 @@ double roundness_of(const TriangleMesh& piece, const Spread& spread);
 
 /// The axis of a box is the longest way between its faces, that of another long body the direction
 /// in which it spreads most. One as long as wide has the axis that it is round about: it shows in
-/// where the surface lies or in where it faces.
+/// where the surface lies or in where it faces. Flat ends about across it give it its direction.
 Vec3 body_axis(const TriangleMesh& piece, const Spread& spread, const Spread& facing);
 
 /// The axis of a plate, in its plane: of a box the longer way between its edges, else the direction

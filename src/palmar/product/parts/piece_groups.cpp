@@ -24,6 +24,7 @@ constexpr double kHollowAtLimb = 5.0;
 // Area of a border by the square of the smaller depth from which on it is wide: half as much again
 // as the square section of a bar. Choice.
 constexpr double kWideBorder = 6.0;
+constexpr double kSheetBorder = 16.0;  // the same of a board or sheet: four thicknesses wide
 // mm; less than a finger's breadth: belongs to what it is on.
 constexpr double kSmallestPart = 15.0;
 
@@ -203,11 +204,11 @@ class Grouping {
     return result;
   }
 
-  bool has_wide_border(int a, int b) const {
+  bool has_wide_border(int a, int b, double share = kWideBorder) const {
     const auto found = border_.find({a, b});
     if (found == border_.end()) return false;
     const double depth = std::min(groups_.region[a].deepest, groups_.region[b].deepest);
-    return found->second >= kWideBorder * depth * depth;
+    return found->second >= share * depth * depth;
   }
 
   double hollowness_of(const PartRegion& region, double limit) const {
@@ -225,9 +226,9 @@ class Grouping {
       const PartRegion both = united(groups_.region[a], groups_.region[b]);
       double limit = is_limb ? kHollowAtLimb : limit_of(both);
       double hollow = hollowness_of(both, limit);
-      if (hollow > limit && !is_limb && has_wide_border(a, b)) {
+      if (hollow > limit && !is_limb && has_wide_border(a, b, kSheetBorder)) {
         // What a single one of them has already (the foot of a knob on one of a board's lines)
-        // doesn't part them.
+        // doesn't part what is one sheet.
         constexpr double kFarthest = 40.0;  // mm
         limit = std::max({limit, hollowness_of(groups_.region[a], kFarthest),
                           hollowness_of(groups_.region[b], kFarthest)}) +
