@@ -336,8 +336,12 @@ std::string short_text(const Json& json) {
 
 void compare(const std::string& where, const Json& before, const Json& now,
              std::vector<std::string>& found) {
+  // Only written where something is said: it may be in one of them alone.
+  if (before.value("holding", Json()) != now.value("holding", Json())) {
+    found.push_back(where + "how it is held has changed");
+  }
   for (const auto& [key, value] : now.items()) {
-    if (!before.contains(key) || before.at(key) == value) continue;
+    if (key == "holding" || !before.contains(key) || before.at(key) == value) continue;
     const Json& old = before.at(key);
     if (key == "file" && !is_made(old) && !is_made(value)) continue;  // its content counts
     if (key == "content_sha256") {
