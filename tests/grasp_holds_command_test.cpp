@@ -86,7 +86,7 @@ TEST(GraspHolds, AFileTakesTheHoldItWasWrittenFrom) {
 
 TEST(GraspHolds, WhatContradictsIsAUsageError) {
   write_text(bar_folder() + "/bad.toml",
-             "part = 1\ngrip = \"medium_wrap\"\nalong = 0.5\nturn = 3\n");
+             "part = 1\ngrip = \"medium_wrap\"\nalong = 0.5\nturn_degs = 3\n");
   const auto refused = [](const std::string& arguments) {
     const ProgramRun run = in_bar_folder("grasp close bar.stl --unit mm " + arguments);
     EXPECT_NE(run.exit_code, 0) << arguments;
