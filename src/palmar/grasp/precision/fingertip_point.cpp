@@ -18,7 +18,7 @@ constexpr double kPadShare = 0.55;
 constexpr double kTipShare = 0.72, kTipTilt = 50.0 * kDegree;
 constexpr double kSideShare = 0.65, kSideTilt = 20.0 * kDegree;
 constexpr double kTipSideShare = 0.4, kTipSideTilt = 30.0 * kDegree;
-constexpr double kWebShare = -0.1, kWebTilt = -25.0 * kDegree;
+constexpr double kWebShare = 0.25, kWebTilt = -20.0 * kDegree, kWebStep = 0.05;
 constexpr double kNormalRadius = 4.0;  // mm; the skin's normal is a mean over that much pulp
 
 struct SkinHit {
@@ -27,17 +27,15 @@ struct SkinHit {
   Vec3 weight = Vec3::Zero();
 };
 
-// Moeller and Trumbore 1997; only skin of one finger, the farthest hit: the outside. At its root
-// the palm's skin, too, and the nearest hit: farther out is the thumb's ball.
-std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, bool is_root,
-                                     const Vec3& origin, const Vec3& direction) {
+// Moeller and Trumbore 1997; only skin of one finger, the farthest hit: the outside.
+std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3& origin,
+                                     const Vec3& direction) {
   std::optional<SkinHit> best;
   for (std::size_t t = 0; t < hand.skin.triangles.size(); ++t) {
     const Triangle& corner = hand.skin.triangles[t];
     bool belongs = false;
     for (const int v : corner) {
-      belongs = belongs || finger_of(hand.segment[v]) == finger ||
-                (is_root && hand.segment[v] == Segment::kPalm);
+      belongs = belongs || finger_of(hand.segment[v]) == finger;
     }
     if (!belongs) continue;
     const Vec3& a = hand.skin.vertices[corner[0]];
@@ -52,8 +50,7 @@ std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, bool is_ro
     const double v = direction.dot(q) / det;
     if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
     const double distance = ac.dot(q) / det;
-    if (distance <= 0.0) continue;
-    if (best && (distance <= best->distance) != is_root) continue;
+    if (distance <= 0.0 || (best && distance <= best->distance)) continue;
     best = SkinHit{t, distance, Vec3(1.0 - u - v, u, v)};
   }
   return best;
@@ -129,16 +126,21 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
                                                           : kSideTilt;
     direction = std::cos(tilt) * radial + std::sin(tilt) * palmar;
   }
-  const Vec3 origin = from + share * (to - from);
-  const bool is_root = part == FingertipPart::kWeb;
-  const std::optional<SkinHit> hit = outermost_hit(hand, finger, is_root, origin, direction);
+  Vec3 origin = from + share * (to - from);
+  std::optional<SkinHit> hit = outermost_hit(hand, finger, origin, direction);
+  // Where the skin of a finger's root begins differs from hand to hand.
+  for (double farther = kWebStep; part == FingertipPart::kWeb && !hit && farther < 0.5;
+       farther += kWebStep) {
+    origin = from + (share + farther) * (to - from);
+    hit = outermost_hit(hand, finger, origin, direction);
+  }
   if (!hit) {
     throw Error("fingertip point: no skin of " + std::string(name_of(segment)) +
                 " is on the side of its " + std::string(name_of(part)));
   }
   FingertipPoint result;
   result.finger = finger;
-  result.segment = is_root ? Segment::kPalm : segment;
+  result.segment = segment;
   result.part = part;
   result.point = origin + hit->distance * direction;
   result.normal = mean_normal(hand, result.point, direction);

@@ -38,8 +38,8 @@ struct FingertipPoint {
 ///     tip          from 72 %, half way between palmar and distal (50 degrees)
 ///     radial side  from 65 % of the middle phalanx, radial and 20 degrees palmar
 ///     tip side     from 40 % of the distal phalanx, radial and 30 degrees palmar
-///     web          from the knuckle, a tenth of the proximal phalanx behind it, radial and 25
-///                  degrees dorsal; carried by the palm
+///     web          from 25 % of the proximal phalanx (farther where the palm's skin is there),
+///                  radial and 20 degrees dorsal
 ///
 /// The shares are our choice. Throws Error naming the finger where the ray meets no skin, or for a
 /// side of the thumb.

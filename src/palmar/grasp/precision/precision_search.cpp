@@ -23,11 +23,7 @@ constexpr double kTiltUnit = 40.0 * kDegree;
 constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
 constexpr double kBalanceUnit = 30.0 * kDegree;
-constexpr double kOffsetUnit = 10.0;      // mm, at most ...
-constexpr double kOffsetShare = 0.5;      // of the width; less than
-constexpr double kLeastOffsetUnit = 2.0;  // mm
-constexpr double kSlideShare = 0.25;      // of a thing's middle extent, that fingertips may slide
-constexpr double kLeastSlide = 1.0, kMostSlide = 6.0;  // mm
+constexpr double kOffsetUnit = 10.0;     // mm
 constexpr double kPenLean = 0.4;         // cost of a pen perpendicular to the way it likes to lean
 constexpr double kAxisWeight = 2.0;      // of the asked axis
 constexpr double kDiscWeight = 3.0;      // of a disc's axis off the way fingers hold it
@@ -212,14 +208,10 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
   problem.start = opening.posture;
   problem.product_from_hand = candidate.product_from_hand;
   const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
-  Vec3 size = shape_.upper - shape_.lower;
-  std::sort(size.data(), size.data() + 3);
-  const double slide = std::clamp(kSlideShare * size[1], kLeastSlide, kMostSlide);
   for (const FingertipPoint& tip : openings_->fingertips()) {
     FingertipGoal goal;
     goal.fingertip = tip;
     goal.is_sliding = true;
-    if (openings_->fingertips().size() == 2) goal.slide = slide;
     if (openings_->fingertips().size() == 5) {
       goal.slide = kBallSlide;
       goal.square = kBallSquare;
@@ -256,8 +248,7 @@ double Search::hold_cost(const PrecisionHold& hold) const {
   const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
   cost += std::pow(balance / kBalanceUnit, 2);
   const Vec3 arm = others - solution.reached[0];
-  const double unit = std::clamp(kOffsetShare * arm.norm(), kLeastOffsetUnit, kOffsetUnit);
-  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / unit, 2);
+  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / kOffsetUnit, 2);
   return cost;
 }
 

@@ -34,7 +34,7 @@ struct PrecisionSearch {
 ///     where people take such a thing (opposing_points.h), strain / 10 of the posture,
 ///     (tilt / 40 deg)^2 / 2 per fingertip, (clash / 1 mm)^2, (miss / 0.5 mm)^2,
 ///     (balance / 30 deg)^2: thumb's force against the mean of the others',
-///     (offset / half the width, 2 to 10 mm)^2: of the thumb's line of action from the middle of
+///     (offset / 10 mm)^2: of the thumb's line of action from the middle of
 ///     the others, a pen's long end over the web of the thumb: up to 0.8
 PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings& openings,
                                       const Product& product, const PrecisionGripOptions& options,

@@ -81,11 +81,11 @@ Posture natural_posture(const Skeleton& skeleton, Grip grip) {
       return named(skeleton, "key_pinch");
     case Grip::kWritingTripod:
       posture = named(skeleton, "tripod");
-      set(posture, Finger::kThumb, {20, 15, 20});
-      set(posture, Finger::kIndex, {32, 44, 16});
-      set(posture, Finger::kMiddle, {36, 60, 30});
-      set(posture, Finger::kRing, {40, 70, 36});
-      set(posture, Finger::kLittle, {42, 68, 36});
+      set(posture, Finger::kThumb, {20, 15, 25});
+      set(posture, Finger::kIndex, {48, 48, 18});
+      set(posture, Finger::kMiddle, {52, 66, 34});
+      set(posture, Finger::kRing, {54, 74, 38});
+      set(posture, Finger::kLittle, {54, 72, 38});
       break;
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:

@@ -13,15 +13,17 @@ namespace palmar {
 namespace {
 
 /// In the order in which they are tried among those with as many fingers.
-constexpr std::array kOtherGrips = {Grip::kWritingTripod, Grip::kPalmarPinch,     Grip::kLateral,
-                                    Grip::kTipPinch,        Grip::kTripod,
-                                    Grip::kPrecisionSphere, Grip::kPrecisionDisk};
+constexpr std::array kOtherGrips = {
+    Grip::kWritingTripod, Grip::kPalmarPinch,     Grip::kLateral,      Grip::kTipPinch,
+    Grip::kTripod,        Grip::kPrecisionSphere, Grip::kPrecisionDisk};
 
 bool holds(const PreparedHand& hand, const Product& product, const GraspOptions& options,
            const BalanceOptions& balance, const ContactOptions& contact, const Progress& progress) {
   Grasp grasp = find_grasp(hand.hand(), product, options, progress);
   if (grasp.status != GraspStatus::kHeld) return false;
   if (!balance.is_on) return true;
+  // One other place for each grip: what takes long to find is no advice.
+  if (grasp.runners_up.size() > 1) grasp.runners_up.resize(1);
   return balance_grasp(hand, product, grasp, balance, contact, progress).status ==
          BalanceStatus::kBalanced;
 }
