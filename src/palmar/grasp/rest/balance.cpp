@@ -510,6 +510,8 @@ Balance settle_precision(const PreparedHand& hand, const Product& product, Grasp
   Balance first;
   Grasp nearest = grasp;  // where it is at rest or the first comes near to that
   for (std::size_t i = 0; i <= others; ++i) {
+    // Runners-up of another grip are other holds: never taken unasked.
+    if (i > 0 && grasp.runners_up[i - 1].grip != grasp.grip) continue;
     Grasp there = grasp;
     if (i > 0) take_runner_up(hand.hand(), product, i - 1, there);
     if (i > 0 && there.status != GraspStatus::kHeld) continue;
