@@ -103,8 +103,7 @@ TEST_F(GraspPlaces, AHandThatCantHoldItThereIsAResult) {
   EXPECT_NE(kept.status, GraspStatus::kHeld);
   EXPECT_THAT(kept.message,
               ::testing::StartsWith("cannot take the hold \"large diameter of the body"));
-  EXPECT_THAT(kept.message,
-              ::testing::EndsWith("no other hold was found that this hand can take"));
+  EXPECT_THAT(kept.message, ::testing::EndsWith("no other hold was found that this hand can take"));
 }
 
 TEST_F(GraspPlaces, ThreadsShareAPlace) {
