@@ -85,7 +85,7 @@ TEST_F(GraspPlaces, LeftHandsHoldAMirroredProductInTheMirroredWay) {
   EXPECT_EQ(left.status, right.status);
   for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
     EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d],
-                1e-4)  // the quick distance is in single precision
+                2e-3)  // rad; on a nearly round bar the sides of its quick distance are chance
         << name_of(static_cast<Dof>(d));
   }
 }

@@ -116,9 +116,17 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   grasp.hold_words = words_of(*hold, ranked.parts);
   grasp.hold_kind = part_of(*hold, ranked.parts).kind;
   grasp.candidates = std::max(grasp.candidates, ranked.considered);
+  // Other places of a precision grip: their scores differ by as much as the search found.
+  if (!ranked.holds.empty()) {
+    const RankedHold& taken = ranked.holds[static_cast<std::size_t>(options.hold_rank) - 1];
+    for (GraspRunnerUp& own : grasp.runners_up) {
+      own.score = taken.score - std::max(0.0, grasp.score - own.score);
+    }
+  }
   for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
     const RankedHold& other = ranked.holds[k];
     if (k + 1 == static_cast<std::size_t>(options.hold_rank)) {
+      grasp.candidates = std::max(grasp.candidates, other.grasp.candidates);
       grasp.score = other.score;
       grasp.hold_terms = other.terms;
     } else {
@@ -126,6 +134,9 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
           {other.hold.grip, other.grasp.posture, other.grasp.product_from_hand, other.score});
     }
   }
+  std::stable_sort(
+      grasp.runners_up.begin(), grasp.runners_up.end(),
+      [](const GraspRunnerUp& a, const GraspRunnerUp& b) { return a.score > b.score; });
 }
 
 Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const Hand& hand,

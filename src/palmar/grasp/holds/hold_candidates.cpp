@@ -3,6 +3,7 @@
 #include "palmar/grasp/holds/hold_candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,8 @@
 namespace palmar {
 namespace {
 
-constexpr int kPalmSides = 8;
+// Eighths of a turn; what mirrored products have mirrored stands together.
+constexpr std::array<int, 8> kPalmSides = {0, 4, 1, -1, 3, -3, 2, -2};
 constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off what was asked by
 constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
 constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
@@ -103,6 +105,7 @@ bool is_part_asked(const ProductPart& part, const HoldOptions& options) {
 std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOptions& options) {
   std::vector<HoldCandidate> found;
   const double length = scene.hand->dimensions.hand_length;
+  std::size_t place_number = 0;
   const auto add = [&](Hold hold, const ProductPart& part) {
     HoldCandidate candidate;
     candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
@@ -112,7 +115,10 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     candidate.terms = shape_terms(scene, hold, candidate.at);
     candidate.score = sum_of(candidate.terms);
     candidate.hold = std::move(hold);
-    candidate.index = found.size();
+    // Mirror images of each other have the same number.
+    candidate.index =
+        16 * place_number +
+        static_cast<std::size_t>(std::abs(std::lround(4.0 * hold.turn / std::numbers::pi)));
     found.push_back(std::move(candidate));
   };
   for (const ProductPart& part : scene.parts->parts) {
@@ -127,9 +133,9 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
       for (const Place& place : places) {
         hold.along = place.along;
         hold.edge = place.edge;
-        for (int side = 0; side < kPalmSides; ++side) {
-          hold.turn =
-              std::remainder(2.0 * std::numbers::pi * side / kPalmSides, 2.0 * std::numbers::pi);
+        ++place_number;
+        for (const int side : kPalmSides) {
+          hold.turn = 0.25 * std::numbers::pi * side;
           if (part.kind == PartKind::kLoop) hold.turn = std::numbers::pi;
           add(hold, part);
           if (part.kind != PartKind::kLoop) continue;
@@ -152,9 +158,9 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     for (const std::size_t end : {std::size_t{1}, std::size_t{0}}) {
       if (part.ends[end].joined) continue;
       hold.along = static_cast<double>(end);
-      for (int side = 0; side < kPalmSides; ++side) {
-        hold.turn =
-            std::remainder(2.0 * std::numbers::pi * side / kPalmSides, 2.0 * std::numbers::pi);
+      ++place_number;
+      for (const int side : kPalmSides) {
+        hold.turn = 0.25 * std::numbers::pi * side;
         add(hold, part);
       }
     }

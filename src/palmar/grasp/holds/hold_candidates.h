@@ -15,7 +15,7 @@ struct HoldCandidate {
   HoldSite at;
   std::vector<HoldTerm> terms;
   double score = 0.0;
-  std::size_t index = 0;  ///< among all, before they are sorted
+  std::size_t index = 0;  ///< of its place and turn, in the order in which they are tried
 };
 
 /// Power holds of every part, a few hundred: at its middle, its ends, its centre of gravity and its

@@ -18,8 +18,8 @@
 namespace palmar {
 namespace {
 
-constexpr std::size_t kClosed = 14;                 // holds that the hand is closed on
-constexpr std::size_t kClosedAlike = 3;             // of these with the same part and direction
+constexpr std::size_t kClosed = 16;                 // holds that the hand is closed on
+constexpr std::size_t kClosedAlike = 4;             // of these with the same part and direction
 constexpr std::size_t kPrecisionOrder = 1'000'000;  // after all power holds where both are as good
 constexpr double kNearTie = 0.2;  // of the score: such a difference doesn't change the order
 // How well a closed hand holds, in the units of the scores (choices).
@@ -202,7 +202,8 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
       std::min_element(closed.begin(), closed.end(), [&](const auto& a, const auto& b) {
         const double least = closed.front().ranked.score - kNearTie;
         const bool is_a = a.ranked.score >= least, is_b = b.ranked.score >= least;
-        return is_a != is_b ? is_a : is_a && a.order < b.order;
+        if (is_a != is_b || !is_a) return is_a && !is_b;
+        return a.order != b.order ? a.order < b.order : a.ranked.score > b.ranked.score;
       });
   if (best != closed.end()) std::rotate(closed.begin(), best, best + 1);
   for (ClosedHold& hold : closed) {
