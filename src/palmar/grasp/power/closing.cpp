@@ -16,6 +16,7 @@
 namespace palmar {
 namespace {
 
+constexpr double kFitSpacing = 3.0;     // mm between skin vertices that the thumb's fit looks at
 constexpr double kWidestGap = 12.0;     // mm between neighbours that one round closes
 constexpr double kUsualGap = 0.5;       // mm; fingers round a handle lie side by side
 constexpr double kLeastSpread = 0.015;  // rad; less isn't worth closing again for
@@ -46,8 +47,7 @@ constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Fin
 
 HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
   if (spacing > 0.0) care_ = {0.1, 3.0};
-  const SkinSample sample = sample_skin(hand, spacing);
-  const auto group_of = [&](auto&& belongs) {
+  const auto group_of = [&](const SkinSample& sample, auto&& belongs) {
     std::vector<int> vertices;
     std::vector<double> area;
     for (std::size_t k = 0; k < sample.vertex.size(); ++k) {
@@ -63,20 +63,27 @@ HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(
     }
     return group;
   };
-  all_ = group_of([](Segment, Region) { return true; });
-  palm_ = group_of([](Segment, Region region) { return is_palmar(region); });
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    for (int level = 0; level < 3; ++level) {
-      groups_[f][level] = group_of([&](Segment segment, Region region) {
-        const int own = level_of(finger, segment);
-        // The third group of the thumb is what its CMC joint moves.
-        const bool is_cmc = finger == Finger::kThumb && level == 2;
-        return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
-      });
+  const auto digits_of = [&](const SkinSample& sample) {
+    DigitGroups groups;
+    for (int f = 0; f < kFingerCount; ++f) {
+      const auto finger = static_cast<Finger>(f);
+      for (int level = 0; level < 3; ++level) {
+        groups[f][level] = group_of(sample, [&](Segment segment, Region region) {
+          const int own = level_of(finger, segment);
+          // The third group of the thumb is what its CMC joint moves.
+          const bool is_cmc = finger == Finger::kThumb && level == 2;
+          return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
+        });
+      }
     }
-  }
-  thumb_.emplace(hand, cones_, groups_[index_of(Finger::kThumb)], care_);
+    return groups;
+  };
+  const SkinSample sample = sample_skin(hand, spacing);
+  all_ = group_of(sample, [](Segment, Region) { return true; });
+  palm_ = group_of(sample, [](Segment, Region region) { return is_palmar(region); });
+  groups_ = digits_of(sample);
+  sparse_ = spacing < kFitSpacing ? digits_of(sample_skin(hand, kFitSpacing)) : groups_;
+  thumb_.emplace(hand, cones_, groups_, sparse_, care_);
   const Skeleton& skeleton = hand.skeleton;
   Posture& posture = open_posture_;
   posture = reference_posture(skeleton);

@@ -111,8 +111,7 @@ class HandCloser {
   const Hand* hand_;
   AdvanceCare care_;
   Posture open_posture_;
-  /// Per finger and joint level: what the joint moves; the thumb's third is the CMC's.
-  std::array<std::array<SkinGroup, 3>, kFingerCount> groups_;
+  DigitGroups groups_, sparse_;
   SkinGroup palm_;  ///< palmar skin of the whole hand
   SkinGroup all_;
   std::vector<Vec3> open_palm_;  ///< palm_ in the open posture, hand frame, mm

@@ -140,9 +140,9 @@ struct Trial {
     const ThumbCloser& thumb = closer.thumb();
     hold.thumb = thumb.find_pose(at, limits, hold.posture, axis);
     std::array<SegmentStop, kSegmentCount> stops;
-    hold.posture = thumb.wrap(at, limits, hold.posture, hold.thumb, stops);
+    hold.posture = thumb.closed(at, limits, hold.posture, hold.thumb, stops);
     judge(hold);
-    hold.score += kThumbShare * thumb.score(at, hold.posture, axis);
+    hold.score += kThumbShare * thumb.worth(at, limits, hold.posture, axis);
   }
   ClosedPose run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
                  const Posture& start, int rounds) const {

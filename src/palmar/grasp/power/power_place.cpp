@@ -174,13 +174,11 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
       if (round == 0) {
         const ThumbCloser& thumb = coarse.thumb();
         const Vec3& axis = placement.axis_in_hand;
-        const ThumbPose first =
-            may_give_way ? hold.thumb : thumb.find_pose(held, limits, grasp.posture, axis);
-        thumb_pose =
-            fine.thumb().best_of({first, thumb.improved(first, held, limits, grasp.posture, axis)},
-                                 held, limits, grasp.posture, axis);
+        thumb_pose = may_give_way
+                         ? fine.thumb().settled(hold.thumb, held, limits, grasp.posture, axis)
+                         : thumb.find_pose(held, limits, grasp.posture, axis);
       }
-      grasp.posture = fine.thumb().wrap(held, limits, grasp.posture, thumb_pose, grasp.stops);
+      grasp.posture = fine.thumb().closed(held, limits, grasp.posture, thumb_pose, grasp.stops);
     }
     double excess = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture) - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;

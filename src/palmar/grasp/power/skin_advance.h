@@ -41,6 +41,9 @@ struct SkinGroup {
   std::vector<double> area;  ///< skin that the vertex stands for, mm^2
 };
 
+/// Per digit and joint level the skin that the joint moves; the thumb's third is the CMC's.
+using DigitGroups = std::array<std::array<SkinGroup, 3>, kFingerCount>;
+
 /// Where the skin of a group stands in the hand, and what the product's distance says there.
 struct SkinLook {
   std::vector<Vec3> in_hand, in_product;  ///< mm

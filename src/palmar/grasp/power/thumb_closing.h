@@ -5,52 +5,74 @@
 #include <array>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "palmar/core/enum_index.h"
 #include "palmar/grasp/power/skin_advance.h"
 
 namespace palmar {
 
-/// CMC angles that a thumb is asked to go to before its MP and IP joints bend, rad.
-struct ThumbPose {
-  double cmc_flexion = 0.0;
-  double cmc_abduction = 0.0;
-};
+/// The angles of the thumb's four joint motions on a product: CMC flexion and abduction, MP and IP
+/// flexion, rad.
+using ThumbPose = std::array<double, 4>;
 
 /// Opposes the thumb of one hand to the fingers that are closed already.
+///
+/// Where the thumb goes is a least-squares fit of its four angles, from the best of a dozen ways to
+/// reach the product: its pad and proximal phalanx lie on the surface, opposite the index and
+/// middle finger, on the far side from the palm, on no end face, clear of the fingers, with joints
+/// as near their ease as that allows. Nothing in it has steps: a product or a hand that differs a
+/// little gets a thumb that differs a little.
 class ThumbCloser {
  public:
-  /// `groups`: skin moved by the MP, the IP and the CMC joint. All must live longer.
-  ThumbCloser(const Hand& hand, const FingerCones& cones, const std::array<SkinGroup, 3>& groups,
-              const AdvanceCare& care)
-      : hand_(&hand), cones_(&cones), groups_(&groups), care_(care) {}
+  /// `groups`: the skin; `sparse`: some of it for the fit. All must live longer.
+  ThumbCloser(const Hand& hand, const FingerCones& cones, const DigitGroups& groups,
+              const DigitGroups& sparse, const AdvanceCare& care);
 
-  /// How well the thumb holds, mm^2: its skin in the product on the far side from the palm, placed
-  /// across the handle, not hooked over an edge.
-  double score(const HeldProduct& product, const Posture& posture,
+  /// How well the thumb holds, as an area of contact that it is worth, mm^2.
+  double worth(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
                const Vec3& grip_axis_in_hand) const;
 
-  /// The way for the metacarpal, of a dozen, after which the thumb holds best.
+  /// Where the thumb holds best, fingers as in `start`.
   ThumbPose find_pose(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
                       const Vec3& grip_axis_in_hand) const;
-  /// A way near another one that is at least as good.
-  ThumbPose improved(const ThumbPose& goal, const HeldProduct& product, const DepthLimits& limits,
-                     const Posture& start, const Vec3& grip_axis_in_hand) const;
 
-  /// The best of some ways by this hand's own skin.
-  ThumbPose best_of(const std::vector<ThumbPose>& goals, const HeldProduct& product,
-                    const DepthLimits& limits, const Posture& start,
-                    const Vec3& grip_axis_in_hand) const;
+  /// The fit that is reached from a pose (of another hand or a coarser skin, say).
+  ThumbPose settled(const ThumbPose& from, const HeldProduct& product, const DepthLimits& limits,
+                    const Posture& start, const Vec3& grip_axis_in_hand) const;
 
-  /// Brings the metacarpal as far as it can go, then bends MP and IP.
-  Posture wrap(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-               const ThumbPose& goal, std::array<SegmentStop, kSegmentCount>& stops) const;
+  /// The thumb of `start` in that pose, and what holds it there.
+  Posture closed(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
+                 const ThumbPose& pose, std::array<SegmentStop, kSegmentCount>& stops) const;
 
  private:
+  /// The fingers that the thumb is opposed to.
+  struct Opposed {
+    std::vector<Obstacle> cones;
+    Vec3 middle;  ///< between the distal joints of the index and middle finger, hand frame, mm
+    Vec3 axis;    ///< grip axis, unit, hand frame
+    Vec3 facing;  ///< where the product's surface under the thumb ought to face, unit, hand frame
+    Quat hand_from_product;
+  };
+  Opposed opposed(const HeldProduct& product, const Posture& posture,
+                  const Vec3& grip_axis_in_hand) const;
   std::vector<Obstacle> obstacles(const Posture& posture) const;
+  Eigen::VectorXd residuals(const HeldProduct& product, const DepthLimits& limits,
+                            const Posture& posture, const Opposed& fingers) const;
+  Posture with(const Posture& posture, const ThumbPose& pose) const;
+  /// The metacarpal as far as it can go towards a flexion and an abduction [rad], then MP and IP
+  /// bent until skin reaches its limit.
+  ThumbPose reached(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
+                    double flexion, double abduction) const;
 
   const Hand* hand_;
   const FingerCones* cones_;
   const std::array<SkinGroup, 3>* groups_;
+  const DigitGroups* sparse_;
   AdvanceCare care_;
+  std::vector<double> volar_share_;  // of the CMC joint's sparse skin, see VolarSkin
+  std::vector<std::size_t> pad_;     // those of the distal phalanx that have a share
+  Vec3 volar_ = Vec3::UnitZ();       // of the distal phalanx, reference posture
 };
 
 }  // namespace palmar
