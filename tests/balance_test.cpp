@@ -17,6 +17,7 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/hand/tendons/grip_muscles.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
@@ -136,7 +137,9 @@ TEST_F(BalanceTest, JointsCarryTheMomentsOfTheMuscles) {
       const Vec3 point = hand_from_product * rest.contact.undeformed[v];
       moment += axis.dot((point - centre).cross(force));
     }
-    const double muscles = *rest.balance.strength_use * flexion_strength(dof);
+    const Finger finger = *finger_of(first);
+    const double muscles = *rest.balance.strength_use *
+                           GripMuscles(hand()).flexion_moments(finger, rest.grasp.posture)[0];
     EXPECT_NEAR(-moment, muscles, 0.15 * muscles) << name_of(dof);
     ++looked_at;
   }

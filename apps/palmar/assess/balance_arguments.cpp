@@ -11,9 +11,6 @@
 #include "text.h"
 
 namespace palmar::cli {
-namespace {
-
-/// "male,30" or "female,64". Throws UsageError.
 PersonOfAge parse_person(const std::string& text) {
   const std::size_t comma = text.find(',');
   const std::string sex = text.substr(0, comma);
@@ -26,8 +23,6 @@ PersonOfAge parse_person(const std::string& text) {
   }
   return {sex == "male" ? Sex::kMale : Sex::kFemale, age};
 }
-
-}  // namespace
 
 std::string usual_words() {
   const ShareOfStrength usual = usual_share(kUsualFriction);

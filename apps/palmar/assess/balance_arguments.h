@@ -10,6 +10,9 @@
 
 namespace palmar::cli {
 
+/// "male,30" or "female,64". Throws UsageError.
+PersonOfAge parse_person(const std::string& text);
+
 /// How firmly the hand grips and whether the grasp comes to rest.
 class BalanceArguments {
  public:

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,7 @@
 #include "palmar/effort/effort.h"
 #include "palmar/records/effort_json.h"
 #include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort_capacity.h"
 #include "palmar/workflow/effort/effort_fingertip.h"
 #include "text.h"
 
@@ -184,6 +187,23 @@ void add_fingertip(CLI::App& effort, Context& context) {
   });
 }
 
+std::string capacity_json(const Capacity& capacity) {
+  const auto number = [](double value) { return std::round(1e6 * value) / 1e6; };
+  nlohmann::ordered_json json;
+  json["capacity"] = {{"grip_force_n", number(capacity.grip_force)},
+                      {"torque_n_mm", number(capacity.torque)},
+                      {"push_n", number(capacity.force_along)},
+                      {"limited_by", capacity.limited_by},
+                      {"activation", number(capacity.activation)},
+                      {"strength", number(capacity.strength)},
+                      {"friction", capacity.friction},
+                      {"axis", {capacity.axis.x(), capacity.axis.y(), capacity.axis.z()}},
+                      {"grip", capacity.grip},
+                      {"hold", capacity.hold},
+                      {"message", capacity.message}};
+  return json.dump(2);
+}
+
 std::string effort_text(const EffortResult& effort) {
   std::string text = fmt::format("effort: {}{}{}\n", name_of(effort.status),
                                  effort.message.empty() ? "" : ", ", effort.message);
@@ -260,14 +280,70 @@ void add_grasp(CLI::App& effort, Context& context) {
   });
 }
 
+std::string capacity_text(const Capacity& capacity) {
+  std::string text =
+      fmt::format("held: {}\n", capacity.hold.empty() ? capacity.grip : capacity.hold);
+  text += fmt::format("largest grip force   {:.0f} N: {}\n", capacity.grip_force, capacity.message);
+  if (capacity.grip_force <= 0.0) return text;
+  text += fmt::format("largest torque       {:.2f} N m about the grip axis (friction {:g})\n",
+                      1e-3 * capacity.torque, capacity.friction);
+  text += fmt::format("largest push or pull {:.0f} N along the grip axis\n", capacity.force_along);
+  return text;
+}
+
+void add_capacity(CLI::App& effort, Context& context) {
+  struct Options {
+    std::string product;
+    GraspArguments grasp;
+    ContactArguments contact;
+    std::optional<double> friction, strength_n;
+    std::string person;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* verb = add_verb(effort, "capacity",
+                            "Largest grip force, torque and push that a hand reaches on a product",
+                            "palmar effort capacity handle.stl --unit mm");
+  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  o->grasp.add_to(*verb);
+  o->contact.add_to(*verb);
+  verb->add_option("--friction", o->friction,
+                   "Coefficient of friction of skin on the product; default 0.5");
+  verb->add_option("--strength-n", o->strength_n,
+                   "How strong the person is: largest force on a grip dynamometer, N; default the "
+                   "mean of adults, 427 N");
+  verb->add_option("--person", o->person,
+                   "male,AGE or female,AGE: mean grip strength of that group (Steiber 2016)")
+      ->excludes("--strength-n");
+  verb->callback([&context, o] {
+    context.run = [&context, o] {
+      CapacityRequest request;
+      request.grasp = o->grasp.settings();
+      request.contact = o->contact.options();
+      request.model = o->contact.model();
+      request.friction.friction = o->friction;
+      request.strength = o->strength_n;
+      if (!o->person.empty()) request.person = parse_person(o->person);
+      request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
+      request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
+      request.note = [&context](const std::string& text) { note(context.common, text); };
+      const Capacity capacity = capacity_of_grip(request, make_progress(context.common));
+      finish_progress();
+      print(context.common.json ? capacity_json(capacity) + "\n" : capacity_text(capacity));
+      return 0;
+    };
+  });
+}
+
 }  // namespace
 
 void add_effort_commands(CLI::App& app, Context& context) {
-  CLI::App* effort = app.add_subcommand("effort", "Joint moments and tendon forces");
+  CLI::App* effort =
+      app.add_subcommand("effort", "Joint moments, tendon forces and what a hand can do at most");
   effort->require_subcommand(1);
   effort->fallthrough();
   add_fingertip(*effort, context);
   add_grasp(*effort, context);
+  add_capacity(*effort, context);
 }
 
 }  // namespace palmar::cli

@@ -106,9 +106,12 @@ void add_message(const DigitEffort& digit, std::string& message) {
         " found no balance (residual " + std::to_string(digit.kkt_residual) + ")");
   }
   if (digit.status != EffortStatus::kOverloaded) return;
+  const std::string unjudged =
+      digit.finger == Finger::kThumb ? " (one specimen's tendons, no verdict)" : "";
   for (const JointEffort& joint : digit.joints) {
     if (joint.missing == 0.0) continue;
-    add(plain_name_of(joint.dof) + ": " + rounded(std::abs(joint.missing)) + " N mm missing");
+    add(plain_name_of(joint.dof) + ": " + rounded(std::abs(joint.missing)) + " N mm missing" +
+        unjudged);
   }
 }
 
@@ -159,7 +162,9 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture,
   for (int f = 0; f < kFingerCount; ++f) {
     DigitEffort& digit = result.digits[f];
     digit = effort_of_digit(hand, static_cast<Finger>(f), posture, loads, options);
-    result.status = std::max(result.status, digit.status);
+    // The thumb's tendons are those of one specimen: good for their order, not for a verdict.
+    const bool is_judged = f > 0 || digit.status != EffortStatus::kOverloaded;
+    result.status = std::max(result.status, is_judged ? digit.status : EffortStatus::kHeld);
     result.contact_force += digit.contact_force;
     for (const TendonLoad& load : digit.tendons) result.tendon_force += load.force;
     add_message(digit, result.message);

@@ -9,9 +9,9 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/friction/friction.h"
-#include "palmar/effort/digit_tendons.h"
 #include "palmar/effort/joint_moments.h"
 #include "palmar/grasp/indices/grasp_index.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 
 namespace palmar {
 
@@ -69,7 +69,9 @@ struct DigitEffort {
 
 /// What muscles do while a hand holds a product.
 struct EffortResult {
-  EffortStatus status = EffortStatus::kNoLoad;  ///< the worst of the digits
+  /// The worst of the digits; an overloaded thumb counts as held: its tendons are those of one
+  /// specimen, good for their order only.
+  EffortStatus status = EffortStatus::kNoLoad;
   std::string message;         ///< which moments are missing where: "index DIP flexion: 120 N mm"
   bool with_friction = false;  ///< friction forces are in the loads
   double contact_force = 0.0;  ///< sum of |force| on the five digits, N

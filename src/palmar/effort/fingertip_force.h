@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/effort/digit_tendons.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 
 namespace palmar {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/effort/effort_test_hand.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/friction/friction.h"
-#include "palmar/effort/digit_pose.h"
+#include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/effort/effort_test_hand.h"
+#include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {
 namespace {

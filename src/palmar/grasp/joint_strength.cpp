@@ -6,38 +6,6 @@
 
 namespace palmar {
 
-double flexion_strength(Dof dof) {
-  constexpr double kMcp = 1.34, kDip = 0.31;  // of the PIP moment
-  switch (dof) {
-    case Dof::kIndexMcpFlexion:
-      return kMcp * 1293.0;
-    case Dof::kIndexPipFlexion:
-      return 1293.0;
-    case Dof::kIndexDipFlexion:
-      return kDip * 1293.0;
-    case Dof::kMiddleMcpFlexion:
-      return kMcp * 1457.0;
-    case Dof::kMiddlePipFlexion:
-      return 1457.0;
-    case Dof::kMiddleDipFlexion:
-      return kDip * 1457.0;
-    case Dof::kRingMcpFlexion:
-      return kMcp * 908.0;
-    case Dof::kRingPipFlexion:
-      return 908.0;
-    case Dof::kRingDipFlexion:
-      return kDip * 908.0;
-    case Dof::kLittleMcpFlexion:
-      return kMcp * 475.0;
-    case Dof::kLittlePipFlexion:
-      return 475.0;
-    case Dof::kLittleDipFlexion:
-      return kDip * 475.0;
-    default:
-      return 0.0;
-  }
-}
-
 namespace {
 
 struct GripRow {

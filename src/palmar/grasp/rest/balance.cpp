@@ -14,13 +14,13 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/finger_cones.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/hand/skeleton.h"
+#include "palmar/hand/tendons/grip_muscles.h"
 
 namespace palmar {
 namespace {
@@ -47,7 +47,8 @@ constexpr double kLostShare = 0.05;    // of the grip force at the start; less i
 constexpr double kDipPerPip = 2.0 / 3.0;
 constexpr double kCouplingFree = 10.0 * kDegree;  // rad
 constexpr double kCouplingStiffness = 1500.0;     // N mm/rad; our choice
-constexpr double kMostMuscles = 1.5;  // of flexion_strength(); its figures are the lowest measured
+// mm; pulp of thumb and finger pressed together, 2 mm each; our choice
+constexpr double kPulpGive = 4.0;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
 /// The main direction of a way in the hand, in words.
@@ -78,7 +79,8 @@ class Settling {
         cones_(hand.hand()),
         start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
         closing_(hand.hand(), grasp),
-        mechanics_(hand, product, contact, options.friction, start_) {
+        mechanics_(hand, product, contact, options.friction, start_),
+        grip_muscles_(hand.hand()) {
     is_held_[index_of(Finger::kThumb)] = is_by_muscles_;
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
@@ -86,7 +88,7 @@ class Settling {
         wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
     // Hooked fingers carry what pulls at them; they don't squeeze.
     const bool is_hook = grasp.grip == Grip::kFixedHook;
-    has_level_ = !is_hook && (has_level_ || extra_grip() > 0.0);
+    has_level_ = !is_hook && !options.activation && (has_level_ || extra_grip() > 0.0);
   }
 
   Balance run(const Progress& progress);
@@ -110,6 +112,7 @@ class Settling {
   bool is_stuck(std::size_t joint, double residual) const;
   void add_coupling(GripVector& residual, GripMatrix& stiffness) const;
   void add_load(GripVector& residual) const;
+  void find_full_moments();
   double first_level() const;
   double extra_grip() const;
   Misfit misfit(double grip) const;
@@ -135,9 +138,11 @@ class Settling {
   GripMechanics mechanics_;
   Wrench load_;  // product frame
   bool has_load_ = false;
-  double target_ = 0.0;      // grip force, N
-  double muscles_ = 0.0;     // moments over flexion_strength()
-  double relaxation_ = 1.0;  // share of a step that is taken
+  double target_ = 0.0;  // grip force, N
+  GripMuscles grip_muscles_;
+  std::array<double, kSqueezeJoints> full_{};  // moments of muscles at full activation, N mm
+  double muscles_ = 0.0;                       // activation of the muscles, 0 to 1
+  double relaxation_ = 1.0;                    // share of a step that is taken
   GripVector last_way_ = GripVector::Zero();
   Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
 };
@@ -167,12 +172,22 @@ void Settling::add_load(GripVector& residual) const {
       load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
 }
 
+void Settling::find_full_moments() {
+  for (int f = 1; f < kFingerCount; ++f) {
+    const std::array<double, 3> moments =
+        grip_muscles_.flexion_moments(static_cast<Finger>(f), state_.posture);
+    for (std::size_t level = 0; level < 3; ++level) {
+      full_[3 * static_cast<std::size_t>(f) + level] = moments[level];
+    }
+  }
+}
+
 /// The common level of muscle moments that suits the moments of the contact best.
 double Settling::first_level() const {
   double along = 0.0, size = 0.0;
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
     if (!is_loaded(j)) continue;
-    const double muscles = flexion_strength(kSqueezeDofs[j]);
+    const double muscles = full_[j];
     along -= muscles * mechanics_.force()[static_cast<Eigen::Index>(j)];
     size += muscles * muscles;
   }
@@ -202,7 +217,7 @@ Settling::Misfit Settling::misfit(double grip) const {
   if (is_by_muscles_) {
     double strongest = 1e-9;
     for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-      const double moment = muscles_ * flexion_strength(kSqueezeDofs[j]);
+      const double moment = muscles_ * full_[j];
       result.residual[static_cast<Eigen::Index>(j)] += moment;
       if (is_loaded(j)) strongest = std::max(strongest, moment);
     }
@@ -221,7 +236,7 @@ Settling::Misfit Settling::misfit(double grip) const {
 }
 
 /// `next` without the flexion of fingers that would go into the thumb: their cones overlap at most
-/// as at the start or by kNeighbourGive. Such a finger stays where it is from then on: the thumb
+/// kPulpGive more than at the start. Such a finger stays where it is from then on: the thumb
 /// carries it.
 Posture Settling::without_crossing(const Posture& next) {
   Posture result = next;
@@ -230,7 +245,7 @@ Posture Settling::without_crossing(const Posture& next) {
     if (cones[a].finger != Finger::kThumb || cones[a].level == 0) continue;
     for (std::size_t b = 0; b < cones.size(); ++b) {
       if (cones[b].finger == Finger::kThumb || cones[b].level == 0) continue;
-      const double allowed = std::max(kNeighbourGive, overlap(start_cones_[a], start_cones_[b]));
+      const double allowed = std::max(0.0, overlap(start_cones_[a], start_cones_[b])) + kPulpGive;
       if (overlap(cones[a], cones[b]) > allowed + 1e-6) {
         is_held_[index_of(cones[b].finger)] = true;
       }
@@ -271,7 +286,7 @@ void Settling::step(const Misfit& misfit, double missing) {
     if (!is_loaded(j)) continue;
     const auto row = static_cast<Eigen::Index>(j);
     if (is_by_muscles_) {
-      per_level[row] = flexion_strength(kSqueezeDofs[j]);
+      per_level[row] = full_[j];
     } else {
       closing[row] = 1.0;
     }
@@ -302,7 +317,7 @@ void Settling::step(const Misfit& misfit, double missing) {
   const double share = share_of(way, longest);
   way *= share;
   level *= share;
-  if (is_by_muscles_) muscles_ = std::min(muscles_ + level, kMostMuscles);
+  if (is_by_muscles_) muscles_ = std::min(muscles_ + level, options_->strength);
 
   Posture turned = state_.posture;
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
@@ -397,7 +412,7 @@ void Settling::finish(Balance& balance) const {
   balance.friction = options_->friction;
   balance.friction_use = mechanics_.friction_use();
   balance.friction_force = mechanics_.friction_force();
-  if (is_by_muscles_) balance.strength_use = muscles_;
+  if (is_by_muscles_) balance.strength_use = muscles_ / options_->strength;
   judge_way(balance);
 }
 
@@ -422,6 +437,7 @@ Balance Settling::run(const Progress& progress) {
       balance.message = "the contact could not be solved while the grasp came to rest";
       break;
     }
+    find_full_moments();
     const double grip = mechanics_.grip().force;
     if (i == 0) {
       start_grip = grip;
@@ -446,7 +462,10 @@ Balance Settling::run(const Progress& progress) {
     // People take hold before they lift.
     load_share_ =
         has_load_ && has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
-    if (i == 0) muscles_ = first_level() * target_ / grip;
+    if (i == 0) {
+      muscles_ = options_->activation.value_or(
+          std::min(first_level() * target_ / grip, options_->strength));
+    }
     now = misfit(grip);
     balance.residual_force = now.force;
     balance.residual_moment = now.moment;

@@ -25,6 +25,11 @@ struct BalanceOptions {
   // How firmly; at most one of the two. None: as firm as it was closed.
   std::optional<double> grip_force;  ///< N, as grip_force()
   std::optional<ShareOfStrength> share_of_strength;
+  /// Instead of a grip force: the activation that the muscles of a power grip are held at, 0 to
+  /// `strength`. 1 with `strength` 1: as hard as the hand can.
+  std::optional<double> activation;
+  /// Largest activation: the person's muscles over those of GripMuscles.
+  double strength = 1.0;
   /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
   /// as balanced.
   double aim = 0.002;
@@ -58,7 +63,8 @@ struct Balance {
   double residual_moment = 0.0;  ///< N mm, about the centre of contact
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
-  /// Flexion moments over flexion_strength(); nothing for a grip held by stiff joints.
+  /// Activation of the fingers' long flexors over `strength` (GripMuscles); nothing for a
+  /// grip held by stiff joints.
   std::optional<double> strength_use;
   double moved = 0.0;                ///< of the product in the hand since it was closed, mm
   double turned = 0.0;               ///< rad
@@ -70,7 +76,7 @@ struct Balance {
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
 /// friction and load add up to nothing on the product; in a power grip also at every flexion joint
-/// of a finger in contact, with muscle moments in the proportions of flexion_strength(); palm and
+/// of a finger in contact, with the moments that GripMuscles give at one activation; palm and
 /// thumb hold against them. `grasp` gets the new posture and placement. Precision grips: joints are
 /// held stiff and fingertips press straight into the product, all alike, to reach a grip force
 /// (fingertip_closing.h). One that doesn't come to rest where fingertips were first put is tried at

@@ -26,6 +26,14 @@ std::string BalanceOptions::asked_words(Grip grip) const {
 }
 
 void BalanceOptions::check() const {
+  if (!(strength >= 0.01 && strength <= 10.0)) {
+    throw UsageError(fmt::format("balance: strength is {}; 0.01 to 10 is allowed", strength));
+  }
+  if (activation && !(*activation > 0.0 && *activation <= strength)) {
+    throw UsageError(
+        fmt::format("balance: activation is {}; above 0, up to strength ({}), is allowed",
+                    *activation, strength));
+  }
   if (grip_force && share_of_strength) {
     throw UsageError("balance: grip force and share of strength are both given; one is allowed");
   }

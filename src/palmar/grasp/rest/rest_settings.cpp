@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "palmar/core/error.h"
@@ -79,6 +80,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
     share.share = *strength_share;
     share.strength = strength ? *strength : *palmar::grip_strength(person->sex, person->age);
     if (person) share.whose = person_words(*person);
+    result.strength = std::clamp(share.strength / usual_grip_strength(), 0.01, 10.0);
   } else if (is_usual()) {
     result.share_of_strength = usual_share(result.friction, heaviest);
   }

@@ -60,14 +60,15 @@ GraspIndices grip_indices(const Balance& balance) {
   friction.source = "Mindlin 1949; docs/method/balance.md";
   rows.push_back(friction);
 
-  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the joints' flexion strength",
-                                 "", slips ? std::nullopt : balance.strength_use);
+  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the fingers' strength", "",
+                                 slips ? std::nullopt : balance.strength_use);
   strength.better = Better::kDown;
+  strength.highest = 1.0;
   strength.definition =
-      "common level of the flexion moments that hold the grip, over those that the muscles of a "
-      "power grip reach; above "
-      "1 the grip can't be held";
-  strength.source = "Li, Zatsiorsky & Latash 2000 (fingers); docs/method/balance.md (thumb)";
+      "activation of the muscles that close the fingers (the long flexors, all alike) over the "
+      "most that the person's can give; 1: as hard as the hand can";
+  strength.source =
+      "Long et al. 1970; tendons: An et al. 1979, Synek et al. 2019; docs/method/balance.md";
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
   rows.push_back(strength);
   if (!is_known) {

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "palmar/effort/digit_tendons.h"
 #include "palmar/effort/fingertip_force.h"
 #include "palmar/hand/posture/posture.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 #include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {

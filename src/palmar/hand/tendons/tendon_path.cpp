@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/tendon_path.h"
+#include "palmar/hand/tendons/tendon_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include <random>
 
 #include "palmar/core/enum_index.h"
-#include "palmar/effort/digit_pose.h"
-#include "palmar/effort/digit_tendons.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/hand.h"
 #include "palmar/hand/template_hand.h"
+#include "palmar/hand/tendons/digit_pose.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 
 namespace palmar::effort_test {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/tendon.h"
+#include "palmar/hand/tendons/tendon.h"
 
 #include <array>
 

@@ -48,6 +48,9 @@ struct PosedDigit {
 /// sides.
 PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& posture);
 
+/// Whether the angle flexes a joint (and doesn't abduct or turn it).
+bool is_flexion(Dof dof);
+
 /// The digit's body on which a segment's skin lies; the palm: 0.
 int body_of(Segment segment);
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "palmar/effort/tendon.h"
-#include "palmar/effort/tendon_path.h"
 #include "palmar/hand/hand.h"
+#include "palmar/hand/tendons/tendon.h"
+#include "palmar/hand/tendons/tendon_path.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/digit_pose.h"
+#include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar {
 namespace {
@@ -76,5 +76,7 @@ int body_of(Segment segment) {
   }
   return 0;
 }
+
+bool is_flexion(Dof dof) { return name_of(dof).ends_with("flexion"); }
 
 }  // namespace palmar

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/thumb_tendons.h"
+#include "palmar/hand/tendons/thumb_tendons.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/digit_tendons.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "palmar/core/error.h"
-#include "palmar/effort/effort_test_hand.h"
+#include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {
 namespace {

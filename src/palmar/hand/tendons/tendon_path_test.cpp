@@ -1,14 +1,14 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/tendon_path.h"
+#include "palmar/hand/tendons/tendon_path.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "palmar/core/enum_index.h"
-#include "palmar/effort/effort_test_hand.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/digit_tendons.h"
+#include "palmar/hand/tendons/digit_tendons.h"
 
 #include <cmath>
 #include <numeric>
@@ -8,7 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
-#include "palmar/effort/thumb_tendons.h"
+#include "palmar/hand/tendons/thumb_tendons.h"
 
 namespace palmar {
 namespace {
@@ -71,8 +71,6 @@ struct JointFrames {
   Vec3 flexion_axis;
   double offset = 0.0;  ///< of the distal frame, multiples of O2O3
 };
-
-bool is_flexion(Dof dof) { return name_of(dof).ends_with("flexion"); }
 
 /// `next`: centre of the next joint, or the fingertip.
 JointFrames frames_at(const Hand& hand, JointId id, const Vec3& next, int proximal_body,

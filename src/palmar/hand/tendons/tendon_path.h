@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "palmar/effort/digit_pose.h"
+#include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar {
 

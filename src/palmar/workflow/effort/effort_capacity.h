@@ -1,0 +1,52 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/workflow/effort.h"
+
+namespace palmar {
+
+/// What one hand can do with a product at most.
+struct CapacityRequest {
+  ProductChoice product;
+  HandChoice hand;
+  GraspSettings grasp;
+  ContactModel model;      ///< the equations of the skin
+  ContactOptions contact;  ///< without the error band
+  FrictionSettings friction;
+  // How strong the person is; at most one of the two. None: usual_grip_strength().
+  std::optional<double> strength;                    ///< N, on a dynamometer
+  std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
+  NoteSink note = {};                                ///< what was found in the product
+  void check() const;  ///< throws UsageError: field, value, what is allowed
+};
+
+struct Capacity {
+  double grip_force = 0.0;  ///< largest, as grip_force(), N
+  /// Of the fingers' muscles at that force, over what they can give at most; 0 if nothing is held.
+  double activation = 0.0;
+  double strength = 1.0;  ///< of the person's muscles over those of GripMuscles
+  // Largest load that friction holds at that grip force, the smaller of both senses.
+  double torque = 0.0;        ///< about the grip axis, N mm
+  double force_along = 0.0;   ///< push or pull along the grip axis, N
+  double friction = 0.0;      ///< coefficient
+  Vec3 axis = Vec3::UnitZ();  ///< grip axis towards the thumb's side, unit, product frame
+  std::string limited_by;     ///< "muscles", "slips" or "reach"
+  std::string message;        ///< one sentence for people
+  std::string hold;           ///< how it is held, in words
+  std::string grip;           ///< name_of(Grip)
+};
+
+/// The largest grip force that a hand reaches on a product: all muscles that close the fingers at
+/// full strength (GripMuscles), or as hard as the product stays in the hand; then the largest
+/// torque about the grip's axis and push along it that friction holds at that force
+/// (solve_friction(), limit load). Power grips only. Throws UsageError (also for a product that
+/// isn't held in a power grip), InputError, Cancelled.
+Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progress = {});
+
+}  // namespace palmar
