@@ -19,7 +19,6 @@ CapacityRequest request_for(const Product& product) {
   CapacityRequest request;
   request.product = product;
   request.hand.value = coarse_hand();
-  request.grasp.grip = "power";
   return request;
 }
 
@@ -59,7 +58,7 @@ TEST(CapacityOfGrip, SaysWhatItCannotTake) {
     EXPECT_THAT(error.what(), HasSubstr("setting \"strength\" is 5 N; 10 to 2000 N is allowed"));
   }
   request = request_for(handle(44.0));
-  request.grasp.grip = "fixed_hook";
+  request.grasp.grip = Grip::kFixedHook;
   try {
     capacity_of_grip(request);
     FAIL() << "hooked fingers have no capacity of a grip";
