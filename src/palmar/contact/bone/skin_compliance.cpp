@@ -310,7 +310,7 @@ HatPoints hat_points(const SkinGeometry& skin, const std::vector<Triangle>& tria
 
 SkinCompliance skin_compliance(const SkinGeometry& skin, const std::vector<Triangle>& triangles,
                                const ElasticBody& body, const std::vector<int>& vertex,
-                               const std::vector<double>& sigma, double reach) {
+                               const std::vector<double>& sigma) {
   SkinCompliance result;
   result.vertex = vertex;
   std::vector<int> row_of(static_cast<std::size_t>(skin.vertex_count()), -1);
@@ -331,8 +331,13 @@ SkinCompliance skin_compliance(const SkinGeometry& skin, const std::vector<Trian
   const std::vector<int> patch = compact_patches(points, kPatchSize, count);
   std::vector<int> patch_of_load;
   for (const int p : patch) patch_of_load.insert(patch_of_load.end(), 3, p);
-  result.smooth =
-      PatchMatrix(std::move(patch_of_load), count, near_patches(points, patch, count, reach));
+  // All pairs: where R were left out, H alone would act as if no bones were there.
+  std::vector<std::vector<int>> near(static_cast<std::size_t>(count));
+  for (int I = 0; I < count; ++I) {
+    near[I].resize(static_cast<std::size_t>(I) + 1);
+    std::iota(near[I].begin(), near[I].end(), 0);
+  }
+  result.smooth = PatchMatrix(std::move(patch_of_load), count, std::move(near));
   surface_compliance(*body.mesh, *body.is_held, loads, {.poisson = 0.5}, result.smooth);
   subtract_half_space(skin, node_sigma, result);
   return result;
@@ -366,19 +371,6 @@ std::vector<int> compact_patches(const std::vector<Vec3>& points, int size, int&
   return patch;
 }
 
-std::vector<std::vector<int>> near_patches(const std::vector<Vec3>& points,
-                                           const std::vector<int>& patch, int count, double reach) {
-  std::vector<Box3> box(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < points.size(); ++i) box[patch[i]].extend(points[i]);
-  std::vector<std::vector<int>> near(static_cast<std::size_t>(count));
-  for (int I = 0; I < count; ++I) {
-    for (int J = 0; J <= I; ++J) {
-      if (box[I].exteriorDistance(box[J]) < reach) near[I].push_back(J);
-    }
-  }
-  return near;
-}
-
 SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
                                const SkinComplianceOptions& options) {
   const TissueMesh tissue = make_tissue_mesh(hand, options.mesh);
@@ -400,8 +392,7 @@ SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
   const HatPoints points = hat_points(skin, hand.skin.triangles,
                                       divisions_for(mean_edge(skin), options.mesh.finger_edge));
   const ElasticBody body{&tissue.mesh, &tissue.is_on_bone, &points, tissue.attach(points.point)};
-  SkinCompliance result =
-      skin_compliance(skin, hand.skin.triangles, body, vertex, sigma, options.reach);
+  SkinCompliance result = skin_compliance(skin, hand.skin.triangles, body, vertex, sigma);
   result.volume = tissue.volume_by_region();
   return result;
 }

@@ -38,8 +38,6 @@ struct SkinCompliance {
 
 struct SkinComplianceOptions {
   TissueMeshOptions mesh;
-  /// Pairs of patches of nodes farther apart than this have no response, mm.
-  double reach = 40.0;
 };
 
 /// The skin of fingers and palm, up to kBackOfHand beyond the border of the palm's regions. The
@@ -74,16 +72,12 @@ struct ElasticBody {
 /// The same for any skin on any body; `sigma` [mm] per entry of `vertex`. Without volumes.
 SkinCompliance skin_compliance(const SkinGeometry& skin, const std::vector<Triangle>& triangles,
                                const ElasticBody& body, const std::vector<int>& vertex,
-                               const std::vector<double>& sigma, double reach);
+                               const std::vector<double>& sigma);
 
 /// Width sigma for elements of this mean edge [mm] under a vertex, mm.
 double smoothing_width(const SkinGeometry& skin, int vertex, double edge);
 
 /// Patches of up to `size` points, by halving along the longest axis; `count` patches.
 std::vector<int> compact_patches(const std::vector<Vec3>& points, int size, int& count);
-
-/// For each patch the ones before it, and itself, that come nearer to it than `reach` mm.
-std::vector<std::vector<int>> near_patches(const std::vector<Vec3>& points,
-                                           const std::vector<int>& patch, int count, double reach);
 
 }  // namespace palmar

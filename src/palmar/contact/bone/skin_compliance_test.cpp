@@ -109,7 +109,7 @@ TEST(LoadedSkin, DisplacementOfOtherVerticesIsTheirRowOfTheMatrix) {
   }
 }
 
-TEST(CompactPatches, HoldEveryPointAndNeighboursAreFound) {
+TEST(CompactPatches, HoldEveryPointOnce) {
   std::vector<Vec3> points;
   for (int i = 0; i < 40; ++i) points.emplace_back(i, 0.0, 0.0);
   int count = 0;
@@ -118,12 +118,21 @@ TEST(CompactPatches, HoldEveryPointAndNeighboursAreFound) {
   std::vector<int> size(4, 0);
   for (const int p : patch) ++size[p];
   EXPECT_EQ(size, std::vector<int>(4, 10));
-  const auto near = near_patches(points, patch, count, 5.0);
-  for (int I = 0; I < count; ++I) EXPECT_EQ(near[I].back(), I);
-  PatchMatrix A(patch, count, near);
+}
+
+TEST(PatchMatrix, PairsWithoutABlockAreZeroAndTheRestSymmetric) {
+  PatchMatrix A({0, 0, 1, 2}, 3, {{0}, {0, 1}, {1, 2}});
   A.block(0, 0)(0, 0) = 7.0;
+  A.block(1, 0)(0, 1) = 3.0;
   EXPECT_EQ(A(0, 0), 7.0);
-  EXPECT_EQ(A(0, 39), 0.0);  // too far for a block
+  EXPECT_EQ(A(2, 1), 3.0);
+  EXPECT_EQ(A(1, 2), 3.0);
+  EXPECT_EQ(A(3, 0), 0.0);
+  Eigen::VectorXd x(4);
+  x << 1.0, 2.0, 5.0, 1.0;
+  Eigen::VectorXd y(4);
+  y << 7.0, 15.0, 6.0, 0.0;
+  EXPECT_EQ(A * x, y);
 }
 
 }  // namespace
