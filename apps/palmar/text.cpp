@@ -65,6 +65,10 @@ std::string tissue_text(const Tissue& tissue) {
           model, 1e3 * law.g0, 1e3 * low.g0, 1e3 * high.g0, 1e3 * law.g_limit, 1e3 * low.g_limit,
           1e3 * high.g_limit, law.limit_depth);
     }
+    const BoneTissue& bone = one.on_bone;
+    text += fmt::format("  {:<11} G0 {:.4g} kPa ({:.4g} to {:.4g}), stiffening {:.4g}\n", "on bone",
+                        1e3 * bone.nominal.g0, 1e3 * bone.low.g0, 1e3 * bone.high.g0,
+                        bone.nominal.stiffening);
     text += fmt::format("  {:<11} {:g} mm high, {:g} mm from the contact, {:g} mm wide\n", "bulge",
                         one.swelling_height, one.swelling_radius, one.swelling_width);
     text += fmt::format("  {:<11} {}\n", "source", one.source);

@@ -41,6 +41,11 @@ ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
   if (!arguments.kernel.empty()) model.kernel = parse_kernel(arguments.kernel);
   if (!arguments.tissue_model.empty()) model.tissue = parse_tissue_model(arguments.tissue_model);
   if (is_hand) return model;
+  if (model.tissue == TissueModel::kBone) {
+    throw UsageError(
+        "--tissue-model bone: a plane or ellipsoid has no bones; --specimen template:REGION is "
+        "needed");
+  }
   const bool is_layered = model.tissue == TissueModel::kLayered;
   if (arguments.layer && !is_layered && !arguments.tissue_model.empty()) {
     throw UsageError("--layer-mm and --tissue-model halfspace exclude each other");
@@ -155,8 +160,8 @@ void add_contact_commands(CLI::App& app, Context& context) {
   verb->add_option("--kernel", o->kernel, "patch or point (Xie 2014); default: the preset's");
   verb->add_option(
       "--tissue-model", o->tissue_model,
-      "halfspace, or layered (skin over bone: the hand's own, or --layer-mm); default: "
-      "the preset's");
+      "halfspace, layered (a flat layer over bone: the hand's own, or --layer-mm), or bone (the "
+      "tissue between the hand's skin and bones); default: the preset's");
   verb->add_option("--tissue", o->tissue,
                    "Tissue file (TOML) for the hand; a plane or ellipsoid takes the middle "
                    "fingertip's");

@@ -60,8 +60,13 @@ TestSetup setup_of(const FitArguments& arguments) {
   setup.press.indenter = parse_indenter(arguments.indenter);
   setup.press.tilt = radians(arguments.tilt_deg);
   setup.press.spacing = arguments.spacing;
-  setup.is_layered = parse_tissue_model(arguments.tissue_model) == TissueModel::kLayered ||
-                     !arguments.layer.empty();
+  const TissueModel model = parse_tissue_model(arguments.tissue_model);
+  if (model == TissueModel::kBone) {
+    throw UsageError(
+        "--tissue-model bone: its law stiffens with energy, not with depth, and isn't fitted here; "
+        "halfspace or layered is allowed");
+  }
+  setup.is_layered = model == TissueModel::kLayered || !arguments.layer.empty();
   if (!setup.hand.empty()) {
     if (!arguments.layer.empty()) {
       throw UsageError("--layer-mm: a hand has its own depth of skin over bone; leave it out");

@@ -103,9 +103,11 @@ void ContactArguments::add_to(CLI::App& verb) {
   verb.add_option("--regions", regions_,
                   "coupled (one problem over the whole hand) or independent (each region alone); "
                   "default: as in the preset");
-  verb.add_option("--tissue-model", tissue_model_,
-                  "halfspace (endless tissue) or layered (skin over bone); default: as in the "
-                  "preset");
+  verb.add_option(
+      "--tissue-model", tissue_model_,
+      "halfspace (endless tissue), layered (a flat layer over bone) or bone (the tissue between "
+      "skin and bones; prepared once); default: as in the "
+      "preset");
   verb.add_option("--kernel", kernel_,
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_option("--tissue", tissue,
@@ -158,8 +160,9 @@ Kernel parse_kernel(const std::string& text) {
 TissueModel parse_tissue_model(const std::string& text) {
   if (text == "halfspace") return TissueModel::kHalfSpace;
   if (text == "layered") return TissueModel::kLayered;
+  if (text == "bone") return TissueModel::kBone;
   throw UsageError("--tissue-model: \"" + text +
-                   "\" is not known; halfspace or layered is allowed");
+                   "\" is not known; halfspace, layered or bone is allowed");
 }
 
 Coating parse_coating(const std::string& text) {

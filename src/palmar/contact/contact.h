@@ -24,7 +24,8 @@ enum class Kernel {
 /// What stands under the skin.
 enum class TissueModel {
   kHalfSpace,  ///< tissue without end; its stiffening with depth stands for the bone (Xie 2014)
-  kLayered     ///< a layer as thick as the skin's depth over bone, bonded to it
+  kLayered,    ///< a layer as thick as the skin's depth over bone, bonded to it
+  kBone        ///< the tissue between the skin and the hand's own bones, by finite elements
 };
 
 /// Whether the skin of one region lifts that of its neighbours.
@@ -65,14 +66,15 @@ std::optional<ContactModel> contact_model_named(const std::string& preset);
 /// "palmar", "xie2014", or the names of what differs from `palmar`, as in "palmar, independent".
 std::string name_of(const ContactModel& model);
 std::string_view name_of(Kernel kernel);            ///< "patch", "point"
-std::string_view name_of(TissueModel tissue);       ///< "halfspace", "layered"
+std::string_view name_of(TissueModel tissue);       ///< "halfspace", "layered", "bone"
 std::string_view name_of(RegionCoupling coupling);  ///< "coupled", "independent"
 std::string_view name_of(SkinDistance distance);    ///< "surface", "isomap"
 std::string_view name_of(BulgeLaw bulge);           ///< "held", "printed"
 
 // All that have a name.
 inline constexpr std::array kKernels{Kernel::kPatch, Kernel::kPoint};
-inline constexpr std::array kTissueModels{TissueModel::kHalfSpace, TissueModel::kLayered};
+inline constexpr std::array kTissueModels{TissueModel::kHalfSpace, TissueModel::kLayered,
+                                          TissueModel::kBone};
 inline constexpr std::array kRegionCouplings{RegionCoupling::kCoupled,
                                              RegionCoupling::kIndependent};
 inline constexpr std::array kSkinDistances{SkinDistance::kSurface, SkinDistance::kIsomap};
@@ -97,6 +99,7 @@ struct ContactOptions {
 };
 
 class HandFamily;
+struct SkinCompliance;
 
 /// A hand with its geodesic distances and response matrices; they depend on the hand alone, so
 /// prepare once and solve many. Immutable, shareable between threads.
@@ -104,7 +107,10 @@ class PreparedHand {
  public:
   /// Throws UsageError on a bad hand or layered tissue with the point kernel. Cost: about 1 s for
   /// 10 000 vertices on one core.
-  explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {});
+  /// TissueModel::kBone: 10 s more, unless the hand's own `compliance` (skin_compliance.h) is
+  /// given.
+  explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {},
+                        std::shared_ptr<const SkinCompliance> compliance = nullptr);
   /// The same for a hand of the family's mesh, much faster (hand_family.h). Throws UsageError also
   /// if triangles or regions differ from the base's.
   PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& family);

@@ -31,6 +31,7 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const Sk
   // With the contact set F held, A_FF p = -b, b_i = G_i d_i, and F = sum of p. With y of
   // A_FF y = 1:  dF = y . (-db - dA p). b is proportional to G, A (but for the coating) without it.
   std::array<double, kRegionCount> result{};
+  if (prepared->is_on_bone()) return force_per_modulus_on_bone(skin, load);
   const auto y = system.solve_on(load.in_contact, std::vector<double>(load.vertex.size(), 1.0));
   if (!y) return result;
   const auto region_of = [&](std::size_t k) {
@@ -53,6 +54,23 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const Sk
   return result;
 }
 
+/// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
+/// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
+std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus_on_bone(
+    const SkinOnProduct& skin, const SkinLoad& load) {
+  std::array<double, kRegionCount> result{};
+  std::vector<double> root;
+  for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
+  const auto y = system.solve_on(load.in_contact, root);
+  if (!y) return result;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const int v = load.vertex[k];
+    result[index_of(prepared->hand->region[v])] +=
+        0.5 * (load.force[k] - (*y)[k] * root[k] * skin.sample[v].distance);
+  }
+  return result;
+}
+
 ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad& load,
                                       const std::vector<double>& gap,
                                       const ContactResult& nominal) {
@@ -67,6 +85,7 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
   }
   for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kHigh}) {
     SkinLoad other = load;
+    other.level = level;
     other.shear_modulus = moduli(load, level);
     ContactResult at_level;
     if (!solve_system(skin, other, at_level)) continue;

@@ -21,7 +21,8 @@ std::optional<ContactModel> contact_model_named(const std::string& preset) {
 std::string_view name_of(Kernel kernel) { return kernel == Kernel::kPatch ? "patch" : "point"; }
 
 std::string_view name_of(TissueModel tissue) {
-  return tissue == TissueModel::kHalfSpace ? "halfspace" : "layered";
+  if (tissue == TissueModel::kHalfSpace) return "halfspace";
+  return tissue == TissueModel::kLayered ? "layered" : "bone";
 }
 
 std::string_view name_of(RegionCoupling coupling) {

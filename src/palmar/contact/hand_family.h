@@ -22,7 +22,10 @@ namespace palmar {
 class HandFamily {
  public:
   /// Throws UsageError as PreparedHand. Cost: that of a PreparedHand and a half.
-  explicit HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model = {});
+  /// `compliance`: of the base, as for PreparedHand. Hands of the family get the base's, scaled
+  /// (loaded_skin.h).
+  explicit HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model = {},
+                      std::shared_ptr<const SkinCompliance> compliance = nullptr);
   ~HandFamily();
   HandFamily(HandFamily&&) noexcept;
   HandFamily& operator=(HandFamily&&) noexcept;

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/prepared_hand.h"
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/contact/response/layer_thickness.h"
 #include "palmar/core/error.h"
@@ -33,6 +35,58 @@ void check_model(const ContactModel& model) {
         "kernel \"point\" knows no layer over bone; kernel \"patch\" is required with layered "
         "tissue");
   }
+  if (model.tissue == TissueModel::kBone &&
+      (model.kernel == Kernel::kPoint || model.coupling != RegionCoupling::kCoupled)) {
+    throw UsageError(
+        "tissue on bone is one body; kernel \"patch\" and coupled regions are required with it");
+  }
+}
+
+void check_size(const Hand& hand, const ContactModel& model) {
+  if (model.tissue != TissueModel::kBone || hand.skin.vertex_count() <= kMostFullVertices) return;
+  throw UsageError("hand \"" + hand.name + "\" has " + std::to_string(hand.skin.vertex_count()) +
+                   " skin vertices; tissue on bone takes up to " +
+                   std::to_string(kMostFullVertices));
+}
+
+std::shared_ptr<const SkinCompliance> compliance_of(const Hand& hand, const SkinGeometry& skin,
+                                                    std::shared_ptr<const SkinCompliance> known) {
+  if (known) return known;
+  return std::make_shared<const SkinCompliance>(skin_compliance(hand, skin));
+}
+
+/// How much longer a hand is than its family's base around some vertices: the root of the ratio of
+/// the areas of their neighbourhoods.
+std::vector<double> length_ratios(const std::vector<int>& vertices, const SkinGeometry& base,
+                                  const SkinGeometry& skin) {
+  std::vector<double> result;
+  result.reserve(vertices.size());
+  for (const int v : vertices) {
+    double own = skin.area[v];
+    double old = base.area[v];
+    for (const int w : base.neighbours(v)) {
+      own += skin.area[w];
+      old += base.area[w];
+    }
+    result.push_back(std::sqrt(own / old));
+  }
+  return result;
+}
+
+/// Volumes of a hand's tissue from those of its family's base: as the cubes of the lengths.
+std::array<double, kRegionCount> scaled_volumes(const std::array<double, kRegionCount>& volume,
+                                                const Hand& hand, const SkinGeometry& base,
+                                                const SkinGeometry& skin) {
+  std::array<double, kRegionCount> own{}, old{};
+  for (std::size_t v = 0; v < hand.region.size(); ++v) {
+    own[index_of(hand.region[v])] += skin.area[v];
+    old[index_of(hand.region[v])] += base.area[v];
+  }
+  std::array<double, kRegionCount> result = volume;
+  for (std::size_t r = 0; r < result.size(); ++r) {
+    if (old[r] > 0.0) result[r] *= std::pow(own[r] / old[r], 1.5);
+  }
+  return result;
 }
 
 /// A flat picture of one region says nothing about the way to the next.
@@ -57,12 +111,15 @@ struct HandFamily::Impl {
   SkinGeometry skin;
   std::optional<SkinPairs> pairs;  ///< nothing for a skin that has a far part, or Isomap
   SkinPatches blocks, spots;
+  std::shared_ptr<const SkinCompliance> compliance;  ///< with TissueModel::kBone
 };
 
-HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model) {
+HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model,
+                       std::shared_ptr<const SkinCompliance> compliance) {
   if (!base) throw UsageError("family of hands: no hand was given");
   check_hand(*base);
   check_model(model);
+  check_size(*base, model);
   auto impl = std::make_unique<Impl>();
   impl->model = completed(model);
   impl->skin = skin_geometry(base->skin);
@@ -72,6 +129,9 @@ HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& mod
   // limit on fine skin, would lose its definiteness.
   const bool is_flat = impl->model.distance == SkinDistance::kIsomap;
   if (!has_far && !is_flat) impl->pairs = skin_pairs(*base, impl->skin, impl->model);
+  if (impl->model.tissue == TissueModel::kBone) {
+    impl->compliance = compliance_of(*base, impl->skin, std::move(compliance));
+  }
   impl->blocks = skin_patches(impl->skin, kBlockSize);
   impl->spots = skin_patches(impl->skin, kSpotSize);
   impl->base = std::move(base);
@@ -85,16 +145,22 @@ HandFamily& HandFamily::operator=(HandFamily&&) noexcept = default;
 const Hand& HandFamily::base() const { return *impl_->base; }
 const ContactModel& HandFamily::model() const { return impl_->model; }
 
-PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model) {
+PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model,
+                           std::shared_ptr<const SkinCompliance> compliance) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
   check_model(model);
+  check_size(*hand, model);
   auto impl = std::make_unique<Impl>();
   impl->model = completed(model);
   impl->skin = skin_geometry(hand->skin);
   impl->hand = std::move(hand);
   if (impl->model.tissue == TissueModel::kLayered) {
     impl->layer_thickness = effective_layer_thickness(*impl->hand, impl->skin);
+  }
+  if (impl->is_on_bone()) {
+    impl->compliance = compliance_of(*impl->hand, impl->skin, std::move(compliance));
+    impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, impl->compliance->volume);
   }
   impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
@@ -114,6 +180,13 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& f
   impl->hand = std::move(hand);
   if (impl->model.tissue == TissueModel::kLayered) {
     impl->layer_thickness = effective_layer_thickness(*impl->hand, impl->skin);
+  }
+  if (impl->is_on_bone()) {
+    impl->compliance = shared.compliance;
+    impl->bone = bone_tissue_blocks(
+        *impl->hand, impl->skin,
+        scaled_volumes(shared.compliance->volume, *impl->hand, shared.skin, impl->skin));
+    impl->node_scale = length_ratios(shared.compliance->node, shared.skin, impl->skin);
   }
   impl->response = shared.pairs
                        ? stretched_response(*impl->hand, impl->skin, impl->model,

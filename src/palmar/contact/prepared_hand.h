@@ -10,6 +10,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/contact/solve/contact_system.h"
+#include "palmar/contact/tissue/block_energy.h"
 #include "palmar/contact/tissue/stiffening.h"
 #include "palmar/core/enum_index.h"
 
@@ -23,6 +24,12 @@ struct PreparedHand::Impl {
   SkinResponse response;
   SkinPatches blocks;  ///< of the preconditioner
   SkinStiffness stiffness;
+  // With TissueModel::kBone.
+  BoneTissueBlocks bone;
+  std::shared_ptr<const SkinCompliance> compliance;  ///< of the hand or its family's base
+  std::vector<double> node_scale;                    ///< of a hand of a family: see LoadedSkin
+
+  bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
 
   const RegionTissue& tissue(Region r) const { return hand->tissue.region[index_of(r)]; }
 };

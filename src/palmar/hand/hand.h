@@ -73,6 +73,19 @@ struct TissueStiffness {
   bool operator==(const TissueStiffness&) const = default;
 };
 
+/// Tissue between skin and bone, whose modulus grows linearly with its mean strain:
+/// G = G0 (1 + stiffening sqrt(W / V G0)), W the energy that its displacements store at the modulus
+/// G0, V the volume of the tissue below the region.
+struct BoneTissueLaw {
+  double g0 = 0.0;          ///< MPa
+  double stiffening = 0.0;  ///< no unit
+  bool operator==(const BoneTissueLaw&) const = default;
+};
+struct BoneTissue {
+  BoneTissueLaw nominal, low, high;
+  bool operator==(const BoneTissue&) const = default;
+};
+
 /// Which of the three laws of a TissueStiffness.
 enum class TissueLevel { kLow, kNominal, kHigh };
 
@@ -81,10 +94,16 @@ inline const StiffeningLaw& law_at(const TissueStiffness& stiffness, TissueLevel
   return level == TissueLevel::kHigh ? stiffness.high : stiffness.nominal;
 }
 
+inline const BoneTissueLaw& law_at(const BoneTissue& tissue, TissueLevel level) {
+  if (level == TissueLevel::kLow) return tissue.low;
+  return level == TissueLevel::kHigh ? tissue.high : tissue.nominal;
+}
+
 /// Mechanical class of the skin of a region. MPa, mm.
 struct RegionTissue {
   TissueStiffness half_space;    ///< of skin without end (Xie 2014): stiffening stands for the bone
   TissueStiffness layered;       ///< of a layer bonded to bone, which stiffens by itself
+  BoneTissue on_bone;            ///< of the tissue that the hand's own bones hold
   double poisson_layered = 0.5;  ///< Poisson's ratio of that layer
   // Bulge around the contact, Xie 2014, eq. (3-5), Table 3-2.
   double swelling_height = 0.0;  ///< a0, mm at 1 N and G0

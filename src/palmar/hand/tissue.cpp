@@ -91,6 +91,7 @@ RegionTissue finger_tissue() {
           .layered = {.nominal = {0.0103, 0.0239, 4.0},
                       .low = {0.0090, 0.0202, 4.0},
                       .high = {0.0125, 0.0353, 4.0}},
+          .on_bone = {.nominal = {0.0071, 14.9}, .low = {0.0059, 12.7}, .high = {0.0082, 16.5}},
           .swelling_height = 2.0,
           .swelling_radius = 8.0,
           .swelling_width = 2.0,
@@ -99,24 +100,28 @@ RegionTissue finger_tissue() {
               std::string(kHalfSpaceSource) +
               "; width of the bulge (2 mm) assumed, the thesis' figure is lost; layered: fitted to "
               "the fingertip forces of the thesis' laws (radius 7.5 mm, 0.5-4 mm) on the "
-              "template's middle fingertip against a plate at 30 deg"};
+              "template's middle fingertip against a plate at 30 deg; on bone: fitted to the same "
+              "forces under its own law"};
 }
 
 RegionTissue palm_tissue() {
-  return {.half_space = {.nominal = {0.0275, 0.060, 7.0},
-                         .low = {0.005, 0.040, 7.0},
-                         .high = {0.050, 0.080, 7.0}},
-          .layered = {.nominal = {0.0185, 0.0230, 7.0},
-                      .low = {0.0044, 0.0155, 7.0},
-                      .high = {0.0305, 0.0310, 7.0}},
-          .swelling_height = 3.0,
-          .swelling_radius = 15.0,
-          .swelling_width = 3.0,
-          .neighbourhood = 17.5,
-          .source = std::string(kHalfSpaceSource) +
-                    "; layered: gives the forces of those half-spaces on the template's thenar, "
-                    "hypothenar and the two pads against a plate (1-7 mm), as the thesis' test is "
-                    "not described well enough to repeat it: an assumption"};
+  return {
+      .half_space = {.nominal = {0.0275, 0.060, 7.0},
+                     .low = {0.005, 0.040, 7.0},
+                     .high = {0.050, 0.080, 7.0}},
+      .layered = {.nominal = {0.0185, 0.0230, 7.0},
+                  .low = {0.0044, 0.0155, 7.0},
+                  .high = {0.0305, 0.0310, 7.0}},
+      .on_bone = {.nominal = {0.0168, 0.92}, .low = {0.0048, 5.1}, .high = {0.0285, 0.27}},
+      .swelling_height = 3.0,
+      .swelling_radius = 15.0,
+      .swelling_width = 3.0,
+      .neighbourhood = 17.5,
+      .source = std::string(kHalfSpaceSource) +
+                "; layered: gives the forces of those half-spaces on the template's thenar, "
+                "hypothenar and the two pads against a plate (1-7 mm), as the thesis' test is "
+                "not described well enough to repeat it: an assumption; on bone: gives the same "
+                "forces under its own law, within 18 %: an assumption"};
 }
 
 RegionTissue dorsum_tissue() {
@@ -143,6 +148,27 @@ std::string fault_of(const RegionTissue& tissue) {
   if (std::string fault = fault_of(tissue.half_space, "half-space"); !fault.empty()) return fault;
   if (std::string fault = fault_of(tissue.layered, "layered"); !fault.empty()) return fault;
   std::ostringstream text;
+  for (const auto& [law, level] :
+       {std::pair(&tissue.on_bone.nominal, "nominal"), std::pair(&tissue.on_bone.low, "low"),
+        std::pair(&tissue.on_bone.high, "high")}) {
+    if (!(law->g0 >= kMinShearModulus && law->g0 <= kMaxShearModulus)) {
+      text << "on bone (" << level << "): G0 is " << 1000.0 * law->g0 << " kPa; "
+           << 1000.0 * kMinShearModulus << " to " << 1000.0 * kMaxShearModulus << " kPa is allowed";
+      return text.str();
+    }
+    if (!(law->stiffening >= 0.0 && law->stiffening <= kMostBoneStiffening)) {
+      text << "on bone (" << level << "): stiffening is " << law->stiffening << "; 0 to "
+           << kMostBoneStiffening << " is allowed";
+      return text.str();
+    }
+  }
+  if (!(tissue.on_bone.low.g0 <= tissue.on_bone.nominal.g0 &&
+        tissue.on_bone.nominal.g0 <= tissue.on_bone.high.g0)) {
+    text << "on bone: G0 is " << 1000.0 * tissue.on_bone.low.g0 << ", "
+         << 1000.0 * tissue.on_bone.nominal.g0 << ", " << 1000.0 * tissue.on_bone.high.g0
+         << " kPa (low, nominal, high); ascending values are required";
+    return text.str();
+  }
   if (!(tissue.poisson_layered >= 0.0 && tissue.poisson_layered <= 0.5)) {
     text << "Poisson's ratio of the layer is " << tissue.poisson_layered << "; 0 to 0.5 is allowed";
   }

@@ -43,6 +43,7 @@ RegionTissue tissue_of(TissueClass tissue);
 /// Allowed: moduli in MPa, lengths in mm.
 inline constexpr double kMinShearModulus = 1e-6, kMaxShearModulus = 10.0;
 inline constexpr double kMaxTissueLength = 100.0;
+inline constexpr double kMostBoneStiffening = 1000.0;
 
 /// What is wrong with a set, naming the value with its unit and what is allowed; empty if nothing
 /// is: finite numbers within the limits above, G_lim not below G0, low not above nominal and

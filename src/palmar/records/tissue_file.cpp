@@ -68,6 +68,30 @@ constexpr std::array<RegionKey, 5> kRegionKeys = {
      {"swelling_width_mm", "mm", &RegionTissue::swelling_width, kSmallest, kMaxTissueLength},
      {"neighbourhood_mm", "mm", &RegionTissue::neighbourhood, kSmallest, kMaxTissueLength}}};
 
+struct BoneKey {
+  const char* name;
+  const char* ending;
+  const char* unit;
+  double BoneTissueLaw::*value;
+  double factor;  ///< file / MPa
+  double lowest, highest;
+};
+constexpr std::array<BoneKey, 2> kBoneKeys = {
+    {{"g0", "_kpa", "kPa", &BoneTissueLaw::g0, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
+      kKpaPerMpa* kMaxShearModulus},
+     {"stiffening", "", "", &BoneTissueLaw::stiffening, 1.0, 0.0, kMostBoneStiffening}}};
+
+struct BoneLevel {
+  const char* suffix;
+  BoneTissueLaw BoneTissue::*law;
+};
+constexpr std::array<BoneLevel, 3> kBoneLevels = {
+    {{"", &BoneTissue::nominal}, {"_low", &BoneTissue::low}, {"_high", &BoneTissue::high}}};
+
+std::string key_of(const BoneKey& key, const BoneLevel& level) {
+  return std::string(key.name) + level.suffix + key.ending;
+}
+
 struct ModelKey {
   const char* name;
   TissueStiffness RegionTissue::*stiffness;
@@ -174,7 +198,7 @@ class TissueReader {
   }
 
   void apply(const toml::table& values, const std::string& section, RegionTissue& region) const {
-    std::vector<std::string> known = {"source"};
+    std::vector<std::string> known = {"source", "on_bone"};
     for (const ModelKey& model : kModelKeys) known.emplace_back(model.name);
     for (const RegionKey& item : kRegionKeys) known.emplace_back(item.name);
     for (const auto& [key, node] : values) {
@@ -189,36 +213,41 @@ class TissueReader {
             number(key, node, section, number_key->unit, number_key->lowest, number_key->highest);
       } else if (model_key != kModelKeys.end()) {
         const std::string below = section + "." + name;
-        apply_law(table(key, node, below), below, region.*model_key->stiffness);
+        apply_law(table(key, node, below), below, region.*model_key->stiffness, kLawKeys, kLevels);
+      } else if (name == "on_bone") {
+        const std::string below = section + ".on_bone";
+        apply_law(table(key, node, below), below, region.on_bone, kBoneKeys, kBoneLevels);
       } else {
         unknown(key, "[" + section + "]", known);
       }
     }
   }
 
-  void apply_law(const toml::table& values, const std::string& section,
-                 TissueStiffness& stiffness) const {
+  /// `keys` of a law and its `levels`, the first of which is the nominal one.
+  template <typename Laws, typename Keys, typename Levels>
+  void apply_law(const toml::table& values, const std::string& section, Laws& laws,
+                 const Keys& keys, const Levels& levels) const {
     std::vector<std::string> known;
-    for (const LawKey& item : kLawKeys) {
-      for (const Level& level : kLevels) known.push_back(key_of(item, level));
+    for (const auto& item : keys) {
+      for (const auto& level : levels) known.push_back(key_of(item, level));
     }
     for (const auto& [key, ignored] : values) {
       if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
         unknown(key, "[" + section + "]", known);
       }
     }
-    for (const LawKey& item : kLawKeys) {
-      for (const Level& level : kLevels) {
+    for (const auto& item : keys) {
+      for (const auto& level : levels) {
         const auto found = values.find(key_of(item, level));
         if (found == values.end()) continue;
         const double value =
             number(found->first, found->second, section, item.unit, item.lowest, item.highest) /
             item.factor;
-        (stiffness.*level.law).*item.value = value;
+        (laws.*level.law).*item.value = value;
         // A value without a range has none; keys of the range come after it and put it back.
-        if (level.law == &TissueStiffness::nominal) {
-          stiffness.low.*item.value = value;
-          stiffness.high.*item.value = value;
+        if (level.law == levels[0].law) {
+          laws.low.*item.value = value;
+          laws.high.*item.value = value;
         }
       }
     }
@@ -254,18 +283,22 @@ std::string region_toml(const std::string& section, const RegionTissue& region) 
   for (const RegionKey& item : kRegionKeys) {
     text += std::string(item.name) + " = " + decimal(region.*item.value) + "\n";
   }
-  for (const ModelKey& model : kModelKeys) {
-    text += "\n[" + section + "." + model.name + "]\n";
-    const TissueStiffness& stiffness = region.*model.stiffness;
-    for (const LawKey& item : kLawKeys) {
-      for (const Level& level : kLevels) {
-        const double value = (stiffness.*level.law).*item.value;
-        const bool is_nominal = level.law == &TissueStiffness::nominal;
-        if (!is_nominal && value == stiffness.nominal.*item.value) continue;
+  const auto add_law = [&text](const auto& laws, const auto& keys, const auto& levels) {
+    for (const auto& item : keys) {
+      for (const auto& level : levels) {
+        const double value = (laws.*level.law).*item.value;
+        const bool is_nominal = level.law == levels[0].law;
+        if (!is_nominal && value == laws.nominal.*item.value) continue;
         text += key_of(item, level) + " = " + decimal(value * item.factor) + "\n";
       }
     }
+  };
+  for (const ModelKey& model : kModelKeys) {
+    text += "\n[" + section + "." + model.name + "]\n";
+    add_law(region.*model.stiffness, kLawKeys, kLevels);
   }
+  text += "\n[" + section + ".on_bone]\n";
+  add_law(region.on_bone, kBoneKeys, kBoneLevels);
   return text;
 }
 

@@ -20,6 +20,7 @@ inline constexpr int kTissueFileVersion = 1;
 ///     g0_kpa = 5.0                 # g0_low_kpa, g0_high_kpa: the range
 ///     g_limit_kpa = 95.0
 ///     limit_depth_mm = 4.0
+///     [finger.on_bone]             # g0_kpa, its range, and stiffening
 ///     [region.index_distal.layered]
 ///     g0_kpa = 6.0                 # one region alone, over its group
 ///

@@ -19,6 +19,8 @@ namespace palmar {
 struct StudyInputs {
   std::shared_ptr<const Hand> base;  ///< the hand that is scaled
   std::vector<Product> products;     ///< as StudyPlan::products, mm, `size` applied
+  /// Of `base`, for plans with tissue on bone (skin_compliance.h); none: made when needed.
+  std::shared_ptr<const SkinCompliance> compliance = nullptr;
 };
 
 struct StudyRunOptions {

@@ -382,8 +382,9 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
   for (const StudySetting& setting : bench.plan.settings) {
     progress.throw_if_cancelled();
     if (bench.family_of(setting.model) != nullptr) continue;
-    bench.families.emplace_back(
-        setting.model, std::make_unique<const HandFamily>(bench.inputs.base, setting.model));
+    bench.families.emplace_back(setting.model,
+                                std::make_unique<const HandFamily>(bench.inputs.base, setting.model,
+                                                                   bench.inputs.compliance));
   }
   const std::size_t profiles = bench.plan.profiles.size();
   std::vector<bool> is_needed(profiles, false);

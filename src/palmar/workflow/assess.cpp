@@ -12,6 +12,7 @@
 #include "palmar/records/posture/coordination_file.h"
 #include "palmar/report/page/assessment_report.h"
 #include "palmar/workflow/grasp/hold_product.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar {
 namespace {
@@ -88,7 +89,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   AssessOptions options = options_of(request, hand->skeleton);
   const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
-  const PreparedHand prepared(hand, request.model);
+  const PreparedHand prepared(hand, request.model, tissue_on_bone(*hand, request.model));
 
   AssessOutcome outcome;
   outcome.asked = tasks.size();

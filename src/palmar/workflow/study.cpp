@@ -18,6 +18,7 @@
 #include "palmar/records/study/study_progress.h"
 #include "palmar/records/study/study_store.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 #include "palmar/workflow/study/missing_grasps.h"
 
 namespace palmar {
@@ -59,7 +60,11 @@ class Keeper {
 };
 
 /// Runs what is missing, finishes the store and says what came of it.
-StudyRunOutcome run_rest(StudyStore& store, const StudyInputs& inputs, const Progress& progress) {
+StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const Progress& progress) {
+  for (const StudySetting& setting : store.plan().settings) {
+    if (inputs.base == nullptr || inputs.compliance != nullptr) break;
+    inputs.compliance = tissue_on_bone(*inputs.base, setting.model);
+  }
   const std::vector<std::int64_t> rest = store.missing();
   if (store.is_finished() && !rest.empty()) {
     throw InputError(store.path().string() + ": is damaged: " + missing_grasps(rest) +

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/contact/bone/loaded_skin.h"
 #include "palmar/contact/contact.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/response/skin_displacement.h"
@@ -59,16 +60,27 @@ struct ContactSolver::Impl {
   double coating_displacement(const SkinOnProduct& skin, const SkinLoad& load, std::size_t v) const;
   void assemble(const SkinOnProduct& skin, const SkinLoad& load);
   bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  bool solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  void set_bone_moduli(SkinLoad& load) const;
+  std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
+                                         const std::vector<int>& vertices) const;
+  std::vector<int> pressed_in_on_bone(const SkinOnProduct& skin, const SkinLoad& load) const;
+  void displace_on_bone(const SkinOnProduct& skin, const SkinLoad& load, SkinDisplacement& u) const;
   void solve_by_region(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   void solve_load(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   /// Near skin outside the problem that the solution moves into the product.
   std::vector<int> pressed_in(const SkinOnProduct& skin, const SkinLoad& load) const;
+  std::array<double, kRegionCount> force_per_modulus_on_bone(const SkinOnProduct& skin,
+                                                             const SkinLoad& load);
   std::array<double, kRegionCount> force_per_modulus(const SkinOnProduct& skin,
                                                      const SkinLoad& load);
   ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
                    const ContactResult& nominal);
 
   CoatingCompliance coating_;
+  std::optional<LoadedSkin> loaded_;               ///< of tissue on bone
+  const std::vector<Vec3>* undeformed_ = nullptr;  ///< of the call under way
+  BlockStiffening stiffening_ = no_stiffening();   ///< of the last solution on bone
   SkinSampler sampler_;
   SkinOnProduct skin_;
 };

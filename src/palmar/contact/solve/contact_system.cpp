@@ -43,8 +43,8 @@ double row_times(const int* column, const float* value, std::size_t count, const
 
 void ContactSystem::assemble(const SkinResponse& response, const std::vector<int>& vertices,
                              const std::vector<Region>* region) {
-  for (const int v : vertex_) local_[v] = -1;
   local_.resize(response.begin.size() - 1, -1);
+  for (const int v : vertex_) local_[v] = -1;
   vertex_ = vertices;
   for (std::size_t i = 0; i < vertex_.size(); ++i) {
     local_[vertex_[i]] = static_cast<int>(i);
@@ -76,6 +76,24 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
   value_.resize(count);
   has_blocks_ = false;
   assemble_far(response);
+}
+
+void ContactSystem::assemble(const Eigen::MatrixXf& matrix, const std::vector<int>& vertices) {
+  vertex_ = vertices;
+  const auto m = vertices.size();
+  all_rows_.resize(m);
+  std::iota(all_rows_.begin(), all_rows_.end(), 0);
+  begin_.resize(m + 1);
+  column_.resize(m * m);
+  value_.resize(m * m);
+  for (std::size_t i = 0; i <= m; ++i) begin_[i] = i * m;
+  for (std::size_t i = 0; i < m; ++i) {
+    std::iota(column_.begin() + static_cast<std::ptrdiff_t>(i * m),
+              column_.begin() + static_cast<std::ptrdiff_t>((i + 1) * m), 0);
+    std::copy_n(matrix.data() + i * m, m, value_.data() + i * m);
+  }
+  has_blocks_ = false;
+  has_far_ = false;
 }
 
 void ContactSystem::assemble_far(const SkinResponse& response) {

@@ -34,6 +34,9 @@ class ContactSystem {
   void assemble(const SkinResponse& response, const std::vector<int>& vertices,
                 const std::vector<Region>* region);
 
+  /// Takes a symmetric matrix, whose rows are `vertices` (ascending).
+  void assemble(const Eigen::MatrixXf& matrix, const std::vector<int>& vertices);
+
   /// Adds value to the entries (i, j) and (j, i); i != j. Call end_additions() after the last.
   struct Entry {
     int row = 0, column = 0;

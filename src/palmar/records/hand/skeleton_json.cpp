@@ -86,6 +86,14 @@ TissueStiffness stiffness_from(const PlainJson& json) {
   return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
 }
 
+PlainJson to_json(const BoneTissueLaw& law) {
+  return {{"g0_mpa", law.g0}, {"stiffening", law.stiffening}};
+}
+
+BoneTissueLaw bone_law_from(const PlainJson& json) {
+  return {finite(json.at("g0_mpa")), finite(json.at("stiffening"))};
+}
+
 /// Version 1 of the file has one law per region, that of the half-space.
 RegionTissue region_tissue_version_1(const PlainJson& json, const RegionTissue& standard) {
   RegionTissue region = standard;
@@ -220,6 +228,9 @@ PlainJson tissue_to_json(const Tissue& tissue) {
     const RegionTissue& region = tissue.region[r];
     entry["half_space"] = to_json(region.half_space);
     entry["layered"] = to_json(region.layered);
+    entry["on_bone"] = {{"nominal", to_json(region.on_bone.nominal)},
+                        {"low", to_json(region.on_bone.low)},
+                        {"high", to_json(region.on_bone.high)}};
     for (const TissueName& item : kTissue) entry[item.name] = region.*item.value;
     entry["source"] = region.source;
   }
@@ -240,6 +251,13 @@ Tissue tissue_from_json(const PlainJson& json) {
     } else {
       region.half_space = stiffness_from(entry.at("half_space"));
       region.layered = stiffness_from(entry.at("layered"));
+      // Files from before this law have none.
+      region.on_bone = standard.region[r].on_bone;
+      if (entry.contains("on_bone")) {
+        const PlainJson& bone = entry.at("on_bone");
+        region.on_bone = {bone_law_from(bone.at("nominal")), bone_law_from(bone.at("low")),
+                          bone_law_from(bone.at("high"))};
+      }
       region.source = entry.value("source", "");
     }
     for (const TissueName& item : kTissue) {

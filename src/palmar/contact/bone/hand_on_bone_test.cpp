@@ -1,0 +1,112 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "palmar/contact/bone/skin_compliance.h"
+#include "palmar/contact/contact.h"
+#include "palmar/contact/contact_test_hand.h"
+#include "palmar/contact/hand_family.h"
+#include "palmar/core/error.h"
+#include "palmar/hand/tissue.h"
+
+namespace palmar {
+namespace {
+
+/// A fingertip of sorts: a ball of skin round a ball of bone.
+std::shared_ptr<const Hand> tip(double size) {
+  auto hand = std::make_shared<Hand>();
+  hand->name = "tip";
+  hand->skin = make_icosphere(9.0, 4);
+  for (const Vec3& x : hand->skin.vertices) {
+    hand->region.push_back(x.z() > 0.0 ? Region::kIndexDistal : Region::kDorsum);
+  }
+  hand->segment.assign(hand->region.size(), Segment::kIndexDistal);
+  Bone& bone = hand->bones.emplace_back();
+  bone.mesh = make_icosphere(4.0, 3);
+  for (TriangleMesh* mesh : {&hand->skin, &bone.mesh}) {
+    for (Vec3& x : mesh->vertices) x = size * (x + Vec3(0.0, 20.0, 0.0));
+  }
+  hand->tissue = default_tissue();
+  return hand;
+}
+
+ContactModel on_bone() {
+  ContactModel model;
+  model.tissue = TissueModel::kBone;
+  return model;
+}
+
+/// Force on a plate above that is lowered by `depth` from first touch.
+ContactResult pressed(const PreparedHand& hand, double size, double depth,
+                      const Rigid3& moved = {}) {
+  // The plate is the solid below z = 0 of its own frame, the tip upside down on it.
+  Rigid3 product_from_hand;
+  product_from_hand.rotation = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
+  product_from_hand.translation = Vec3(0.0, 0.0, 9.0 * size - depth);
+  std::vector<Vec3> skin = hand.hand().skin.vertices;
+  for (Vec3& x : skin) x = moved * x;
+  const Rigid3 back = moved.inverse();
+  Rigid3 placed;
+  placed.rotation = product_from_hand.rotation * back.rotation;
+  placed.translation = product_from_hand * back.translation;
+  return solve_hand_contact(hand, skin, placed, contact_test::HalfSpace(0.0));
+}
+
+TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
+  const PreparedHand hand(tip(1.0), on_bone());
+  const ContactResult one = pressed(hand, 1.0, 1.0);
+  const ContactResult two = pressed(hand, 1.0, 2.0);
+  ASSERT_EQ(two.status, ContactStatus::kSolved) << two.message;
+  EXPECT_EQ(two.message, "");
+  EXPECT_GT(two.total.force, 3.5 * one.total.force);  // Hertz: 2^1.5 = 2.8
+  EXPECT_LT(two.complementarity_error, 1e-8 * two.total.force);
+  for (std::size_t v = 0; v < two.force.size(); ++v) {
+    EXPECT_GE(two.force[v], 0.0);
+    if (two.force[v] > 0.0) {
+      EXPECT_LT(two.deformed[v].z(), 1e-6);
+    }
+  }
+  EXPECT_NEAR(two.total.force_vector.z(), -two.total.force, 1e-9);
+}
+
+TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
+  const PreparedHand hand(tip(1.0), on_bone());
+  const ContactResult plain = pressed(hand, 1.0, 1.5);
+  Rigid3 moved;
+  moved.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
+  moved.translation = Vec3(30.0, -10.0, 5.0);
+  const ContactResult other = pressed(hand, 1.0, 1.5, moved);
+  EXPECT_NEAR(other.total.force, plain.total.force, 1e-5 * plain.total.force);
+  EXPECT_NEAR(other.total.area, plain.total.area, 1e-4 * plain.total.area);
+}
+
+TEST(HandOnBone, HandOfAFamilyScaledAsAWholeIsExact) {
+  const auto base = tip(1.0);
+  const HandFamily family(base, on_bone());
+  const PreparedHand own(base, family);
+  const PreparedHand larger(tip(1.2), family);
+  const ContactResult small = pressed(own, 1.0, 1.5);
+  const ContactResult large = pressed(larger, 1.2, 1.8);
+  EXPECT_NEAR(large.total.force / small.total.force, 1.44, 1e-3);
+  EXPECT_NEAR(large.total.area / small.total.area, 1.44, 1e-3);
+}
+
+TEST(HandOnBone, RegionByRegionAndFineSkinsAreRefused) {
+  ContactModel alone = on_bone();
+  alone.coupling = RegionCoupling::kIndependent;
+  EXPECT_THROW(PreparedHand(tip(1.0), alone), UsageError);
+  auto fine = std::make_shared<Hand>(*tip(1.0));
+  fine->skin = make_icosphere(9.0, 6);
+  fine->region.assign(fine->skin.vertices.size(), Region::kIndexDistal);
+  fine->segment.assign(fine->skin.vertices.size(), Segment::kIndexDistal);
+  try {
+    const PreparedHand hand(fine, on_bone());
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("up to 12000"));
+  }
+}
+
+}  // namespace
+}  // namespace palmar

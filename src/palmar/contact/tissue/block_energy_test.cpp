@@ -1,0 +1,202 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/contact/tissue/block_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "palmar/contact/bone/loaded_skin.h"
+#include "palmar/contact/solve/lcp.h"
+#include "palmar/geometry/mesh/primitive_meshes.h"
+#include "palmar/hand/tissue.h"
+
+namespace palmar {
+namespace {
+
+/// A ball of skin round a ball of bone, its halves two regions with different tissue; the skin near
+/// the border of the two is pressed along z.
+class PressedBall : public testing::Test {
+ protected:
+  void SetUp() override {
+    hand_.skin = make_icosphere(12.0, 3);
+    hand_.tissue = default_tissue();
+    for (Vec3& x : hand_.skin.vertices) x.y() += 20.0;
+    for (const Vec3& x : hand_.skin.vertices) {
+      hand_.region.push_back(x.x() > 0.0 ? Region::kIndexDistal : Region::kThenar);
+    }
+    hand_.segment.assign(hand_.region.size(), Segment::kIndexDistal);
+    Bone& bone = hand_.bones.emplace_back();
+    bone.mesh = make_icosphere(6.0, 3);
+    for (Vec3& x : bone.mesh.vertices) x.y() += 20.0;
+    for (RegionTissue& tissue : hand_.tissue.region) {
+      for (BoneTissueLaw* law :
+           {&tissue.on_bone.low, &tissue.on_bone.nominal, &tissue.on_bone.high}) {
+        law->stiffening = 8.0;
+      }
+    }
+    skin_ = skin_geometry(hand_.skin);
+    compliance_ = skin_compliance(hand_, skin_);
+    blocks_ = bone_tissue_blocks(hand_, skin_, compliance_.volume);
+    for (const int v : compliance_.vertex) {
+      if (skin_.position[v].z() > 8.0) vertex_.push_back(v);
+    }
+    LoadedSkin loaded(skin_, compliance_, own_size_);
+    loaded.set(vertex_, std::vector<Vec3>(vertex_.size(), Vec3(0.0, 0.0, -1.0)));
+    C_ = loaded.matrix().cast<double>();
+    ASSERT_GT(vertex_.size(), 40U);
+  }
+
+  struct Solution {
+    Eigen::VectorXd force, displacement;
+    BlockStiffening lambda;
+  };
+  Eigen::VectorXd roots(const BlockStiffening& lambda) const {
+    Eigen::VectorXd root(C_.rows());
+    for (int i = 0; i < root.size(); ++i) {
+      root[i] = root_modulus(blocks_, TissueLevel::kNominal, lambda, vertex_[i]);
+    }
+    return root;
+  }
+  BlockStiffening next(const BlockStiffening& lambda, const Eigen::VectorXd& force,
+                       const Eigen::VectorXd& displacement) const {
+    return stiffening_of(blocks_, TissueLevel::kNominal, lambda, vertex_,
+                         {force.begin(), force.end()}, {displacement.begin(), displacement.end()});
+  }
+  /// Contact with gaps d before deformation.
+  Solution solve(const Eigen::VectorXd& d) const {
+    Solution result{{}, {}, no_stiffening()};
+    for (int round = 0; round < 200; ++round) {
+      const Eigen::VectorXd root = roots(result.lambda);
+      ContactProblem problem;
+      problem.response = root.cwiseInverse().asDiagonal() * C_ * root.cwiseInverse().asDiagonal();
+      problem.distance = d;
+      const ContactSolution solution = solve_contact(problem);
+      EXPECT_EQ(solution.status, LcpStatus::kSolved);
+      result.force = solution.force;
+      result.displacement = solution.gap - d;
+      const BlockStiffening lambda = next(result.lambda, result.force, result.displacement);
+      double change = 0.0;
+      for (std::size_t b = 0; b < lambda.size(); ++b) {
+        change = std::max(change, std::abs(lambda[b] / result.lambda[b] - 1.0));
+      }
+      if (change < 1e-13) break;
+      result.lambda = lambda;
+    }
+    return result;
+  }
+  /// Stored energy, p . u - U*(p).
+  double energy(const Solution& s) const {
+    return 0.5 * s.force.dot(s.displacement) -
+           stiffening_energy(blocks_, TissueLevel::kNominal, s.lambda);
+  }
+  /// Gaps of a ball of 30 mm whose lowest point is at (x, 20 + y) and `depth` under the skin's top.
+  Eigen::VectorXd gaps(double x, double y, double depth) const {
+    Eigen::VectorXd d(C_.rows());
+    for (int i = 0; i < d.size(); ++i) {
+      const Vec3& at = skin_.position[vertex_[i]];
+      const double across = (at.head<2>() - Eigen::Vector2d(x, 20.0 + y)).squaredNorm();
+      d[i] = 12.0 - depth + across / 60.0 - at.z();
+    }
+    return d;
+  }
+
+  Hand hand_;
+  SkinGeometry skin_;
+  SkinCompliance compliance_;
+  BoneTissueBlocks blocks_;
+  std::vector<int> vertex_;
+  std::vector<double> own_size_;
+  Eigen::MatrixXd C_;
+};
+
+TEST_F(PressedBall, StiffensInBothBlocks) {
+  const Solution s = solve(gaps(0.5, 0.0, 2.0));
+  EXPECT_GT(s.lambda[static_cast<std::size_t>(Region::kIndexDistal)], 1.2);
+  EXPECT_GT(s.lambda[static_cast<std::size_t>(Region::kThenar)], 1.2);
+}
+
+TEST_F(PressedBall, ForcesAreTheGradientOfTheEnergy) {
+  const Eigen::VectorXd d = gaps(0.5, 0.3, 1.7);
+  const Solution s = solve(d);
+  constexpr double kStep = 1e-4;  // mm
+  for (int i = 0; i < d.size(); i += 5) {
+    Eigen::VectorXd up = d, down = d;
+    up[i] += kStep;
+    down[i] -= kStep;
+    const double slope = (energy(solve(up)) - energy(solve(down))) / (2.0 * kStep);
+    EXPECT_NEAR(-slope, s.force[i], 1e-6 + 2e-4 * s.force[i]) << i;
+  }
+}
+
+TEST_F(PressedBall, WhatOneForceDoesToAnotherIsMutual) {
+  // Small changes of two gaps: the Hessian of the energy is symmetric.
+  const Eigen::VectorXd d = gaps(0.5, 0.3, 1.7);
+  const Solution s = solve(d);
+  std::vector<int> loaded;
+  for (int i = 0; i < d.size(); ++i) {
+    if (s.force[i] > 0.05 * s.force.maxCoeff()) loaded.push_back(i);
+  }
+  ASSERT_GT(loaded.size(), 8U);
+  constexpr double kStep = 2e-5;  // mm
+  const auto change = [&](int at) -> Eigen::VectorXd {
+    Eigen::VectorXd up = d, down = d;
+    up[at] += kStep;
+    down[at] -= kStep;
+    return (solve(up).force - solve(down).force) / (2.0 * kStep);
+  };
+  const Eigen::VectorXd first = change(loaded[0]);
+  double scale = first.cwiseAbs().maxCoeff();
+  for (std::size_t k = 1; k < loaded.size(); k += 3) {
+    EXPECT_NEAR(change(loaded[k])[loaded[0]], first[loaded[k]], 1e-5 * scale);
+  }
+}
+
+TEST_F(PressedBall, NoWorkIsGainedOverAClosedPath) {
+  // In, to the other block, deeper, and back: trapezia over a path of 400 steps.
+  constexpr int kSteps = 400;
+  double work = 0.0, in = 0.0;
+  Eigen::VectorXd d_last;
+  Eigen::VectorXd p_last;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double angle = 2.0 * M_PI * k / kSteps;
+    const Eigen::VectorXd d =
+        gaps(2.0 * std::sin(angle), std::cos(2.0 * angle), 1.3 - 0.9 * std::cos(angle));
+    const Eigen::VectorXd p = solve(d).force;
+    if (k > 0) {
+      const double step = -0.5 * (p + p_last).dot(d - d_last);
+      work += step;
+      in += std::max(step, 0.0);
+    }
+    d_last = d;
+    p_last = p;
+  }
+  EXPECT_GT(in, 0.1);
+  EXPECT_LT(std::abs(work), 1e-3 * in);
+}
+
+TEST(BlockEnergy, OneBlockStiffensWithTheRootOfItsEnergy) {
+  BoneTissueBlocks blocks;
+  blocks.begin = {0, 1};
+  blocks.share = {{static_cast<int>(Region::kThenar), 1.0}};
+  const auto block = static_cast<std::size_t>(Region::kThenar);
+  for (auto& g0 : blocks.g0) g0 = {0.01};
+  for (auto& k : blocks.per_energy) k[block] = 0.7;
+  // Displacement u under the modulus G0 stores W = u^2 / 2 at a response of 100 mm/N.
+  const double u = 1.1;
+  const double energy = 0.5 * u * u / 100.0 * 100.0;
+  const double lambda = 1.0 + std::sqrt(0.7 * energy);
+  BlockStiffening start = no_stiffening();
+  start[block] = lambda;
+  const double force = lambda * u;  // at a response of 1 mm/N
+  const BlockStiffening found =
+      stiffening_of(blocks, TissueLevel::kNominal, start, {0}, {force}, {u});
+  EXPECT_NEAR(found[block], lambda, 1e-12);
+  // U* is the dual of W + 2/3 sqrt(K) W^1.5.
+  const double dual = force * u - energy - 2.0 / 3.0 * std::sqrt(0.7) * std::pow(energy, 1.5);
+  EXPECT_NEAR(0.5 * force * u + stiffening_energy(blocks, TissueLevel::kNominal, start), dual,
+              1e-12);
+}
+
+}  // namespace
+}  // namespace palmar

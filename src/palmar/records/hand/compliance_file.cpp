@@ -1,0 +1,207 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/hand/compliance_file.h"
+
+#include <string_view>
+#include <system_error>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/bytes.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/sha256.h"
+
+namespace palmar {
+namespace {
+
+constexpr std::string_view kMagic = "palmar skin compliance 1\n";
+constexpr std::uint64_t kMostComplianceBytes = std::uint64_t{1} << 30;
+
+void append_mesh(std::string& bytes, const TriangleMesh& mesh) {
+  append_value<std::uint64_t>(bytes, mesh.vertices.size());
+  append_value<std::uint64_t>(bytes, mesh.triangles.size());
+  for (const Vec3& x : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) append_value<double>(bytes, x[k]);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (const int v : t) append_value<std::int32_t>(bytes, v);
+  }
+}
+
+/// Reads values one after the other; `is_good` until there are too few.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  template <typename T>
+  T next() {
+    if (at_ + sizeof(T) > bytes_.size()) {
+      is_good = false;
+      return T{};
+    }
+    at_ += sizeof(T);
+    return read_value<T>(bytes_, at_ - sizeof(T));
+  }
+  std::string_view text(std::size_t length) {
+    if (at_ + length > bytes_.size()) {
+      is_good = false;
+      return {};
+    }
+    at_ += length;
+    return bytes_.substr(at_ - length, length);
+  }
+  std::size_t left() const { return bytes_.size() - at_; }
+  bool is_good = true;
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+/// A count that the rest of the file has room for.
+std::optional<int> count_from(ByteReader& reader, std::size_t bytes_each) {
+  const auto count = reader.next<std::uint32_t>();
+  if (!reader.is_good || count > reader.left() / bytes_each) return std::nullopt;
+  return static_cast<int>(count);
+}
+
+/// Ascending indices below `end`.
+bool read_ascending(ByteReader& reader, std::int64_t end, std::vector<int>& result) {
+  const auto count = count_from(reader, 4);
+  if (!count) return false;
+  for (int i = 0; i < *count; ++i) {
+    const auto value = reader.next<std::int32_t>();
+    if (value < 0 || value >= end || (!result.empty() && value <= result.back())) return false;
+    result.push_back(value);
+  }
+  return true;
+}
+
+bool read_supports(ByteReader& reader, SkinCompliance& result) {
+  result.support_begin.push_back(0);
+  for (std::size_t i = 0; i < result.vertex.size(); ++i) {
+    const auto count = count_from(reader, 12);
+    if (!count) return false;
+    for (int k = 0; k < *count; ++k) {
+      result.support.push_back(reader.next<std::int32_t>());
+      result.weight.push_back(reader.next<double>());
+      if (result.support.back() < 0 ||
+          result.support.back() >= static_cast<int>(result.node.size())) {
+        return false;
+      }
+    }
+    result.support_begin.push_back(result.support.size());
+  }
+  return true;
+}
+
+std::optional<SkinCompliance> compliance_from(ByteReader& reader, std::int64_t vertices) {
+  SkinCompliance result;
+  for (double& v : result.volume) v = reader.next<double>();
+  if (!read_ascending(reader, vertices, result.vertex)) return std::nullopt;
+  if (!read_ascending(reader, vertices, result.node)) return std::nullopt;
+  if (!read_supports(reader, result)) return std::nullopt;
+  const auto patches = count_from(reader, 4);
+  if (!patches) return std::nullopt;
+  std::vector<int> patch;
+  for (std::size_t a = 0; a < result.node.size(); ++a) {
+    const auto own = reader.next<std::int32_t>();
+    if (own < 0 || own >= *patches) return std::nullopt;
+    patch.insert(patch.end(), 3, own);
+  }
+  std::vector<std::vector<int>> near(static_cast<std::size_t>(*patches));
+  for (int I = 0; I < *patches; ++I) {
+    if (!read_ascending(reader, std::int64_t{I} + 1, near[I])) return std::nullopt;
+    if (near[I].empty() || near[I].back() != I) return std::nullopt;
+  }
+  result.smooth = PatchMatrix(std::move(patch), *patches, std::move(near));
+  for (int I = 0; I < *patches; ++I) {
+    for (std::size_t k = 0; k < result.smooth.near(I).size(); ++k) {
+      Eigen::MatrixXd& block = result.smooth.block(I, k);
+      const auto size = static_cast<std::size_t>(block.size());
+      const std::string_view values = reader.text(sizeof(float) * size);
+      if (!reader.is_good) return std::nullopt;
+      for (std::size_t e = 0; e < size; ++e) {
+        block.data()[e] = static_cast<double>(read_value<float>(values, sizeof(float) * e));
+      }
+    }
+  }
+  if (!reader.is_good || reader.left() != 0) return std::nullopt;
+  return result;
+}
+
+void append_indices(std::string& bytes, const std::vector<int>& values) {
+  append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(values.size()));
+  for (const int v : values) append_value<std::int32_t>(bytes, v);
+}
+
+}  // namespace
+
+std::string compliance_key(const Hand& hand, const SkinComplianceOptions& options) {
+  std::string bytes(kMagic);
+  append_mesh(bytes, hand.skin);
+  for (const Segment segment : hand.segment) bytes += static_cast<char>(segment);
+  for (const Region region : hand.region) bytes += static_cast<char>(region);
+  for (const Bone& bone : hand.bones) append_mesh(bytes, bone.mesh);
+  append_value(bytes, options.mesh.finger_edge);
+  return sha256_hex(bytes);
+}
+
+void write_compliance(const std::filesystem::path& path, const std::string& key,
+                      const SkinCompliance& compliance) {
+  std::string bytes(kMagic);
+  bytes += key;
+  for (const double v : compliance.volume) append_value(bytes, v);
+  append_indices(bytes, compliance.vertex);
+  append_indices(bytes, compliance.node);
+  for (std::size_t i = 0; i < compliance.vertex.size(); ++i) {
+    const std::size_t first = compliance.support_begin[i];
+    const std::size_t last = compliance.support_begin[i + 1];
+    append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(last - first));
+    for (std::size_t k = first; k < last; ++k) {
+      append_value<std::int32_t>(bytes, compliance.support[k]);
+      append_value(bytes, compliance.weight[k]);
+    }
+  }
+  const PatchMatrix& R = compliance.smooth;
+  append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(R.patch_count()));
+  for (std::size_t a = 0; a < compliance.node.size(); ++a) {
+    append_value<std::int32_t>(bytes, R.patch_of(3 * static_cast<int>(a)));
+  }
+  for (int I = 0; I < R.patch_count(); ++I) append_indices(bytes, R.near(I));
+  for (int I = 0; I < R.patch_count(); ++I) {
+    for (std::size_t k = 0; k < R.near(I).size(); ++k) {
+      const Eigen::MatrixXd& block = R.block(I, k);
+      for (Eigen::Index e = 0; e < block.size(); ++e) {
+        append_value<float>(bytes, static_cast<float>(block.data()[e]));
+      }
+    }
+  }
+  // Two programs may write at once: each under a name of its own.
+  std::filesystem::path part = path;
+  part += "." + key.substr(0, 8) + "-" +
+          std::to_string(reinterpret_cast<std::uintptr_t>(&part) % 1'000'000) + ".part";
+  write_file(part, bytes);
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw OutputError(path.string() + ": can't be put in place: " + error.message());
+  }
+}
+
+std::optional<SkinCompliance> read_compliance(const std::filesystem::path& path,
+                                              const std::string& key, const Hand& hand) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  std::string bytes;
+  try {
+    bytes = read_file(path, kMostComplianceBytes);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  ByteReader reader(bytes);
+  if (reader.text(kMagic.size()) != kMagic || reader.text(key.size()) != key) return std::nullopt;
+  return compliance_from(reader, hand.skin.vertex_count());
+}
+
+}  // namespace palmar

@@ -1,0 +1,55 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/hand/tissue_on_bone.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/hand/compliance_file.h"
+
+namespace palmar {
+namespace {
+
+std::optional<std::filesystem::path> cache_folder() {
+  // NOLINTBEGIN(concurrency-mt-unsafe): nothing here changes the environment.
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
+    return std::filesystem::path(cache) / "palmar";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return std::filesystem::path(home) / ".cache" / "palmar";
+  }
+  // NOLINTEND(concurrency-mt-unsafe)
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const ContactModel& model) {
+  if (model.tissue != TissueModel::kBone) return nullptr;
+  const auto folder = cache_folder();
+  const std::string key = compliance_key(hand);
+  std::filesystem::path path;
+  if (folder) {
+    path = *folder / ("skin-" + key.substr(0, 24) + ".compliance");
+    if (auto known = read_compliance(path, key, hand)) {
+      return std::make_shared<const SkinCompliance>(std::move(*known));
+    }
+  }
+  auto made =
+      std::make_shared<const SkinCompliance>(skin_compliance(hand, skin_geometry(hand.skin)));
+  if (folder) {
+    try {
+      create_folder(*folder);
+      write_compliance(path, key, *made);
+    } catch (const Error&) {
+      // The next run makes it again.
+    }
+  }
+  return made;
+}
+
+}  // namespace palmar
