@@ -105,7 +105,8 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
 
 std::string assessment_page(const AssessmentSet& set,
                             const std::vector<std::vector<EncodedPicture>>& pictures,
-                            const ColourScale& scale, const std::string& json, bool is_cut_short) {
+                            const ColourScale& scale, const std::string& json,
+                            const AssessmentPageOptions& options) {
   if (!set.hand) throw UsageError("report: the set has no hand");
   if (set.assessments.empty()) throw UsageError("report: the set has no assessment");
   if (pictures.size() != set.assessments.size()) {
@@ -119,7 +120,8 @@ std::string assessment_page(const AssessmentSet& set,
                                     "product-" + std::to_string(i), attachments));
   }
   const PageJson view = {{"maker", maker_json()},
-                         {"is_cut_short", is_cut_short},
+                         {"language", name_of(options.language)},
+                         {"is_cut_short", options.is_cut_short},
                          {"vocabulary", vocabulary_json(*set.hand)},
                          {"scale", colour_bar_json(scale)},
                          {"products", std::move(products)}};

@@ -64,9 +64,9 @@ GraspIndices grip_indices(const Balance& balance) {
                                  "", slips ? std::nullopt : balance.strength_use);
   strength.better = Better::kDown;
   strength.definition =
-      "common level of the flexion moments that hold the grip, over those that the muscles of a "
-      "power grip reach; above "
-      "1 the grip can't be held";
+      "common level of the flexion moments that hold the grip, over the lowest that were measured at "
+      "the joints of a power grip; for ranking designs, while the strength that a grip takes is its "
+      "force over the strength of a dynamometer";
   strength.source = "Li, Zatsiorsky & Latash 2000 (fingers); docs/method/balance.md (thumb)";
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
   rows.push_back(strength);
