@@ -91,17 +91,17 @@ export interface Toggle {
 export function turnableView(options: {
   id: string;
   kind?: "study";
-  label: string;
+  label: string; // of a view of two scenes: their names, parted by a line break
   fallback: string;
   above?: Child;
   bars: Child;
   below?: Child;
   toggles: Toggle[];
-  scene: TrustedMarkup;
+  scene: TrustedMarkup | null; // null: the scenes of `id`, two of them parted by a blank, stand elsewhere
 }): Markup {
   const toggles = options.toggles.map((one) =>
     html`<label><input type="checkbox" data-toggle="${one.key}"${one.isOn && html` checked`}> ${one.words}</label>`);
   const look = (key: string) => html`<button type="button" data-look="${key}">${say("view.look." + key)}</button>`;
-  return html`<section class="view" data-palmar-scene="${options.id}"${options.kind && html` data-palmar-kind="${options.kind}"`} aria-label="${say("view.title")}">${options.above}<div class="view-body"><div class="view-canvas" data-label="${options.label}"><p class="view-fallback">${say("view.fallback")} ${options.fallback}</p></div><div class="view-bar">${options.bars}</div></div>${options.below}<div class="controls">${toggles}</div><div class="controls"><span>${say("view.look")}</span>${look("palm")}${look("back")}${look("thumb")}${look("little")}<span>${say("view.help")}</span></div><script type="application/json" id="${options.id}">${trusted(options.scene)}</script></section>
+  return html`<section class="view${options.scene === null && " pair"}" data-palmar-scene="${options.id}"${options.kind && html` data-palmar-kind="${options.kind}"`} aria-label="${say("view.title")}">${options.above}<div class="view-body">${options.label.split("\n").map((label) => html`<div class="view-canvas" data-label="${label}"><p class="view-fallback">${say("view.fallback")} ${options.fallback}</p></div>`)}<div class="view-bar">${options.bars}</div></div>${options.below}<p class="view-says view-copied" hidden>${say("view.copied")} <code></code></p><div class="controls">${toggles}<label>${say("view.cut")} <input type="range" data-cut min="0" max="100" value="100"></label><button type="button" data-save="${options.id.replace(" ", "-")}">${say("view.save")}</button></div><div class="controls"><span>${say("view.look")}</span>${look("palm")}${look("back")}${look("thumb")}${look("little")}<span>${say("view.help")}</span></div>${options.scene !== null && html`<script type="application/json" id="${options.id}">${trusted(options.scene)}</script>`}</section>
 `;
 }

@@ -13,7 +13,7 @@ export const productColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"];
 const width = 430;
 
 function unseenTable(caption: string, heads: string[], rows: string[][]): Markup {
-  return html`<table class="unseen"><caption>${caption}</caption><thead><tr>${heads.map((one) => html`<th scope="col">${one}</th>`)}</tr></thead><tbody>${rows.map((row) => html`<tr>${row.map((one, i) => i === 0 ? html`<th scope="row">${one}</th>` : html`<td>${one}</td>`)}</tr>`)}</tbody></table>`;
+  return html`<div class="unseen"><table><caption>${caption}</caption><thead><tr>${heads.map((one) => html`<th scope="col">${one}</th>`)}</tr></thead><tbody>${rows.map((row) => html`<tr>${row.map((one, i) => i === 0 ? html`<th scope="row">${one}</th>` : html`<td>${one}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 
 /// Bars per group and product with a mark in each group: pressures by region and where discomfort

@@ -10,12 +10,43 @@ import { FirstScreen, firstScreen } from "../components/first_screen";
 import { indexSection } from "../components/indices";
 import { Markup, html } from "../components/markup";
 import { capitalised, percent, shortNumber } from "../components/numbers";
-import { Section, Verdict, badge, charts, colourBar, folded, licence, list, note, pictureFigures, turnableView } from "../components/parts";
+import { Section, Toggle, Verdict, badge, charts, colourBar, folded, licence, list, note, pictureFigures, turnableView } from "../components/parts";
 import { groupedBars } from "../components/small_charts";
 import { balanceVerdict, comfortSection, graspNotes, gripWords, isInHand, readingAdvice, regionWords, statusVerdict, statusWords } from "../components/verdicts";
 import { documentPage } from "./document";
 
 const shownRegions = 6; // in the small chart; the sections below have all
+
+function viewToggles(): Toggle[] {
+  return [
+    { key: "skin", words: say("view.skin"), isOn: true },
+    { key: "pressure", words: say("view.pressure"), isOn: true },
+    { key: "undeformed", words: say("view.undeformed"), isOn: false },
+    { key: "product", words: say("view.product"), isOn: true },
+    { key: "footprint", words: say("view.footprint"), isOn: false },
+    { key: "see-through", words: say("view.see_through"), isOn: true },
+  ];
+}
+
+/// Where the view says what is pointed at.
+function pointLine(): Markup {
+  return html`<p class="view-says view-point" aria-live="polite">${say("view.point")}</p>`;
+}
+
+/// The first two products side by side, looked at from the same side of the hand.
+function pairView(all: Assessment[], view: AssessmentView): Markup | null {
+  if (all.length < 2) return null;
+  const names = [all[0].product.name, all[1].product.name];
+  return html`<h3>${say("view.pair", { first: names[0], second: names[1] })}</h3>${turnableView({
+    id: "scene-0 scene-1",
+    label: names.map((product) => say("view.label", { product })).join("\n"),
+    fallback: say("view.pictures"),
+    bars: colourBar(view.scale),
+    below: pointLine(),
+    toggles: viewToggles(),
+    scene: null,
+  })}`;
+}
 
 function productSection(one: Assessment, view: AssessmentView, index: number): Section {
   const { vocabulary } = view;
@@ -34,14 +65,8 @@ function productSection(one: Assessment, view: AssessmentView, index: number): S
       label: say("view.label", { product: one.product.name }),
       fallback: say("view.pictures"),
       bars: colourBar(view.scale),
-      toggles: [
-        { key: "skin", words: say("view.skin"), isOn: true },
-        { key: "pressure", words: say("view.pressure"), isOn: true },
-        { key: "undeformed", words: say("view.undeformed"), isOn: false },
-        { key: "product", words: say("view.product"), isOn: true },
-        { key: "footprint", words: say("view.footprint"), isOn: false },
-        { key: "see-through", words: say("view.see_through"), isOn: true },
-      ],
+      below: pointLine(),
+      toggles: viewToggles(),
       scene: shown.scene,
     })}${contact}${frictionSection(one.friction, shown.friction_words, vocabulary)}${waysSection(shown)}${pictures && folded(say("section.pictures"), pictures)}${indexSection(one.index_table)}${folded(say("stops.caption"), stopTable(one, vocabulary))}${folded(say("section.posture"), html`${postureTable(one, vocabulary)}${placementTable(one)}`)}${folded(say("section.settings"), html`${settingsTable(one)}<p>${say("product.from", { source: one.product.source, unit: one.product.unit, from: one.product.unit_from, triangles: one.product.triangles })}</p>`)}`,
   };
@@ -190,7 +215,7 @@ export function assessmentPage(page: AssessmentPage): string {
         id: "figures",
         title: say("section.figures"),
         isOpen: true,
-        content: html`${summaryTable(all, view.vocabulary)}<p>${readingAdvice(all, view.vocabulary)}</p>
+        content: html`${summaryTable(all, view.vocabulary)}${pairView(all, view)}<p>${readingAdvice(all, view.vocabulary)}</p>
 ${side}<p>${say("figures.small")} ${scale} ${say("figures.full")}</p>
 `,
       },

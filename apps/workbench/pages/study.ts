@@ -131,7 +131,7 @@ ${turnableView({
       above: controls,
       bars: [colourBar(scene.scales.grasp, "grasp", false), colourBar(scene.scales.mean, "mean"),
              colourBar(scene.scales.sd, "sd", false), colourBar(scene.scales.above, "above", false)],
-      below: html`<p class="view-says" aria-live="polite"></p>${scene.has_faces && html`<p class="view-says view-face">${say("study.view.point")}</p>`}`,
+      below: html`<p class="view-says" aria-live="polite"></p><p class="view-says view-face">${say("study.view.point")}</p>`,
       toggles: [
         { key: "skin", words: say("view.skin"), isOn: true },
         { key: "pressure", words: say("view.pressure"), isOn: true },
