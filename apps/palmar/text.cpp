@@ -5,35 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <vector>
 
 namespace palmar::cli {
-
-std::string shell_word(const std::string& word) {
-  bool is_plain = !word.empty(), has_control = false;
-  for (const char c : word) {
-    const auto byte = static_cast<unsigned char>(c);
-    is_plain = is_plain && (std::isalnum(byte) != 0 || std::strchr("_-./:,=+@%", c) != nullptr);
-    has_control = has_control || byte < 0x20;
-  }
-  if (is_plain) return word;
-  // A line break would end a comment that the command line stands in.
-  std::string quoted = has_control ? "$'" : "'";
-  for (const char c : word) {
-    if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else if (has_control && (c == '\'' || c == '\\')) {
-      quoted += std::string("\\") + c;
-    } else {
-      quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-  }
-  return quoted + "'";
-}
 
 std::string volume_text(double volume, int digits) {
   const bool is_small = volume != 0.0 && std::abs(volume) < 10.0;

@@ -28,9 +28,6 @@ std::string equations_text(const ContactModel& model);
 /// Totals and one line per region; the error band and the equations that ran.
 std::string contact_text(const ContactResult& contact);
 
-/// A word as a shell takes it, in quotes where it needs them: command lines can be run again.
-std::string shell_word(const std::string& word);
-
 /// "1234 mm3"; small ones with three digits rather than as 0.
 std::string volume_text(double volume, int digits = 0);
 

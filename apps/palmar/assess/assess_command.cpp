@@ -25,7 +25,8 @@ struct AssessArguments {
   BalanceArguments balance;
   CadArguments cad;
   std::string natural_postures;
-  std::string out;
+  std::string out, language = "en", paper = "a4";
+  bool pdf = false;
   bool no_pictures = false;
 };
 
@@ -42,6 +43,14 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
                         coating.where.isEmpty() ? "" : ", inside its box");
   }
   return text;
+}
+
+/// The answer, why, and what to do next.
+std::string verdict_text(const VerdictWords& words) {
+  std::string text = words.sentence + "\n";
+  for (const std::string& reason : words.reasons) text += "  " + reason + "\n";
+  if (!words.command.empty()) text += words.next + "\n  " + words.command + "\n";
+  return text + "\n";
 }
 
 Cancelled cancelled_after(const AssessOutcome& outcome) {
@@ -70,6 +79,9 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.natural_postures = arguments.natural_postures;
   request.out = arguments.out;
   if (request.out.empty() && !context.common.json) request.out = free_report_folder();
+  request.language = language_named(arguments.language);
+  const Paper paper = paper_named(arguments.paper);
+  if (arguments.pdf) request.pdf = paper;
   request.pictures = !arguments.no_pictures;
   request.seed = context.common.seed;
   request.command_line = context.command_line;
@@ -82,8 +94,9 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
       assess_products(request_of(arguments, context), make_progress(context.common));
   finish_progress();
   if (context.common.json) {
-    print(assessment_json(outcome.set) + "\n");
+    print(assessment_json(outcome.set, outcome.words) + "\n");
   } else {
+    print(verdict_text(outcome.words));
     for (const AssessedProduct& one : outcome.set.assessments) {
       print(summary(*outcome.set.hand, one.product, one.assessment) + "\n");
     }
@@ -111,6 +124,13 @@ void add_assess_command(CLI::App& app, Context& context) {
                    "the index of ease in place of the built-in one");
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
+  verb->add_option("--language", arguments->language, "Language of the report: en or de")
+      ->capture_default_str();
+  verb->add_flag(
+      "--pdf", arguments->pdf,
+      "Print the first screen (answer.pdf) and all (report.pdf) with a headless browser");
+  verb->add_option("--paper", arguments->paper, "Paper of --pdf: a4 or letter")
+      ->capture_default_str();
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
   verb->callback([&context, arguments] {
     context.run = [&context, arguments] { return run_assess(*arguments, context); };

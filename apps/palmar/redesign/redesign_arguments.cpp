@@ -29,6 +29,8 @@ void RedesignArguments::add_to(CLI::App& verb) {
   holds.add_to(verb);
   verb.add_option("--at", at, "Where it is held, product frame: x,y,z mm");
   verb.add_option("--axis", axis, "Direction of the handle there: x,y,z");
+  verb.add_option("--language", language, "Language of the report: en or de")
+      ->capture_default_str();
   verb.add_option("--posture", posture,
                   "kept: redesigns are held in the posture in which the same hand holds the "
                   "original; new: each is grasped on its own")
@@ -42,6 +44,7 @@ RedesignRequest RedesignArguments::read(const Context& context) const {
   RedesignRequest result = request;
   result.posture = redesign_posture(posture);
   result.unit = parse_unit(unit);
+  result.language = language_named(language);
   for (const std::string& name : grips) result.grips.push_back(asked_grip_named(name));
   if (!at.empty()) result.at = parse_vector("--at", at);
   if (!axis.empty()) result.axis = parse_vector("--axis", axis);
@@ -56,17 +59,20 @@ RedesignRequest RedesignArguments::read(const Context& context) const {
 void print_redesign(const std::string& json, const std::optional<RedesignComparison>& comparison,
                     const Context& context) {
   finish_progress();
+  StudyAnswerOptions options;
+  options.command = context.command_line;
+  if (comparison) options.language = comparison->language;
   if (context.common.json) {
     nlohmann::ordered_json object = nlohmann::ordered_json::parse(json);
     if (comparison) {
-      object["comparison"] =
-          comparison_object(compare_results(comparison->results, comparison->quantities, {}), {});
+      object["comparison"] = comparison_object(
+          compare_results(comparison->results, comparison->quantities, options), {});
     }
     print(object.dump(2) + "\n");
     return;
   }
   if (!comparison) return;
-  print(comparison_text(compare_results(comparison->results, comparison->quantities, {})));
+  print(comparison_text(compare_results(comparison->results, comparison->quantities, options)));
   note(context.common,
        "report: " + comparison->report.string() + "; study: " + comparison->study.string());
 }

@@ -24,6 +24,7 @@ struct RedesignArguments {
   std::string unit, at, axis, out;
   std::vector<std::string> grips;
   HoldArguments holds;
+  std::string language = "en";
   std::string posture = name_of(RedesignRequest{}.posture);
 
   void add_to(CLI::App& verb);

@@ -30,6 +30,7 @@ Json pair_object(const StudyPlan& plan, const ProductPair& pair) {
                  {"left_out", left_out},      {"verdict", name_of(pair.verdict)}};
   if (pair.verdict == DifferenceVerdict::kTooFewPairs) return object;
   const PairedTest& t = pair.t_test;
+  object["lower_in_second"] = pair.lower_in_second;
   object["mean_first"] = pair.mean_first;
   object["mean_second"] = pair.mean_second;
   object["difference"] = t.difference;
@@ -95,17 +96,35 @@ Json comparison_object(const StudyCompareOutcome& outcome, const ComparisonOptio
     conditions.push_back(
         {{"condition", title_of(plan, condition.condition)}, {"quantities", compared}});
   }
+  const StudyAnswer& answer = outcome.answer;
+  const auto name_or_null = [&](const std::optional<int>& product) {
+    return product ? Json(plan.products[static_cast<std::size_t>(*product)].name) : Json(nullptr);
+  };
+  Json verdict = {{"sentence", answer.sentence},
+                  {"reasons", answer.reasons},
+                  {"next", answer.next},
+                  {"command", answer.command},
+                  {"better", name_or_null(answer.better)},
+                  {"worse", name_or_null(answer.worse)}};
   return {{"study", plan.name},
+          {"verdict", std::move(verdict)},
           {"significance", options.significance},
           {"conditions", conditions},
           {"palmar", version()}};
+}
+
+std::string answer_text(const StudyAnswer& answer) {
+  std::string text = answer.sentence + "\n";
+  for (const std::string& reason : answer.reasons) text += "  " + reason + "\n";
+  if (!answer.command.empty()) text += answer.next + "\n  " + answer.command + "\n";
+  return text;
 }
 
 std::string comparison_text(const StudyCompareOutcome& outcome) {
   const StudyPlan& plan = outcome.results.plan;
   std::size_t width = 7;
   for (const StudyProduct& one : plan.products) width = std::max(width, one.name.size());
-  std::string text;
+  std::string text = answer_text(outcome.answer) + "\n";
   for (const auto& [condition, quantities] : outcome.conditions) {
     text += title_of(plan, condition) + "\n";
     for (const auto& [quantity, products, pairs] : quantities) {

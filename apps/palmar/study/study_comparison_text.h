@@ -13,6 +13,8 @@ namespace palmar::cli {
 
 nlohmann::ordered_json comparison_object(const StudyCompareOutcome& outcome,
                                          const ComparisonOptions& options);
+/// The answer, why, and what to do next.
+std::string answer_text(const StudyAnswer& answer);
 std::string comparison_text(const StudyCompareOutcome& outcome);
 
 }  // namespace palmar::cli

@@ -18,6 +18,8 @@ void add_report(CLI::App& noun, Context& context) {
     std::string store, out;
     double threshold = 1000.0 * kBloodFlowStop;  // kPa
     StudyReportOptions report;
+    std::string language = "en", paper = "a4";
+    bool pdf = false;
     bool no_pictures = false, no_figures = false;
   };
   const auto o = std::make_shared<Options>();
@@ -35,11 +37,23 @@ void add_report(CLI::App& noun, Context& context) {
   verb->add_option("--most-grasps", o->report.most_grasps,
                    "Grasps in the 3-D view, chosen evenly by hand length; 0: no view")
       ->capture_default_str();
+  verb->add_option("--language", o->language, "Language of the report: en or de")
+      ->capture_default_str();
+  verb->add_flag(
+      "--pdf", o->pdf,
+      "Print the first screen (answer.pdf) and all (report.pdf) with a headless browser");
+  verb->add_option("--paper", o->paper, "Paper of --pdf: a4 or letter")->capture_default_str();
   verb->add_flag("--no-pictures", o->no_pictures, "No pictures of the maps");
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      StudyReportRequest request{.store = o->store, .folder = o->out, .report = o->report};
+      StudyReportRequest request;
+      request.store = o->store;
+      request.folder = o->out;
+      request.report = o->report;
+      const Paper paper = paper_named(o->paper);
+      if (o->pdf) request.pdf = paper;
+      request.report.language = language_named(o->language);
       request.report.threshold = o->threshold / 1000.0;
       request.report.pictures = !o->no_pictures;
       request.report.figure_files = !o->no_figures;
@@ -53,6 +67,7 @@ void add_report(CLI::App& noun, Context& context) {
 
 void add_compare(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<StudyCompareRequest>();
+  const auto language = std::make_shared<std::string>("en");
   o->quantities.clear();
   CLI::App* verb =
       add_verb(noun, "compare", "Differences between products over the same hands",
@@ -65,9 +80,12 @@ void add_compare(CLI::App& noun, Context& context) {
   verb->add_option("--significance", o->comparison.significance,
                    "Level of the corrected p value below which a difference is named")
       ->capture_default_str();
-  verb->callback([&context, o] {
-    context.run = [&context, o] {
+  verb->add_option("--language", *language, "Language of the verdict: en or de")
+      ->capture_default_str();
+  verb->callback([&context, o, language] {
+    context.run = [&context, o, language] {
       StudyCompareRequest request = *o;
+      request.language = language_named(*language);
       if (request.quantities.empty()) request.quantities = StudyCompareRequest{}.quantities;
       const StudyCompareOutcome outcome = compare_study(request);
       print(context.common.json ? comparison_object(outcome, o->comparison).dump(2) + "\n"

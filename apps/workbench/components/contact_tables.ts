@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { Assessment, ContactResult, ContactTotals, FrictionResult, TissueRange, Vocabulary } from "../types";
+import { say, sayName } from "../texts";
 import { Child, Markup, html } from "./markup";
 import { length, nothing, percent, shortNumber } from "./numbers";
 import { badge, note } from "./parts";
+import { term } from "./glossary";
 import { cell, colouredHead, emptyCell, numberCell, numbers, rowHead, table, valueCell, words } from "./tables";
-import { isInHand, nearestToPain, regionsWithoutBloodFlow, statusVerdict, statusWords } from "./verdicts";
+import { isInHand, regionWords, statusVerdict, statusWords } from "./verdicts";
 
 /// "8.7 to 12"; a dash for an end that could not be solved.
 export function rangeWords(range: TissueRange): string {
-  return shortNumber(range.low) + " to " + shortNumber(range.high);
+  return say("range", { low: shortNumber(range.low), high: shortNumber(range.high) });
 }
 
 function rangeCell(value: number, range: TissueRange | null): Markup {
@@ -19,41 +21,32 @@ function rangeCell(value: number, range: TissueRange | null): Markup {
 }
 
 function resultCells(assessment: Assessment, vocabulary: Vocabulary): Child {
-  const contact = assessment.contact;
-  const nearest = nearestToPain(contact, vocabulary);
-  if (!isInHand(assessment) || !nearest) {
+  const { contact, verdict } = assessment;
+  const comfort = verdict.comfort;
+  if (!isInHand(assessment) || !comfort) {
     // A posture that holds nothing has forces, too, but they say nothing about holding.
-    return [emptyCell(), emptyCell(), emptyCell(), emptyCell(), emptyCell(), cell(nothing),
-            html`<td colspan="2">not in the hand: nothing to judge</td>`];
+    return [emptyCell(), emptyCell(), emptyCell(), emptyCell(), html`<td colspan="3">${say("summary.not_in_hand")}</td>`];
   }
-  let hottest = contact.regions[0];
-  for (const one of contact.regions) {
-    if (one.peak_pressure_cells_mpa > hottest.peak_pressure_cells_mpa) hottest = one;
-  }
-  const share = percent(nearest.share) + " of pain onset";
-  const pain = nearest.share >= 1 ? "Above pain onset: " : nearest.share >= 0.5 ? "Near: " : "Below: ";
   const band = contact.band;
   return [
     numberCell(contact.grip_force_n),
-    rangeCell(contact.force_n, band && band.force_n),
-    rangeCell(contact.contact_area_mm2, band && band.contact_area_mm2),
-    rangeCell(contact.peak_pressure_mpa, band && band.peak_pressure_mpa),
     rangeCell(contact.peak_pressure_cells_mpa, band && band.peak_pressure_cells_mpa),
-    cell(vocabulary.regions[hottest.region].words),
-    cell(pain + share),
-    cell(regionsWithoutBloodFlow(contact, vocabulary) + " of " + contact.regions.length + " regions above " +
-         shortNumber(vocabulary.blood_flow_stop_mpa, 1) + " MPa"),
+    rangeCell(contact.contact_area_mm2, band && band.contact_area_mm2),
+    rangeCell(contact.force_n, band && band.force_n),
+    cell(say("summary.share", { percent: percent(comfort.moment.share), region: regionWords(comfort.moment.region, vocabulary) })),
+    cell(say("summary.share", { percent: percent(comfort.repeated.share), region: regionWords(comfort.repeated.region, vocabulary) })),
+    valueCell(comfort.minutes.share_of_skin, percent(comfort.minutes.share_of_skin)),
   ];
 }
 
 /// One row per product, linked to its section (#product-N).
 export function summaryTable(assessments: Assessment[], vocabulary: Vocabulary): Markup {
   return table({
-    caption: "Results at a glance",
-    columns: [words("Product"), words("Does it fit?"), numbers("Grip force, N"), numbers("Force, N"), numbers("Contact area, mm²"),
-              numbers("Peak pressure, MPa"), numbers("Peak on sensor cells, MPa"),
-              words("Hottest region (sensor cells)"), words("Firm grip for a moment: pain (film peak)"),
-              words("Grip held long: blood flow (sensor cells)")],
+    caption: say("summary.caption"),
+    columns: [words(say("summary.product")), words(say("summary.fit")), numbers(term("grip_force", say("summary.grip_force"))),
+              numbers(term("peak_on_cells", say("summary.cells"))), numbers(term("contact_area", say("summary.area"))),
+              numbers(term("sum_of_forces", say("summary.force"))), words(say("summary.moment")), words(say("summary.repeated")),
+              numbers(say("summary.minutes"))],
     rows: assessments.map((one, i) =>
       html`<tr>${rowHead(html`<a href="#product-${i}">${one.product.name}</a>`)}<td>${badge(statusVerdict(one), statusWords(one, vocabulary))}</td>${resultCells(one, vocabulary)}</tr>`),
   });
@@ -65,14 +58,15 @@ export function regionTable(contact: ContactResult, vocabulary: Vocabulary): Mar
     numberCell(one.peak_pressure_cells_mpa), numberCell(one.mean_pressure_mpa), numberCell(one.max_penetration_mm)];
   const rows = contact.regions.map((one) => {
     const region = vocabulary.regions[one.region];
-    return html`<tr data-region="${one.region}">${colouredHead(region.colour, region.words)}${figures(one)}${numberCell(region.pain_onset_mpa)}</tr>`;
+    return html`<tr data-region="${one.region}">${colouredHead(region.colour, regionWords(one.region, vocabulary))}${figures(one)}${numberCell(region.discomfort_onset_mpa)}${numberCell(region.pain_onset_mpa)}</tr>`;
   });
   return table({
-    caption: "Contact by region of the hand",
-    columns: [words("Region"), numbers("Force, N"), numbers("Area, mm²"), numbers("Peak, MPa"),
-              numbers("Peak on cells, MPa"), numbers("Mean, MPa"),
-              numbers("Depth before the skin gives way, mm"), numbers("Pain onset (film peak), MPa")],
-    rows: html`${rows}<tr class="total" data-region="total">${rowHead("Whole hand")}${figures(contact)}<td></td></tr>`,
+    caption: say("regions.caption"),
+    columns: [words(term("region", say("regions.region"))), numbers(say("regions.force")), numbers(say("regions.area")),
+              numbers(term("peak_at_vertex", say("regions.peak"))), numbers(term("peak_on_cells", say("regions.cells"))),
+              numbers(say("regions.mean")), numbers(say("regions.depth")), numbers(term("discomfort", say("regions.discomfort"))),
+              numbers(term("pain", say("regions.pain")))],
+    rows: html`${rows}<tr class="total" data-region="total">${rowHead(say("regions.whole"))}${figures(contact)}<td></td><td></td></tr>`,
   });
 }
 
@@ -83,11 +77,11 @@ export function faceSection(assessment: Assessment): Markup | null {
   const hottest = faces.filter((one) => one.has_peak).pop();
   const rows = faces.map((one) => html`<tr>${faceHead(one.title, one.part)}${numberCell(one.force_n)}${numberCell(one.contact_area_mm2)}${numberCell(one.area_mm2)}${numberCell(one.peak_pressure_mpa)}${numberCell(one.mean_pressure_mpa)}</tr>
 `);
-  return html`<h3>Faces of the product</h3>${hottest && html`<p>Highest pressure on the product: ${hottest.title}, ${shortNumber(hottest.peak_pressure_mpa, 2)} MPa.</p>
+  return html`<h3>${say("faces.title")}</h3>${hottest && html`<p>${say("faces.hottest", { face: hottest.title, pressure: shortNumber(hottest.peak_pressure_mpa, 2) })}</p>
 `}${table({
-    caption: "What the hand does to each face. Pressures count per area of the product, where skin that bends covers less than when it is flat, so they can differ by some ten per cent from those on the skin.",
-    columns: [words("Face"), numbers("Force, N"), numbers("Area under pressure, mm²"), numbers("Area of the face, mm²"),
-              numbers("Peak pressure, MPa"), numbers("Mean pressure, MPa")],
+    caption: say("faces.caption"),
+    columns: [words(say("faces.face")), numbers(say("faces.force")), numbers(say("faces.pressed")), numbers(say("faces.area")),
+              numbers(say("faces.peak")), numbers(say("faces.mean"))],
     rows,
   })}`;
 }
@@ -100,23 +94,23 @@ export function faceHead(title: string, part: string): Markup {
 /// Whether friction holds the load. `sentence`: the verdict in words.
 export function frictionSection(friction: FrictionResult | undefined, sentence: string, vocabulary: Vocabulary): Markup | null {
   if (!friction || friction.status === "off") return null;
-  const begin = friction.status === "held" ? "Held by friction." : friction.status === "slips" ? "Slips." : "Not held.";
+  const begin = say("friction." + (friction.status === "held" || friction.status === "slips" ? friction.status : "not_held"));
   const share = (value: number) => valueCell(100 * value, shortNumber(100 * value, 2));
-  const rows = friction.regions.map((one) => html`<tr data-friction-region="${one.region}">${rowHead(vocabulary.regions[one.region].words)}${numberCell(one.normal_force_n)}${numberCell(one.friction_limit_n)}${numberCell(length(one.friction_force_n))}${share(one.slip_margin)}${share(one.slipping_share_of_area)}</tr>`);
-  return html`<h3>Friction</h3>${note(friction.status === "held" ? "good" : "bad", begin, sentence)}${rows.length > 0 && html`${table({
-    caption: "Friction per region",
-    columns: [words("Region"), numbers("Normal force, N"), numbers("Friction at most, N"),
-              numbers("Friction in use, vector, N"), numbers("Slip margin, %"), numbers("Area that slips, %")],
+  const rows = friction.regions.map((one) => html`<tr data-friction-region="${one.region}">${rowHead(regionWords(one.region, vocabulary))}${numberCell(one.normal_force_n)}${numberCell(one.friction_limit_n)}${numberCell(length(one.friction_force_n))}${share(one.slip_margin)}${share(one.slipping_share_of_area)}</tr>`);
+  return html`<h3>${say("friction.title")}</h3>${note(friction.status === "held" ? "good" : "bad", begin, sentence)}${rows.length > 0 && html`${table({
+    caption: say("friction.caption"),
+    columns: [words(say("regions.region")), numbers(say("friction.normal")), numbers(say("friction.most")),
+              numbers(say("friction.used")), numbers(say("friction.margin")), numbers(say("friction.slips_area"))],
     rows,
-  })}<p>Slip margin: the share of the friction, coefficient times pressure, that is not in use; 0 where all of the region slips.</p>
+  })}<p>${say("friction.margin.words")}</p>
 `}`;
 }
 
 export function stopTable(assessment: Assessment, vocabulary: Vocabulary): Markup {
   return table({
-    caption: "What stopped each segment",
-    columns: [words("Segment"), words("Stopped because"), numbers("Depth in the product, mm (minus: gap)")],
-    rows: assessment.grasp.segments.map((one) => html`<tr data-segment="${one.segment}">${rowHead(vocabulary.segments[one.segment])}${cell(vocabulary.stops[one.stopped_by] || one.stopped_by)}${numberCell(one.penetration_mm)}</tr>`),
+    caption: say("stops.caption"),
+    columns: [words(say("stops.segment")), words(say("stops.because")), numbers(say("stops.depth"))],
+    rows: assessment.grasp.segments.map((one) => html`<tr data-segment="${one.segment}">${rowHead(sayName("region", one.segment, vocabulary.segments[one.segment]))}${cell(sayName("stop", one.stopped_by, vocabulary.stops[one.stopped_by] || one.stopped_by))}${numberCell(one.penetration_mm)}</tr>`),
   });
 }
 
@@ -125,12 +119,12 @@ export function postureTable(assessment: Assessment, vocabulary: Vocabulary): Ma
   for (const name in vocabulary.motions) {
     const motion = vocabulary.motions[name];
     const range = motion.lower_deg === null ? nothing
-      : shortNumber(motion.lower_deg, 2) + " to " + shortNumber(motion.upper_deg, 2);
+      : say("range", { low: shortNumber(motion.lower_deg, 2), high: shortNumber(motion.upper_deg, 2) });
     rows.push(html`<tr data-dof="${name}">${rowHead(motion.words)}${numberCell(assessment.grasp.posture[name + "_deg"])}<td class="n">${range}</td></tr>`);
   }
   return table({
-    caption: "Posture of the joints",
-    columns: [words("Joint"), numbers("Angle, °"), numbers("Range of motion, °")],
+    caption: say("posture.caption"),
+    columns: [words(say("posture.joint")), numbers(say("posture.angle")), numbers(say("posture.range"))],
     rows,
   });
 }
@@ -151,14 +145,14 @@ export function placementTable(assessment: Assessment): Markup {
   const angle = (2 * Math.atan2(sine, sign * q[0]) * 180) / Math.PI;
   const row = (name: string, value: Markup) => html`<tr>${rowHead(name)}${value}</tr>`;
   return table({
-    caption: "Placement (product frame)",
-    columns: [words("Quantity"), numbers("Value")],
-    rows: [row("Grip point, mm", vectorCell(grasp.grip_point_mm, 4)),
-           row("Grip axis, towards the thumb", vectorCell(grasp.grip_axis, 3)),
-           row("Girth of the product at the grip, mm", numberCell(grasp.grip_girth_mm, 4)),
-           row("Hand origin (wrist), mm", vectorCell(place.translation_mm, 4)),
-           row("Turn of the hand, °", numberCell(angle)),
-           row("About the axis", vectorCell(axis, 3))],
+    caption: say("placement.caption"),
+    columns: [words(say("placement.quantity")), numbers(say("placement.value"))],
+    rows: [row(say("placement.point"), vectorCell(grasp.grip_point_mm, 4)),
+           row(say("placement.axis"), vectorCell(grasp.grip_axis, 3)),
+           row(say("placement.girth"), numberCell(grasp.grip_girth_mm, 4)),
+           row(say("placement.origin"), vectorCell(place.translation_mm, 4)),
+           row(say("placement.turn"), numberCell(angle)),
+           row(say("placement.about"), vectorCell(axis, 3))],
   });
 }
 
@@ -166,37 +160,41 @@ function sleeveWords(assessment: Assessment): [string, string][] {
   const corner = (p: number[]) => "(" + p.map((one) => shortNumber(one)).join(", ") + ")";
   return assessment.settings.coatings.map((one): [string, string] => {
     const box = one.box_corners_mm;
-    return ["Sleeve on the product",
-            shortNumber(one.thickness_mm) + " mm thick, shear modulus " + shortNumber(1000 * one.shear_modulus_mpa) +
-            " kPa, Poisson's ratio " + shortNumber(one.poisson, 2) +
-            (box ? ", between " + corner(box[0]) + " and " + corner(box[1]) + " mm" : ", on the whole product")];
+    const where = box ? say("sleeve.between", { first: corner(box[0]), second: corner(box[1]) }) : say("sleeve.whole");
+    return [say("sleeve.title"), say("sleeve.words", {
+      thickness: shortNumber(one.thickness_mm), modulus: shortNumber(1000 * one.shear_modulus_mpa),
+      poisson: shortNumber(one.poisson, 2), where,
+    })];
   });
 }
 
 export function settingsTable(assessment: Assessment): Markup {
   const s = assessment.settings;
   const isGiven = s.at_mm !== null || s.axis !== null || s.turn_deg !== null;
+  const row = (key: string, value: string): [string, string] => [say("setting." + key), value];
+  const choice = (key: string, isFirst: boolean): [string, string] =>
+    row(key, say("setting." + key + (isFirst ? ".yes" : ".no")));
   const rows: [string, string][] = [
-    ["Limit depth of the palm", shortNumber(s.palm_limit_depth_mm) + " mm"],
-    ["Limit depth of the fingers", shortNumber(s.finger_limit_depth_mm) + " mm"],
-    ["Placement", isGiven ? "as asked" : "found from the product's shape"],
-    ["Grip", assessment.grasp.grip],
-    ["Grip force", (s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N: " : "") + s.grip_force_from],
-    ["Comes to rest", s.balance ? "yes" : "no"],
-    ["Equations of the contact", s.contact_model],
-    ["Kernel", s.kernel === "patch" ? "patch (uniform pressure on each vertex's area)" : "point (Xie 2014, r held at 0.5 mm)"],
-    ["Under the skin", s.tissue_model === "halfspace" ? "half-space" : "layer bonded to the bone"],
-    ["Regions", s.regions === "coupled" ? "solved together" : "solved one by one"],
-    ["Swelling of the skin", s.swelling ? "on" : "off"],
-    ["Sensor cell", shortNumber(s.cell_area_mm2) + " mm²"],
-    ["Shear modulus", s.shear_modulus_mpa !== null ? shortNumber(s.shear_modulus_mpa) + " MPa" : "grows with depth, per region"],
+    row("palm_depth", shortNumber(s.palm_limit_depth_mm) + " mm"),
+    row("finger_depth", shortNumber(s.finger_limit_depth_mm) + " mm"),
+    choice("placement", isGiven),
+    row("grip", assessment.grasp.grip),
+    row("grip_force", (s.grip_force_asked_n !== null ? shortNumber(s.grip_force_asked_n) + " N: " : "") + s.grip_force_from),
+    choice("rest", s.balance),
+    row("equations", s.contact_model),
+    choice("kernel", s.kernel === "patch"),
+    choice("tissue", s.tissue_model === "halfspace"),
+    choice("coupled", s.regions === "coupled"),
+    choice("swelling", s.swelling),
+    row("cell", shortNumber(s.cell_area_mm2) + " mm²"),
+    row("modulus", s.shear_modulus_mpa !== null ? shortNumber(s.shear_modulus_mpa) + " MPa" : say("setting.modulus.grows")),
     ...sleeveWords(assessment),
-    ["Ranges for soft and stiff tissue", s.error_band ? "on" : "left out"],
-    ["Seed", String(s.seed)],
+    choice("band", s.error_band),
+    row("seed", String(s.seed)),
   ];
   return table({
-    caption: "Settings",
-    columns: [words("Setting"), words("Value")],
+    caption: say("settings.caption"),
+    columns: [words(say("settings.setting")), words(say("placement.value"))],
     rows: rows.map(([name, value]) => html`<tr>${rowHead(name)}${cell(value)}</tr>`),
   });
 }

@@ -1,46 +1,54 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+//
+// Indices for experts. What everybody needs of them stands in the verdicts.
 
 import { GraspIndex } from "../types";
+import { say, sayName } from "../texts";
 import { Markup, html } from "./markup";
-import { nothing, shortNumber } from "./numbers";
+import { nothing, shortNumber, signedNumber } from "./numbers";
+import { folded } from "./parts";
 import { emptyCell, numbers, rowHead, table, valueCell, words } from "./tables";
 
-const headings: { [group: string]: string } = {
-  grip: "Grip: how firm, how even, in balance",
-  stability: "Stability: how firmly it sits",
-  ease: "Ease: how natural the posture is",
-  fitness: "Fitness: how well the shapes agree",
-  comfort: "Comfort: pressure against what people bear",
-  effort: "Effort: what the muscles have to do",
-  reach: "Reach: what the fingers get to",
-};
-
 function heading(group: string): string {
-  return headings[group] || group;
+  return sayName("index.group", group, group);
+}
+
+/// What the indices of a group are for.
+function purpose(group: string): string {
+  return sayName("index.purpose", group, "");
 }
 
 const units: { [unit: string]: string } = { "": "", mm2: " mm²", mm3: " mm³", deg: "°" };
 
+function withUnit(text: string, index: GraspIndex): string {
+  const unit = units[index.unit];
+  return text + (unit === undefined ? " " + index.unit : unit);
+}
+
 function indexCell(index: GraspIndex | undefined): Markup {
   if (!index || index.value === null) return emptyCell();
-  const unit = units[index.unit];
-  return valueCell(index.value, shortNumber(index.value) + (unit === undefined ? " " + index.unit : unit));
+  return valueCell(index.value, withUnit(shortNumber(index.value), index));
 }
 
 function better(index: GraspIndex): string {
-  return index.better === "up" ? "↑ more is better" : index.better === "down" ? "↓ less is better" : nothing;
+  return index.better === "up" ? say("index.up") : index.better === "down" ? say("index.down") : nothing;
 }
 
 function range(index: GraspIndex): string {
   const { lowest, highest } = index;
-  if (lowest === null) return highest === null ? nothing : "up to " + shortNumber(highest);
-  return highest === null ? "from " + shortNumber(lowest) : shortNumber(lowest) + " to " + shortNumber(highest);
+  if (lowest === null) return highest === null ? nothing : say("index.up_to", { high: shortNumber(highest) });
+  return highest === null ? say("index.from", { low: shortNumber(lowest) })
+    : say("range", { low: shortNumber(lowest), high: shortNumber(highest) });
+}
+
+function nameOf(index: GraspIndex): string {
+  return sayName("index.name", index.key, index.name);
 }
 
 /// `lastRemark`: of the row above, not said twice.
 function row(index: GraspIndex, lastRemark: string): Markup {
-  return html`<tr data-index="${index.key}">${rowHead(html`<details><summary>${index.name}</summary><p>${index.definition}.</p>${index.source && html`<p>Source: ${index.source}.</p>`}<p>Key: <code>${index.key}</code></p></details>${index.remark !== lastRemark && index.remark && html`<span class="range">${index.remark}</span>`}`)}${indexCell(index)}<td>${range(index)}</td><td>${better(index)}</td></tr>`;
+  return html`<tr data-index="${index.key}">${rowHead(html`<details><summary>${nameOf(index)}</summary><p>${index.definition}.</p>${index.source && html`<p>${say("index.source", { source: index.source })}</p>`}<p>${say("index.key")} <code>${index.key}</code></p></details>${index.remark !== lastRemark && index.remark && html`<span class="range">${index.remark}</span>`}`)}${indexCell(index)}<td>${range(index)}</td><td>${better(index)}</td></tr>`;
 }
 
 /// Groups in the order in which they appear first.
@@ -50,7 +58,7 @@ function groupsOf(indices: GraspIndex[]): string[] {
   return groups;
 }
 
-/// A table per group; names unfold to definitions.
+/// A table per group with what it is for; names unfold to definitions.
 export function indexSection(indices: GraspIndex[]): Markup | null {
   if (indices.length === 0) return null;
   const tables = groupsOf(indices).map((group) => {
@@ -60,19 +68,28 @@ export function indexSection(indices: GraspIndex[]): Markup | null {
       remark = one.remark;
       return made;
     });
-    return table({
+    return html`<h4>${heading(group)}</h4>${purpose(group) && html`<p>${purpose(group)}</p>`}${table({
       caption: heading(group),
       className: "indices",
-      columns: [words("Index"), numbers("Value"), words("Possible range"), words("Better")],
+      columns: [words(say("index.head.index")), numbers(say("index.head.value")), words(say("index.head.range")), words(say("index.head.better"))],
       rows,
-    });
+    })}`;
   });
-  return html`<h3>Indices of this grasp</h3>
-<p>They are never added up to one number, and those of different groups can't be weighed against each other. Open a name for its definition and source.</p>
-${tables}`;
+  return folded(say("index.title"), html`<p>${say("index.intro")}</p>
+${tables}`);
 }
 
-/// A column per product; nothing for one product or without indices.
+/// The second value less the first, unless that can't be told apart from nothing.
+function differenceCell(first: GraspIndex | undefined, second: GraspIndex | undefined): Markup {
+  if (!first || !second || first.value === null || second.value === null) return emptyCell();
+  const difference = second.value - first.value;
+  const most = Math.max(Math.abs(first.value), Math.abs(second.value));
+  if (Math.abs(difference) <= first.told_apart * most) return html`<td class="n">${say("index.same")}</td>`;
+  return valueCell(difference, withUnit(signedNumber(difference), first));
+}
+
+/// A column per product, and of two the difference where there is one to be told apart; nothing for
+/// one product or without indices.
 export function indexComparison(names: string[], indices: GraspIndex[][]): Markup | null {
   if (names.length < 2) return null;
   const known: { [key: string]: true } = {};
@@ -85,16 +102,18 @@ export function indexComparison(names: string[], indices: GraspIndex[][]): Marku
     }
   }
   if (all.length === 0) return null;
+  const areTwo = names.length === 2;
   const rows = groupsOf(all).map((group) => {
     const members = all.filter((one) => one.group === group).map((one) => {
-      const cells = indices.map((product) => indexCell(product.filter((other) => other.key === one.key)[0]));
-      return html`<tr data-index="${one.key}">${rowHead(one.name)}${cells}<td>${better(one)}</td></tr>`;
+      const found = indices.map((product) => product.filter((other) => other.key === one.key)[0]);
+      return html`<tr data-index="${one.key}">${rowHead(nameOf(one))}${found.map(indexCell)}${areTwo && differenceCell(found[0], found[1])}<td>${better(one)}</td></tr>`;
     });
-    return html`<tr><th scope="rowgroup" colspan="${names.length + 2}"><strong>${heading(group)}</strong></th></tr>${members}`;
+    return html`<tr><th scope="rowgroup" colspan="${names.length + (areTwo ? 3 : 2)}"><strong>${heading(group)}</strong></th></tr>${members}`;
   });
   return table({
-    caption: "Indices side by side",
-    columns: [words("Index"), ...names.map(numbers), words("Better")],
+    caption: say(areTwo ? "index.comparison.two" : "index.comparison"),
+    columns: [words(say("index.head.index")), ...names.map(numbers),
+              ...(areTwo ? [numbers(say("index.head.difference"))] : []), words(say("index.head.better"))],
     rows,
   });
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { Child, Markup, html } from "./markup";
-import { nothing, shortNumber } from "./numbers";
+import { fixedNumber, nothing, shortNumber } from "./numbers";
 
 export interface Column {
   words: Child;
@@ -34,7 +34,7 @@ export function groupedTable(options: {
   id: string;
   caption: Child;
   first: string;
-  groups: string[];
+  groups: Child[];
   parts: string[];
   last?: string;
   rows: Child;
@@ -73,7 +73,7 @@ export function numberCell(value: number | null | undefined, significant = 3): M
 
 /// A number with just so many decimals.
 export function fixedCell(value: number | null | undefined, decimals = 2): Markup {
-  return valueCell(value, value === null || value === undefined ? nothing : value.toFixed(decimals));
+  return valueCell(value, fixedNumber(value, decimals));
 }
 
 export function countCell(count: number): Markup {

@@ -1,35 +1,19 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the results of one assessment mean, in sentences. Limits of pressure come in families that
-// must not be mixed: film peaks at the onset of pain against the peak pressure, the stop of blood
-// flow against the peak averaged on sensor cells.
+// What the results of one assessment mean, in sentences and in one table: three questions of
+// comfort with one scale each, and the strength that the grip takes.
 
-import { Assessment, ContactResult, RegionContact, Vocabulary } from "../types";
+import { Assessment, ContactResult, OnsetVerdict, Vocabulary } from "../types";
+import { say, sayList, sayMarkup, sayName } from "../texts";
 import { Child, Markup, html, joined } from "./markup";
 import { capitalised, length, percent, shortNumber } from "./numbers";
-import { Verdict, note } from "./parts";
+import { Verdict, badge, note } from "./parts";
+import { cell, rowHead, table, words } from "./tables";
+import { term } from "./glossary";
 
-export interface NearestToPain {
-  region: RegionContact;
-  limit: number; // MPa
-  share: number; // peak pressure / limit
-}
-
-/// The region whose peak pressure comes nearest to its onset of pain.
-export function nearestToPain(contact: ContactResult, vocabulary: Vocabulary): NearestToPain | null {
-  let nearest: NearestToPain | null = null;
-  for (const region of contact.regions) {
-    const limit = vocabulary.regions[region.region].pain_onset_mpa;
-    const share = region.peak_pressure_mpa / limit;
-    if (!nearest || share > nearest.share) nearest = { region, limit, share };
-  }
-  return nearest;
-}
-
-/// How many regions have a peak on sensor cells above the stop of blood flow.
-export function regionsWithoutBloodFlow(contact: ContactResult, vocabulary: Vocabulary): number {
-  return contact.regions.filter((one) => one.peak_pressure_cells_mpa > vocabulary.blood_flow_stop_mpa).length;
+export function regionWords(name: string, vocabulary: Vocabulary): string {
+  return sayName("region", name, vocabulary.regions[name] ? vocabulary.regions[name].words : name);
 }
 
 /// Whether the product is held, at least partly, and presses on the skin: only then do its forces and
@@ -53,87 +37,76 @@ export function isPower(assessment: Assessment, vocabulary: Vocabulary): boolean
 
 /// "Held", "Too large for this hand"
 export function statusWords(assessment: Assessment, vocabulary: Vocabulary): string {
-  if (assessment.grasp.status === "not_graspable" && !isPower(assessment, vocabulary)) {
-    return "No place for this grip";
-  }
-  const words = vocabulary.statuses[assessment.grasp.status];
-  const doubts = assessment.doubts.map((one) => doubtWords[one.key]);
-  return doubts.length > 0 && assessment.grasp.status === "held" ? words + ", but " + doubts.join(" and ") : words;
+  const { status } = assessment.grasp;
+  if (status === "not_graspable" && !isPower(assessment, vocabulary)) return say("badge.no_place");
+  const shown = sayName("badge", status, vocabulary.statuses[status]);
+  const doubts = assessment.doubts.map((one) => say("badge.doubt." + one.key));
+  return doubts.length > 0 && status === "held" ? say("badge.but", { status: shown, doubts: sayList(doubts) }) : shown;
 }
-
-const doubtWords = {
-  not_at_rest: "not at rest",
-  slips_out: "slips out",
-  few_contacts: "with too few fingers",
-};
 
 /// "power grip", "tripod grip", "tip pinch"
 export function gripWords(assessment: Assessment, vocabulary: Vocabulary): string {
-  if (isPower(assessment, vocabulary)) return "power grip";
+  if (isPower(assessment, vocabulary)) return say("grip.power");
   const name = assessment.grasp.grip.replace(/_/g, " ");
-  return /pinch$/.test(name) ? name : name + " grip";
+  return /pinch$/.test(name) ? name : say("grip.other", { name });
 }
 
 /// What decided how hard the hand grips, and how far to trust the figures.
 export function readingAdvice(assessments: Assessment[], vocabulary: Vocabulary): string {
   const first = assessments[0];
   const force = first ? first.settings.grip_force_asked_n : null;
-  const advice = " Compare designs with each other; don't take the figures as absolute.";
+  const advice = " " + say("advice.compare");
   if (force !== null && first.settings.balance) {
     const from = first.settings.grip_force_from;
-    return "The hand was asked to grip with " + shortNumber(force) + " N" + (from && " (" + from + ")") +
-      "; how that force spreads over the skin was computed, not measured." + advice;
+    return say(from ? "advice.asked_from" : "advice.asked", { force: shortNumber(force), from }) + advice;
   }
-  if (first && !isPower(first, vocabulary)) {
-    return "The fingertips are pressed in to a set depth; the force that this takes was computed, not measured." + advice;
-  }
-  return "The fingers close to a set depth, as in a firm grip; nobody measured a force." + advice;
+  return say(first && !isPower(first, vocabulary) ? "advice.pinch_depth" : "advice.depth") + advice;
 }
 
-/// One sentence about pain and blood flow.
-export function plainVerdict(assessment: Assessment, vocabulary: Vocabulary): string {
-  const contact = assessment.contact;
-  const nearest = nearestToPain(contact, vocabulary);
-  if (!nearest) return "Nothing is touched, so there is no pressure to judge.";
-  if (!isInHand(assessment)) return "It is not held, so there are no pressures of a grip to judge.";
-  const where = vocabulary.regions[nearest.region.region].words;
-  const moment = nearest.share >= 1 ? "A firm grip for a moment would hurt, first at the " + where
-    : nearest.share >= 0.5 ? "A firm grip for a moment comes near to pain at the " + where
-    : "A firm grip for a moment stays far below pain";
-  const without = regionsWithoutBloodFlow(contact, vocabulary);
-  if (without === 0) return moment + "; held for minutes, blood would still flow in the skin.";
-  return moment + "; held just as firmly for minutes, the skin would go short of blood in " + without +
-    " of the " + contact.regions.length + " regions it touches, and the hand would have to loosen or shift.";
+function onsetAnswer(one: OnsetVerdict, vocabulary: Vocabulary): string {
+  return say("comfort.answer." + one.level, {
+    region: regionWords(one.region, vocabulary), percent: percent(one.share),
+    pressure: shortNumber(one.pressure_mpa), onset: shortNumber(one.onset_mpa),
+  });
 }
 
-export function plainSummary(assessments: Assessment[], vocabulary: Vocabulary): Markup {
-  const items = assessments.map((one) =>
-    html`<li><strong>${one.product.name}.</strong> ${plainVerdict(one, vocabulary)}</li>`);
-  return html`<ul class="plain">${items}</ul>
+/// The three questions of comfort, each with its scale, source and answer, and the sentence that
+/// joins them; the strength that the grip takes.
+export function comfortSection(assessment: Assessment, vocabulary: Vocabulary): Markup {
+  const { comfort, strength, hardest } = assessment.verdict;
+  if (!comfort) return html`<p>${say("comfort.none")}</p>
 `;
-}
-
-/// The verdict with its figures and limits.
-export function pressureVerdict(assessment: Assessment, vocabulary: Vocabulary): Markup {
-  const plain = html`<p>${plainVerdict(assessment, vocabulary)}</p>`;
-  const nearest = nearestToPain(assessment.contact, vocabulary);
-  if (!isInHand(assessment) || !nearest) return plain;
-  const count = assessment.contact.regions.length;
-  const without = regionsWithoutBloodFlow(assessment.contact, vocabulary);
-  const which = without === 0 ? "No region exceeds" : without + " of " + count + " regions exceed";
-  return html`${plain}<p><strong>Short, firm grip.</strong> Nearest to pain: ${vocabulary.regions[nearest.region.region].words}. Its peak of ${shortNumber(nearest.region.peak_pressure_mpa)} MPa is ${percent(nearest.share)} of the ${shortNumber(nearest.limit, 2)} MPa at which pain begins there (peak pressure on a film; ISO/TS 15066:2016).</p><p><strong>Grip held long.</strong> ${which} ${shortNumber(vocabulary.blood_flow_stop_mpa, 1)} MPa (50 kPa) averaged on a sensor cell, above which the skin's blood flow stops (Chalmers thesis 2004). This limit belongs to another family, that of sustained grips: it is lower than the film values above because it answers another question.</p>`;
+  const tone = (one: OnsetVerdict): Verdict => one.level === "above" ? "bad" : one.level === "near" ? "fair" : "good";
+  const { minutes } = comfort;
+  const row = (key: string, verdict: Verdict, answer: string, name: Child) =>
+    html`<tr data-question="${key}">${rowHead(say("comfort.question." + key))}${cell(html`${badge(verdict, say("comfort.badge." + verdict))} ${answer}`)}${cell(say("comfort.figure." + key))}${cell(sayMarkup("comfort.limit." + key, { name }))}${cell(say("comfort.source." + key))}</tr>
+`;
+  const stops = minutes.share_of_skin >= 0.01;
+  return html`<p class="lead">${comfort.sentence}</p>
+${hardest && html`<p>${hardest.sentence}</p>
+`}${table({
+    caption: say("comfort.caption"),
+    columns: [words(say("comfort.head.question")), words(say("comfort.head.answer")), words(say("comfort.head.figure")),
+              words(say("comfort.head.limit")), words(say("comfort.head.source"))],
+    rows: [
+      row("moment", tone(comfort.moment), onsetAnswer(comfort.moment, vocabulary), term("pain", say("comfort.limit.moment.term"))),
+      row("repeated", tone(comfort.repeated), onsetAnswer(comfort.repeated, vocabulary), term("discomfort", say("comfort.limit.repeated.term"))),
+      row("minutes", stops ? "fair" : "good", say(stops ? "comfort.answer.stops" : "comfort.answer.flows", { percent: percent(minutes.share_of_skin), area: shortNumber(minutes.area_mm2) }), term("blood_flow", say("comfort.limit.minutes.term"))),
+    ],
+  })}${strength && html`<p>${sayMarkup("strength.lead", { term: term("strength") })} ${strength.sentence}</p>
+`}`;
 }
 
 /// What happened to the grasp, and what to know about mesh and contact.
 export function graspNotes(assessment: Assessment, vocabulary: Vocabulary): Markup {
   const { grasp, contact, product } = assessment;
   const doubts = assessment.doubts.filter((one) => one.key === "few_contacts").map((one) => one.words);
-  const message = [grasp.message, ...doubts].filter((one) => one !== "").map(capitalised).join(". ");
-  return html`${note(statusVerdict(assessment), statusWords(assessment, vocabulary) + ".", message)}${assessment.hold && note("", "How it is held.", capitalised(assessment.hold.words) + ".")}${contact.message && note("fair", "Contact.", contact.message)}${product.notes.length > 0 && note("", "About the mesh.", joined(product.notes, html`<br>`))}`;
+  const message = [grasp.message, ...doubts].filter((one) => one !== "").map((one) => capitalised(one) + ".").join(" ");
+  return html`${note(statusVerdict(assessment), statusWords(assessment, vocabulary) + ".", message)}${assessment.hold && note("", say("note.hold"), capitalised(assessment.hold.words) + ".")}${contact.message && note("fair", say("note.contact"), contact.message)}${product.notes.length > 0 && note("", say("note.mesh"), joined(product.notes, html`<br>`))}`;
 }
 
 function leftOver(contact: ContactResult): Markup {
-  return html`<p>The forces of the skin on the product add up to ${shortNumber(length(contact.force_vector_n))} N as a vector, against ${shortNumber(contact.force_n)} N as a sum of amounts: what is left over is not balanced by this grasp alone.</p>
+  return html`<p>${say("rest.left_over", { vector: shortNumber(length(contact.force_vector_n)), sum: shortNumber(contact.force_n) })}</p>
 `;
 }
 
@@ -143,17 +116,12 @@ export function balanceVerdict(assessment: Assessment): Markup {
   if (balance.status === "off") return leftOver(contact);
   const slipsOut = balance.status === "slips_out";
   if (balance.status !== "balanced") {
-    const begin = slipsOut ? "Slips out of the hand." : "Not at rest.";
-    return html`${note("fair", begin, capitalised(balance.message) + ".")}${slipsOut && html`<p>What follows shows the hand as it was closed, out of balance.</p>
+    return html`${note("fair", say(slipsOut ? "rest.slips_out" : "rest.not"), capitalised(balance.message) + ".")}${slipsOut && html`<p>${say("rest.as_closed")}</p>
 ${leftOver(contact)}`}`;
   }
-  const use = balance.flexion_strength_in_use;
-  const strength = typeof use === "number" &&
-    " The fingers' joints use " + percent(use) + " of the moments that people reach.";
-  const words: Child = [
-    capitalised(balance.message), ". The product moved by ", shortNumber(balance.moved_mm, 2),
-    " mm and turned by ", shortNumber(balance.turned_deg, 2), "° in the hand since it was closed; ",
-    percent(balance.friction_in_use || 0), " of the friction (coefficient ",
-    shortNumber(balance.friction_coefficient, 2), ") is in use.", strength];
-  return note("good", "At rest.", words);
+  return note("good", say("rest.yes"), html`${capitalised(balance.message)}. ${sayMarkup("rest.figures", {
+    moved: shortNumber(balance.moved_mm, 2), turned: shortNumber(balance.turned_deg, 2),
+    percent: percent(balance.friction_in_use || 0), friction: term("friction", say("rest.friction")),
+    coefficient: shortNumber(balance.friction_coefficient, 2),
+  })}`);
 }

@@ -1,86 +1,177 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 
-import { StudyConditionResult, StudyPage, StudyProvenance } from "../types";
+import { Picture, StudyConditionResult, StudyPage, StudyProvenance } from "../types";
+import { say, sayCount, sayMarkup, useLanguage } from "../texts";
+import { FirstScreen, firstScreen } from "../components/first_screen";
+import { term } from "../components/glossary";
 import { Child, Markup, html, trusted } from "../components/markup";
-import { capitalised, counted, shortNumber } from "../components/numbers";
-import { colourBar, folded, licence, list, pictureFigures, turnableView } from "../components/parts";
+import { capitalised, shortNumber } from "../components/numbers";
+import { Section, badge, colourBar, folded, licence, list, pictureFigures, turnableView } from "../components/parts";
+import { changeBars, groupedBars } from "../components/small_charts";
 import { accommodationSection, comparisonTable, dependenceTable, faceStatisticsSection, holdTable, overviewTable, quantityTable, sizeSections, studyRegionTable } from "../components/study_tables";
+import { regionWords } from "../components/verdicts";
 import { documentPage } from "./document";
 
-function summary(page: StudyPage): Markup {
+const shownRegions = 6; // in the small chart
+
+function warningNote(page: StudyPage): Child {
   const isOutside = page.warnings.some((one) => one.is_outside);
   const warnings = page.warnings.map((one) => html`<li><strong>${one.subject}:</strong> ${one.text}</li>`);
-  return html`<h2 class="first" id="summary">Verdict</h2>
-${list(page.verdict)}${warnings.length > 0 && html`<div class="note ${isOutside ? "bad" : "fair"}"><strong>${isOutside ? "Warning: partly outside what was checked, or hands are missing." : "To be careful with."}</strong><ul class="plain">${warnings}</ul></div>
-`}${overviewTable(page)}`;
+  return warnings.length > 0 && html`<div class="note ${isOutside ? "bad" : "fair"}"><strong>${say(isOutside ? "study.warning" : "study.caution")}</strong><ul class="plain">${warnings}</ul></div>
+`;
 }
 
-function condition(page: StudyPage, one: StudyConditionResult, index: number): Markup {
+function verdictSection(page: StudyPage): Section {
+  return {
+    id: "summary",
+    title: say("study.section.verdict"),
+    isOpen: true,
+    content: html`${list(page.verdict)}${warningNote(page)}${overviewTable(page)}`,
+  };
+}
+
+/// Mean pressures by region, product by product.
+function regionChart(page: StudyPage): Markup | null {
+  const first = page.conditions[0];
+  const groups: { name: string; values: number[]; mark: number; most: number }[] = [];
+  for (const name in page.vocabulary.regions) {
+    const values = first.products.map((one) => one.regions[name] ? one.regions[name].peak_pressure_cells_mpa : 0);
+    const mark = page.vocabulary.regions[name].discomfort_onset_mpa;
+    const most = Math.max(...values) / mark;
+    if (most > 0) groups.push({ name: regionWords(name, page.vocabulary), values, mark, most });
+  }
+  if (groups.length === 0) return null;
+  groups.sort((a, b) => b.most - a.most);
+  return groupedBars({
+    title: say("chart.regions"), unit: "MPa", mark: say("chart.regions.mark"),
+    names: page.products.map((one) => one.name), groups: groups.slice(0, shownRegions),
+  });
+}
+
+function answer(page: StudyPage): FirstScreen {
+  const first = page.conditions[0];
+  const { answer: found } = page;
+  const isPair = found.better !== null && found.worse !== null && found.changes.length > 1;
+  const cards = page.products.map((product, p) => {
+    const one = first.products[p];
+    const mean = (key: string) => one.quantities[key] ? one.quantities[key].mean : null;
+    const pictures: Picture[] = [];
+    for (const name of ["hold", "mean_hand"]) {
+      for (const picture of product.pictures) if (picture.name === name) pictures.push(picture);
+    }
+    const isAll = one.hands_holding === one.hands;
+    return {
+      title: product.name,
+      badge: badge(isAll ? "good" : one.hands_holding > 0 ? "fair" : "bad",
+                   say("study.fact.held") + " " + say("study.of", { count: one.hands_holding, n: one.hands })),
+      pictures,
+      facts: one.hands_holding === 0 ? [] : [
+        [say("study.fact.grip"), shortNumber(mean("grip_force_n")) + " N"],
+        [say("study.fact.mean_cells"), shortNumber(mean("peak_pressure_cells_mpa")) + " MPa"],
+        [say("study.fact.area"), shortNumber(mean("contact_area_mm2")) + " mm²"],
+      ] as [string, string][],
+    };
+  });
+  const populations = page.provenance.populations.map((one) => one.title || one.name).join(", ");
+  return {
+    kicker: say("study.kicker", {
+      hands: sayCount("study.hands", page.hands), products: sayCount("study.products", page.products.length),
+      grasps: page.grasps, planned: page.grasps_planned, population: populations,
+    }),
+    tone: found.tone,
+    sentence: found.sentence,
+    reasons: found.reasons,
+    cards,
+    chart: isPair
+      ? changeBars(say("study.changes"), found.changes, page.products[found.better || 0].name, page.products[found.worse || 0].name)
+      : regionChart(page),
+    next: found.next,
+    command: found.command,
+  };
+}
+
+function condition(page: StudyPage, one: StudyConditionResult, index: number): Section {
   const drawn = html`<div class="figures">${one.figures.map((figure) => html`<figure>${trusted(figure.svg)}<figcaption>${figure.description}</figcaption></figure>
 `)}</div>
 `;
   const figures = !one.are_figures_shown
-    ? html`<p>Its figures are beside this file in the folder figures.</p>
+    ? html`<p>${say("study.figures.beside")}</p>
 `
-    : index === 0 ? drawn : folded("Figures", drawn);
-  return html`<h2 id="condition-${index}">${capitalised(one.title)}</h2>
-${figures}${holdTable(page, one)}${faceStatisticsSection(page, one)}${comparisonTable(page, one)}${accommodationSection(page, one)}${sizeSections(page, one)}${dependenceTable(page, one)}${studyRegionTable(page, one)}${quantityTable(page, one)}`;
+    : index === 0 ? drawn : folded(say("study.figures"), drawn);
+  return {
+    id: "condition-" + index,
+    title: capitalised(one.title),
+    isOpen: index === 0,
+    content: html`${figures}${holdTable(page, one)}${faceStatisticsSection(page, one)}${comparisonTable(page, one)}${accommodationSection(page, one)}${sizeSections(page, one)}${dependenceTable(page, one)}${studyRegionTable(page, one)}${quantityTable(page, one)}`,
+  };
 }
 
 function thresholdWords(page: StudyPage): string {
   return shortNumber(1000 * page.threshold_mpa) + " kPa";
 }
 
-function sceneSection(page: StudyPage): Markup | null {
+function sceneSection(page: StudyPage): Section | null {
   const { scene } = page;
   if (!scene) return null;
   const first = page.conditions[0];
   const option = (value: number, words: string) => html`<option value="${value}">${words}</option>`;
-  const controls = html`<div class="controls"><label>Product <select data-toggle="which-product">${page.products.map((one, p) => option(p, one.name))}</select></label><label>Show <select data-toggle="which-hand"><optgroup label="Over all hands"><option value="mean">Mean pressure</option><option value="sd">Standard deviation</option><option value="above">Share of hands above ${thresholdWords(page)}</option></optgroup><optgroup label="One hand">${scene.hands.map((words, i) => option(i, words))}</optgroup></select></label></div>`;
-  const which = scene.hands.length === scene.hands_in_all ? "Every hand with every product"
-    : scene.hands.length + " of " + scene.hands_in_all + " hands, chosen evenly by hand length,";
-  return html`<h2 id="turn">Turn it</h2>
-<p>${first.words && html`<strong>${capitalised(first.words)}</strong>, the first of ${page.conditions.length} conditions. `}${which} and the maps over all hands. Skin that would be inside the product is drawn on its surface; the bulge beside the contact isn’t shown.</p>
+  const controls = html`<div class="controls"><label>${say("study.view.product")} <select data-toggle="which-product">${page.products.map((one, p) => option(p, one.name))}</select></label><label>${say("study.view.show")} <select data-toggle="which-hand"><optgroup label="${say("study.view.over_all")}"><option value="mean">${say("study.view.mean")}</option><option value="sd">${say("study.view.sd")}</option><option value="above">${say("study.view.above", { limit: thresholdWords(page) })}</option></optgroup><optgroup label="${say("study.view.one_hand")}">${scene.hands.map((words, i) => option(i, words))}</optgroup></select></label></div>`;
+  const which = scene.hands.length === scene.hands_in_all ? say("study.view.every")
+    : say("study.view.some", { count: scene.hands.length, all: scene.hands_in_all });
+  return {
+    id: "turn",
+    title: say("study.section.view"),
+    content: html`<p>${first.words && say("study.view.first", { condition: capitalised(first.words), count: page.conditions.length }) + " "}${which} ${say("study.view.skin")}</p>
 ${turnableView({
-    id: "study-scene",
-    kind: "study",
-    label: "3-D view of hands and products",
-    fallback: "The pictures below show the maps over all hands.",
-    above: controls,
-    bars: [colourBar(scene.scales.grasp, "grasp", false), colourBar(scene.scales.mean, "mean"),
-           colourBar(scene.scales.sd, "sd", false), colourBar(scene.scales.above, "above", false)],
-    below: html`<p class="view-says" aria-live="polite"></p>${scene.has_faces && html`<p class="view-says view-face">Point at the product: its face is named here.</p>`}`,
-    toggles: [
-      { key: "skin", words: "Hand", isOn: true },
-      { key: "pressure", words: "Pressure on the skin", isOn: true },
-      { key: "product", words: "Product", isOn: true },
-      { key: "footprint", words: "Pressure on the product", isOn: false },
-      { key: "see-through", words: "See through the product", isOn: true },
-      ...(scene.has_faces ? [{ key: "faces", words: "Borders of faces", isOn: true }] : []),
-      { key: "open", words: "Maps on the open hand", isOn: false },
-    ],
-    scene: scene.data,
-  })}`;
+      id: "study-scene",
+      kind: "study",
+      label: say("study.view.label"),
+      fallback: say("study.view.fallback"),
+      above: controls,
+      bars: [colourBar(scene.scales.grasp, "grasp", false), colourBar(scene.scales.mean, "mean"),
+             colourBar(scene.scales.sd, "sd", false), colourBar(scene.scales.above, "above", false)],
+      below: html`<p class="view-says" aria-live="polite"></p><p class="view-says view-face">${say("study.view.point")}</p>`,
+      toggles: [
+        { key: "skin", words: say("view.skin"), isOn: true },
+        { key: "pressure", words: say("view.pressure"), isOn: true },
+        { key: "product", words: say("view.product"), isOn: true },
+        { key: "footprint", words: say("view.footprint"), isOn: false },
+        { key: "see-through", words: say("view.see_through"), isOn: true },
+        ...(scene.has_faces ? [{ key: "faces", words: say("study.view.faces"), isOn: true }] : []),
+        { key: "open", words: say("study.view.open"), isOn: false },
+      ],
+      scene: scene.data,
+    })}`,
+  };
 }
 
-function mapSection(page: StudyPage): Markup | null {
+function mapSection(page: StudyPage): Section | null {
   const shown = page.products.filter((one) => one.pictures.length > 0);
   if (shown.length === 0) return null;
   const which = page.conditions[0].words;
-  return html`<h2 id="maps">Where all hands press${which && ": " + which}</h2>
-<p>Means over the hands that hold the product, vertex by vertex of the template’s skin and of the product; hands that don’t touch there count with 0. The threshold of ${thresholdWords(page)} is of the family <em>blood flow</em>: at more, the skin’s blood flow stops if the grip is held long (Chalmers thesis 2004, publication 208). It says nothing of pain.</p>
-${shown.map((one) => html`<h3>${one.name}</h3>${pictureFigures(one.pictures)}`)}`;
+  return {
+    id: "maps",
+    title: which ? say("study.section.maps_of", { which }) : say("study.section.maps"),
+    content: html`<p>${sayMarkup("study.maps.words", { limit: thresholdWords(page), term: term("blood_flow", say("study.maps.term")) })}</p>
+${shown.map((one) => html`<h3>${one.name}</h3>${pictureFigures(one.pictures)}`)}`,
+  };
 }
 
-function method(provenance: StudyProvenance): Markup {
-  return html`<h2 id="method">How this was computed</h2>
-<p>Every hand is the template scaled segment by segment to a sampled person’s dimensions. It closes round the product (Xie 2014, 5.5.1), comes to rest on it unless a setting says otherwise, and the skin’s contact is solved; equations and tissue are under Provenance. All hands have one tissue: people differ in stiffness, too. The sum of normal forces is not the reading of a dynamometer; the grip force is nearer to it.</p>
-<p>Products are compared over the same hands. The t-test is Student’s for pairs, as in the thesis; Wilcoxon’s signed-rank test needs no normal differences. p values are corrected after Holm over all pairs of a quantity. Cohen’s dz is the mean difference over the standard deviation of the differences. <strong>These are simulated hands: enough of them make any difference significant.</strong> Judge by the size of the difference and its interval; p says only that it isn’t the chance of which hands were drawn. It doesn’t cover the errors of the model, which are larger: compare products, don’t take single figures for people’s.</p>
-<p>Shares have intervals after Wilson. A hand that doesn’t hold a product counts as outside the limits and is left out of means and tests; tables say how many and why. Sizes: every subset of a family’s sizes was tried.</p>
-${provenance.has_several_profiles && html`<p>Profiles take range, strength, gloves, nails and size as factors on any population. They are not measured people.</p>
-`}<p>Methods: Y. Xie, Plausible 3D Human Hand Modeling for Virtual Ergonomic Assessments of Handheld Product, Hokkaido University, 2014, chapter 5, with the changes that Palmar’s documentation lists.</p>
-`;
+function method(provenance: StudyProvenance): Section {
+  return {
+    id: "method",
+    title: say("study.section.method"),
+    content: html`<p>${say("study.method.1")}</p>
+<p>${sayMarkup("study.method.2", {
+      t_test: term("t_test"), p: term("p_value", say("study.method.p")), effect: term("effect_size", say("study.method.effect")),
+      interval: term("interval", say("study.method.interval")),
+    })}</p>
+<p>${say("study.method.3")}</p>
+${provenance.has_several_profiles && html`<p>${say("study.method.profiles")}</p>
+`}<p>${say("study.method.source")}</p>
+`,
+  };
 }
 
 function hashWords(hash: string): string {
@@ -88,58 +179,72 @@ function hashWords(hash: string): string {
 }
 
 function populationItems(one: StudyProvenance["populations"][0]): Child[] {
-  const designs = {
-    random: "drawn at random",
-    latin_hypercube: "Latin hypercube",
-    boundary: "boundary of the " + shortNumber(100 * one.boundary_share) + " % ellipse",
-    percentiles: "percentiles",
-  };
-  return [(one.title || one.name) + " (" + one.name + "): " + one.hands + " hands, " + designs[one.design] + ", seed " +
-          one.seed + (one.source && ". Source: " + one.source),
-          ...one.cautions.map((caution) => "Caution: " + caution)];
+  return [say("study.p.population", {
+    title: one.title || one.name, name: one.name, hands: sayCount("study.hands", one.hands), seed: one.seed,
+    design: say("study.design." + one.design, { percent: shortNumber(100 * one.boundary_share) }),
+  }) + (one.source && " " + say("study.p.source", { source: one.source })),
+          ...one.cautions.map((text) => say("study.p.caution", { text }))];
 }
 
 function settingWords(one: StudyProvenance["settings"][0]): string {
-  return "Setting " + one.name + ": pressed in up to " + shortNumber(one.palm_limit_depth_mm) + " mm (palm) and " +
-    shortNumber(one.finger_limit_depth_mm) + " mm (fingers)" +
-    (one.grip_force_words && ", " + one.grip_force_words) +
-    (one.is_balanced ? ", brought to rest with friction " + shortNumber(one.friction) : ", left as the hand was closed") +
-    (one.is_place_per_hand ? "; place searched for every hand" : "; place found on the mean hand and kept") +
-    "; equations: " + one.contact_model;
+  return say("study.p.setting", {
+    name: one.name, palm: shortNumber(one.palm_limit_depth_mm), finger: shortNumber(one.finger_limit_depth_mm),
+    force: one.grip_force_words && ", " + one.grip_force_words,
+    rest: one.is_balanced ? say("study.p.rest", { friction: shortNumber(one.friction) }) : say("study.p.closed"),
+    place: say(one.is_place_per_hand ? "study.p.per_hand" : "study.p.kept"), model: one.contact_model,
+  });
 }
 
-function provenanceSection(page: StudyPage): Markup {
+function provenanceSection(page: StudyPage): Section {
   const p = page.provenance;
-  const products = p.products.map((one) =>
-    one.name + ": " + one.file + (one.size !== 1 ? ", size " + shortNumber(one.size) : "") +
-    (one.mass_kg > 0 ? ", " + shortNumber(one.mass_kg) + " kg" : ", no load") +
-    (one.posture_of && ", in the posture of " + one.posture_of) + hashWords(one.sha256));
-  const profiles = p.profiles.map((one) =>
-    "Profile " + one.name + ": range × " + shortNumber(one.range_share) + ", strength × " + shortNumber(one.strength_share) +
-    ", gloves " + shortNumber(one.glove_thickness_mm) + " mm, nails " + shortNumber(one.nail_length_mm) + " mm, size × " +
-    shortNumber(one.size_factor) + (one.source && ". Source: " + one.source));
-  const grips = p.grips.map((one) => "Grip: " + (one || "the power grip that suits the shape"));
+  const products = p.products.map((one) => say("study.p.product", {
+    name: one.name, file: one.file, size: one.size !== 1 ? say("study.p.size", { size: shortNumber(one.size) }) : "",
+    mass: one.mass_kg > 0 ? shortNumber(one.mass_kg) + " kg" : say("study.p.no_load"),
+    posture: one.posture_of && say("study.p.posture", { name: one.posture_of }), hash: hashWords(one.sha256),
+  }));
+  const profiles = p.profiles.map((one) => say("study.p.profile", {
+    name: one.name, range: shortNumber(one.range_share), strength: shortNumber(one.strength_share),
+    gloves: shortNumber(one.glove_thickness_mm), nails: shortNumber(one.nail_length_mm), size: shortNumber(one.size_factor),
+  }) + (one.source && " " + say("study.p.source", { source: one.source })));
+  const grips = p.grips.map((one) => say("study.p.grip", { grip: one || say("study.p.auto") }));
   let populations: Child[] = [];
   for (const one of p.populations) populations = populations.concat(populationItems(one));
-  const stiffness = p.stiffness.map((one) =>
-    one.region + " " + shortNumber(1000 * one.at_touch_mpa) + " and " + shortNumber(1000 * one.at_limit_mpa) + " kPa at " +
-    shortNumber(one.limit_depth_mm) + " mm");
-  return html`<h2 id="provenance">Provenance</h2>
-<p>Study <code>${p.study}</code>, seed ${p.seed}. ${p.sha256 ? html`Results: SHA-256 <code>${p.sha256}</code>.` : "The study isn’t finished, so its results have no digest."}${p.program && " Run by Palmar " + p.program + "."} This page by ${page.maker.build}.</p>
-<h3>Populations</h3>${list(populations)}<h3>Products</h3>${list(products)}<h3>Grips, settings, profiles</h3>${list([...grips, ...p.settings.map(settingWords), ...profiles])}<h3>Hand and tissue</h3><p>${p.hand.name}, ${p.hand.side}; length ${shortNumber(p.hand.hand_length_mm, 4)} mm, circumference ${shortNumber(p.hand.hand_circumference_mm, 4)} mm${hashWords(p.hand.sha256)}. ${p.hand.provenance}</p>
-<p>Stiffness of the skin (shear modulus at first touch and at the limit depth): ${stiffness.join("; ")}.</p>
-<p>Valid for: adult hands of about 150 to 215 mm, rigid products, handles of 25 to 70 mm, indentation up to 4 mm (fingers) and 7 mm (palm), a hold of some seconds.</p>
-${page.scene && licence(page.maker.viewer_licence)}`;
+  const stiffness = p.stiffness.map((one) => say("study.p.stiffness.item", {
+    region: one.region, touch: shortNumber(1000 * one.at_touch_mpa), limit: shortNumber(1000 * one.at_limit_mpa),
+    depth: shortNumber(one.limit_depth_mm),
+  }));
+  return {
+    id: "provenance",
+    title: say("section.provenance"),
+    content: html`<p>${say("study.p.study")} <code>${p.study}</code>, ${say("study.p.seed", { seed: p.seed })} ${p.sha256 ? html`${say("study.p.digest")} <code>${p.sha256}</code>.` : say("study.p.unfinished")}${p.program && " " + say("study.p.run_by", { program: p.program })} ${say("study.p.page_by", { build: page.maker.build })}</p>
+<h3>${say("study.p.populations")}</h3>${list(populations)}<h3>${say("study.p.products")}</h3>${list(products)}<h3>${say("study.p.settings")}</h3>${list([...grips, ...p.settings.map(settingWords), ...profiles])}<h3>${say("study.p.hand")}</h3><p>${p.hand.name}, ${say("side." + p.hand.side)}; ${shortNumber(p.hand.hand_length_mm, 4)} mm, ${shortNumber(p.hand.hand_circumference_mm, 4)} mm${hashWords(p.hand.sha256)}. ${p.hand.provenance}</p>
+<p>${say("study.p.stiffness", { list: stiffness.join("; ") })}</p>
+<p>${say("study.p.valid")}</p>
+${page.scene && licence(page.maker.viewer_licence)}`,
+  };
 }
 
-/// The page of a study: verdict in words and what to be careful with first; then, by condition,
+/// A study without a name of its own is called after its products.
+function titleOf(page: StudyPage): string {
+  const names = page.products.map((one) => one.name);
+  return page.title === names[0] ? names.join(" · ") : page.title;
+}
+
+/// The page of a study: the answer first; then the verdict in full with its cautions, by condition
 /// figures, comparisons, who is left out, sizes; the 3-D view, maps, methods, provenance.
 export function studyPage(page: StudyPage): string {
-  const title = "Palmar study: " + page.title;
+  useLanguage(page.language);
   return documentPage({
-    title,
-    summary: html`<p>${counted(page.hands, "hand")} × ${counted(page.products.length, "product")}, ${page.grasps} of ${page.grasps_planned} grasps.</p>`,
-    body: html`${summary(page)}${page.conditions.map((one, i) => condition(page, one, i))}${sceneSection(page)}${mapSection(page)}${method(page.provenance)}${provenanceSection(page)}`,
+    title: say("study.title", { title: titleOf(page) }),
+    first: firstScreen(answer(page)),
+    sections: [
+      verdictSection(page),
+      ...page.conditions.map((one, i) => condition(page, one, i)),
+      sceneSection(page),
+      mapSection(page),
+      method(page.provenance),
+      provenanceSection(page),
+    ],
     maker: page.maker,
     data: [{ id: "palmar-study", attachment: "data" }],
     hasViewer: page.scene !== null,

@@ -4,11 +4,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { GraspIndex } from "../types";
+import { useLanguage } from "../texts";
 import { bandComparison, errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, placementTable, settingsTable, summaryTable } from "../components/contact_tables";
 import { indexComparison, indexSection } from "../components/indices";
-import { gripWords, nearestToPain, plainVerdict, pressureVerdict, readingAdvice, regionsWithoutBloodFlow, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
+import { comfortSection, gripWords, readingAdvice, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
 import { assessmentPage } from "../pages/assessment";
 import { assessment, page, vocabulary, withBand } from "./fixture";
 
@@ -20,16 +21,45 @@ function count(all: string, part: string): number {
   return all.split(part).length - 1;
 }
 
-test("film values of the standard are held against peaks, blood flow against cells", () => {
+test("three questions of comfort have one scale each, with source and figure", () => {
   const one = assessment();
-  const nearest = nearestToPain(one.contact, vocabulary);
-  assert.equal(nearest && nearest.region.region, "thenar");
-  assert.equal(nearest && nearest.share, 0.5);
-  assert.equal(regionsWithoutBloodFlow(one.contact, vocabulary), 1);
-  assert.match(plainVerdict(one, vocabulary), /comes near to pain at the ball of the thumb/);
-  assert.match(text(pressureVerdict(one, vocabulary)), /50 % of the 2.0 MPa at which pain begins/);
-  one.contact.regions[1].peak_pressure_mpa = 2.5;
-  assert.match(plainVerdict(one, vocabulary), /would hurt, first at the ball/);
+  const section = text(comfortSection(one, vocabulary));
+  assert.equal(count(section, "data-question="), 3);
+  for (const part of ["A moment of this grip doesn’t hurt.", "Johansson", "Chalmers", "12 % of the onset", "60 % of the onset", "62 %", "1.3 %"]) {
+    assert.ok(section.indexOf(part) >= 0, part);
+  }
+  assert.match(section, /data-question="moment"[^]*badge good[^]*data-question="repeated"[^]*badge fair/);
+  one.verdict.comfort = null;
+  assert.match(text(comfortSection(one, vocabulary)), /no pressure to judge/);
+});
+
+test("nothing on the page contradicts the verdict", () => {
+  const whole = assessmentPage(page([assessment()]));
+  assert.equal(count(whole, "film"), 0);
+  assert.doesNotMatch(whole, /algometer|far below pain|381/);
+});
+
+test("the first screen has the answer, pictures, a chart with its numbers, and what to do next", () => {
+  const whole = assessmentPage(page([assessment(), assessment()]));
+  const first = whole.split('id="answer"')[1].split("</section>")[0];
+  for (const part of ["B presses 27 % less &lt;than&gt; A.", "Because &amp; why.", "Ask others:", "palmar study run --hands 12",
+                      'src="attachment:p"', "<svg", 'class="unseen"', "(1, 2, 3) mm"]) {
+    assert.ok(first.indexOf(part) >= 0, part);
+  }
+  // Every link of the contents leads to a section that is there.
+  const links = whole.split('class="contents"')[1].split("</nav>")[0].match(/href="#[^"]+"/g) || [];
+  assert.ok(links.length >= 5);
+  for (const link of links) assert.equal(count(whole, 'id="' + link.slice(7, -1) + '"'), 1, link);
+});
+
+test("German pages have no English sentences of their own", () => {
+  const shown = page([assessment(), assessment()]);
+  shown.view.language = "de";
+  const whole = assessmentPage(shown);
+  assert.match(whole, /<html lang="de">/);
+  for (const part of ["Was folgt", "Alle Zahlen nebeneinander", "Daumenballen", "0,0600"]) assert.ok(whole.indexOf(part) >= 0, part);
+  assert.doesNotMatch(whole, /What follows|Results at a glance|Whole hand|Sections unfold/);
+  useLanguage("en");
 });
 
 test("what is not held has dashes instead of verdicts", () => {
@@ -39,9 +69,6 @@ test("what is not held has dashes instead of verdicts", () => {
   assert.match(row, /badge bad/);
   assert.match(row, /not in the hand/);
   assert.doesNotMatch(row, /pain|data-value/);
-  assert.match(plainVerdict(one, vocabulary), /It is not held/);
-  one.contact.regions = [];
-  assert.match(plainVerdict(one, vocabulary), /Nothing is touched/);
 });
 
 test("the grip and what set its force are those that were asked for", () => {
@@ -56,7 +83,7 @@ test("the grip and what set its force are those that were asked for", () => {
   assert.match(readingAdvice([one], vocabulary), /asked to grip with 10.0 N;/);
   one.settings.grip_force_from = "25 % of a strength";
   assert.match(readingAdvice([one], vocabulary), /asked to grip with 10.0 N \(25 % of a strength\);/);
-  assert.doesNotMatch(assessmentPage(page([one])), /power grip|nobody measured/);
+  assert.doesNotMatch(assessmentPage(page([one])), /nobody measured/);
   one.grasp.grip = "tip_pinch";
   assert.equal(gripWords(one, vocabulary), "tip pinch");
   one.grasp.status = "not_graspable";
@@ -97,27 +124,23 @@ test("two products stand side by side with their differences", () => {
   const first = assessment(), second = assessment();
   second.contact.force_n = 10;
   second.contact.regions = [second.contact.regions[0]];
-  const pictures = page([first, second]).view.products.map((one) => one.pictures);
-  const both = text(comparison([first, second], pictures, vocabulary));
+  const both = text(comparison([first, second], vocabulary));
   assert.match(both, /id="difference"/);
   assert.match(both, new RegExp('data-value="' + (10 - 12.3456789) + '"'));
-  assert.match(both, />-4.35</); // only the first touches the thenar
-  assert.match(both, /src="attachment:t"/);
-  assert.equal(comparison([first], pictures, vocabulary), null);
-  assert.doesNotMatch(text(comparison([first, first, second], [pictures[0], pictures[0], pictures[0]], vocabulary)), /id="difference"/);
+  assert.match(both, />−4.35</); // only the first touches the thenar
+  assert.equal(comparison([first], vocabulary), null);
+  assert.doesNotMatch(text(comparison([first, first, second], vocabulary)), /id="difference"/);
 });
 
 test("the range from soft to stiff tissue is told with its causes", () => {
   const one = withBand(assessment(), 8.5, 15.5);
   const section = text(errorBandSection(one, "<svg>stiffer</svg>", vocabulary));
   assert.match(section, /8.50 to 15.5 N \(middle 12.3 N\)/);
-  assert.match(section, /reaches 75 % of its limit/); // 1.5 of 2.0 MPa
-  assert.match(section, /0 with soft, 1 with middle, 2 with stiff/);
   // 0.1 x 12 x 0.7 N; that region alone is more than half.
-  assert.match(section, /the index finger, tip were 10 % stiffer, the hand would press with 0.84 N more. That region alone/);
+  assert.match(section, /10 % stiffer \(index finger, tip\), the hand would press with 0.84 N more. That region alone/);
   assert.match(section, /<svg>stiffer<\/svg>/);
   const softer = withBand(assessment(), 8.0, 16.0);
-  assert.match(text(bandComparison(one, softer)), /-0.50 N with soft, 0 with middle and \+0.50 with stiff tissue: which is higher depends on the skin/);
+  assert.match(text(bandComparison(one, softer)), /−0.50 N with soft, 0 with middle and \+0.50 with stiff tissue. Which is higher depends on the skin/);
   const unsolved = withBand(assessment(), null, 15.5);
   assert.match(text(errorBandSection(unsolved, null, vocabulary)), /– to 15.5 N[\s\S]*could not be solved/);
   assert.equal(bandComparison(one, unsolved), null);
@@ -126,13 +149,14 @@ test("the range from soft to stiff tissue is told with its causes", () => {
 
 function index(key: string, group: string, value: number | null): GraspIndex {
   return { key, name: "name of " + key, group, value, unit: "mm2", lowest: 0, highest: 100, better: "down",
-           definition: "area < limit", source: "Someone 1999", remark: "" };
+           definition: "area < limit", source: "Someone 1999", remark: "", told_apart: 0.1 };
 }
 
 test("indices have a table per group and unfold to definitions", () => {
   const section = text(indexSection([index("a", "stability", 0.123456), index("b", "stability", null), index("c", "comfort", 12)]));
   assert.equal(count(section, "<table"), 2);
   assert.equal(count(section, "<details>"), 3);
+  assert.match(section, /^<details class="inner">/); // folded until it is asked for
   assert.equal(count(section, "<tr"), count(section, "</tr>"));
   for (const part of ['data-value="0.123456"', "mm²", "area &lt; limit", "less is better", "0 to 100"]) {
     assert.ok(section.indexOf(part) >= 0, part);
@@ -148,7 +172,14 @@ test("indices of several products stand row by row", () => {
   assert.match(both, /new &lt;2&gt;/);
   // b belongs to the first group though only the second product has it.
   assert.ok(both.indexOf('data-index="b"') < both.indexOf('data-index="c"'));
+  assert.match(both, /data-index="c".*\+2\.00 mm²/);
   assert.equal(indexComparison(["one"], [[index("a", "ease", 1)]]), null);
+});
+
+test("a difference within an index's error is none", () => {
+  const both = text(indexComparison(["old", "new"], [[index("a", "stability", 1)], [index("a", "stability", 1.05)]]));
+  assert.match(both, /same within its error/);
+  assert.doesNotMatch(both, /0\.0500/);
 });
 
 test("the turn of the hand is that of its quaternion", () => {
@@ -164,10 +195,10 @@ test("faces name the peak; settings name the sleeve", () => {
   one.faces = [{ face: 7, title: "face 7 \"fillet 3\" (fillet r 3)", name: "fillet 3", part: "a & b", kind: "cylinder",
                  is_fillet: true, radius_mm: 3, area_mm2: 100, force_n: 20, contact_area_mm2: 80,
                  peak_pressure_mpa: 0.41, mean_pressure_mpa: 0.25, has_peak: true }];
-  assert.match(text(faceSection(one)), /face 7 &quot;fillet 3&quot; \(fillet r 3\), 0.41 MPa/);
+  assert.match(text(faceSection(one)), /face 7 &quot;fillet 3&quot; \(fillet r 3\): 0.41 MPa/);
   assert.match(text(faceSection(one)), /a &amp; b/);
   one.settings.coatings = [{ thickness_mm: 3, shear_modulus_mpa: 0.1, poisson: 0.4, box_corners_mm: null }];
-  assert.match(text(settingsTable(one)), /3.00 mm thick, shear modulus 100 kPa, Poisson&#39;s ratio 0.40, on the whole product/);
+  assert.match(text(settingsTable(one)), /3.00 mm thick, shear modulus 100 kPa, Poisson’s ratio 0.40, on the whole product/);
 });
 
 test("a page is whole, forbids the network and asks for its attachments", () => {
@@ -179,7 +210,7 @@ test("a page is whole, forbids the network and asks for its attachments", () => 
   assert.match(whole, /palmar assess a &lt;b&gt;/);
   assert.match(whole, /id="palmar-assessment"><attachment:report>/);
   assert.doesNotMatch(whole, /undefined|\[object|NaN/);
-  for (const tag of ["table", "tr", "td", "div", "details", "section", "p"]) {
+  for (const tag of ["table", "tr", "td", "div", "details", "section", "p", "button", "article", "svg"]) {
     assert.equal(count(whole, "<" + tag + " ") + count(whole, "<" + tag + ">"), count(whole, "</" + tag + ">"), tag);
   }
 });

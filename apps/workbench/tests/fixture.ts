@@ -3,12 +3,12 @@
 //
 // A hand of two regions that holds a box, with numbers that can be followed by hand.
 
-import { Assessment, AssessmentPage, ContactTotals, Proportion, StudyPage, TissueRange, Vocabulary } from "../types";
+import { Assessment, AssessmentPage, ContactTotals, OnsetVerdict, Proportion, StudyPage, TissueRange, Vocabulary } from "../types";
 
 export const vocabulary: Vocabulary = {
   regions: {
-    index_distal: { words: "index finger, tip", colour: "#aa0000", pain_onset_mpa: 3.0 },
-    thenar: { words: "ball of the thumb (thenar)", colour: "#00aa00", pain_onset_mpa: 2.0 },
+    index_distal: { words: "index finger, tip", colour: "#aa0000", pain_onset_mpa: 0.496, discomfort_onset_mpa: 0.188 },
+    thenar: { words: "ball of the thumb (thenar)", colour: "#00aa00", pain_onset_mpa: 0.447, discomfort_onset_mpa: 0.1 },
   },
   segments: { palm: "palm", index_distal: "index finger, tip" },
   motions: {
@@ -31,6 +31,12 @@ function totals(force: number, area: number, peak: number, cells: number): Conta
     force_n: force, contact_area_mm2: area, peak_pressure_mpa: peak, peak_pressure_cells_mpa: cells,
     mean_pressure_mpa: 0.0123456789, force_vector_n: [0, 3, 4], centre_mm: [0, 0, 0], max_penetration_mm: 1.5, band: null,
   };
+}
+
+export function onset(region: string, pressure: number, limit: number, above: number): OnsetVerdict {
+  const share = pressure / limit;
+  return { region, pressure_mpa: pressure, onset_mpa: limit, share, regions_above: above,
+           level: share >= 1 ? "above" : share >= 0.5 ? "near" : "below" };
 }
 
 export function assessment(): Assessment {
@@ -56,6 +62,16 @@ export function assessment(): Assessment {
       // 1.2 / 3.0 = 0.4 is farther from pain than 1.0 / 2.0 = 0.5, though the pressure is higher.
       regions: [{ ...totals(8, 200, 1.2, 0.06), region: "index_distal", shear_modulus_mpa: 0.03 },
                 { ...totals(4.3456789, 145, 1.0, 0.04), region: "thenar", shear_modulus_mpa: 0.02 }],
+    },
+    verdict: {
+      held: "held", sentence: "box is held with 5.43 N.",
+      comfort: {
+        sentence: "A moment of this grip doesn’t hurt.",
+        moment: onset("index_distal", 0.06, 0.496, 0), repeated: onset("thenar", 0.06, 0.1, 0),
+        minutes: { limit_mpa: 0.05, share_of_skin: 0.62, area_mm2: 214 }, regions_touched: 2,
+      },
+      strength: { sentence: "A grip of 5.43 N takes 1.3 % of the grip strength.", grip_force_n: 5.43, strength_n: 427, share: 0.0127, whose: "people" },
+      hardest: { sentence: "It presses hardest at the tip.", region: "index_distal", pressure_mpa: 0.06, on_product_mm: [1, 2, 3], face: null },
     },
     indices: {},
     index_table: [],
@@ -83,9 +99,15 @@ export function withBand(one: Assessment, low: number | null, high: number | nul
 export function page(assessments: Assessment[]): AssessmentPage {
   return {
     kind: "assessment",
-    report: { assessments, versions: { palmar: "1", build: "1" }, command_line: "palmar assess a <b>" },
+    report: {
+      assessments,
+      verdict: { sentence: "B presses 27 % less <than> A.", reasons: ["Because & why."], next: "Ask others:", command: "palmar study run --hands 12",
+                 best: null, told_apart: 0.1, comparisons: [] },
+      versions: { palmar: "1", build: "1" }, command_line: "palmar assess a <b>",
+    },
     view: {
       maker: { version: "1.2", build: "1.2 (test)", viewer_licence: "Permission is hereby granted" },
+      language: "en",
       is_cut_short: false,
       vocabulary,
       scale: { quantity: "Pressure", unit: "MPa", upper: 0.5, is_open_ended: true, colours: ["#000000", "#ffffff"],
@@ -122,6 +144,9 @@ export function study(): StudyPage {
     hands: 6, grasps: 11, grasps_planned: 12,
     vocabulary,
     products: [{ name: "old", colour: "#112233", pictures: [] }, { name: "new", colour: "#332211", pictures: [] }],
+    language: "en",
+    answer: { tone: "good", sentence: "New presses 16 % less than old.", reasons: ["4 of 5 <hands>."], next: "Press it:", command: "palmar redesign press new.stl",
+              better: 1, worse: 0, changes: [-0.2, -0.1, -0.15, 0.05, -0.3] },
     verdict: ["New is better."],
     warnings: [{ is_outside: true, subject: "Hands", text: "Few." }],
     limits: [], threshold_mpa: 0.05, main_quantities: ["peak"], quantities: [peak],
@@ -129,7 +154,7 @@ export function study(): StudyPage {
       title: "people", words: "", are_figures_shown: true, figures: [{ description: "Dots", svg: "<svg>dots</svg>" }],
       products: [product, product],
       comparisons: [{ quantity: peak, pairs: [{
-        first: 0, second: 1, hands: 6, pairs: 5, left_out_words: "old: 1 slips out",
+        first: 0, second: 1, hands: 6, pairs: 5, left_out_words: "old: 1 slips out", lower_in_second: 4,
         difference: { value: -0.04, low: -0.06, high: -0.02 }, effect_size: { value: -1.5, low: -2, high: -1 },
         t_p_holm: 0.0004, wilcoxon_p_holm: 0.03125, verdict: "shown" }] }],
       sizes: [], dependence: [], faces: [], has_nails: false,

@@ -4,7 +4,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { escaped, html, joined, trusted } from "../components/markup";
-import { counted, percent, shortNumber } from "../components/numbers";
+import { percent, shortNumber, signedNumber } from "../components/numbers";
+import { say, sayCount, sayList, sayMarkup, useLanguage } from "../texts";
 import { numberCell, numbers, table, words } from "../components/tables";
 
 test("nothing that is put in breaks out of text or attributes", () => {
@@ -31,7 +32,18 @@ test("numbers are shortened, digits before the point stay", () => {
   assert.equal(shortNumber(null), "–");
   assert.equal(shortNumber(NaN), "–");
   assert.equal(percent(0.0731), "7.3 %");
-  assert.equal(counted(1, "hand") + ", " + counted(6, "hand"), "1 hand, 6 hands");
+  assert.equal(signedNumber(-0.031) + " " + signedNumber(12) + " " + signedNumber(0), "−0.0310 +12.0 0");
+  useLanguage("de");
+  assert.equal(shortNumber(0.18234), "0,182");
+  useLanguage("en");
+});
+
+test("sentences take their values, and say what is missing", () => {
+  assert.equal(sayCount("study.hands", 1) + ", " + sayCount("study.hands", 6), "1 hand, 6 hands");
+  assert.equal(sayList(["a", "b", "c"]) + "; " + sayList(["a"]), "a, b and c; a");
+  assert.equal(sayMarkup("range", { low: html`<b>1</b>`, high: "<" }).text, "<b>1</b> to &lt;");
+  assert.throws(() => say("range", { low: 1 }), /no value for high/);
+  assert.throws(() => say("no such key"), /no sentence/);
 });
 
 test("a cell holds its number in full", () => {

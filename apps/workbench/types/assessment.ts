@@ -3,7 +3,7 @@
 //
 // Assessments: the JSON that Palmar writes as assessment.json, and its page.
 
-import { ColourBar, Maker, Picture, Placement, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
+import { ColourBar, Language, Maker, Picture, Placement, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
 
 export interface ProductResult {
   name: string;
@@ -125,6 +125,7 @@ export interface GraspIndex {
   definition: string;
   source: string;
   remark: string;
+  told_apart: number; // share by which two values must differ to be told apart
 }
 
 export interface Coating {
@@ -247,6 +248,56 @@ export interface HoldDoubt {
   words: string;
 }
 
+/// A region's pressure over an onset, where that is largest.
+export interface OnsetVerdict {
+  region: string;
+  pressure_mpa: number;
+  onset_mpa: number;
+  share: number;
+  level: "below" | "near" | "above";
+  regions_above: number;
+}
+
+/// What one product comes to; sentences as they are in the language of the report.
+export interface ProductVerdict {
+  held: "held" | "doubtful" | "not_held";
+  sentence: string;
+  comfort: null | {
+    sentence: string;
+    moment: OnsetVerdict;
+    repeated: OnsetVerdict;
+    minutes: { limit_mpa: number; share_of_skin: number; area_mm2: number };
+    regions_touched: number;
+  };
+  strength: null | { sentence: string; grip_force_n: number; strength_n: number; share: number; whose: string };
+  hardest: null | {
+    sentence: string;
+    region: string;
+    pressure_mpa: number;
+    on_product_mm: Vector3 | null;
+    face: string | null;
+  };
+}
+
+/// The answer.
+export interface SetVerdict {
+  sentence: string;
+  reasons: string[];
+  next: string;
+  command: string;
+  best: string | null;
+  told_apart: number;
+  comparisons: {
+    better: string;
+    worse: string;
+    verdict: "lower" | "same" | "depends_on_skin" | "unequal_force" | "only_one_held" | "none_held";
+    peak_change: number;
+    area_change: number;
+    peak_change_soft: number | null;
+    peak_change_stiff: number | null;
+  }[];
+}
+
 export interface Assessment {
   product: ProductResult;
   hand: HandResult;
@@ -255,6 +306,7 @@ export interface Assessment {
   grasp: GraspResult;
   balance: BalanceResult;
   contact: ContactResult;
+  verdict: ProductVerdict;
   indices: { [key: string]: number | string[] | null };
   index_table: GraspIndex[];
   settings: AssessmentSettings;
@@ -266,6 +318,7 @@ export interface Assessment {
 /// assessment.json
 export interface AssessmentReport {
   assessments: Assessment[];
+  verdict: SetVerdict;
   versions: { palmar: string; build: string };
   command_line: string;
 }
@@ -273,6 +326,7 @@ export interface AssessmentReport {
 /// What the page of assessments shows beside the results themselves.
 export interface AssessmentView {
   maker: Maker;
+  language: Language;
   is_cut_short: boolean;
   vocabulary: Vocabulary;
   scale: ColourBar;

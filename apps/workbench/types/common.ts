@@ -3,6 +3,8 @@
 //
 // What several pages have.
 
+export type Language = "en" | "de";
+
 export type Vector3 = [number, number, number];
 
 /// Markup made by Palmar itself (a figure as SVG, a scene): goes into the page as it is.
@@ -21,7 +23,7 @@ export interface PostureAngles {
 
 /// Words, colours and limits by Palmar's names, in anatomical order.
 export interface Vocabulary {
-  regions: { [name: string]: { words: string; colour: string; pain_onset_mpa: number } };
+  regions: { [name: string]: { words: string; colour: string; pain_onset_mpa: number; discomfort_onset_mpa: number } };
   segments: { [name: string]: string };
   motions: { [name: string]: { words: string; lower_deg: number | null; upper_deg: number | null } };
   stops: { [name: string]: string };

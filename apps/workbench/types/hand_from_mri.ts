@@ -3,7 +3,7 @@
 //
 // A hand from MR images.
 
-import { Maker, Picture, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
+import { Language, Maker, Picture, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
 import { HandInfo } from "./hand";
 
 export interface Turn {
@@ -93,6 +93,7 @@ export interface HandFromMriPage {
   report: HandFromMri;
   view: {
     maker: Maker;
+    language: Language;
     vocabulary: Vocabulary;
     postures: string[]; // all that can be scanned
     charts: TrustedMarkup[]; // of bone errors

@@ -3,7 +3,7 @@
 //
 // A hand from surface scans.
 
-import { Maker, Picture, PostureAngles, Vector3, Vocabulary } from "./common";
+import { Language, Maker, Picture, PostureAngles, Vector3, Vocabulary } from "./common";
 import { SegmentSize } from "./hand";
 
 /// scan.json of a hand from surface scans.
@@ -61,6 +61,7 @@ export interface HandFromScanPage {
   report: HandFromScan;
   view: {
     maker: Maker;
+    language: Language;
     vocabulary: Vocabulary;
     segments: { [name: string]: SegmentSize };
     scans: { posture: string; file: string; triangles: number; dots: number; lines: number }[];

@@ -3,7 +3,7 @@
 //
 // The page of a study.
 
-import { ColourBar, Maker, Picture, TrustedMarkup, Vocabulary } from "./common";
+import { ColourBar, Language, Maker, Picture, TrustedMarkup, Vocabulary } from "./common";
 
 /// A count of n with its share and the share's interval; null where n is 0.
 export interface Proportion {
@@ -67,6 +67,7 @@ export interface ProductPair {
   second: number;
   hands: number;
   pairs: number; // hands that hold both
+  lower_in_second: number; // of them those in which the second has the lower value
   left_out_words: string;
   difference: Estimate; // second - first
   effect_size: Estimate; // Cohen's dz
@@ -185,6 +186,18 @@ export interface StudyProvenance {
   stiffness: { region: string; at_touch_mpa: number; at_limit_mpa: number; limit_depth_mm: number }[];
 }
 
+/// The answer: of the first condition, by the highest pressure on sensor cells.
+export interface StudyAnswer {
+  tone: "good" | "fair" | "bad";
+  sentence: string;
+  reasons: string[];
+  next: string;
+  command: string;
+  better: number | null; // index of a product; null: one product
+  worse: number | null;
+  changes: number[]; // by hand, of the peak: better over worse, less 1
+}
+
 export interface StudyPage {
   kind: "study";
   maker: Maker;
@@ -194,6 +207,8 @@ export interface StudyPage {
   grasps_planned: number;
   vocabulary: Vocabulary;
   products: { name: string; colour: string; pictures: Picture[] }[];
+  language: Language;
+  answer: StudyAnswer;
   verdict: string[];
   warnings: { is_outside: boolean; subject: string; text: string }[];
   limits: string[];

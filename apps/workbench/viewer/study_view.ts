@@ -7,6 +7,7 @@ import {
   BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Group, LineBasicMaterial,
   LineSegments, Matrix4, Mesh, MeshStandardMaterial, Vector3,
 } from "three";
+import { copyPlace, placeWords } from "./place";
 import { Stage, Triple, bytes, rgb, scaleTexture } from "./stage";
 
 // Strings are base64 of zlib; see packed_field.h.
@@ -147,17 +148,28 @@ export class StudyView {
     for (const input of section.querySelectorAll<HTMLInputElement | HTMLSelectElement>("[data-toggle]")) {
       input.addEventListener("change", () => void this.show(false));
     }
-    this.stage.onPoint(() => this.shown?.surface.mesh ?? null, (triangle) => this.saysFace(triangle));
+    this.stage.sceneTurn = () => this.group.quaternion;
+    const shown = () => (this.shown ? [this.shown.surface.mesh] : []);
+    this.stage.onPoint(shown, (hits) => this.saysFace(hits[0]?.faceIndex ?? -1, hits[0]?.point),
+                       (hits) => { if (hits[0]) copyPlace(this.section, this.productPlace(hits[0].point)); });
     void this.show(true);
   }
 
-  private saysFace(triangle: number): void {
+  // In the product's frame, mm.
+  private productPlace(point: Vector3): Vector3 {
+    return point.clone().sub(this.group.position).applyQuaternion(this.group.quaternion.clone().invert());
+  }
+
+  private saysFace(triangle: number, point?: Vector3): void {
     const line = this.section.querySelector<HTMLElement>(".view-face");
     const faces = this.shown ? this.data.products[this.shown.product].faces : null;
     const face = triangle >= 0 ? this.shown?.surface.faceOf?.[triangle] : undefined;
     if (!line) return;
-    line.textContent = face === undefined || !faces ? "Point at the product: its face is named here."
-      : `${faces.says[face].charAt(0).toUpperCase()}${faces.says[face].slice(1)}.`;
+    line.dataset.hint ??= line.textContent ?? "";
+    const place = point ? ` (${placeWords(this.productPlace(point))}) mm` : "";
+    line.textContent = triangle < 0 ? line.dataset.hint
+      : face === undefined || !faces ? place.trim()
+      : `${faces.says[face].charAt(0).toUpperCase()}${faces.says[face].slice(1)};${place}.`;
   }
 
   private control<T extends HTMLElement>(name: string): T | null {

@@ -3,10 +3,11 @@
 //
 // The turnable 3-D view of the report. Shows what the report's data say and computes no mechanics.
 // Each <section data-palmar-scene="ID"> holds a canvas place, toggles, and a <script
-// type="application/json" id="ID"> with the meshes.
+// type="application/json" id="ID"> with the meshes; one with two IDs shows both side by side.
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Mesh, MeshStandardMaterial,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Intersection, Mesh, MeshStandardMaterial,
 } from "three";
+import { copyPlace, placeWords } from "./place";
 import { Stage, Triple, bytes, rgb, scaleTexture } from "./stage";
 import { StudyView } from "./study_view";
 
@@ -34,6 +35,9 @@ interface SceneData {
   skin: MeshData;
   undeformed: Positions; // positions of the skin before contact
   product: MeshData;
+  upper: number; // of the pressure scale, MPa
+  regions: { names: string[]; ofVertex: string }; // of the skin; uint8
+  faces: { names: string[]; ofTriangle: string } | null; // of the product; uint16
 }
 
 function geometryOf(mesh: MeshData, position: Positions): BufferGeometry {
@@ -56,14 +60,18 @@ function geometryOf(mesh: MeshData, position: Positions): BufferGeometry {
 }
 
 class View {
-  private readonly stage: Stage;
+  readonly stage: Stage;
+  private readonly regionOf: Uint8Array;
+  private readonly faceOf: Uint16Array | null;
   private readonly skin: Mesh<BufferGeometry, MeshStandardMaterial>;
   private readonly product: Mesh<BufferGeometry, MeshStandardMaterial>;
   private readonly skinShapes: { deformed: BufferGeometry; undeformed: BufferGeometry };
   private readonly texture: DataTexture;
 
-  constructor(private readonly section: HTMLElement, private readonly data: SceneData) {
-    this.stage = new Stage(section, data.palmward, data.distal, data.radial);
+  constructor(private readonly section: HTMLElement, place: HTMLElement, private readonly data: SceneData) {
+    this.stage = new Stage(section, data.palmward, data.distal, data.radial, place);
+    this.regionOf = new Uint8Array(bytes(data.regions.ofVertex));
+    this.faceOf = data.faces ? new Uint16Array(bytes(data.faces.ofTriangle)) : null;
     this.texture = scaleTexture(data.table, data.neutral);
     this.skinShapes = {
       deformed: geometryOf(data.skin, data.skin.position),
@@ -81,6 +89,33 @@ class View {
     }
     this.apply();
     this.stage.look("palm");
+    this.stage.onPoint(() => [this.skin, this.product].filter((mesh) => mesh.visible), (hits) => this.says(hits),
+                       (hits) => { if (hits[0]) copyPlace(section, (this.of(hits, this.product) ?? hits[0]).point); });
+  }
+
+  private of(hits: Intersection[], mesh: Mesh): Intersection | undefined {
+    return hits.find((hit) => hit.object === mesh);
+  }
+
+  // What is pointed at: region and pressure of the skin, face and place of the product.
+  private says(hits: Intersection[]): void {
+    const line = this.section.querySelector<HTMLElement>(".view-point");
+    if (!line) return;
+    line.dataset.hint ??= line.textContent ?? "";
+    const product = this.of(hits, this.product);
+    const isOpaque = !this.chosen("see-through");
+    const skin = product && isOpaque && hits[0] === product ? undefined : this.of(hits, this.skin);
+    const parts: string[] = [];
+    const pressure = (hit: Intersection) => `${((hit.uv?.x ?? 0) * this.data.upper).toPrecision(2)} MPa`;
+    if (skin?.face) parts.push(`${this.data.regions.names[this.regionOf[skin.face.a]]}: ${pressure(skin)}`);
+    if (product) {
+      const face = this.faceOf && product.faceIndex !== undefined && product.faceIndex !== null
+        ? this.data.faces?.names[this.faceOf[product.faceIndex]] : undefined;
+      parts.push(`${face ? `${face} ` : ""}(${placeWords(product.point)}) mm`);
+    } else if (skin) {
+      parts.push(`(${placeWords(skin.point)}) mm`);
+    }
+    line.textContent = parts.length > 0 ? parts.join("; ") : line.dataset.hint;
   }
 
   private chosen(name: string): boolean {
@@ -108,23 +143,31 @@ class View {
   }
 }
 
+function sceneNamed(id: string): unknown {
+  const source = document.getElementById(id);
+  return source ? JSON.parse(source.textContent ?? "") : null;
+}
+
 // A browser allows only a few WebGL contexts: views start when they come into sight.
 function start(section: HTMLElement): void {
-  const place = section.querySelector<HTMLElement>(".view-canvas");
-  const source = document.getElementById(section.dataset.palmarScene ?? "");
-  if (!place || !source) return;
+  const places = section.querySelectorAll<HTMLElement>(".view-canvas");
+  const ids = (section.dataset.palmarScene ?? "").split(" ");
+  if (places.length !== ids.length) return;
   try {
-    const data = JSON.parse(source.textContent ?? "");
-    if (section.dataset.palmarKind === "study") new StudyView(section, data);
-    else new View(section, data as SceneData);
+    const data = ids.map(sceneNamed);
+    if (section.dataset.palmarKind === "study") {
+      new StudyView(section, data[0] as ConstructorParameters<typeof StudyView>[1]);
+    } else {
+      const views = data.map((one, i) => new View(section, places[i], one as SceneData));
+      if (views.length === 2) {
+        views[0].stage.leads(views[1].stage);
+        views[1].stage.leads(views[0].stage);
+        views[0].stage.look("palm");
+      }
+    }
     section.classList.add("is-live");
   } catch {
-    const note = place.querySelector(".view-fallback");
-    if (note) {
-      note.textContent =
-        "This browser can't show the turnable 3-D view (WebGL is missing or switched off). " +
-        "The pictures below show the same result from four sides.";
-    }
+    // The words in its place stay.
   }
 }
 

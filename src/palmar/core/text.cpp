@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <cstring>
 
 namespace palmar {
 
@@ -37,6 +38,30 @@ std::string joined(std::span<const std::string> words, std::string_view between)
     text += word;
   }
   return text;
+}
+
+std::string shell_word(const std::string& word) {
+  bool is_plain = !word.empty(), has_control = false;
+  for (const char c : word) {
+    const auto byte = static_cast<unsigned char>(c);
+    is_plain = is_plain && (std::isalnum(byte) != 0 || std::strchr("_-./:,=+@%", c) != nullptr);
+    has_control = has_control || byte < 0x20;
+  }
+  if (is_plain) return word;
+  // A line break would end a comment that the command line stands in.
+  std::string quoted = has_control ? "$'" : "'";
+  for (const char c : word) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      std::array<char, 8> code{};
+      std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned>(c));
+      quoted += code.data();
+    } else if (has_control && (c == '\'' || c == '\\')) {
+      quoted += std::string("\\") + c;
+    } else {
+      quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+  }
+  return quoted + "'";
 }
 
 }  // namespace palmar

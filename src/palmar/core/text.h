@@ -21,6 +21,9 @@ std::string lower_case(std::string_view text);
 /// Without spaces and tabs at either end.
 std::string trimmed(std::string_view text);
 
+/// A word as a shell takes it, in quotes where it needs them: command lines can be run again.
+std::string shell_word(const std::string& word);
+
 /// The words in their order, with the text `between` from one to the next.
 std::string joined(std::span<const std::string> words, std::string_view between);
 

@@ -349,9 +349,13 @@ bool is_assessment_json(const std::string& text) {
          json["versions"].is_object() && json["versions"].contains("palmar");
 }
 
-std::string assessment_json(const AssessmentSet& set) {
+std::string assessment_json(const AssessmentSet& set, const VerdictWords& words) {
   Json assessments = Json::array();
+  const SetVerdict verdict = verdict_of(set);
+  std::vector<std::string> names;
   for (const AssessedProduct& one : set.assessments) {
+    const std::size_t number = names.size();
+    names.push_back(one.product.name);
     const Assessment& assessment = one.assessment;
     Json hand = set.hand ? hand_object(*set.hand) : Json{{"name", assessment.hand_name}};
     Json entry = {{"product", product_object(one.product)},
@@ -361,6 +365,9 @@ std::string assessment_json(const AssessmentSet& set) {
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
                   {"contact", contact_object(assessment.contact, grip_force_of(one))},
+                  {"verdict", verdict_object(one, verdict.products[number],
+                                             number < words.products.size() ? words.products[number]
+                                                                            : ProductWords{})},
                   {"indices", indices_object(assessment.contact, assessment.indices)},
                   {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};
@@ -377,6 +384,7 @@ std::string assessment_json(const AssessmentSet& set) {
     assessments.push_back(std::move(entry));
   }
   const Json json = {{"assessments", std::move(assessments)},
+                     {"verdict", verdict_object(verdict, words, names)},
                      {"versions", {{"palmar", version()}, {"build", build_description()}}},
                      {"command_line", set.command_line}};
   return dumped(json);

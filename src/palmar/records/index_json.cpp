@@ -47,7 +47,8 @@ nlohmann::ordered_json index_rows(const GraspIndices& indices) {
                     {"better", name_of(index.better)},
                     {"definition", index.definition},
                     {"source", index.source},
-                    {"remark", index.remark}});
+                    {"remark", index.remark},
+                    {"told_apart", index.told_apart}});
   }
   return rows;
 }

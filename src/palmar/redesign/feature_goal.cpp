@@ -27,7 +27,7 @@ const std::map<std::string, std::string>& short_names() {
       {"peak", "peak_pressure_cells_mpa"},
       {"mean", "mean_pressure_mpa"},
       {"stability", "epsilon_l1"},
-      {"discomfort", "algometer_mean_of_discomfort_onset_percent"}};
+      {"discomfort", "discomfort_onset_percent"}};
   return names;
 }
 

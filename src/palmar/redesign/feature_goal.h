@@ -19,7 +19,7 @@ struct FeatureGoal {
 };
 
 /// From words: "peak" (pressure on sensor cells), "mean" (pressure), "stability" (largest wrench
-/// that every direction resists), "discomfort" (largest mean pressure of a region over its onset of
+/// that every direction resists), "discomfort" (largest pressure of a region over its onset of
 /// discomfort), or the key of any quantity that has a better direction; with ":p95" the 95th
 /// percentile over hands, with ":above=0.3" the share of hands above that. Throws UsageError.
 FeatureGoal feature_goal(const std::string& words);

@@ -11,6 +11,7 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/records/posture/coordination_file.h"
 #include "palmar/report/page/assessment_report.h"
+#include "palmar/report/words/verdict_words.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
@@ -20,6 +21,7 @@ namespace {
 // Shares of the whole: reading and preparing, assessing, writing the report.
 constexpr double kPrepared = 0.1;
 constexpr double kAssessed = 0.7;
+constexpr double kWritten = 0.9;  // if it is printed, too
 
 Cancelled cancelled_early() {
   return Cancelled("cancelled before anything was finished; nothing written");
@@ -128,12 +130,18 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     }
   }
   if (outcome.set.assessments.empty()) throw cancelled_early();
+  outcome.words = verdict_words(outcome.set, verdict_of(outcome.set), request.language);
   if (request.out.empty()) return outcome;
   // What is done is written even when the user has cancelled, but for pictures.
   outcome.folder = request.out;
   try {
-    write_report(request.out, outcome.set, {.pictures = request.pictures},
-                 part_of(progress, kAssessed, 1.0));
+    write_report(request.out, outcome.set,
+                 {.language = request.language, .pictures = request.pictures},
+                 part_of(progress, kAssessed, request.pdf ? kWritten : 1.0));
+    if (request.pdf) {
+      progress.update(kWritten, "PDF");
+      print_pdf(std::filesystem::path(request.out) / "report.html", *request.pdf, progress);
+    }
   } catch (const Cancelled&) {
     outcome.is_cancelled = true;
   }

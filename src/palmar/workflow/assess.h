@@ -5,14 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "palmar/contact/contact.h"
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp_settings.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/records/verdict_json.h"
+#include "palmar/report/page/print_pdf.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/contact_with_band.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -33,12 +37,14 @@ struct AssessRequest {
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
   /// ease; "": the built-in one.
   std::string natural_postures;
-  std::string out;           ///< folder of the report; "": none is written
-  bool pictures = true;      ///< PNG pictures in it
-  std::uint64_t seed = 0;    ///< written into the results
-  std::string command_line;  ///< for provenance
-  NoteSink note = {};        ///< early notes: what was found in a product, why one has no solution
-  void check() const;        ///< throws UsageError: setting, value, what is allowed
+  Language language = Language::kEnglish;   ///< of the report and the verdict
+  std::string out;                          ///< folder of the report; "": none is written
+  bool pictures = true;                     ///< PNG pictures in it
+  std::optional<Paper> pdf = std::nullopt;  ///< answer.pdf and report.pdf on this paper
+  std::uint64_t seed = 0;                   ///< written into the results
+  std::string command_line;                 ///< for provenance
+  NoteSink note = {};  ///< early notes: what was found in a product, why one has no solution
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 struct AssessOutcome {
@@ -47,6 +53,7 @@ struct AssessOutcome {
   bool is_cancelled = false;  ///< what was finished is here and, but for pictures, in the report
   bool has_converged = true;  ///< of every contact
   std::string folder;         ///< of the report; "": none was written
+  VerdictWords words;         ///< the answer, as it stands in report and JSON
 };
 
 /// Reads all products, checks them, prepares the hand and assesses one product after the other;

@@ -11,13 +11,24 @@
 namespace palmar {
 namespace {
 
+constexpr const char* kProbeSource =
+    "Johansson et al. 1999: probe of about 1 cm2 on one place of the hand";
 constexpr const char* kFilmSource = "ISO/TS 15066:2016, Table A.2";
-constexpr const char* kFilmDiscomfortSource =
-    "ISO/TS 15066:2016, Table A.2, times the ratios of Johansson et al. 1999";
-constexpr const char* kAlgometerSource = "range quoted by Harih and Tada 2015";
-constexpr const char* kAlgometerDiscomfortSource =
-    "range quoted by Harih and Tada 2015, times the ratios of Johansson et al. 1999";
 constexpr const char* kFlowSource = "Chalmers thesis 2004, publication 208";
+
+/// The region whose pressure is the largest share of its onset.
+std::optional<WorstRegion> worst_by(const std::vector<RegionComfort>& regions,
+                                    double RegionComfort::*onset) {
+  std::optional<WorstRegion> worst;
+  int above = 0;
+  for (const RegionComfort& one : regions) {
+    const WorstRegion this_one{one.region, one.peak_pressure, one.*onset, 0};
+    if (one.peak_pressure > one.*onset) ++above;
+    if (!worst || this_one.share() > worst->share()) worst = this_one;
+  }
+  if (worst) worst->above = above;
+  return worst;
+}
 
 class Rows {
  public:
@@ -36,12 +47,21 @@ class Rows {
     }
     index.unit = unit;
     index.lowest = 0.0;
-    if (unit == "%" && key.find("_of_") == key.npos) index.highest = 100.0;
     index.better = Better::kDown;
     index.definition = definition;
     index.source = source;
     rows.push_back(index);
     return rows.back();
+  }
+
+  /// A row of a share of an onset, in percent.
+  void add_onset(const std::string& key, const std::string& name,
+                 const std::optional<WorstRegion>& worst, const std::string& definition,
+                 const std::string& source) {
+    GraspIndex& row = add(key, name, "%", worst ? 100.0 * worst->share() : 0.0, definition, source);
+    if (!worst) return;
+    row.remark = "in " + std::string(name_of(worst->region)) + ": " +
+                 significant(worst->pressure, 3) + " of " + significant(worst->onset, 3) + " MPa";
   }
 
   GraspIndices rows;
@@ -51,6 +71,23 @@ class Rows {
 };
 
 }  // namespace
+
+OnsetLevel level_of(const WorstRegion& worst) {
+  if (worst.share() >= 1.0) return OnsetLevel::kAbove;
+  return worst.share() >= kNearOnset ? OnsetLevel::kNear : OnsetLevel::kBelow;
+}
+
+std::string_view name_of(OnsetLevel level) {
+  switch (level) {
+    case OnsetLevel::kAbove:
+      return "above";
+    case OnsetLevel::kNear:
+      return "near";
+    case OnsetLevel::kBelow:
+      break;
+  }
+  return "below";
+}
 
 ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact) {
   if (!contact.force.empty() && (contact.force.size() != hand.region.size() ||
@@ -64,15 +101,12 @@ ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact) {
     RegionComfort one;
     one.region = region.region;
     one.peak_pressure = region.peak_pressure_cells;
+    one.pain = pain_onset_probe(region.region);
+    one.discomfort = discomfort_onset_probe(region.region);
     one.film_pain = pain_onset_film(region.region);
-    one.film_discomfort = one.film_pain * discomfort_over_pain(region.region);
-    one.mean_pressure = region.mean_pressure;
-    one.algometer_pain = kPainOnsetAlgometerLow;
-    one.algometer_discomfort = one.algometer_pain * discomfort_over_pain(region.region);
     result.regions.push_back(one);
     place[index_of(region.region)] = static_cast<int>(result.regions.size());
   }
-  double film_discomfort = 0.0, film_pain = 0.0;
   for (std::size_t v = 0; v < contact.force.size(); ++v) {
     const int at = place[index_of(hand.region[v])];
     if (!(contact.force[v] > 0.0 && contact.pressure[v] > 0.0) || at == 0) continue;
@@ -80,105 +114,52 @@ ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact) {
     const double area = contact.force[v] / contact.pressure[v];
     one.area += area;
     if (contact.pressure[v] > kBloodFlowStop) one.sustained_area += area;
-    if (contact.pressure[v] > one.film_discomfort) film_discomfort += area;
-    if (contact.pressure[v] > one.film_pain) film_pain += area;
   }
-  double algometer_discomfort = 0.0, algometer_pain = 0.0;
-  for (std::size_t k = 0; k < result.regions.size(); ++k) {
-    const RegionComfort& one = result.regions[k];
+  for (const RegionComfort& one : result.regions) {
     result.area += one.area;
     result.sustained_area += one.sustained_area;
-    if (one.mean_pressure > one.algometer_discomfort) algometer_discomfort += one.area;
-    if (one.mean_pressure > one.algometer_pain) algometer_pain += one.area;
-    if (!result.most_at_risk_film ||
-        one.film_share() > result.regions[*result.most_at_risk_film].film_share()) {
-      result.most_at_risk_film = k;
-    }
-    // Discomfort, as its onset differs from region to region while that of pain isn't known to.
-    const auto risk = [&](const RegionComfort& r) {
-      return r.mean_pressure / r.algometer_discomfort;
-    };
-    if (!result.most_at_risk_algometer ||
-        risk(one) > risk(result.regions[*result.most_at_risk_algometer])) {
-      result.most_at_risk_algometer = k;
-    }
   }
-  if (result.area > 0.0) {
-    result.sustained_share = result.sustained_area / result.area;
-    result.film_discomfort_share = film_discomfort / result.area;
-    result.film_pain_share = film_pain / result.area;
-    result.algometer_discomfort_share = algometer_discomfort / result.area;
-    result.algometer_pain_share = algometer_pain / result.area;
-  }
+  if (result.area > 0.0) result.sustained_share = result.sustained_area / result.area;
+  result.pain = worst_by(result.regions, &RegionComfort::pain);
+  result.discomfort = worst_by(result.regions, &RegionComfort::discomfort);
+  result.film = worst_by(result.regions, &RegionComfort::film_pain);
   return result;
 }
 
 GraspIndices to_indices(const ComfortResult& result) {
   Rows rows(result);
-  const RegionComfort none;
-  const RegionComfort& film =
-      result.most_at_risk_film ? result.regions[*result.most_at_risk_film] : none;
-  const RegionComfort& algometer =
-      result.most_at_risk_algometer ? result.regions[*result.most_at_risk_algometer] : none;
-
-  GraspIndex& peak = rows.add(
-      "film_peak_of_pain_onset_percent", "film family: largest peak over onset of pain", "%",
-      100.0 * film.film_share(),
-      "largest of all regions: peak pressure on a sensor cell over the film peak pressure at which "
-      "pain begins there (3.0 fingers, 2.6 palm, 2.0 MPa thenar)",
-      kFilmSource);
-  if (result.most_at_risk_film) {
-    peak.remark = "in " + std::string(name_of(film.region)) + ": " +
-                  significant(film.peak_pressure, 3) + " of " + significant(film.film_pain, 3) +
-                  " MPa";
-  }
-  rows.add("film_area_above_discomfort_percent", "film family: skin above the onset of discomfort",
-           "%", 100.0 * result.film_discomfort_share,
-           "share of the contact area whose pressure is above 0.38 (fingers), 0.40 (palm) or 0.22 "
-           "(thenar) of the film peak pressure at which pain begins",
-           kFilmDiscomfortSource);
-  rows.add("film_area_above_pain_percent", "film family: skin above the onset of pain", "%",
-           100.0 * result.film_pain_share,
-           "share of the contact area whose pressure is above the film peak pressure at which pain "
-           "begins",
-           kFilmSource);
-  GraspIndex& mean = rows.add(
-      "algometer_mean_of_discomfort_onset_percent",
-      "algometer family: largest mean over onset of discomfort", "%",
-      result.most_at_risk_algometer
-          ? 100.0 * algometer.mean_pressure / algometer.algometer_discomfort
-          : 0.0,
-      "largest of all regions: mean pressure over 0.38 (fingers), 0.40 (palm) or 0.22 (thenar) of "
-      "0.1 MPa, the lower end of the mean pressures under an algometer at which pain begins",
-      kAlgometerDiscomfortSource);
-  if (result.most_at_risk_algometer) {
-    mean.remark =
-        "in " + std::string(name_of(algometer.region)) + ": mean " +
-        significant(algometer.mean_pressure, 3) + " MPa, discomfort from " +
-        significant(algometer.algometer_discomfort, 3) + " to " +
-        significant(
-            algometer.algometer_discomfort * kPainOnsetAlgometerHigh / kPainOnsetAlgometerLow, 3) +
-        " MPa";
-  }
-  rows.add("algometer_area_above_discomfort_percent",
-           "algometer family: skin of regions above the onset of discomfort", "%",
-           100.0 * result.algometer_discomfort_share,
-           "share of the contact area in regions whose mean pressure is above that onset of "
-           "discomfort (lower end)",
-           kAlgometerDiscomfortSource);
-  rows.add("algometer_area_above_pain_percent",
-           "algometer family: skin of regions above the onset of pain", "%",
-           100.0 * result.algometer_pain_share,
-           "share of the contact area in regions whose mean pressure is above 0.1 MPa, the lower "
-           "end of the mean pressures under an algometer at which pain begins",
-           kAlgometerSource);
-  rows.add("skin_above_50_kpa_mm2", "held long: skin without blood flow", "mm2",
+  rows.add_onset("pain_onset_percent", "a moment: pressure over the onset of pain", result.pain,
+                 "largest of all regions: peak pressure on a sensor cell over the mean pressure "
+                 "under a probe at which pain begins there (0.496 fingers, 0.494 palm, 0.447 MPa "
+                 "thenar)",
+                 kProbeSource);
+  rows.add_onset("discomfort_onset_percent", "repeated: pressure over the onset of discomfort",
+                 result.discomfort,
+                 "largest of all regions: peak pressure on a sensor cell over the mean pressure "
+                 "under a probe at which discomfort begins there (0.188 fingers, 0.200 palm, 0.100 "
+                 "MPa thenar)",
+                 kProbeSource);
+  rows.add("regions_above_discomfort", "repeated: regions above the onset of discomfort", "",
+           result.discomfort ? result.discomfort->above : 0,
+           "number of regions whose peak pressure on a sensor cell is above that onset",
+           kProbeSource)
+      .highest = kRegionCount;
+  rows.add("skin_above_50_kpa_mm2", "minutes: skin without blood flow", "mm2",
            result.sustained_area,
            "area of skin under more than 50 kPa, at which its blood flow stops; counts for grips "
-           "held long",
+           "held for minutes",
            kFlowSource);
-  rows.add("skin_above_50_kpa_percent", "held long: share of the contact without blood flow", "%",
-           100.0 * result.sustained_share, "the same as a share of the contact area", kFlowSource);
+  rows.add("skin_above_50_kpa_percent", "minutes: share of the touched skin without blood flow",
+           "%", 100.0 * result.sustained_share, "the same as a share of the contact area",
+           kFlowSource)
+      .highest = 100.0;
+  rows.add_onset(
+      "film_peak_of_pain_onset_percent", "clamped by a robot: peak over the onset of pain",
+      result.film,
+      "largest of all regions: peak pressure on a sensor cell over the peak on a film at "
+      "which pain begins when a robot clamps that place (3.0 fingers, 2.6 palm, 2.0 MPa "
+      "thenar); another instrument, so another scale, that the verdict doesn't use",
+      kFilmSource);
   return rows.rows;
 }
 

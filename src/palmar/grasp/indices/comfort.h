@@ -11,42 +11,53 @@
 
 namespace palmar {
 
-/// One region's pressure against the thresholds of one family. MPa.
+/// One region's pressure and the onsets that it is compared with. MPa.
 struct RegionComfort {
   Region region{};
-  // Film family: the largest mean over a sensor cell, which is what a film resolves.
-  double peak_pressure = 0.0;
-  double film_discomfort = 0.0, film_pain = 0.0;
-  // Algometer family: the mean over the region's contact.
-  double mean_pressure = 0.0;
-  double algometer_discomfort = 0.0, algometer_pain = 0.0;  ///< of the lower pain onset, 0.1 MPa
-  double area = 0.0;                                        ///< in contact, mm^2
-  double sustained_area = 0.0;                              ///< of it above kBloodFlowStop, mm^2
-  double film_share() const { return film_pain > 0.0 ? peak_pressure / film_pain : 0.0; }
-  double algometer_share() const {
-    return algometer_pain > 0.0 ? mean_pressure / algometer_pain : 0.0;
-  }
+  double peak_pressure = 0.0;           ///< on a sensor cell of 24 mm^2
+  double pain = 0.0, discomfort = 0.0;  ///< onsets under a probe
+  double film_pain = 0.0;               ///< onset as a film's peak, for experts
+  double area = 0.0;                    ///< in contact, mm^2
+  double sustained_area = 0.0;          ///< of it above kBloodFlowStop, mm^2
 };
 
-/// Pressure on the skin against what people bear, one family of thresholds at a time; nothing here
-/// adds families up or compares them.
+/// A region's pressure over its onset, for the region where that is largest.
+struct WorstRegion {
+  Region region{};
+  double pressure = 0.0;  ///< MPa, on a sensor cell
+  double onset = 0.0;     ///< MPa
+  int above = 0;          ///< regions whose pressure is above their onset
+  double share() const { return onset > 0.0 ? pressure / onset : 0.0; }
+};
+
+/// How near a pressure comes to an onset. From half of it on is near: our choice, for people's
+/// onsets differ about twofold.
+enum class OnsetLevel { kBelow, kNear, kAbove };
+inline constexpr double kNearOnset = 0.5;  ///< of the onset
+OnsetLevel level_of(const WorstRegion& worst);
+std::string_view name_of(OnsetLevel level);  ///< "below", "near", "above"
+
+/// Pressure on the skin against what people bear. Three questions, one scale each:
+///
+///     a moment    does it hurt?             peak on sensor cells over pain_onset_probe()
+///     repeated    is it uncomfortable?      peak on sensor cells over discomfort_onset_probe()
+///     minutes     does blood still flow?    share of the touched skin above kBloodFlowStop
+///
+/// A sensor cell (24 mm^2) is smaller than the probe (about 1 cm^2), whose mean pressure would be
+/// lower, so pain and discomfort are rather overstated.
 struct ComfortResult {
-  std::vector<RegionComfort> regions;  ///< in contact, ascending
-  double area = 0.0;                   ///< in contact, mm^2
-  double sustained_area = 0.0;         ///< above kBloodFlowStop, mm^2
-  // Shares of the contact area, 0 to 1.
-  double sustained_share = 0.0;
-  double film_discomfort_share = 0.0;  ///< vertex pressure above the film family's discomfort
-  double film_pain_share = 0.0;
-  double algometer_discomfort_share = 0.0;  ///< in regions whose mean is above discomfort
-  double algometer_pain_share = 0.0;
-  /// Places in `regions`; nothing without contact.
-  std::optional<std::size_t> most_at_risk_film, most_at_risk_algometer;
+  std::vector<RegionComfort> regions;           ///< in contact, ascending
+  std::optional<WorstRegion> pain, discomfort;  ///< nothing without contact
+  std::optional<WorstRegion> film;              ///< over pain_onset_film(), for experts
+  double area = 0.0;                            ///< in contact, mm^2
+  double sustained_area = 0.0;                  ///< above kBloodFlowStop, mm^2
+  double sustained_share = 0.0;                 ///< of the area, 0 to 1
 };
 
+/// Throws UsageError if the contact is that of another hand.
 ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact);
 
-/// Rows of the group "comfort"; the family stands in key and name.
+/// Rows of the group "comfort".
 GraspIndices to_indices(const ComfortResult& result);
 
 }  // namespace palmar

@@ -12,6 +12,12 @@ namespace palmar {
 enum class Better { kUp, kDown, kNeither };
 std::string name_of(Better better);  ///< "up", "down", "neither"
 
+/// Share by which two results of a grasp must differ to be told apart: our choice. Of the 51
+/// constants of the method that move the peak on sensor cells at all when they are changed by a
+/// fifth, 36 move it by less (docs/method/sensitivity.md), and people tell two forces apart when
+/// they differ by about 7 % (Jones 1989, Perception 18:681-687).
+inline constexpr double kToldApart = 0.10;
+
 /// One index of a grasp with everything that a reader needs to understand it. Indices are never
 /// added up to one number.
 struct GraspIndex {
@@ -25,6 +31,8 @@ struct GraspIndex {
   std::string definition;  ///< one sentence, with the equation's name
   std::string source;      ///< author, year
   std::string remark;      ///< what restricts this value, or empty
+  /// Two values that differ by less than this share of the larger can't be told apart.
+  double told_apart = kToldApart;
 };
 using GraspIndices = std::vector<GraspIndex>;
 

@@ -84,7 +84,7 @@ PageJson ways_json(const AssessedProduct& one) {
 
 PageJson product_json(const Hand& hand, const AssessedProduct& one, const ColourScale& scale,
                       const std::vector<EncodedPicture>& pictures, const std::string& name,
-                      Attachments& attachments) {
+                      Language language, Attachments& attachments) {
   const ContactResult& contact = one.assessment.contact;
   PageJson sensitivity = nullptr;
   if (contact.band && !contact.band->regions.empty()) {
@@ -98,14 +98,15 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
           {"ways", ways_json(one)},
           {"way_taken", one.ways ? PageJson(one.assessment.options.grasp.hold_rank) : nullptr},
           {"scene", attached(attachments, name + "-scene",
-                             script_escaped(scene_data_json(hand, one, scale)))}};
+                             script_escaped(scene_data_json(hand, one, scale, language)))}};
 }
 
 }  // namespace
 
 std::string assessment_page(const AssessmentSet& set,
                             const std::vector<std::vector<EncodedPicture>>& pictures,
-                            const ColourScale& scale, const std::string& json, bool is_cut_short) {
+                            const ColourScale& scale, const std::string& json,
+                            const AssessmentPageOptions& options) {
   if (!set.hand) throw UsageError("report: the set has no hand");
   if (set.assessments.empty()) throw UsageError("report: the set has no assessment");
   if (pictures.size() != set.assessments.size()) {
@@ -116,10 +117,11 @@ std::string assessment_page(const AssessmentSet& set,
   PageJson products = PageJson::array();
   for (std::size_t i = 0; i < set.assessments.size(); ++i) {
     products.push_back(product_json(*set.hand, set.assessments[i], scale, pictures[i],
-                                    "product-" + std::to_string(i), attachments));
+                                    "product-" + std::to_string(i), options.language, attachments));
   }
   const PageJson view = {{"maker", maker_json()},
-                         {"is_cut_short", is_cut_short},
+                         {"language", name_of(options.language)},
+                         {"is_cut_short", options.is_cut_short},
                          {"vocabulary", vocabulary_json(*set.hand)},
                          {"scale", colour_bar_json(scale)},
                          {"products", std::move(products)}};

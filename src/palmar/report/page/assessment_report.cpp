@@ -16,6 +16,7 @@
 #include "palmar/report/page/assessment_page.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/holds_picture.h"
+#include "palmar/report/words/verdict_words.h"
 
 namespace palmar {
 
@@ -221,7 +222,8 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   const Hand& hand = *set.hand;
   const std::filesystem::path root(folder);
   create_folder(root);
-  const std::string json = assessment_json(set);
+  const std::string json =
+      assessment_json(set, verdict_words(set, verdict_of(set), options.language));
   write_file(root / "assessment.json", json);
   write_file(root / "regions.csv", format_csv(region_table(set)));
   const CsvTable faces = face_table(set);
@@ -249,7 +251,8 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   }
   const bool is_cut_short = progress.is_cancelled();
   if (progress.report) progress.report(0.98, "report.html");
-  write_file(root / "report.html", assessment_page(set, embedded, scale, json, is_cut_short));
+  write_file(root / "report.html",
+             assessment_page(set, embedded, scale, json, {options.language, is_cut_short}));
   if (is_cut_short)
     throw Cancelled("cancelled; " + folder + "/report.html holds what was finished");
 }

@@ -4,12 +4,14 @@
 
 #include <string>
 
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/study/assessment/assessment.h"
 
 namespace palmar {
 
 struct ReportOptions {
+  Language language = Language::kEnglish;
   bool pictures = true;      ///< PNG pictures from four views
   int picture_width = 1000;  ///< pixels
   int picture_height = 700;  ///< pixels

@@ -77,6 +77,7 @@ std::string rendered(const std::string& json) {
 
 std::string render_page(const std::string& json, Attachments attachments) {
   attachments.emplace("style", page_style());
+  attachments.emplace("page", script_escaped(page_behaviour()));
   attachments.emplace("viewer", script_escaped(viewer_script()));
   return filled(rendered(json), attachments);
 }

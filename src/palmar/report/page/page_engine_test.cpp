@@ -19,7 +19,8 @@ std::string study_of(const std::string& title) {
   return R"({"kind":"study","maker":{"version":"1","build":"b","viewer_licence":""},"title":")" +
          title +
          R"(","hands":1,"grasps":0,"grasps_planned":1,"vocabulary":{"regions":{}},"products":[],)"
-         R"("verdict":[],"warnings":[],"limits":[],"threshold_mpa":0.05,"main_quantities":[],)"
+         R"("language":"en","answer":{"tone":"fair","sentence":"","reasons":[],"next":"","command":"",)"
+         R"("better":null,"worse":null,"changes":[]},"verdict":[],"warnings":[],"limits":[],"threshold_mpa":0.05,"main_quantities":[],)"
          R"("quantities":[],"conditions":[{"title":"","words":"","are_figures_shown":true,)"
          R"("figures":[],"products":[],"comparisons":[],"sizes":[],"dependence":[],"faces":[],)"
          R"("has_nails":false}],"scene":null,"provenance":{"study":"s","seed":1,"sha256":"",)"

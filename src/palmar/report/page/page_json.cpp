@@ -47,9 +47,11 @@ PageJson vocabulary_json(const Hand& hand) {
   PageJson regions = PageJson::object();
   for (int r = 0; r < kRegionCount; ++r) {
     const auto region = static_cast<Region>(r);
-    regions[std::string(name_of(region))] = {{"words", plain_words(region)},
-                                             {"colour", hex_colour(region_colour(region))},
-                                             {"pain_onset_mpa", pain_onset_film(region)}};
+    regions[std::string(name_of(region))] = {
+        {"words", plain_words(region)},
+        {"colour", hex_colour(region_colour(region))},
+        {"pain_onset_mpa", pain_onset_probe(region)},
+        {"discomfort_onset_mpa", discomfort_onset_probe(region)}};
   }
   PageJson segments = PageJson::object();
   for (int s = 0; s < kSegmentCount; ++s) {

@@ -10,6 +10,7 @@
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 #include "palmar/report/picture/thumb_inset.h"
+#include "palmar/study/assessment/verdict.h"
 
 namespace palmar {
 
@@ -212,22 +213,16 @@ ColourScale friction_scale() {
           .neutral = kNeutralColour};
 }
 
-bool is_in_hand(const Assessment& assessment) {
-  const GraspStatus status = assessment.grasp.status;
-  return (status == GraspStatus::kHeld || status == GraspStatus::kPartlyHeld) &&
-         !assessment.contact.regions.empty();
-}
-
 ColourScale pressure_scale(const AssessmentSet& set) {
   const bool any_in_hand =
       std::any_of(set.assessments.begin(), set.assessments.end(),
-                  [](const AssessedProduct& one) { return is_in_hand(one.assessment); });
+                  [](const AssessedProduct& one) { return presses_on_skin(one.assessment); });
   double cells = 0.0;
   double peak = 0.0;
   for (const AssessedProduct& one : set.assessments) {
     const RegionContact& total = one.assessment.contact.total;
     peak = std::max(peak, total.peak_pressure);
-    if (any_in_hand && !is_in_hand(one.assessment)) continue;
+    if (any_in_hand && !presses_on_skin(one.assessment)) continue;
     cells = std::max(cells, total.peak_pressure_cells);
   }
   if (!(cells > 0.0)) cells = peak;

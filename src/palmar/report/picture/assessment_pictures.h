@@ -23,10 +23,6 @@ struct PictureOptions {
   int height = 700;  ///< pixels
 };
 
-/// Whether the product is held, at least partly, and presses on the skin: only then do its forces
-/// and pressures say how it feels to hold it.
-bool is_in_hand(const Assessment& assessment);
-
 /// Colour scale for pressure [MPa] common to all products of a set: from 0 to the largest peak on
 /// sensor cells of the products in the hand, rounded up; 0 to 0.1 MPa if nothing is touched. The
 /// peak at a single vertex may lie far above and would darken every picture: such values take the

@@ -7,9 +7,11 @@
 #include <cstdint>
 
 #include "palmar/formats/mesh/vtk.h"
+#include "palmar/report/page/page_json.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/display_mesh.h"
+#include "palmar/report/words/texts.h"
 
 namespace palmar {
 
@@ -73,10 +75,40 @@ std::string mesh_object(const TriangleMesh& mesh, const std::vector<double>& pre
          base64(shares) + "\"}";
 }
 
+std::string quoted_list(const std::vector<std::string>& words) {
+  return page_text(PageJson(words));
+}
+
+// {"names": of regions, "ofVertex": uint8 per vertex of the skin}
+std::string regions(const Hand& hand, Language language) {
+  const Texts texts(language);
+  std::vector<std::string> names;
+  for (int r = 0; r < kRegionCount; ++r) {
+    names.push_back(texts("region." + std::string(name_of(static_cast<Region>(r)))));
+  }
+  std::string bytes;
+  for (const Region region : hand.region) bytes += static_cast<char>(region);
+  return "{\"names\":" + quoted_list(names) + ",\"ofVertex\":\"" + base64(bytes) + "\"}";
+}
+
+// {"names": of faces, "ofTriangle": uint16 per triangle of the mesh that is shown}, or null.
+std::string faces(const Product& product, const ProductFootprint& footprint,
+                  const TriangleMesh& shown) {
+  const bool is_whole = shown.triangles.size() == footprint.parent.size();
+  if (product.faces == nullptr || !is_whole) return "null";
+  std::vector<std::string> names;
+  for (const ProductFace& face : product.faces->face) names.push_back(title_of(face));
+  std::string bytes;
+  for (const int parent : footprint.parent) {
+    append_16(bytes, static_cast<std::uint32_t>(product.faces->face_of_triangle[parent]));
+  }
+  return "{\"names\":" + quoted_list(names) + ",\"ofTriangle\":\"" + base64(bytes) + "\"}";
+}
+
 }  // namespace
 
 std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
-                            const ColourScale& scale) {
+                            const ColourScale& scale, Language language) {
   const Assessment& assessment = assessed.assessment;
   std::string table;
   for (const Rgb c : colour_table(scale.map)) {
@@ -95,7 +127,9 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
          mesh_object(deformed_skin(hand, assessment), skin_pressure(hand, assessment),
                      scale.upper) +
          ",\"undeformed\":" + positions(undeformed_skin(hand, assessment)) +
-         ",\"product\":" + mesh_object(product.mesh, product.value, scale.upper) + "}";
+         ",\"product\":" + mesh_object(product.mesh, product.value, scale.upper) +
+         ",\"upper\":" + exact_number(scale.upper) + ",\"regions\":" + regions(hand, language) +
+         ",\"faces\":" + faces(assessed.product, footprint, product.mesh) + "}";
 }
 
 }  // namespace palmar

@@ -8,6 +8,7 @@
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
+#include "palmar/report/picture/study_scene.h"
 #include "palmar/report/picture/thumb_inset.h"
 
 namespace palmar {
@@ -141,6 +142,31 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
     // What is finished stands.
   }
   return pictures;
+}
+
+Picture study_hold_picture(const Hand& hand, const StudyRecord& record, const Product& product,
+                           const std::string& name, const std::string& whose,
+                           const PictureOptions& options, const Progress& progress) {
+  const double mirror = hand.side == Side::kLeft ? -1.0 : 1.0;
+  const Quat& turn = record.product_from_hand.rotation;
+  SceneObject skin, held;
+  skin.mesh = {displayed_skin(hand, record, product), hand.skin.triangles};
+  skin.colour = kSkinColour;
+  held.mesh = product.mesh;
+  held.colour = kProductColour;
+  const Scene scene = {std::move(skin), std::move(held)};
+  const Camera camera =
+      fit_camera(scene, turn * Vec3(mirror * 0.25, -0.2, -1.0), turn * Vec3::UnitY(),
+                 {.aspect = static_cast<double>(options.width) / options.height, .margin = 0.12});
+  Picture picture{"hold", "How it is held: " + whose, name + ": how it is held, palm side.", {}};
+  picture.image = std::move(
+      render_views(scene, {camera}, {.width = options.width, .height = options.height}, progress)
+          .front());
+  const double s = options.height / 700.0;
+  draw_text(picture.image, 24 * s, 40 * s, name, {.cap_height = 14 * s, .weight = 0.15});
+  draw_text(picture.image, 24 * s, 64 * s, whose,
+            {.cap_height = 10.5 * s, .colour = Rgb{96, 102, 110}});
+  return picture;
 }
 
 }  // namespace palmar

@@ -23,4 +23,9 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                                     double threshold, const PictureOptions& options = {},
                                     const Progress& progress = {});
 
+/// How one hand holds the product, seen from the palm's side: the picture "hold".
+Picture study_hold_picture(const Hand& hand, const StudyRecord& record, const Product& product,
+                           const std::string& name, const std::string& whose,
+                           const PictureOptions& options, const Progress& progress = {});
+
 }  // namespace palmar

@@ -22,7 +22,7 @@ namespace palmar {
 namespace {
 
 constexpr int kMostProductTriangles = 40000;
-constexpr double kReach = 30.0;     // mm; deeper inside nothing is brought to the surface
+constexpr double kShownReach = 30.0;     // mm; deeper inside nothing is brought to the surface
 constexpr double kThesisEnd = 0.7;  // MPa; colour scale of Xie 2014, fig. 5-12
 
 std::size_t place(int i) { return static_cast<std::size_t>(i); }
@@ -218,10 +218,10 @@ std::vector<Vec3> displayed_skin(const Hand& hand, const StudyRecord& record,
   std::vector<Vec3> skin = pose_skin(hand, record.posture);
   for (Vec3& v : skin) v = record.product_from_hand * v;
   std::vector<DistanceSample> samples(skin.size());
-  product.distance->sample(skin, kReach, samples);
+  product.distance->sample(skin, kShownReach, samples);
   for (std::size_t i = 0; i < skin.size(); ++i) {
     const DistanceSample& sample = samples[i];
-    if (sample.distance >= 0.0 || sample.distance <= -kReach) continue;
+    if (sample.distance >= 0.0 || sample.distance <= -kShownReach) continue;
     // Along the gradient, not to the closest point: that may be on a thin product's far side.
     skin[i] -= sample.distance * sample.normal;
   }

@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/hand_scan_report.h"
+#include "palmar/core/language.h"
 
 #include <algorithm>
 #include <array>
@@ -202,10 +203,13 @@ std::string page_of(const HandFromScan& made, const std::map<ScanPosture, ShownS
                      {"lines", scan.marks.lines.size()}});
   }
   Attachments attachments;
-  const PageJson view = {
-      {"maker", maker_json()},           {"vocabulary", vocabulary_json(hand)},
-      {"segments", std::move(segments)}, {"scans", std::move(shown)},
-      {"truth", truth_json(errors)},     {"pictures", pictures_json(pictures, attachments)}};
+  const PageJson view = {{"maker", maker_json()},
+                         {"language", name_of(Language::kEnglish)},
+                         {"vocabulary", vocabulary_json(hand)},
+                         {"segments", std::move(segments)},
+                         {"scans", std::move(shown)},
+                         {"truth", truth_json(errors)},
+                         {"pictures", pictures_json(pictures, attachments)}};
   return render_page("hand_from_scan", json, view, std::move(attachments));
 }
 

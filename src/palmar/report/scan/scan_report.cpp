@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/scan_report.h"
+#include "palmar/core/language.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,6 +61,7 @@ std::string page_of(const ScanRecord& record, const std::vector<Picture>& pictur
     postures.push_back(name_of(static_cast<ScanPosture>(k)));
   }
   const PageJson view = {{"maker", maker_json()},
+                         {"language", name_of(Language::kEnglish)},
                          {"vocabulary", vocabulary_json(record.made.hand)},
                          {"postures", std::move(postures)},
                          {"charts", charts_json(record, attachments)},

@@ -123,6 +123,7 @@ PageJson pair_json(const StudyPlan& plan, const ProductPair& pair) {
           {"second", pair.second},
           {"hands", pair.hands},
           {"pairs", pair.pairs},
+          {"lower_in_second", pair.lower_in_second},
           {"left_out_words", left_out_words(plan, pair)},
           {"difference", estimate_json(pair.t_test.difference, pair.t_test.interval)},
           {"effect_size", estimate_json(pair.t_test.effect_size, pair.t_test.effect_interval)},
@@ -378,6 +379,17 @@ PageJson verdict_json(const StudyPage& page) {
   return sentences;
 }
 
+PageJson answer_json(const StudyAnswer& answer) {
+  return {{"tone", answer.tone},
+          {"sentence", answer.sentence},
+          {"reasons", answer.reasons},
+          {"next", answer.next},
+          {"command", answer.command},
+          {"better", or_null(answer.better)},
+          {"worse", or_null(answer.worse)},
+          {"changes", answer.changes}};
+}
+
 PageJson warnings_json(const std::vector<StudyWarning>& warnings) {
   PageJson list = PageJson::array();
   for (const StudyWarning& one : warnings) {
@@ -422,6 +434,8 @@ std::string study_page(const StudyPage& page) {
                          {"grasps_planned", task_count(plan)},
                          {"vocabulary", vocabulary_json(page.base)},
                          {"products", std::move(products)},
+                         {"language", name_of(page.language)},
+                         {"answer", answer_json(page.answer)},
                          {"verdict", verdict_json(page)},
                          {"warnings", warnings_json(page.warnings)},
                          {"limits", std::move(limits)},

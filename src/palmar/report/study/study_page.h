@@ -8,6 +8,7 @@
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/page_json.h"
 #include "palmar/report/picture/study_scene.h"
+#include "palmar/report/study/study_answer.h"
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/study/statistics/study_analysis.h"
 
@@ -29,6 +30,8 @@ struct StudyPage {
   double threshold = 0.0;                    ///< of the maps, MPa
   std::string program;                       ///< that ran the study
   std::string digest;                        ///< of the store; "": not finished
+  Language language = Language::kEnglish;
+  StudyAnswer answer;
 };
 
 /// The study as one HTML document that needs no other file and no network (its content policy

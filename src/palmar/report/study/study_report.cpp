@@ -14,15 +14,17 @@
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/picture/study_pictures.h"
 #include "palmar/report/study/face_words.h"
+#include "palmar/report/study/study_answer.h"
 #include "palmar/report/study/study_csv.h"
 #include "palmar/report/study/study_page.h"
+#include "palmar/report/study/study_words.h"
 
 namespace palmar {
 namespace {
 
 constexpr int kEmbeddedWidth = 640;  // pixels; the page shows pictures about 540 wide
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t picture_place(int i) { return static_cast<std::size_t>(i); }
 
 // A file name that every file system takes, different from those already used.
 std::string file_name(const std::string& text, std::set<std::string>& used) {
@@ -51,23 +53,22 @@ void check_folder(const std::filesystem::path& folder) {
   }
 }
 
-/// How the typical hand of a condition holds a product; identity if nobody does.
-Rigid3 typical_placement(const StudyResults& results, const StudyCondition& condition,
-                         int product) {
+/// The grasp of the typical hand of a condition, or null if nobody holds the product.
+const StudyRecord* typical_grasp(const StudyResults& results, const StudyCondition& condition,
+                                 int product) {
   std::vector<int> holding;
   for (const int hand : hands_of(results.plan, condition)) {
     const StudyRecord* record = record_of(results, condition, product, hand);
     if (record != nullptr && is_in_hand(*record)) holding.push_back(hand);
   }
-  if (holding.empty()) return {};
-  return record_of(results, condition, product, typical_hand(results.plan, holding))
-      ->product_from_hand;
+  if (holding.empty()) return nullptr;
+  return record_of(results, condition, product, typical_hand(results.plan, holding));
 }
 
 std::vector<std::vector<EncodedPicture>> write_pictures(
     const std::filesystem::path& folder, const StudyReportInput& input,
     const StudyCondition& condition, const std::vector<StudyMaps>& maps, const StudyScales& scales,
-    const StudyReportOptions& options, const Progress& progress) {
+    const StudyHandMaker& hand_of, const StudyReportOptions& options, const Progress& progress) {
   create_folder(folder);
   const StudyPlan& plan = input.results.plan;
   std::vector<std::vector<EncodedPicture>> embedded(plan.products.size());
@@ -77,17 +78,25 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
                     "maps of " + plan.products[p].name);
     const std::string name = file_name(plan.products[p].name, used);
     if (maps[p].hands == 0) continue;
-    const std::vector<Picture> pictures = study_pictures(
-        *input.inputs.base, input.inputs.products[p], plan.products[p].name, maps[p],
-        typical_placement(input.results, condition, static_cast<int>(p)), scales, options.threshold,
-        {.width = options.picture_width, .height = options.picture_height}, progress);
+    const StudyRecord* grasp = typical_grasp(input.results, condition, static_cast<int>(p));
+    const PictureOptions drawing{.width = options.picture_width, .height = options.picture_height};
+    std::vector<Picture> pictures =
+        study_pictures(*input.inputs.base, input.inputs.products[p], plan.products[p].name, maps[p],
+                       grasp != nullptr ? grasp->product_from_hand : Rigid3{}, scales,
+                       options.threshold, drawing, progress);
+    if (grasp != nullptr && !progress.is_cancelled()) {
+      const StudyTask task = task_at(plan, grasp->number);
+      pictures.push_back(
+          study_hold_picture(hand_of(task), *grasp, input.inputs.products[p], plan.products[p].name,
+                             hand_words(plan, condition, task.hand), drawing, progress));
+    }
     progress.throw_if_cancelled();
     std::vector<std::string> full(pictures.size());
     embedded[p].resize(pictures.size());
     parallel_for(static_cast<int>(pictures.size()), [&](int k) {
-      const Picture& picture = pictures[at(k)];
-      full[at(k)] = encode_png(picture.image);
-      embedded[p][at(k)] = {
+      const Picture& picture = pictures[picture_place(k)];
+      full[picture_place(k)] = encode_png(picture.image);
+      embedded[p][picture_place(k)] = {
           .name = picture.name,
           .title = picture.title,
           .alt = picture.alt,
@@ -108,8 +117,8 @@ void write_figures(const std::filesystem::path& folder, const std::vector<StudyF
   };
   std::vector<Files> files(figures.size());
   parallel_for(static_cast<int>(figures.size()), [&](int i) {
-    const Figure& figure = figures[at(i)].figure;
-    files[at(i)] = {to_svg(figure), to_png(figure), to_pdf(figure)};
+    const Figure& figure = figures[picture_place(i)].figure;
+    files[picture_place(i)] = {to_svg(figure), to_png(figure), to_pdf(figure)};
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {
     write_file(folder / (figures[i].name + ".svg"), files[i].svg);
@@ -188,7 +197,8 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   }
   std::vector<std::vector<EncodedPicture>> pictures(plan.products.size());
   if (options.pictures) {
-    pictures = write_pictures(root / "maps", input, condition, maps, scales, options, progress);
+    pictures =
+        write_pictures(root / "maps", input, condition, maps, scales, hand_of, options, progress);
   }
   progress.update(0.95, "report.html");
   const std::vector<StudyWarning> warnings =
@@ -206,7 +216,12 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
                        shown_hands(plan, condition, options.most_grasps),
                        options.threshold,
                        input.program,
-                       input.digest};
+                       input.digest,
+                       options.language,
+                       study_answer(results, {.language = options.language,
+                                              .comparison = options.comparison,
+                                              .store = "",
+                                              .command = options.command})};
   write_file(root / "report.html", study_page(page));
 }
 

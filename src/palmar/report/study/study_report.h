@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/study/statistics/study_comparison.h"
@@ -11,6 +12,8 @@
 namespace palmar {
 
 struct StudyReportOptions {
+  Language language = Language::kEnglish;
+  std::string command;  ///< of the redesign that the study is of; may be empty
   ComparisonOptions comparison;
   double threshold = kBloodFlowStop;  ///< MPa, of the maps of shares; blood-flow family
   int most_grasps = 160;              ///< in the 3-D view; 0: none. Some 50 kB each

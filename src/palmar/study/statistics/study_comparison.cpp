@@ -63,6 +63,10 @@ ProductPair compare_pair(const StudyResults& results, const StudyCondition& cond
     pair.left_out.push_back({whose.first, whose.second, hands});
   }
   pair.pairs = static_cast<int>(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (b[i] < a[i]) ++pair.lower_in_second;
+    pair.change.push_back(a[i] != 0.0 ? b[i] / a[i] - 1.0 : 0.0);
+  }
   test(options, a, b, pair);
   return pair;
 }

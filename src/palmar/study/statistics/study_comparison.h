@@ -35,9 +35,11 @@ std::string name_of(DifferenceVerdict verdict);  ///< "too_few_pairs", "none", "
 
 /// One quantity of two products over the same hands. Differences are second - first.
 struct ProductPair {
-  int first = 0, second = 0;  ///< products
-  int hands = 0;              ///< of the condition
-  int pairs = 0;              ///< hands with a value of both
+  int first = 0, second = 0;   ///< products
+  int hands = 0;               ///< of the condition
+  int pairs = 0;               ///< hands with a value of both
+  int lower_in_second = 0;     ///< of them those in which the second has the lower value
+  std::vector<double> change;  ///< of each of them: second over first, less 1; 0 where first is 0
   std::vector<LeftOutHands> left_out;
   double mean_first = 0.0, mean_second = 0.0;  ///< over the pairs
   PairedTest t_test;                           ///< Student's, as in the thesis; the verdict's

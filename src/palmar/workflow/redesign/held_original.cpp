@@ -154,7 +154,8 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldO
   RedesignComparison comparison{.results = {.plan = study.plan, .records = {}},
                                 .quantities = {},
                                 .report = folder / "report" / "report.html",
-                                .study = store_path};
+                                .study = store_path,
+                                .language = request.language};
   StudyResults& results = comparison.results;
   std::string digest, program;
   {
@@ -170,13 +171,16 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldO
   }
   fs::rename(fresh, store_path);
   const StudyStore store(store_path);
+  StudyReportOptions report;
+  report.language = request.language;
+  report.command = request.command;
   write_study_report((folder / "report").string(),
                      {results, study.inputs,
                       [&store](const std::function<void(const StudyRecord&)>& visit) {
                         store.for_each(true, visit);
                       },
                       program, digest},
-                     {}, progress);
+                     report, progress);
   for (const std::string& key : kCompared) {
     comparison.quantities.push_back(quantity_named(results, key));
   }

@@ -34,10 +34,11 @@ struct RedesignedProduct {
 
 /// Original and redesigns in the same hands.
 struct RedesignComparison {
-  StudyResults results;                   ///< product 0 is the original; without fields
-  std::vector<StudyQuantity> quantities;  ///< that are compared in words; the report has all
-  std::filesystem::path report;           ///< report.html
-  std::filesystem::path study;            ///< store of the study
+  StudyResults results;                    ///< product 0 is the original; without fields
+  std::vector<StudyQuantity> quantities;   ///< that are compared in words; the report has all
+  std::filesystem::path report;            ///< report.html
+  std::filesystem::path study;             ///< store of the study
+  Language language = Language::kEnglish;  ///< of the report
 };
 /// The last step of every redesign: the same hands hold the original and the redesigns. Writes
 /// OUT/redesign.palmar and OUT/report/.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/language.h"
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
 #include "palmar/grasp/grasp_settings.h"
@@ -41,9 +42,10 @@ struct RedesignRequest {
   /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: as closed. A kept
   /// posture decides the force itself, so it goes with kNew only.
   double grip_force = 0.0;
-  std::uint64_t seed = 0;     ///< 0: a study's own
-  std::filesystem::path out;  ///< folder: new or empty, or of an earlier redesign
-  std::string command;        ///< that files give as where they come from; may be empty
+  std::uint64_t seed = 0;                  ///< 0: a study's own
+  std::filesystem::path out;               ///< folder: new or empty, or of an earlier redesign
+  Language language = Language::kEnglish;  ///< of the report and the verdict
+  std::string command;  ///< that files give as where they come from; may be empty
   /// Called with every note as it arises (a proposed unit, say); they are in the outcome, too.
   std::function<void(const std::string& note)> on_note;
 

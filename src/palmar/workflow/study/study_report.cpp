@@ -57,7 +57,9 @@ std::filesystem::path report_study(const StudyReportRequest& request, const Prog
                                },
                                store.program(), store.digest()};
   write_study_report(request.folder, input, request.report, progress);
-  return std::filesystem::path(request.folder) / "report.html";
+  const std::filesystem::path page = std::filesystem::path(request.folder) / "report.html";
+  if (request.pdf) print_pdf(page, *request.pdf, progress);
+  return page;
 }
 
 void StudyCompareRequest::check() const {
@@ -67,8 +69,8 @@ void StudyCompareRequest::check() const {
 
 StudyCompareOutcome compare_results(StudyResults compared_results,
                                     const std::vector<StudyQuantity>& quantities,
-                                    const ComparisonOptions& options) {
-  StudyCompareOutcome outcome{std::move(compared_results), {}};
+                                    const StudyAnswerOptions& options) {
+  StudyCompareOutcome outcome{std::move(compared_results), {}, {}};
   const StudyResults& results = outcome.results;
   for (const StudyCondition& condition : conditions_of(results.plan)) {
     ComparedCondition compared{condition, {}};
@@ -77,7 +79,8 @@ StudyCompareOutcome compare_results(StudyResults compared_results,
       for (int p = 0; p < static_cast<int>(results.plan.products.size()); ++p) {
         one.products.push_back(product_statistics(results, {quantity}, condition, p));
       }
-      const QuantityComparison comparison = compare_products(results, condition, quantity, options);
+      const QuantityComparison comparison =
+          compare_products(results, condition, quantity, options.comparison);
       for (const ProductPair& pair : comparison.pairs) {
         one.pairs.push_back({pair, grip_forces(results, condition, pair.first, pair.second)});
       }
@@ -85,6 +88,7 @@ StudyCompareOutcome compare_results(StudyResults compared_results,
     }
     outcome.conditions.push_back(std::move(compared));
   }
+  outcome.answer = study_answer(results, options);
   return outcome;
 }
 
@@ -92,7 +96,11 @@ StudyCompareOutcome compare_study(const StudyCompareRequest& request) {
   request.check();
   StudyResults results = results_of(StudyStore(request.store));
   const auto quantities = quantities_named(results, request.quantities);
-  return compare_results(std::move(results), quantities, request.comparison);
+  return compare_results(std::move(results), quantities,
+                         {.language = request.language,
+                          .comparison = request.comparison,
+                          .store = request.store.string(),
+                          .command = ""});
 }
 
 }  // namespace palmar

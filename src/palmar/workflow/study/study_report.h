@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/report/page/print_pdf.h"
+#include "palmar/report/study/study_answer.h"
 #include "palmar/report/study/study_report.h"
 #include "palmar/study/statistics/study_comparison.h"
 #include "palmar/study/statistics/study_results.h"
@@ -18,9 +20,10 @@ namespace palmar {
 /// The page of a study.
 struct StudyReportRequest {
   std::filesystem::path store;
-  std::string folder;         ///< for page, tables and figures; made if missing
-  StudyReportOptions report;  ///< its threshold at most 100 MPa
-  void check() const;         ///< throws UsageError: setting, value, what is allowed
+  std::string folder;                       ///< for page, tables and figures; made if missing
+  StudyReportOptions report;                ///< its threshold at most 100 MPa
+  std::optional<Paper> pdf = std::nullopt;  ///< answer.pdf and report.pdf on this paper
+  void check() const;                       ///< throws UsageError: setting, value, what is allowed
 };
 /// Writes what write_study_report() says and gives back the path of the page. Throws as it does;
 /// UsageError also if no grasp was run yet; InputError naming the store.
@@ -33,6 +36,7 @@ struct StudyCompareRequest {
   /// Keys of results: "contact_area_mm2", an index's; "all" for everything that the study has.
   std::vector<std::string> quantities = {"peak_pressure_cells_mpa"};
   ComparisonOptions comparison;
+  Language language = Language::kEnglish;
   void check() const;  ///< throws UsageError: field, value, what is allowed
 };
 
@@ -54,12 +58,13 @@ struct ComparedCondition {
 struct StudyCompareOutcome {
   StudyResults results;
   std::vector<ComparedCondition> conditions;  ///< as conditions_of()
+  StudyAnswer answer;                         ///< as it stands in the report
 };
 
 /// The products of `results` compared by `quantities`, condition by condition.
 StudyCompareOutcome compare_results(StudyResults results,
                                     const std::vector<StudyQuantity>& quantities,
-                                    const ComparisonOptions& options);
+                                    const StudyAnswerOptions& options = {});
 
 /// Throws UsageError: an unknown quantity (with the nearest), no grasp was run yet; InputError.
 StudyCompareOutcome compare_study(const StudyCompareRequest& request);

@@ -1,0 +1,157 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reports in a real browser: node browser_test.mjs PALMAR [FOLDER] makes reports of two products and of
+// a study, adds a script to a copy of each page that does what people do, and reads what came of it from
+// the page. With FOLDER it also leaves screenshots there. Ends with 77 where no browser is found.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+
+const palmar = resolve(process.argv[2]);
+const pictures = process.argv[3] && resolve(process.argv[3]);
+const browser = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+  .find((name) => spawnSync(name, ["--version"]).status === 0);
+if (!browser) {
+  console.log("skipped: no browser (chromium, google-chrome) is installed");
+  process.exit(77);
+}
+const folder = mkdtempSync(join(tmpdir(), "palmar-browser-"));
+
+function run(words) {
+  execFileSync(palmar, words.split(" "), { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
+}
+
+function browse(page, size, more) {
+  return spawnSync(browser, [
+    "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
+    `--user-data-dir=${join(folder, "profile")}`, `--window-size=${size}`, "--virtual-time-budget=60000", ...more,
+    `file://${page}`,
+  ], { encoding: "utf8", maxBuffer: 1 << 28, timeout: 120000 });
+}
+
+/// What `script`, the body of an async function, gives back in that page.
+function inPage(page, size, script) {
+  const copy = join(folder, "copy.html");
+  const wait = "const wait = (ms) => new Promise((done) => setTimeout(done, ms));";
+  const added = `<script>(async () => { ${wait} let found; try { found = await (async () => { ${script} })(); } ` +
+    `catch (error) { found = { error: String(error) }; } ` +
+    `const out = document.createElement("pre"); out.id = "found"; out.textContent = JSON.stringify(found); document.body.append(out); })();</script>`;
+  writeFileSync(copy, readFileSync(page, "utf8").replace("</body>", () => added + "</body>"));
+  // A browser that is slow to start its WebGL may end before the script does: once more then.
+  let result = null;
+  for (let tries = 0; tries < 2 && !result; ++tries) {
+    result = browse(copy, size, ["--dump-dom"]).stdout.match(/<pre id="found">([^]*?)<\/pre>/);
+  }
+  assert.ok(result, `${page}: the script didn't end`);
+  const text = result[1].replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&amp;/g, "&");
+  const found = JSON.parse(text);
+  assert.equal(found.error, undefined, found.error);
+  return found;
+}
+
+const firstScreen = `
+  const answer = document.querySelector("#answer").getBoundingClientRect();
+  const images = [...document.querySelectorAll("#answer img")];
+  for (let i = 0; i < 50 && !images.every((one) => one.complete); ++i) await wait(50);
+  return { bottom: answer.bottom + scrollY, images: images.length, drawn: images.every((one) => one.naturalWidth > 100),
+           sentence: document.querySelector(".sentence").textContent, command: document.querySelector(".next code")?.textContent ?? "",
+           charts: document.querySelectorAll("#answer svg").length, rows: document.querySelectorAll("#answer .unseen tbody tr").length };`;
+
+const folding = `
+  const shut = [];
+  for (const link of document.querySelectorAll(".contents a")) {
+    const target = document.getElementById(link.getAttribute("href").slice(1));
+    link.click();
+    await wait(50);
+    if (!target || !target.open) shut.push(link.textContent);
+  }
+  const term = document.querySelector("details[open] button.term");
+  term.click();
+  const entry = document.getElementById(term.getAttribute("popovertarget"));
+  return { shut, links: document.querySelectorAll(".contents a").length, opened: entry.matches(":popover-open"), text: entry.textContent };`;
+
+const pointing = `
+  document.querySelector("#product-0").open = true;
+  const view = document.querySelector("#product-0 [data-palmar-scene]");
+  view.scrollIntoView({ block: "center" });
+  for (let i = 0; i < 400 && !view.classList.contains("is-live"); ++i) await wait(50);
+  const canvas = view.querySelector("canvas");
+  const wheel = () => !canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: 10, bubbles: true, cancelable: true }));
+  const before = wheel();
+  const box = canvas.getBoundingClientRect();
+  const at = (type) => canvas.dispatchEvent(new PointerEvent(type, { pointerType: "mouse", pointerId: 1, button: 0, bubbles: true,
+    clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 }));
+  canvas.setPointerCapture = canvas.releasePointerCapture = () => {};
+  at("pointermove");
+  await wait(200);
+  const says = view.querySelector(".view-point").textContent;
+  at("pointerdown"); at("pointerup");
+  const after = wheel();
+  return { says, before, after, copied: view.querySelector(".view-copied code").textContent,
+           scale: view.querySelector(".view-overlay text:last-of-type").textContent };`;
+
+const linked = `
+  const view = document.querySelector(".pair");
+  view.scrollIntoView({ block: "center" });
+  for (let i = 0; i < 400 && !view.classList.contains("is-live"); ++i) await wait(50);
+  const second = view.querySelectorAll("canvas")[1];
+  const before = second.toDataURL();
+  view.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+  return { canvases: view.querySelectorAll("canvas").length, follows: second.toDataURL() !== before };`;
+
+const narrow = `
+  for (const one of document.querySelectorAll("details")) one.open = true;
+  await wait(200);
+  return { width: document.documentElement.scrollWidth, window: innerWidth };`;
+
+try {
+  run("product make prism --width-mm 35 --depth-mm 35 --length-mm 120 --fillet-mm 2 --out sharp.step");
+  run("product make prism --width-mm 35 --depth-mm 35 --length-mm 120 --fillet-mm 12 --out round.step");
+  run("assess sharp.step round.step --grip-force-n 60 --out two");
+  run("study run --product sharp.step --product round.step --grip-force-n 60 --hands 6 --out six.palmar");
+  run("study report six.palmar --no-figures --out six");
+  const two = join(folder, "two/report.html"), six = join(folder, "six/report.html");
+  const less = /round presses \d+ % less than sharp at its hardest place, in the same grip of 60 N/;
+  for (const [page, images, sentence] of [[two, 4, less], [six, 4, /presses [\d.]+ % less than .* of 6 hands agree/]]) {
+    const first = inPage(page, "1280,720", firstScreen);
+    assert.ok(first.bottom <= 720, `${page}: the first screen ends at ${first.bottom}`);
+    assert.equal(first.images, images);
+    assert.ok(first.drawn && first.charts === 1 && first.rows > 3, JSON.stringify(first));
+    assert.match(first.sentence, sentence);
+    assert.match(first.command, /^palmar /);
+    const folds = inPage(page, "1280,720", folding);
+    assert.deepEqual(folds.shut, []);
+    assert.ok(folds.links >= 5 && folds.opened && folds.text.length > 40, JSON.stringify(folds));
+    const phone = inPage(page, "500,844", narrow); // the narrowest window of a headless browser
+    assert.ok(phone.width <= phone.window, `${page}: ${phone.width} wide in a window of ${phone.window}`);
+  }
+  const pointed = inPage(two, "1280,720", pointing);
+  assert.match(pointed.says, /(MPa|face).*\(-?\d+\.\d, -?\d+\.\d, -?\d+\.\d\) mm/);
+  assert.match(pointed.copied, /^--at -?\d+\.\d,-?\d+\.\d,-?\d+\.\d$/);
+  assert.deepEqual([pointed.before, pointed.after], [false, true], "the wheel is the page's until the view is clicked");
+  assert.match(pointed.scale, /^\d+ mm$/);
+  assert.deepEqual(inPage(two, "1280,720", linked), { canvases: 2, follows: true });
+  // On paper: the answer on one page, all of it on several.
+  for (const [what, paper, width] of [["answer", "a4", 595], ["answer", "letter", 612], ["all", "a4", 595]]) {
+    const pdf = join(folder, `${what}-${paper}.pdf`);
+    browse(`${two}#print=${what},${paper}`, "1280,720", ["--no-pdf-header-footer", `--print-to-pdf=${pdf}`]);
+    const text = readFileSync(pdf, "latin1");
+    const pages = Number(text.match(/\/Count (\d+)/)[1]);
+    assert.ok(what === "answer" ? pages === 1 : pages > 5, `${what} on ${paper}: ${pages} pages`);
+    assert.equal(Math.round(Number(text.match(/\/MediaBox \[0 0 ([\d.]+)/)[1])), width);
+  }
+  if (pictures) {
+    mkdirSync(pictures, { recursive: true });
+    for (const [name, page] of [["two", two], ["six", six]]) {
+      for (const size of ["1280,720", "1920,1080", "500,844"]) {
+        browse(page, size, [`--screenshot=${join(pictures, `${name}-${size.replace(",", "x")}.png`)}`]);
+      }
+    }
+  }
+  console.log("first screens, links, folding, glossary, 3-D places, linked views, narrow windows and paper are as they should be");
+} finally {
+  rmSync(folder, { recursive: true, force: true });
+}

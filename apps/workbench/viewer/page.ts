@@ -1,0 +1,63 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a page does beside its 3-D views: opens the section that a link leads to and all sections for
+// printing, copies commands, closes an explanation. Without it everything can still be read.
+
+export {};
+
+const sections = () => document.querySelectorAll<HTMLDetailsElement>("details");
+
+function openTarget(): void {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  for (let one: Element | null = target; one; one = one.parentElement) {
+    if (one instanceof HTMLDetailsElement) one.open = true;
+  }
+  target?.scrollIntoView();
+}
+
+let closed: HTMLDetailsElement[] = [];
+window.addEventListener("beforeprint", () => {
+  closed = [...sections()].filter((one) => !one.open);
+  for (const one of closed) one.open = true;
+});
+window.addEventListener("afterprint", () => {
+  for (const one of closed) one.open = false;
+});
+
+// "#print=answer,a4" or "#print=all,letter": what is printed, on which paper.
+const printing = /^#print=(answer|all),(a4|letter)$/.exec(location.hash);
+if (printing) {
+  document.body.classList.toggle("only-answer", printing[1] === "answer");
+  const paper = document.createElement("style");
+  paper.textContent = `@page{size:${printing[2] === "a4" ? "A4" : "letter"}}`;
+  document.head.append(paper);
+  for (const one of sections()) one.open = true;
+}
+
+window.addEventListener("hashchange", openTarget);
+if (location.hash && !printing) openTarget();
+// A link to where one is already changes no hash.
+document.addEventListener("click", (event) => {
+  const link = (event.target as Element).closest?.("a[href^='#']");
+  if (link && link.getAttribute("href") === location.hash) openTarget();
+});
+
+for (const button of document.querySelectorAll<HTMLButtonElement>("button[data-copy]")) {
+  button.hidden = false;
+  button.addEventListener("click", () => {
+    void navigator.clipboard?.writeText(button.dataset.copy ?? "");
+    button.classList.add("done");
+  });
+}
+
+// An explanation stands beside its word.
+for (const entry of document.querySelectorAll<HTMLElement>("[popover]")) {
+  entry.addEventListener("toggle", () => {
+    const word = document.querySelector(`[popovertarget="${entry.id}"]:focus`) ?? document.activeElement;
+    const box = word?.getBoundingClientRect();
+    if (!box) return;
+    entry.style.left = `${Math.max(8, Math.min(box.left, innerWidth - entry.offsetWidth - 8))}px`;
+    entry.style.top = `${Math.min(box.bottom + 6, innerHeight - entry.offsetHeight - 8)}px`;
+  });
+}

@@ -1,0 +1,306 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/study/study_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "palmar/core/text.h"
+#include "palmar/grasp/indices/grasp_index.h"
+#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/texts.h"
+#include "palmar/report/words/verdict_words.h"
+#include "palmar/study/statistics/study_statistics.h"
+
+namespace palmar {
+namespace {
+
+constexpr const char* kPeak = "peak_pressure_cells_mpa";
+constexpr const char* kArea = "contact_area_mm2";
+constexpr double kReachedByMost = 0.9;  // of the mean grip force of the weaker hold: our choice
+constexpr int kHandsOfRedesign = 12;
+constexpr int kManyHands = 30;  // of a study that is to decide; as in Xie 2014, chapter 5
+
+StudyQuantity hand_quantity(const std::string& key) {
+  for (const StudyQuantity& one : hand_quantities()) {
+    if (one.key == key) return one;
+  }
+  return {.key = key, .name = key, .unit = ""};
+}
+
+class StudySpeaker {
+ public:
+  StudySpeaker(const StudyResults& results, const StudyAnswerOptions& options)
+      : results_(results),
+        options_(options),
+        texts_(options.language),
+        condition_(conditions_of(results.plan).front()) {}
+
+  StudyAnswer speak() {
+    const StudyPlan& plan = results_.plan;
+    for (int p = 0; p < static_cast<int>(plan.products.size()); ++p) {
+      statistics_.push_back(product_statistics(results_, {hand_quantity(kPeak)}, condition_, p));
+    }
+    if (plan.products.size() == 1) {
+      speak_of_one();
+    } else {
+      speak_of_pair();
+    }
+    const auto count = conditions_of(plan).size();
+    if (count > 1) {
+      answer_.reasons.push_back(texts_(
+          "study.conditions",
+          {{"condition", condition_words(plan, condition_)}, {"count", std::to_string(count)}}));
+    }
+    return std::move(answer_);
+  }
+
+ private:
+  const std::string& name(int p) const { return results_.plan.products[as_index(p)].name; }
+  static std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
+
+  std::optional<double> mean_peak(int p) const {
+    const QuantitySummary* one = summary_of(statistics_[as_index(p)], kPeak);
+    return one != nullptr ? std::optional(one->summary.mean) : std::nullopt;
+  }
+
+  /// "--product a.stl --product b.stl --unit mm"; empty if one is no file.
+  std::string products(const std::string& option) const {
+    std::string line, unit;
+    for (const StudyProduct& one : results_.plan.products) {
+      if (!is_file(one)) return "";
+      line += (line.empty() ? "" : " ") + option + shell_word(one.file);
+      if (is_mesh(one)) unit = one.unit;
+    }
+    return unit.empty() ? line : line + " --unit " + unit;
+  }
+  static std::string extension(const StudyProduct& product) {
+    return lower_case(std::filesystem::path(product.file).extension().string());
+  }
+  static bool is_mesh(const StudyProduct& product) {
+    const std::string end = extension(product);
+    return end == ".stl" || end == ".obj" || end == ".ply";
+  }
+  /// Whether it can be given to a command again as it is.
+  static bool is_file(const StudyProduct& product) {
+    const std::string end = extension(product);
+    const bool is_known = is_mesh(product) || end == ".step" || end == ".stp" || end == ".iges" ||
+                          end == ".igs" || end == ".3mf" || end == ".glb" || end == ".gltf";
+    return is_known && product.size == 1.0 && product.posture_of.empty();
+  }
+
+  void next(const std::string& key, const std::string& command) {
+    if (command.empty()) return;
+    answer_.next = texts_("next." + key);
+    answer_.command = command;
+  }
+
+  void run_again(const std::string& key, int hands, const std::string& added) {
+    const std::string line = products("--product ");
+    if (line.empty() || results_.plan.populations.size() != 1) {
+      look_at_report();
+      return;
+    }
+    next(key, "palmar study run " + line + population() + " --hands " + std::to_string(hands) +
+                  added + " --out again.palmar");
+  }
+  std::string population() const {
+    const std::string& name = results_.plan.populations.front().population.name;
+    return name == "xie2014" ? "" : " --population " + shell_word(name);
+  }
+  void look_at_report() {
+    if (options_.store.empty()) return;
+    next("report", "palmar study report " + shell_word(options_.store) + " --out report");
+  }
+
+  void redesign(int p) {
+    const StudyProduct& product = results_.plan.products[as_index(p)];
+    if (!is_file(product)) {
+      look_at_report();
+      return;
+    }
+    next("redesign", "palmar redesign press " + shell_word(product.file) +
+                         (is_mesh(product) ? " --unit " + product.unit : "") + " --hands " +
+                         std::to_string(kHandsOfRedesign) + " --out pressed");
+  }
+
+  void add_hardest_region(int p) {
+    const ProductStatistics& one = statistics_[as_index(p)];
+    const auto worst = std::max_element(one.regions.begin(), one.regions.end(),
+                                        [](const RegionSummary& a, const RegionSummary& b) {
+                                          return a.peak_pressure_cells < b.peak_pressure_cells;
+                                        });
+    if (worst == one.regions.end()) return;
+    answer_.reasons.push_back(
+        texts_("study.region", {{"product", name(p)},
+                                {"at", texts_("region_at." + std::string(name_of(worst->region)))},
+                                {"pressure", texts_.number(worst->peak_pressure_cells, 2)}}));
+  }
+
+  /// Products that not every hand holds.
+  void add_missing() {
+    for (int p = 0; p < static_cast<int>(statistics_.size()); ++p) {
+      const OutcomeCounts& outcomes = statistics_[as_index(p)].outcomes;
+      if (outcomes.in_hand() == outcomes.hands()) continue;
+      answer_.reasons.push_back(
+          texts_("study.suits", {{"product", name(p)},
+                                 {"count", std::to_string(outcomes.in_hand())},
+                                 {"hands", std::to_string(outcomes.hands())}}));
+    }
+  }
+
+  void speak_of_one() {
+    const ProductStatistics& one = statistics_.front();
+    const QuantitySummary* peak = summary_of(one, kPeak);
+    if (peak == nullptr) {
+      answer_.tone = "bad";
+      answer_.sentence = texts_("study.none", {{"product", name(0)}});
+      return;
+    }
+    const bool is_held_by_all = one.outcomes.in_hand() == one.outcomes.hands();
+    answer_.tone = is_held_by_all ? "good" : "fair";
+    const bool has_ends = has_percentiles(*peak);
+    answer_.sentence =
+        texts_("study.one", {{"product", name(0)},
+                             {"count", std::to_string(one.outcomes.in_hand())},
+                             {"hands", std::to_string(one.outcomes.hands())},
+                             {"mean", texts_.number(peak->summary.mean, 2)},
+                             {"low", texts_.number(has_ends ? peak->p5 : peak->summary.min, 2)},
+                             {"high", texts_.number(has_ends ? peak->p95 : peak->summary.max, 2)}});
+    add_hardest_region(0);
+    redesign(0);
+  }
+
+  /// The product with the lowest mean peak and the next one; products that nobody holds last.
+  std::pair<int, int> lowest_two() const {
+    std::vector<int> order;
+    for (int p = 0; p < static_cast<int>(statistics_.size()); ++p) order.push_back(p);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      const auto one = mean_peak(a), other = mean_peak(b);
+      if (!one || !other) return one.has_value() && !other.has_value();
+      return *one < *other;
+    });
+    return {order[0], order[1]};
+  }
+
+  /// A pair of a quantity, turned so that its second product is `better`.
+  ProductPair pair_of(const std::string& key, int better, int worse) const {
+    const QuantityComparison all =
+        compare_products(results_, condition_, hand_quantity(key), options_.comparison);
+    for (const ProductPair& pair : all.pairs) {
+      if (pair.first == worse && pair.second == better) return pair;
+      if (pair.first != better || pair.second != worse) continue;
+      ProductPair turned = pair;
+      std::swap(turned.first, turned.second);
+      std::swap(turned.mean_first, turned.mean_second);
+      turned.t_test.interval = {-pair.t_test.interval.high, -pair.t_test.interval.low};
+      turned.lower_in_second = 0;
+      for (double& change : turned.change) {
+        if (change > 0.0) ++turned.lower_in_second;
+        change = change > -1.0 ? 1.0 / (1.0 + change) - 1.0 : 0.0;
+      }
+      return turned;
+    }
+    return {};
+  }
+
+  bool is_kept_posture(int a, int b) const {
+    const auto& plan = results_.plan;
+    return plan.products[as_index(a)].posture_of == name(b) ||
+           plan.products[as_index(b)].posture_of == name(a);
+  }
+
+  void speak_of_pair() {
+    const auto [better, worse] = lowest_two();
+    answer_.better = better;
+    answer_.worse = worse;
+    const ProductPair peak = pair_of(kPeak, better, worse);
+    answer_.changes = peak.change;
+    TextValues values = {{"better", name(better)},
+                         {"worse", name(worse)},
+                         {"hands", std::to_string(peak.pairs)},
+                         {"agree", std::to_string(peak.lower_in_second)},
+                         {"limit", texts_.percent(kToldApart)}};
+    if (peak.pairs < 2) {
+      answer_.sentence = texts_("study.few", values);
+      add_missing();
+      look_at_report();
+      return;
+    }
+    const double change = peak.mean_second / peak.mean_first - 1.0;
+    const double low = peak.t_test.interval.low / peak.mean_first;
+    const double high = peak.t_test.interval.high / peak.mean_first;
+    values["percent"] = texts_.percent(change);
+    const ProductPair area = pair_of(kArea, better, worse);
+    values["area"] =
+        area_words(area.mean_first > 0.0 ? area.mean_second / area.mean_first - 1.0 : 0.0, texts_);
+    const auto forces = grip_forces(results_, condition_, worse, better);
+    if (forces) {
+      values["force"] = texts_.number(forces->second, 2);
+      values["better_force"] = texts_.number(forces->second, 2);
+      values["worse_force"] = texts_.number(forces->first, 2);
+    }
+    const bool is_drawn = is_drawn_by_chance(results_.plan);
+    const bool is_shown = is_drawn ? peak.verdict == DifferenceVerdict::kShown
+                                   : 2 * peak.lower_in_second > peak.pairs;
+    const bool is_large = std::abs(change) >= kToldApart;
+    const bool is_surely_small = std::max(std::abs(low), std::abs(high)) < kToldApart;
+    if (forces && forces->are_unequal()) {
+      speak_of_unequal(values, *forces, is_kept_posture(better, worse) && is_shown && is_large);
+    } else if (is_shown && is_large) {
+      answer_.tone = "good";
+      answer_.sentence = texts_(is_kept_posture(better, worse) ? "study.kept_posture"
+                                : forces                       ? "study.lower"
+                                                               : "study.no_force",
+                                values);
+      redesign(better);
+    } else if (is_shown || is_surely_small) {
+      answer_.sentence = texts_(forces ? "study.same" : "study.same_no_force", values);
+      look_at_report();
+    } else {
+      answer_.sentence = texts_("study.not_shown", values);
+      run_again("more_hands", std::max(kManyHands, 2 * peak.hands), "");
+    }
+    if (is_drawn && !(forces && forces->are_unequal())) {
+      const auto signed_number = [&](double share) {
+        return std::string(share < 0.0 ? "−" : "+") + texts_.percent(share);
+      };
+      answer_.reasons.push_back(
+          texts_("study.interval", {{"low", signed_number(low)}, {"high", signed_number(high)}}));
+    }
+    add_missing();
+    add_hardest_region(worse);
+    add_hardest_region(better);
+    if (!is_drawn) answer_.reasons.push_back(texts_("study.chosen"));
+  }
+
+  void speak_of_unequal(const TextValues& values, const GripForces& forces, bool is_kept) {
+    answer_.sentence = texts_(is_kept ? "study.kept_unequal" : "study.unequal_force", values);
+    const double force = std::floor(kReachedByMost * std::min(forces.first, forces.second));
+    if (!(force > 0.0)) return;
+    const std::string same = " --grip-force-n " + significant(force, 4);
+    if (!options_.command.empty()) {
+      next("equal_redesign",
+           changed_command(options_.command, {"--posture", "--grip-force-n", "--out"},
+                           "--posture new" + same + " --out equal"));
+    } else {
+      run_again("equal_force", statistics_.front().outcomes.hands(), same);
+    }
+  }
+
+  const StudyResults& results_;
+  const StudyAnswerOptions& options_;
+  Texts texts_;
+  StudyCondition condition_;
+  std::vector<ProductStatistics> statistics_;
+  StudyAnswer answer_;
+};
+
+}  // namespace
+
+StudyAnswer study_answer(const StudyResults& results, const StudyAnswerOptions& options) {
+  return StudySpeaker(results, options).speak();
+}
+
+}  // namespace palmar

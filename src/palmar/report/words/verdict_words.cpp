@@ -1,0 +1,383 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/words/verdict_words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/core/text.h"
+#include "palmar/grasp/rest/task_force.h"
+#include "palmar/report/page/plain_words.h"
+#include "palmar/study/assessment/hold_doubts.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kNoBlood = 0.01;    // of the touched skin; less isn't spoken of: our choice
+constexpr double kSafeForce = 0.95;  // of what the weaker hold reaches: a force that it keeps
+constexpr int kHandsToAsk = 12;      // enough for a sign: 6 pairs are the fewest that show anything
+
+std::string at_words(Region region, const Texts& texts) {
+  return texts("region_at." + std::string(name_of(region)));
+}
+
+std::string with_capital(std::string text) { return capitalised(std::move(text)); }
+
+/// Why a product isn't held firmly, as a clause.
+std::string why_not_held(const Assessment& assessment, const Texts& texts) {
+  std::vector<std::string> clauses;
+  for (const HoldDoubt& doubt : doubts_of(assessment)) {
+    clauses.push_back(texts("doubt." + doubt.key, {{"words", doubt.words}}));
+  }
+  if (clauses.empty()) {
+    clauses.push_back(texts("status." + std::string(name_of(assessment.grasp.status))));
+  }
+  return texts.listed(clauses);
+}
+
+std::string hardest_words(const AssessedProduct& product, const HardestPlace& place,
+                          const Texts& texts) {
+  std::string words = texts("hardest.sentence", {{"at", at_words(place.region, texts)},
+                                                 {"pressure", texts.number(place.pressure, 2)}});
+  if (place.face && product.product.faces != nullptr) {
+    const ProductFace& face = product.product.faces->face[*place.face];
+    words += " " + texts("hardest.face", {{"face", title_of(face)}});
+  } else if (place.on_product) {
+    const Vec3& p = *place.on_product;
+    words += " " + texts("hardest.place", {{"x", texts.number(std::round(p.x()), 1)},
+                                           {"y", texts.number(std::round(p.y()), 1)},
+                                           {"z", texts.number(std::round(p.z()), 1)}});
+  }
+  return words;
+}
+
+std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
+  std::string words;
+  if (verdict.strength) {
+    const StrengthUse& use = *verdict.strength;
+    std::string whose = use.whose;
+    if (whose.empty()) whose = texts("strength.nobody", {{"strength", texts.number(use.strength)}});
+    if (whose == usual_people()) {
+      whose = texts("strength.usual", {{"age", texts.number(kUsualAge, 2)}});
+    }
+    words = texts("strength.sentence", {{"force", texts.number(use.grip_force, 2)},
+                                        {"percent", texts.percent(use.share())},
+                                        {"whose", whose}});
+  }
+  if (verdict.asked && verdict.grip_force > 0.0 &&
+      !are_equally_firm(verdict.grip_force, *verdict.asked)) {
+    words += (words.empty() ? "" : " ") +
+             texts("strength.not_reached", {{"force", texts.number(verdict.grip_force, 2)},
+                                            {"asked", texts.number(*verdict.asked, 2)}});
+  }
+  return words;
+}
+
+ProductWords product_words(const AssessedProduct& product, const ProductVerdict& verdict,
+                           const Texts& texts) {
+  ProductWords words;
+  words.comfort = with_capital(comfort_words(verdict.comfort, texts));
+  words.strength = strength_words(verdict, texts);
+  if (verdict.hardest) words.hardest = hardest_words(product, *verdict.hardest, texts);
+  const std::string& name = product.product.name;
+  switch (verdict.held) {
+    case HeldVerdict::kHeld:
+      if (product.assessment.grasp.grip == Grip::kFixedHook) {
+        words.held = texts("verdict.one.carried",
+                           {{"product", name}, {"comfort", comfort_words(verdict.comfort, texts)}});
+        break;
+      }
+      words.held = texts("verdict.one.held", {{"product", name},
+                                              {"force", texts.number(verdict.grip_force, 2)},
+                                              {"comfort", comfort_words(verdict.comfort, texts)}});
+      break;
+    case HeldVerdict::kDoubtful:
+      words.held = texts("verdict.one.doubtful",
+                         {{"product", name}, {"why", why_not_held(product.assessment, texts)}});
+      break;
+    case HeldVerdict::kNotHeld:
+      words.held = texts("verdict.one.not_held",
+                         {{"product", name}, {"why", why_not_held(product.assessment, texts)}});
+      break;
+  }
+  return words;
+}
+
+class SetSpeaker {
+ public:
+  SetSpeaker(const AssessmentSet& set, const SetVerdict& verdict, const Texts& texts)
+      : set_(set), verdict_(verdict), texts_(texts) {}
+
+  VerdictWords speak() {
+    for (std::size_t i = 0; i < set_.assessments.size(); ++i) {
+      words_.products.push_back(product_words(set_.assessments[i], verdict_.products[i], texts_));
+    }
+    if (verdict_.comparisons.empty()) {
+      speak_of_one();
+    } else {
+      speak_of_several();
+    }
+    if (set_.hand) {
+      words_.reasons.push_back(texts_(
+          "reason.one_hand", {{"length", texts_.number(set_.hand->dimensions.hand_length)}}));
+    }
+    return std::move(words_);
+  }
+
+ private:
+  const std::string& name(int i) const { return set_.assessments[i].product.name; }
+  std::string force(int i) const { return texts_.number(verdict_.products[i].grip_force, 2); }
+
+  void next(const std::string& key, const std::string& command) {
+    if (command.empty()) return;
+    words_.next = texts_("next." + key);
+    words_.command = command;
+  }
+
+  std::vector<const Product*> all_products() const {
+    std::vector<const Product*> products;
+    for (const AssessedProduct& one : set_.assessments) products.push_back(&one.product);
+    return products;
+  }
+
+  void ask_other_hands(const std::string& key) {
+    const std::string products = product_arguments(all_products(), "--product ");
+    if (products.empty()) return;
+    next(key, "palmar study run " + products + " --hands " + std::to_string(kHandsToAsk) +
+                  " --out hands.palmar");
+  }
+
+  void try_other_hold(int i) {
+    const AssessedProduct& one = set_.assessments[i];
+    const std::string product = product_arguments({&one.product});
+    if (product.empty() || one.ways == nullptr) return;
+    const auto rank = static_cast<std::size_t>(one.assessment.options.grasp.hold_rank);
+    if (rank >= one.ways->holds.size()) return;
+    next("other_hold", "palmar assess " + product + " --hold " + std::to_string(rank + 1));
+  }
+
+  void speak_of_one() {
+    const AssessedProduct& one = set_.assessments.front();
+    const ProductVerdict& verdict = verdict_.products.front();
+    const ProductWords& words = words_.products.front();
+    words_.sentence = words.held;
+    if (!words.hardest.empty()) words_.reasons.push_back(words.hardest);
+    if (!words.strength.empty()) words_.reasons.push_back(words.strength);
+    if (verdict.held != HeldVerdict::kHeld) {
+      try_other_hold(0);
+      return;
+    }
+    const bool is_uncomfortable =
+        verdict.comfort.discomfort && level_of(*verdict.comfort.discomfort) == OnsetLevel::kAbove;
+    const std::string product = product_arguments({&one.product});
+    if (!is_uncomfortable || product.empty()) {
+      ask_other_hands("study_one");
+    } else if (one.product.unit_source == UnitSource::kFile && one.product.faces != nullptr) {
+      next("fillet", "palmar redesign fillet " + product + " --hands " +
+                         std::to_string(kHandsToAsk) + " --out fillet");
+    } else {
+      next("redesign", "palmar redesign press " + product + " --hands " +
+                           std::to_string(kHandsToAsk) + " --out pressed");
+    }
+  }
+
+  std::string pair_sentence(const ProductComparison& pair) const {
+    const TextValues names = {{"better", name(pair.better)}, {"worse", name(pair.worse)}};
+    TextValues values = names;
+    values["force"] = force(pair.better);
+    values["percent"] = texts_.percent(pair.peak_change);
+    switch (pair.verdict) {
+      case PairVerdict::kLower:
+        values["area"] = area_words(pair.area_change, texts_);
+        return texts_("verdict.lower", values);
+      case PairVerdict::kSame:
+        values["limit"] = texts_.percent(kToldApart);
+        return texts_("verdict.same", values);
+      case PairVerdict::kDependsOnSkin:
+        return texts_("verdict.depends_on_skin", values);
+      case PairVerdict::kUnequalForce:
+        values["better_force"] = force(pair.better);
+        values["worse_force"] = force(pair.worse);
+        return texts_("verdict.unequal_force", values);
+      case PairVerdict::kOnlyOneHeld:
+      case PairVerdict::kNoneHeld:
+        break;
+    }
+    values["why"] = why_not_held(set_.assessments[pair.worse].assessment, texts_);
+    values["worse_name"] = name(pair.worse);
+    return texts_(
+        pair.verdict == PairVerdict::kOnlyOneHeld ? "verdict.only_one_held" : "verdict.none_held",
+        values);
+  }
+
+  /// The comparison that decides: of several the one that stands in the way of an answer.
+  const ProductComparison& deciding() const {
+    for (const ProductComparison& one : verdict_.comparisons) {
+      if (one.verdict != PairVerdict::kLower && one.verdict != PairVerdict::kOnlyOneHeld) {
+        return one;
+      }
+    }
+    return verdict_.comparisons.front();
+  }
+
+  void speak_of_several() {
+    const ProductComparison& pair = deciding();
+    if (verdict_.comparisons.size() == 1) {
+      words_.sentence = pair_sentence(pair);
+    } else if (verdict_.best) {
+      std::vector<std::string> list;
+      for (const ProductComparison& one : verdict_.comparisons) {
+        const bool is_held = one.verdict == PairVerdict::kLower;
+        TextValues values = {{"worse", name(one.worse)}};
+        if (is_held) values["percent"] = texts_.percent(one.peak_change);
+        list.push_back(
+            texts_(is_held ? "verdict.best_of.item" : "verdict.best_of.not_held", values));
+      }
+      words_.sentence =
+          texts_("verdict.best_of", {{"count", std::to_string(set_.assessments.size())},
+                                     {"best", name(*verdict_.best)},
+                                     {"list", texts_.listed(list)},
+                                     {"force", force(*verdict_.best)}});
+    } else {
+      words_.sentence = texts_("verdict.no_best", {{"first", pair_sentence(pair)}});
+    }
+    if (pair.verdict == PairVerdict::kLower) {
+      if (pair.peak_change_soft && pair.peak_change_stiff) {
+        const auto signed_percent = [&](double change) {
+          return std::string(change < 0.0 ? "−" : "+") + texts_.percent(change);
+        };
+        words_.reasons.push_back(
+            texts_("reason.skin", {{"soft", signed_percent(*pair.peak_change_soft)},
+                                   {"stiff", signed_percent(*pair.peak_change_stiff)}}));
+      } else {
+        words_.reasons.push_back(texts_("reason.no_band"));
+      }
+    }
+    const ProductWords& better = words_.products[pair.better];
+    if (!better.comfort.empty() && verdict_.products[pair.better].held != HeldVerdict::kNotHeld) {
+      words_.reasons.push_back(name(pair.better) + ": " + better.comfort);
+    }
+    for (const int i : {pair.worse, pair.better}) {
+      const ProductVerdict& one = verdict_.products[i];
+      if (one.asked && one.grip_force > 0.0 && !are_equally_firm(one.grip_force, *one.asked)) {
+        words_.reasons.push_back(
+            name(i) + ": " +
+            texts_("strength.not_reached", {{"force", texts_.number(one.grip_force, 2)},
+                                            {"asked", texts_.number(*one.asked, 2)}}));
+      }
+    }
+    if (pair.verdict == PairVerdict::kUnequalForce) {
+      compare_at_equal_force();
+    } else if (pair.verdict == PairVerdict::kOnlyOneHeld ||
+               pair.verdict == PairVerdict::kNoneHeld) {
+      try_other_hold(pair.worse);
+    } else {
+      ask_other_hands(pair.verdict == PairVerdict::kLower ? "study" : "more_hands");
+    }
+  }
+
+  void compare_at_equal_force() {
+    double least = 0.0;
+    for (const ProductVerdict& one : verdict_.products) {
+      if (one.held != HeldVerdict::kHeld) continue;
+      least = least > 0.0 ? std::min(least, one.grip_force) : one.grip_force;
+    }
+    const double force = std::floor(kSafeForce * least);
+    if (!(force > 0.0)) return;
+    const std::string added = "--grip-force-n " + significant(force, 4);
+    const std::string products = product_arguments(all_products());
+    const std::string line = set_.command_line.starts_with("palmar assess ") ? set_.command_line
+                             : products.empty()                              ? ""
+                                                : "palmar assess " + products;
+    if (line.empty()) return;
+    next("equal_force", changed_command(line,
+                                        {"--grip-force-n", "--strength-share", "--strength-n",
+                                         "--person", "--limit-depths"},
+                                        added));
+  }
+
+  const AssessmentSet& set_;
+  const SetVerdict& verdict_;
+  const Texts& texts_;
+  VerdictWords words_;
+};
+
+/// Words of a command line as a shell would see them, quotes kept.
+std::vector<std::string> words_of_line(const std::string& line) {
+  std::vector<std::string> words;
+  std::string word;
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '\'') is_quoted = !is_quoted;
+    if (c != ' ' || is_quoted) {
+      word += c;
+    } else if (!word.empty()) {
+      words.push_back(std::move(word));
+      word.clear();
+    }
+  }
+  if (!word.empty()) words.push_back(std::move(word));
+  return words;
+}
+
+}  // namespace
+
+std::string area_words(double change, const Texts& texts) {
+  if (std::abs(change) < kToldApart) return texts("verdict.area.same");
+  return texts(change > 0.0 ? "verdict.area.more" : "verdict.area.less",
+               {{"percent", texts.percent(change)}});
+}
+
+std::string comfort_words(const ComfortResult& comfort, const Texts& texts) {
+  if (!comfort.pain || !comfort.discomfort) return texts("comfort.none");
+  const auto level = [](const WorstRegion& worst) { return std::string(name_of(level_of(worst))); };
+  const std::string count = std::to_string(comfort.regions.size());
+  const WorstRegion& pain = *comfort.pain;
+  const WorstRegion& discomfort = *comfort.discomfort;
+  const std::string where =
+      texts(discomfort.above == 1 ? "comfort.repeated.one" : "comfort.repeated.many",
+            {{"above", std::to_string(discomfort.above)}, {"count", count}});
+  const bool flows = comfort.sustained_share < kNoBlood;
+  return texts(
+      "comfort.sentence",
+      {{"moment", texts("comfort.moment." + level(pain), {{"at", at_words(pain.region, texts)}})},
+       {"repeated", texts("comfort.repeated." + level(discomfort),
+                          {{"at", at_words(discomfort.region, texts)}, {"where", where}})},
+       {"minutes", texts(flows ? "comfort.minutes.flows" : "comfort.minutes.stops",
+                         {{"percent", texts.percent(comfort.sustained_share)}})}});
+}
+
+std::string changed_command(const std::string& command_line,
+                            const std::vector<std::string>& removed, const std::string& added) {
+  const std::vector<std::string> words = words_of_line(command_line);
+  std::string line;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string option = words[i].substr(0, words[i].find('='));
+    if (std::find(removed.begin(), removed.end(), option) != removed.end()) {
+      const bool has_value =
+          option == words[i] && i + 1 < words.size() && !words[i + 1].starts_with("--");
+      if (has_value) ++i;
+      continue;
+    }
+    line += (line.empty() ? "" : " ") + words[i];
+  }
+  return added.empty() ? line : line + " " + added;
+}
+
+std::string product_arguments(const std::vector<const Product*>& products,
+                              const std::string& option) {
+  std::string line, unit;
+  for (const Product* product : products) {
+    if (product->unit_source == UnitSource::kMade || product->source.empty()) return "";
+    line += (line.empty() ? "" : " ") + option + shell_word(product->source);
+    if (product->unit_source != UnitSource::kFile) unit = name_of(product->unit);
+  }
+  return unit.empty() ? line : line + " --unit " + unit;
+}
+
+VerdictWords verdict_words(const AssessmentSet& set, const SetVerdict& verdict, Language language) {
+  const Texts texts(language);
+  return SetSpeaker(set, verdict, texts).speak();
+}
+
+}  // namespace palmar

@@ -1,0 +1,184 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/grasp/joint_strength.h"
+#include "palmar/grasp/rest/task_force.h"
+#include "palmar/study/assessment/hold_doubts.h"
+
+namespace palmar {
+namespace {
+
+double peak_of(const AssessedProduct& one) {
+  return one.assessment.contact.total.peak_pressure_cells;
+}
+
+std::optional<StrengthUse> strength_of(const AssessedProduct& one, double grip_force) {
+  const Assessment& assessment = one.assessment;
+  const Grip grip = assessment.grasp.grip;
+  if (assessment.balance.status != BalanceStatus::kBalanced || !(grip_force > 0.0)) return {};
+  if (grip == Grip::kFixedHook) return {};  // carries; nobody squeezes
+  const auto& share = assessment.options.balance.share_of_strength;
+  if (share) return StrengthUse{grip_force, share->reached(grip), share->whose};
+  return StrengthUse{grip_force, usual_grip_strength() * strength_share(grip), usual_people()};
+}
+
+std::optional<HardestPlace> hardest_of(const AssessedProduct& one) {
+  const ContactResult& contact = one.assessment.contact;
+  if (contact.regions.empty()) return {};
+  const auto worst = std::max_element(contact.regions.begin(), contact.regions.end(),
+                                      [](const RegionContact& a, const RegionContact& b) {
+                                        return a.peak_pressure_cells < b.peak_pressure_cells;
+                                      });
+  HardestPlace place{.region = worst->region,
+                     .pressure = worst->peak_pressure_cells,
+                     .on_product = {},
+                     .face = {}};
+  const ProductFootprint& footprint = one.assessment.footprint;
+  const auto peak = std::max_element(footprint.pressure.begin(), footprint.pressure.end());
+  if (peak != footprint.pressure.end() && *peak > 0.0) {
+    place.on_product = footprint.surface.vertices[peak - footprint.pressure.begin()];
+  }
+  for (const FaceContact& face : one.assessment.faces) {
+    if (face.has_peak) place.face = face.face;
+  }
+  return place;
+}
+
+ProductVerdict judge(const AssessedProduct& one, const Hand* hand) {
+  ProductVerdict verdict;
+  if (!presses_on_skin(one.assessment)) return verdict;
+  verdict.held =
+      doubts_of(one.assessment).empty() && one.assessment.grasp.status == GraspStatus::kHeld
+          ? HeldVerdict::kHeld
+          : HeldVerdict::kDoubtful;
+  verdict.grip_force = grip_force_of(one);
+  if (one.assessment.options.balance.is_on) {
+    verdict.asked = one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip);
+  }
+  if (hand != nullptr) verdict.comfort = assess_comfort(*hand, one.assessment.contact);
+  verdict.strength = strength_of(one, verdict.grip_force);
+  verdict.hardest = hardest_of(one);
+  return verdict;
+}
+
+double change(double worse, double better) { return worse > 0.0 ? better / worse - 1.0 : 0.0; }
+
+ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVerdict>& verdicts,
+                          int worse, int better) {
+  ProductComparison pair;
+  pair.worse = worse;
+  pair.better = better;
+  const AssessedProduct& a = set.assessments[worse];
+  const AssessedProduct& b = set.assessments[better];
+  const HeldVerdict held_a = verdicts[worse].held, held_b = verdicts[better].held;
+  if (held_a != HeldVerdict::kHeld || held_b != HeldVerdict::kHeld) {
+    pair.verdict =
+        held_b == HeldVerdict::kHeld ? PairVerdict::kOnlyOneHeld : PairVerdict::kNoneHeld;
+    return pair;
+  }
+  pair.peak_change = change(peak_of(a), peak_of(b));
+  pair.area_change = change(a.assessment.contact.total.area, b.assessment.contact.total.area);
+  if (!are_equally_firm(verdicts[worse].grip_force, verdicts[better].grip_force)) {
+    pair.verdict = PairVerdict::kUnequalForce;
+    return pair;
+  }
+  const auto& band_a = a.assessment.contact.band;
+  const auto& band_b = b.assessment.contact.band;
+  bool depends = false;
+  if (band_a && band_b) {
+    const auto& soft_a = band_a->total.peak_pressure_cells_low;
+    const auto& soft_b = band_b->total.peak_pressure_cells_low;
+    if (soft_a > 0.0 && soft_b > 0.0) {
+      pair.peak_change_soft = change(soft_a, soft_b);
+      depends = depends || *pair.peak_change_soft > 0.0;
+    }
+    const auto& stiff_a = band_a->total.peak_pressure_cells_high;
+    const auto& stiff_b = band_b->total.peak_pressure_cells_high;
+    if (stiff_a > 0.0 && stiff_b > 0.0) {
+      pair.peak_change_stiff = change(stiff_a, stiff_b);
+      depends = depends || *pair.peak_change_stiff > 0.0;
+    }
+  }
+  pair.verdict = std::abs(pair.peak_change) < kToldApart ? PairVerdict::kSame
+                 : depends                               ? PairVerdict::kDependsOnSkin
+                                                         : PairVerdict::kLower;
+  return pair;
+}
+
+/// The product that presses least among those that are held; else the first in the hand.
+int least_pressing(const AssessmentSet& set, const std::vector<ProductVerdict>& verdicts) {
+  int least = 0;
+  for (int i = 1; i < static_cast<int>(verdicts.size()); ++i) {
+    const auto rank = [&](int k) {
+      return std::pair(static_cast<int>(verdicts[k].held), peak_of(set.assessments[k]));
+    };
+    if (rank(i) < rank(least)) least = i;
+  }
+  return least;
+}
+
+}  // namespace
+
+std::string_view name_of(HeldVerdict verdict) {
+  switch (verdict) {
+    case HeldVerdict::kHeld:
+      return "held";
+    case HeldVerdict::kDoubtful:
+      return "doubtful";
+    case HeldVerdict::kNotHeld:
+      break;
+  }
+  return "not_held";
+}
+
+std::string_view name_of(PairVerdict verdict) {
+  switch (verdict) {
+    case PairVerdict::kLower:
+      return "lower";
+    case PairVerdict::kSame:
+      return "same";
+    case PairVerdict::kDependsOnSkin:
+      return "depends_on_skin";
+    case PairVerdict::kUnequalForce:
+      return "unequal_force";
+    case PairVerdict::kOnlyOneHeld:
+      return "only_one_held";
+    case PairVerdict::kNoneHeld:
+      break;
+  }
+  return "none_held";
+}
+
+bool are_equally_firm(double first, double second) {
+  return std::abs(first - second) <= kToldApart * std::max(first, second);
+}
+
+bool presses_on_skin(const Assessment& assessment) {
+  const GraspStatus status = assessment.grasp.status;
+  return (status == GraspStatus::kHeld || status == GraspStatus::kPartlyHeld) &&
+         !assessment.contact.regions.empty();
+}
+
+SetVerdict verdict_of(const AssessmentSet& set) {
+  SetVerdict verdict;
+  for (const AssessedProduct& one : set.assessments) {
+    verdict.products.push_back(judge(one, set.hand.get()));
+  }
+  if (verdict.products.size() < 2) return verdict;
+  const int least = least_pressing(set, verdict.products);
+  bool is_best = true;
+  for (int i = 0; i < static_cast<int>(verdict.products.size()); ++i) {
+    if (i == least) continue;
+    verdict.comparisons.push_back(compare(set, verdict.products, i, least));
+    const PairVerdict pair = verdict.comparisons.back().verdict;
+    is_best = is_best && (pair == PairVerdict::kLower || pair == PairVerdict::kOnlyOneHeld);
+  }
+  if (is_best) verdict.best = least;
+  return verdict;
+}
+
+}  // namespace palmar

@@ -1,0 +1,89 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palmar/grasp/indices/comfort.h"
+#include "palmar/study/assessment/assessment.h"
+
+namespace palmar {
+
+// What an assessment comes to, in figures; report/words says it.
+
+/// How strong one has to be for a grip: its force over the largest that the person or group reaches
+/// in it. The one model of strength that verdicts use: what people reach on a dynamometer (Steiber
+/// 2016), for pinches times what they reach in them (Mathiowetz et al. 1985). Joint moments and
+/// muscles are indices for experts.
+struct StrengthUse {
+  double grip_force = 0.0;  ///< N
+  double strength = 0.0;    ///< N, reached in this grip
+  std::string whose;        ///< "women and men of 45 years (mean; Steiber 2016)"; may be empty
+  double share() const { return strength > 0.0 ? grip_force / strength : 0.0; }
+};
+
+/// Where the skin presses hardest, and on what.
+struct HardestPlace {
+  Region region{};
+  double pressure = 0.0;           ///< MPa, on a sensor cell
+  std::optional<Vec3> on_product;  ///< mm, product frame: the footprint's peak
+  std::optional<int> face;         ///< index into Product::faces of the face with that peak
+};
+
+enum class HeldVerdict {
+  kHeld,      ///< at rest, with all that its grip needs; or as it was closed, if nothing was asked
+  kDoubtful,  ///< in the hand, but doubts_of() has something against it
+  kNotHeld
+};
+std::string_view name_of(HeldVerdict verdict);  ///< "held", "doubtful", "not_held"
+
+struct ProductVerdict {
+  HeldVerdict held = HeldVerdict::kNotHeld;
+  double grip_force = 0.0;      ///< N
+  std::optional<double> asked;  ///< N, that was asked for
+  ComfortResult comfort;        ///< empty if it isn't in the hand
+  std::optional<StrengthUse> strength;
+  std::optional<HardestPlace> hardest;
+};
+
+/// Whether one of two products presses less.
+enum class PairVerdict {
+  kLower,          ///< the second presses less at its hardest place, and that can be told apart
+  kSame,           ///< the difference is below kToldApart
+  kDependsOnSkin,  ///< with soft or stiff skin the order is another one
+  kUnequalForce,   ///< they aren't held equally firmly: no answer
+  kOnlyOneHeld,    ///< the second alone is held
+  kNoneHeld        ///< neither is held
+};
+std::string_view name_of(PairVerdict verdict);  ///< "lower", "same", ...
+
+/// Two products of one set at the same task.
+struct ProductComparison {
+  int worse = 0, better = 0;  ///< indices into the set; by the peak on sensor cells
+  PairVerdict verdict = PairVerdict::kNoneHeld;
+  double peak_change = 0.0;  ///< peak on sensor cells, better over worse, less 1
+  double area_change = 0.0;  ///< contact area, likewise
+  /// The peak's change with soft and with stiff tissue; nothing without an error band.
+  std::optional<double> peak_change_soft, peak_change_stiff;
+};
+
+struct SetVerdict {
+  std::vector<ProductVerdict> products;
+  /// Of each other product with the one that presses least among those held; in their order.
+  std::vector<ProductComparison> comparisons;
+  /// Which product is best, if one is: it is better than every other that can be held.
+  std::optional<int> best;
+};
+
+/// Whether two grip forces are so near that pressures can be compared: within kToldApart.
+bool are_equally_firm(double first, double second);
+
+/// Whether the product is in the hand and presses on the skin.
+bool presses_on_skin(const Assessment& assessment);
+
+SetVerdict verdict_of(const AssessmentSet& set);
+
+}  // namespace palmar

@@ -1,0 +1,114 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "palmar/grasp/rest/task_force.h"
+
+namespace palmar {
+namespace {
+
+/// A wrap at rest with that grip force and peak on sensor cells at the thenar.
+AssessedProduct held(const std::string& name, double grip_force, double peak) {
+  AssessedProduct one;
+  one.product.name = name;
+  Assessment& assessment = one.assessment;
+  assessment.grasp.status = GraspStatus::kHeld;
+  assessment.grasp.grip = Grip::kMediumWrap;
+  assessment.balance.status = BalanceStatus::kBalanced;
+  assessment.balance.grip_force = grip_force;
+  for (const Region region : {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal,
+                              Region::kCentralPalm, Region::kThenar}) {
+    RegionContact contact;
+    contact.region = region;
+    contact.peak_pressure_cells = region == Region::kThenar ? peak : 0.5 * peak;
+    assessment.contact.regions.push_back(contact);
+  }
+  assessment.contact.total.peak_pressure_cells = peak;
+  assessment.contact.total.area = 1000.0;
+  return one;
+}
+
+void add_band(AssessedProduct& one, double soft, double stiff) {
+  ContactBand band;
+  band.total.peak_pressure_cells_low = soft;
+  band.total.peak_pressure_cells_high = stiff;
+  one.assessment.contact.band = band;
+}
+
+SetVerdict verdict_on(std::vector<AssessedProduct> products) {
+  return verdict_of({.hand = nullptr, .assessments = std::move(products), .command_line = ""});
+}
+
+TEST(SetVerdict, OfTwoTheOneThatPressesLessIsBest) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 61, 0.29)};
+  two[1].assessment.contact.total.area = 1120.0;
+  const SetVerdict verdict = verdict_on(two);
+  ASSERT_EQ(verdict.comparisons.size(), 1U);
+  EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kLower);
+  EXPECT_EQ(verdict.best, 1);
+  EXPECT_EQ(verdict.comparisons[0].worse, 0);
+  EXPECT_NEAR(verdict.comparisons[0].peak_change, -0.275, 1e-12);
+  EXPECT_NEAR(verdict.comparisons[0].area_change, 0.12, 1e-12);
+  EXPECT_EQ(verdict.products[1].hardest->region, Region::kThenar);
+}
+
+TEST(SetVerdict, WhatCantBeToldApartIsNoDifference) {
+  EXPECT_EQ(verdict_on({held("a", 60, 0.40), held("b", 60, 0.37)}).comparisons[0].verdict,
+            PairVerdict::kSame);
+  EXPECT_FALSE(verdict_on({held("a", 60, 0.40), held("b", 60, 0.37)}).best);
+}
+
+TEST(SetVerdict, ADifferenceThatDependsOnTheSkinIsNone) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.30)};
+  add_band(two[0], 0.20, 0.60);
+  add_band(two[1], 0.15, 0.45);
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kLower);
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].peak_change_soft, -0.25, 1e-12);
+  add_band(two[1], 0.25, 0.45);  // harder than a with soft skin
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kDependsOnSkin);
+  EXPECT_FALSE(verdict_on(two).best);
+}
+
+TEST(SetVerdict, PressuresOfUnequalGripsAreNotCompared) {
+  const SetVerdict verdict = verdict_on({held("a", 107, 0.40), held("b", 86, 0.20)});
+  EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kUnequalForce);
+  EXPECT_FALSE(verdict.best);
+}
+
+TEST(SetVerdict, WhatSlipsOutIsNotBetter) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.10)};
+  two[1].assessment.balance.status = BalanceStatus::kSlipsOut;
+  const SetVerdict verdict = verdict_on(two);
+  EXPECT_EQ(verdict.products[1].held, HeldVerdict::kDoubtful);
+  EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kOnlyOneHeld);
+  EXPECT_EQ(verdict.best, 0);
+  two[0].assessment.contact.regions.clear();
+  EXPECT_EQ(verdict_on(two).products[0].held, HeldVerdict::kNotHeld);
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kNoneHeld);
+}
+
+TEST(SetVerdict, OfThreeTheBestBeatsBoth) {
+  EXPECT_EQ(verdict_on({held("a", 60, 0.4), held("b", 60, 0.2), held("c", 60, 0.3)}).best, 1);
+  EXPECT_FALSE(verdict_on({held("a", 60, 0.4), held("b", 60, 0.2), held("c", 60, 0.21)}).best);
+  EXPECT_TRUE(verdict_on({held("a", 60, 0.4)}).comparisons.empty());
+}
+
+TEST(SetVerdict, StrengthIsThatOfADynamometer) {
+  AssessedProduct one = held("a", 106.75, 0.4);
+  const SetVerdict usual = verdict_on({one});
+  ASSERT_TRUE(usual.products[0].strength);
+  EXPECT_NEAR(usual.products[0].strength->share(), 106.75 / usual_grip_strength(), 1e-12);
+  one.assessment.options.balance.share_of_strength =
+      ShareOfStrength{.share = 0.5, .strength = 213.5, .whose = "her", .why_least = ""};
+  EXPECT_NEAR(verdict_on({one}).products[0].strength->share(), 0.5, 1e-12);
+  // Of a person's strength a pinch reaches a fifth (Mathiowetz et al. 1985).
+  one.assessment.grasp.grip = Grip::kPalmarPinch;
+  EXPECT_NEAR(verdict_on({one}).products[0].strength->strength, 213.5 * 109.9 / 541.8, 1e-9);
+  one.assessment.balance.status = BalanceStatus::kOff;
+  EXPECT_FALSE(verdict_on({one}).products[0].strength);
+}
+
+}  // namespace
+}  // namespace palmar
