@@ -37,7 +37,8 @@ const std::map<std::string, std::vector<std::string>>& grip_families() {
       {"lateral", {"lateral", "lateral_tripod"}},
       {"plate", {"extension_type", "parallel_extension", "plate"}},
       {"ring", {"distal_type", "scissors", "ring"}},
-      {"rest", {"rest", "relaxed", "resting_hand"}},
+      {"rest", {"rest", "relaxed", "resting_hand", "flat_hand"}},
+      {"push", {"finger_push"}},
   };
   return families;
 }
