@@ -29,6 +29,8 @@ constexpr std::array<GripDescription, kGripCount> kGrips = {{
      "disc disk lid"},
     {Grip::kWritingTripod, "writing_tripod", "Writing Tripod", 20, GripFamily::kPrecision,
      "writing pen"},
+    {Grip::kDistalType, "distal_type", "Distal Type", 19, GripFamily::kPower,
+     "scissors ring ring_grip rings"},
 }};
 
 std::string plain(std::string_view text) {
@@ -70,6 +72,8 @@ std::optional<Grip> grip_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_power(Grip grip) { return description_of(grip).family == GripFamily::kPower; }
+bool is_power(Grip grip) {
+  return description_of(grip).family == GripFamily::kPower && grip != Grip::kDistalType;
+}
 
 }  // namespace palmar

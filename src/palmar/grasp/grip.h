@@ -25,8 +25,9 @@ enum class Grip : std::uint8_t {
   kPrecisionSphere,  ///< 13: five fingertips spread round a body
   kPrecisionDisk,    ///< 12: five fingertips round the rim of a lid or knob, palm over its face
   kWritingTripod,    ///< 20: thumb and index finger press a pen on the side of the middle finger
+  kDistalType,       ///< 19: thumb through one ring, fingers through another: scissors
 };
-inline constexpr int kGripCount = 12;
+inline constexpr int kGripCount = 13;
 
 enum class GripFamily : std::uint8_t { kPower, kPrecision, kIntermediate };
 
@@ -47,6 +48,8 @@ std::string_view name_of(GripFamily family);
 /// The grip with that name, taxonomy name or other name ("key", "pad-pinch", "tripod"); '-' and '_'
 /// and case don't matter. Nothing for an unknown one.
 std::optional<Grip> grip_named(std::string_view name);
-bool is_power(Grip grip);  ///< the palm takes part, or the fingers hook
+/// Closed round the product with palm and fingers, or with hooked fingers. Not the distal type,
+/// which the taxonomy counts among power grips: it is put on by its fingertips.
+bool is_power(Grip grip);
 
 }  // namespace palmar

@@ -62,6 +62,8 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kTripod:
     case Grip::kWritingTripod:
       return {{Finger::kThumb, Finger::kIndex, Finger::kMiddle}, 2};
+    case Grip::kDistalType:
+      return {{Finger::kThumb, Finger::kMiddle}, 1};
   }
   return {};
 }

@@ -95,6 +95,7 @@ double strength_share(Grip grip) {
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
     case Grip::kWritingTripod:
+    case Grip::kDistalType:
       return 109.9 / kGrip;
     default:
       return 1.0;

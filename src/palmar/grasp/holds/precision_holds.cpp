@@ -13,6 +13,7 @@
 #include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/precision/precision_grip.h"
+#include "palmar/grasp/precision/ring_targets.h"
 
 namespace palmar {
 namespace {
@@ -103,11 +104,14 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   if (scene.parts->parts.empty() || options.is_power_only ||
       (options.grip && is_power(*options.grip)))
     return found;
+  const std::optional<ScissorRings> rings = scissor_rings(*scene.parts, *scene.product);
   std::vector<GripPrior> grips;
   if (options.grip) {
     grips.push_back({*options.grip, 0.0});
   } else {
     grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
+    // What two rings are for (Feix et al. 2016, grip 19).
+    if (rings) grips.insert(grips.begin(), {Grip::kDistalType, 0.0});
   }
   const auto try_grips = [&](const std::vector<GripPrior>& list, std::optional<Vec3> at) {
     for (const GripPrior& tried : list) {
@@ -115,6 +119,9 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
       PrecisionGripOptions precision;
       precision.grip = tried.grip;
       precision.placement.at = at;
+      if (tried.grip == Grip::kDistalType && rings) {
+        precision.targets = ring_targets(*scene.hand, *scene.product, *rings);
+      }
       const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
       if (grasp.fingertips.empty()) continue;
       RankedHold ranked = ranked_of(scene, grasp, tried.score);

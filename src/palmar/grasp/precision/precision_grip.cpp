@@ -14,6 +14,7 @@
 #include "palmar/grasp/precision/cost_order.h"
 #include "palmar/grasp/precision/fingertip_press.h"
 #include "palmar/grasp/precision/precision_search.h"
+#include "palmar/grasp/precision/ring_targets.h"
 
 namespace palmar {
 namespace {
@@ -48,6 +49,11 @@ std::string list_of(const std::vector<FingertipPoint>& tips) {
   return list_of(words);
 }
 
+/// Of the ring grip: fingers that a small pair of scissors has no room for.
+bool is_optional(Grip grip, Finger finger) {
+  return grip == Grip::kDistalType && (finger == Finger::kIndex || finger == Finger::kRing);
+}
+
 /// Goals of the asked points, in the order of the grip's fingers.
 std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
                                      const Product& product, const PrecisionGripOptions& options) {
@@ -65,6 +71,7 @@ std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
     const auto target =
         std::find_if(options.targets.begin(), options.targets.end(),
                      [&](const FingertipTarget& one) { return one.finger == tip.finger; });
+    if (target == options.targets.end() && is_optional(options.grip, tip.finger)) continue;
     if (target == options.targets.end()) {
       throw UsageError(fmt::format("fingertip points: there is none for the {}; grip {} needs {}",
                                    words_of(tip.finger), grip, list_of(tips)));
@@ -251,7 +258,8 @@ void PrecisionGripOptions::check() const {
   if (is_power(grip)) {
     throw UsageError(
         fmt::format("grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
-                    "writing_tripod, lateral, precision_sphere or precision_disk is allowed",
+                    "writing_tripod, lateral, precision_sphere, precision_disk or distal_type is "
+                    "allowed",
                     name_of(grip)));
   }
   if (!(fingertip_depth > 0.0) || fingertip_depth > 6.0) {
@@ -297,7 +305,7 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     grasp.stops[s].segment = static_cast<Segment>(s);
   }
   const std::vector<FingertipPoint> tips = fingertips_of(hand, options.grip);
-  const std::vector<FingertipGoal> goals =
+  std::vector<FingertipGoal> goals =
       options.targets.empty() ? std::vector<FingertipGoal>{} : goals_for(tips, product, options);
   const FingertipIk ik(hand);
   const GripOpenings openings(ik, options.grip);
@@ -308,6 +316,17 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     return grasp;
   }
   progress.update(0.1, "finding where fingertips hold " + product.name);
+  if (options.grip == Grip::kDistalType && goals.empty()) {
+    const std::optional<ScissorRings> rings = scissor_rings(find_parts(product), product);
+    PrecisionGripOptions at_rings = options;
+    if (rings) at_rings.targets = ring_targets(hand, product, *rings);
+    if (!at_rings.targets.empty()) goals = goals_for(tips, product, at_rings);
+  }
+  if (options.grip == Grip::kDistalType && goals.empty()) {
+    grasp.message = "it has no two rings side by side that thumb and fingers go through";
+    put_beside(hand, product, grasp);
+    return grasp;
+  }
   const PrecisionSearch search =
       goals.empty() ? search_precision_grip(ik, openings, product, options, progress)
                     : solve_precision_targets(ik, openings, product, goals, progress);
