@@ -18,6 +18,7 @@
 #include "palmar/product/parts/part_outline.h"
 #include "palmar/product/parts/part_spread.h"
 #include "palmar/product/parts/part_stations.h"
+#include "palmar/product/parts/part_triggers.h"
 #include "palmar/product/parts/ring_parts.h"
 #include "palmar/product/parts/rough_parts.h"
 #include "palmar/product/parts/solid_grid.h"
@@ -254,6 +255,8 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   for (std::size_t t = 0; t < label.size(); ++t) {
     result.part_of_triangle[t] = std::max(0, number[label[t]] - 1);
   }
+  result.triggers = triggers_of(product, result.parts);
+  result.buttons = buttons_of(mesh, result.part_of_triangle);
   const TopologyReport report = examine_topology(mesh, topology);
   if (report.is_closed && report.is_two_manifold) {
     int loops = 0;
