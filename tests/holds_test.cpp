@@ -28,13 +28,9 @@ namespace {
 // and held as people do fails, too: then it is struck off.
 const std::map<std::string, std::string>& known_misses() {
   static const std::map<std::string, std::string> misses = {
-      {"handheld_console", "a plate is pinched near the middle of its weight, not at a side"},
-      {"dinner_plate", "pinched 3 mm within the rim that people take"},
-      {"cube_60mm", "five fingertips, 2 mm off the box in which people take it"},
-      {"drawer_knob", "the palm is offered before the fingertips"},
-      {"scissors", "there is no grip of two rings, and only one ring is found"},
-      {"computer_mouse", "there is no hand that rests on a thing"},
-      {"umbrella", "the furled canopy is as good a bar as the crook"},
+      {"palm_sander", "the dome's axis isn't found, so the palm isn't offered over its top"},
+      {"tv_remote", "its two ends are alike: nothing tells where the window is"},
+      {"flat_mouse", "its two ends are alike: nothing tells where the buttons are"},
   };
   return misses;
 }
@@ -100,14 +96,16 @@ INSTANTIATE_TEST_SUITE_P(Products, PeoplesHolds, testing::ValuesIn(tried_product
 class Holds : public TemplateTest {};
 
 TEST_F(Holds, IndexFingerLiesOnTheTrigger) {
-  if (!has_scans()) GTEST_SKIP() << "the scanned products are not here (../shared/products)";
   for (const PeoplesHold& people : all_peoples_holds()) {
     if (!people.index_fingertip) continue;
+    if (people.product == "power_drill" && !has_scans()) continue;
     const RankedHolds& found = ranked(hand(), people.product);
     ASSERT_FALSE(found.holds.empty()) << people.product;
     const Vec3 tip = index_fingertip(hand(), found.holds.front());
-    // Known shortfall: on the drill 13 mm below the trigger. There are no triggers among the parts.
-    EXPECT_LT(people.index_fingertip->exteriorDistance(tip), 15.0)
+    // Known shortfall: on the drill 13 mm below the trigger, since its tail stops the ball of the
+    // thumb before the hand is as high as people have it. The others are within 5 mm.
+    const double most = people.product == "power_drill" ? 15.0 : 5.0;
+    EXPECT_LT(people.index_fingertip->exteriorDistance(tip), most)
         << people.product << ": the tip of the index finger is at " << tip.transpose() << " mm";
   }
 }

@@ -56,10 +56,18 @@ export function statusWords(assessment: Assessment, vocabulary: Vocabulary): str
   if (assessment.grasp.status === "not_graspable" && !isPower(assessment, vocabulary)) {
     return "No place for this grip";
   }
-  const words = vocabulary.statuses[assessment.grasp.status];
+  const status = assessment.grasp.status;
+  const words = (status === "held" && unheldWords[assessment.grasp.grip]) || vocabulary.statuses[status];
   const doubts = assessment.doubts.map((one) => doubtWords[one.key]);
   return doubts.length > 0 && assessment.grasp.status === "held" ? words + ", but " + doubts.join(" and ") : words;
 }
+
+/// Of grips that hold nothing.
+const unheldWords: { [grip: string]: string } = {
+  resting_hand: "Rests on it",
+  flat_hand: "Rests on it",
+  finger_push: "Pushes it",
+};
 
 const doubtWords = {
   not_at_rest: "not at rest",
@@ -71,7 +79,7 @@ const doubtWords = {
 export function gripWords(assessment: Assessment, vocabulary: Vocabulary): string {
   if (isPower(assessment, vocabulary)) return "power grip";
   const name = assessment.grasp.grip.replace(/_/g, " ");
-  return /pinch$/.test(name) ? name : name + " grip";
+  return /pinch$/.test(name) || assessment.grasp.grip in unheldWords ? name : name + " grip";
 }
 
 /// What decided how hard the hand grips, and how far to trust the figures.
@@ -141,6 +149,9 @@ function leftOver(contact: ContactResult): Markup {
 export function balanceVerdict(assessment: Assessment): Markup {
   const { balance, contact } = assessment;
   if (balance.status === "off") return leftOver(contact);
+  if (balance.status === "supported") {
+    return html`${note("", "Rests on it or pushes it.", capitalised(balance.message) + ".")}`;
+  }
   const slipsOut = balance.status === "slips_out";
   if (balance.status !== "balanced") {
     const begin = slipsOut ? "Slips out of the hand." : "Not at rest.";

@@ -87,6 +87,7 @@ double strength_share(Grip grip) {
   constexpr double kGrip = 541.8;
   switch (grip) {
     case Grip::kTipPinch:
+    case Grip::kFingerPush:  // the index finger's part in it
       return 78.3 / kGrip;
     case Grip::kLateral:
       return 117.4 / kGrip;

@@ -19,16 +19,17 @@
 namespace palmar {
 namespace {
 
-constexpr double kReached = 1.0;      // mm; what counts as reached
-constexpr double kOffSurface = 2.0;   // mm; targets may be that far from the surface
-constexpr double kPadOffset = 3.0;    // mm off the surface, where its distance is smooth
-constexpr double kLeans = 3.0;        // mm; a pen nearer than that leans on the web
-constexpr std::size_t kPressed = 5;   // holds that are pressed and looked at by all their skin
-constexpr double kSkinUnit = 2.0;     // mm; cost of skin deeper than the fingertips
-constexpr double kAtLimit = 0.15;     // mm; that near to the depth counts as there
-constexpr double kDeepSkin = 4.0;     // mm; skin that much deeper than the fingertips can't be
-constexpr double kCrossing = 1.0;     // mm; fingers that much in each other can't be
-constexpr double kSmallWidth = 20.0;  // mm; then it is for want of room
+constexpr double kReached = 1.0;         // mm; what counts as reached
+constexpr double kOffSurface = 2.0;      // mm; targets may be that far from the surface
+constexpr double kPadOffset = 3.0;       // mm off the surface, where its distance is smooth
+constexpr double kLeans = 3.0;           // mm; a pen nearer than that leans on the web
+constexpr std::size_t kPressed = 5;      // holds that are pressed and looked at by all their skin
+constexpr double kSkinUnit = 2.0;        // mm; cost of skin deeper than the fingertips
+constexpr double kAtLimit = 0.15;        // mm; that near to the depth counts as there
+constexpr double kDeepSkin = 4.0;        // mm; skin that much deeper than the fingertips can't be
+constexpr double kCrossingInRing = 2.5;  // a ring squeezes the finger all round; choice
+constexpr double kCrossing = 1.0;        // mm; fingers that much in each other can't be
+constexpr double kSmallWidth = 20.0;     // mm; then it is for want of room
 constexpr double kFar = 1e-9;
 
 std::string words_of(Finger finger) {
@@ -186,7 +187,8 @@ void judge(const PressedHold& hold, double widest_span, double width, Grasp& gra
       where = s;
     }
   }
-  if (hold.solution.clash > kCrossing) {
+  const double crossing = grasp.grip == Grip::kDistalType ? kCrossingInRing : kCrossing;
+  if (hold.solution.clash > crossing) {
     if (grasp.status == GraspStatus::kHeld) {
       grasp.status = width < kSmallWidth ? GraspStatus::kTooSmall : GraspStatus::kPartlyHeld;
     }

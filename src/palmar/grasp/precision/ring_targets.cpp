@@ -13,14 +13,14 @@ namespace palmar {
 namespace {
 
 constexpr double kLeastDisc = 12.0, kMostDisc = 45.0;  // mm; choice
-const double kSamePlane = std::cos(30.0 * kDegree);    // choice
+const double kRingsLevel = std::cos(30.0 * kDegree);   // choice
 constexpr double kOffPlane = 16.0;                     // mm; a finger's thickness (Greiner 1991)
-constexpr double kSideBySide = 1.6;                    // mean sizes between two middles; choice
-constexpr double kFinger = 0.085;     // hand lengths: thickness at the DIP (Greiner 1991)
-constexpr double kSpacing = 0.24;     // hand breadths from finger to finger; choice
-constexpr double kLongestRay = 70.0;  // mm
-constexpr double kOutside = 45.0;     // mm beside the rings, from where the shank is looked for
-constexpr double kFacing = 0.5;       // cosine; a pad lies on what faces it within 60 degrees
+constexpr double kRingsApart = 1.6;                    // mean sizes between two middles; choice
+constexpr double kRingFinger = 0.085;    // hand lengths: thickness at the DIP (Greiner 1991)
+constexpr double kFingerSpacing = 0.24;  // hand breadths from finger to finger; choice
+constexpr double kLongestRay = 70.0;     // mm
+constexpr double kOutside = 45.0;        // mm beside the rings, from where the shank is looked for
+constexpr double kFacing = 0.5;          // cosine; a pad lies on what faces it within 60 degrees
 
 // First place of the surface along a ray from the air, by steps of the distance to it.
 std::optional<DistanceSample> first_wall(const DistanceField& product, const Vec3& from,
@@ -55,8 +55,8 @@ std::optional<ScissorRings> scissor_rings(const ProductParts& parts, const Produ
       const double size =
           0.25 * (a.opening->width + a.opening->height + b.opening->width + b.opening->height);
       const double away = between.norm();
-      if (std::abs(a.opening->axis.dot(b.opening->axis)) < kSamePlane ||
-          std::abs(a.opening->axis.dot(between)) > kOffPlane || away > kSideBySide * size ||
+      if (std::abs(a.opening->axis.dot(b.opening->axis)) < kRingsLevel ||
+          std::abs(a.opening->axis.dot(between)) > kOffPlane || away > kRingsApart * size ||
           away >= nearest) {
         continue;
       }
@@ -92,8 +92,8 @@ std::vector<FingertipTarget> ring_targets(const Hand& hand, const Product& produ
   const auto at_thumb = first_wall(surface, rings.thumb.centre, -apart);
   if (!at_thumb) return {};
   std::vector<FingertipTarget> targets = {{Finger::kThumb, at_thumb->closest}};
-  const double finger = kFinger * hand.dimensions.hand_length;
-  const double spacing = kSpacing * hand.dimensions.hand_width;
+  const double finger = kRingFinger * hand.dimensions.hand_length;
+  const double spacing = kFingerSpacing * hand.dimensions.hand_width;
   const double room = extent_along(rings.fingers, rings.toward);
   const int fingers = std::clamp(static_cast<int>((room - finger) / spacing) + 1, 1, 3);
   // The middle finger is the first of them.
