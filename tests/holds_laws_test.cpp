@@ -33,7 +33,35 @@ bool is_reversible(const std::string& product) {
 // Laws that are known to be broken: "Law/product" and why. One that is listed here and holds fails,
 // too: then it is struck off.
 const std::map<std::string, std::string>& known_breaks() {
-  static const std::map<std::string, std::string> breaks = {};
+  static const std::string kPlaces =
+      "fingertips come down in another of several places that score alike";
+  static const std::string kPads = "pads come down in another minimum, some millimetres off";
+  static const std::string kParts = "its parts hang on the voxels";
+  static const std::string kPlacesAlong = "places along it score alike, by how the hand closes";
+  static const std::string kAlike = "its two halves are alike";
+  static const std::string kThinMesh = "its rings are as thin as the mesh is coarse";
+  static const std::map<std::string, std::string> breaks = {
+      {"coarser/cube_60mm", kPlaces},         {"coarser/drawer_knob", kPlaces},
+      {"coarser/lever_handle", kPlacesAlong}, {"coarser/nail_scissors", kAlike},
+      {"coarser/palm_sander", kParts},        {"coarser/pliers", kAlike},
+      {"coarser/power_drill", kPlacesAlong},  {"coarser/scissors", kThinMesh},
+      {"coarser/spray_bottle", kPlacesAlong}, {"coarser/tongs", kAlike},
+      {"coarser/tv_remote", kAlike},          {"finer/computer_mouse", kPads},
+      {"finer/cube_60mm", kPlaces},           {"finer/lever_handle", kPlacesAlong},
+      {"finer/palm_sander", kParts},          {"finer/spray_bottle", kPlacesAlong},
+      {"finer/tailors_shears", kThinMesh},    {"larger/computer_mouse", kPads},
+      {"larger/palm_sander", kParts},         {"mirrored/dinner_plate", kPlaces},
+      {"mirrored/drawer_knob", kPlaces},      {"mirrored/flat_mouse", kPads},
+      {"mirrored/handheld_console", kPlaces}, {"mirrored/lever_handle", kPlacesAlong},
+      {"mirrored/nail_scissors", kAlike},     {"mirrored/spray_bottle", kPlacesAlong},
+      {"mirrored/tv_remote", kAlike},         {"shifted/computer_mouse", kPads},
+      {"shifted/handheld_console", kPlaces},  {"shifted/lever_handle", kPlacesAlong},
+      {"shifted/palm_sander", kParts},        {"shuffled/cube_60mm", kPlaces},
+      {"shuffled/drawer_knob", kPlaces},      {"shuffled/lever_handle", kPlacesAlong},
+      {"shuffled/palm_sander", kParts},       {"turned/computer_mouse", kPads},
+      {"turned/cube_60mm", kPlaces},          {"turned/handheld_console", kPlaces},
+      {"turned/palm_sander", kParts},
+  };
   return breaks;
 }
 

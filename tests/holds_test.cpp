@@ -1,8 +1,9 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether the first hold that is found is one that people do, on ten scanned and 22 made products.
-// What people do was written down before the choice was run (holds/people.toml, holds/made.toml).
+// Whether the first hold that is found is one that people do, on ten scanned and 34 made products.
+// What people do was written down before the choice was run (holds/people.toml, holds/made.toml,
+// holds/moved.toml).
 //
 // PALMAR_HOLDS_TABLE=FILE writes what people do against what is found as a Markdown table.
 #include <fmt/format.h>
@@ -27,13 +28,9 @@ namespace {
 // and held as people do fails, too: then it is struck off.
 const std::map<std::string, std::string>& known_misses() {
   static const std::map<std::string, std::string> misses = {
-      {"handheld_console", "a plate is pinched near the middle of its weight, not at a side"},
-      {"dinner_plate", "pinched 3 mm within the rim that people take"},
-      {"cube_60mm", "five fingertips, 2 mm off the box in which people take it"},
-      {"drawer_knob", "the palm is offered before the fingertips"},
-      {"scissors", "there is no grip of two rings, and only one ring is found"},
-      {"computer_mouse", "there is no hand that rests on a thing"},
-      {"umbrella", "the furled canopy is as good a bar as the crook"},
+      {"palm_sander", "the dome's axis isn't found, so the palm isn't offered over its top"},
+      {"tv_remote", "its two ends are alike: nothing tells where the window is"},
+      {"flat_mouse", "its two ends are alike: nothing tells where the buttons are"},
   };
   return misses;
 }
@@ -43,8 +40,8 @@ const std::vector<PeoplesHold>& all_peoples_holds() {
     const std::filesystem::path folder =
         std::filesystem::path(PALMAR_SOURCE_DIR) / "tests" / "holds";
     std::vector<PeoplesHold> list = read_peoples_holds(folder / "people.toml");
-    for (PeoplesHold& hold : read_peoples_holds(folder / "made.toml")) {
-      list.push_back(std::move(hold));
+    for (const char* made : {"made.toml", "moved.toml"}) {
+      for (PeoplesHold& hold : read_peoples_holds(folder / made)) list.push_back(std::move(hold));
     }
     return list;
   }();
@@ -99,14 +96,16 @@ INSTANTIATE_TEST_SUITE_P(Products, PeoplesHolds, testing::ValuesIn(tried_product
 class Holds : public TemplateTest {};
 
 TEST_F(Holds, IndexFingerLiesOnTheTrigger) {
-  if (!has_scans()) GTEST_SKIP() << "the scanned products are not here (../shared/products)";
   for (const PeoplesHold& people : all_peoples_holds()) {
     if (!people.index_fingertip) continue;
+    if (people.product == "power_drill" && !has_scans()) continue;
     const RankedHolds& found = ranked(hand(), people.product);
     ASSERT_FALSE(found.holds.empty()) << people.product;
     const Vec3 tip = index_fingertip(hand(), found.holds.front());
-    // Known shortfall: on the drill 13 mm below the trigger. There are no triggers among the parts.
-    EXPECT_LT(people.index_fingertip->exteriorDistance(tip), 15.0)
+    // Known shortfall: on the drill 13 mm below the trigger, since its tail stops the ball of the
+    // thumb before the hand is as high as people have it. The others are within 5 mm.
+    const double most = people.product == "power_drill" ? 15.0 : 5.0;
+    EXPECT_LT(people.index_fingertip->exteriorDistance(tip), most)
         << people.product << ": the tip of the index finger is at " << tip.transpose() << " mm";
   }
 }
@@ -173,13 +172,13 @@ TEST(MadeProducts, AreClosedManifoldsAndHaveAnEntryOfWhatPeopleDo) {
     EXPECT_EQ(report.components, 1);
     EXPECT_GT(mesh.triangle_count(), 5000);
     EXPECT_LT(mesh.triangle_count(), 40000);
-    EXPECT_FALSE(peoples_holds(shape.name).empty()) << "made.toml lacks it";
+    EXPECT_FALSE(peoples_holds(shape.name).empty()) << "made.toml and moved.toml lack it";
   }
   EXPECT_EQ(made.size(), made_shapes().size()) << "two have the same name";
   // One tunnel for each opening that a hand, a finger or a ring goes through, none besides.
-  const std::map<std::string, int> tunnels = {{"kettle", 1},   {"jug", 1},    {"suitcase", 1},
-                                              {"scissors", 2}, {"bucket", 1}, {"spade", 1},
-                                              {"key", 1}};
+  const std::map<std::string, int> tunnels = {
+      {"kettle", 1}, {"jug", 1}, {"suitcase", 1},       {"scissors", 2},     {"bucket", 1},
+      {"spade", 1},  {"key", 1}, {"tailors_shears", 2}, {"nail_scissors", 2}};
   for (const MadeShape& shape : made_shapes()) {
     const auto expected = tunnels.find(shape.name);
     EXPECT_EQ(examine_topology(net_mesh_of(shape.solid, shape.lattice)).euler_number,

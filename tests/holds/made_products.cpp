@@ -10,6 +10,7 @@ const std::vector<MadeShape>& made_shapes() {
   static const std::vector<MadeShape> all = [] {
     std::vector<MadeShape> shapes = made_household();
     for (MadeShape& shape : made_tools()) shapes.push_back(std::move(shape));
+    for (MadeShape& shape : made_moved()) shapes.push_back(std::move(shape));
     return shapes;
   }();
   return all;

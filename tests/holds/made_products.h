@@ -10,7 +10,7 @@
 namespace palmar {
 
 /// An everyday product made from simple solids, of the size of such things. tests/holds/made.toml
-/// says how people take hold of it.
+/// and moved.toml say how people take hold of it.
 struct MadeShape {
   std::string name;
   Sdf solid;
@@ -21,6 +21,8 @@ struct MadeShape {
 std::vector<MadeShape> made_household();
 /// Tools, handles, and what else is carried or moved by hand.
 std::vector<MadeShape> made_tools();
+/// Things with rings, triggers and two handles, and things that are moved where they stand.
+std::vector<MadeShape> made_moved();
 
 /// All of them.
 const std::vector<MadeShape>& made_shapes();

@@ -37,7 +37,8 @@ const std::map<std::string, std::vector<std::string>>& grip_families() {
       {"lateral", {"lateral", "lateral_tripod"}},
       {"plate", {"extension_type", "parallel_extension", "plate"}},
       {"ring", {"distal_type", "scissors", "ring"}},
-      {"rest", {"rest", "relaxed", "resting_hand"}},
+      {"rest", {"rest", "relaxed", "resting_hand", "flat_hand"}},
+      {"push", {"finger_push"}},
   };
   return families;
 }
@@ -146,11 +147,21 @@ std::vector<PeoplesHold> read_peoples_holds(const std::filesystem::path& file) {
 Vec3 centre_of(const RankedHold& found) {
   const Grasp& grasp = found.grasp;
   if (is_power(grasp.grip) || grasp.fingertips.empty()) return grasp.grip_point;
-  Vec3 mean = Vec3::Zero();
+  // Between the thumb and the middle of the others, which press against each other as one (virtual
+  // fingers: Iberall 1997, Int J Robotics Research 16:285-299).
+  const auto count = static_cast<double>(grasp.fingertips.size());
+  Vec3 mean = Vec3::Zero(), others = Vec3::Zero();
+  std::optional<Vec3> thumb;
   for (const FingertipContact& tip : grasp.fingertips) {
-    mean += tip.target / static_cast<double>(grasp.fingertips.size());
+    mean += tip.target / count;
+    if (tip.finger == Finger::kThumb) {
+      thumb = tip.target;
+    } else {
+      others += tip.target / std::max(1.0, count - 1.0);
+    }
   }
-  return mean;
+  return thumb && count > 1.0 && !is_non_prehensile(grasp.grip) ? Vec3(0.5 * (*thumb + others))
+                                                                : mean;
 }
 
 Vec3 index_fingertip(const Hand& hand, const RankedHold& found) {

@@ -39,7 +39,8 @@ std::string objection(const PeoplesHold& people, const RankedHold& found);
 std::string objection(const std::vector<PeoplesHold>& people, const RankedHold& found);
 
 /// Centre of a hold: of a grip with the palm, the point of the axis that the hand is round; of
-/// fingertips, the mean of their targets. Product frame, mm.
+/// fingertips, the middle between the thumb's target and the mean of the others'; of a hand that
+/// lies on the product, the mean of all. Product frame, mm.
 Vec3 centre_of(const RankedHold& found);
 
 /// Where the index finger's tip is, product frame, mm.

@@ -67,7 +67,7 @@ bool has_scans() { return std::filesystem::exists(scan_folder()); }
 std::vector<std::string> tried_products() {
   std::vector<std::string> names;
   const std::filesystem::path lists = std::filesystem::path(PALMAR_SOURCE_DIR) / "tests" / "holds";
-  for (const char* list : {"people.toml", "made.toml"}) {
+  for (const char* list : {"people.toml", "made.toml", "moved.toml"}) {
     if (std::string(list) == "people.toml" && !has_scans()) continue;
     for (const PeoplesHold& hold : read_peoples_holds(lists / list)) {
       if (std::find(names.begin(), names.end(), hold.product) == names.end()) {

@@ -23,6 +23,10 @@ struct PartsArguments {
 
 Json parts_vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+std::string parts_point_text(const Vec3& v) {
+  return fmt::format("{:.0f}, {:.0f}, {:.0f}", v.x(), v.y(), v.z());
+}
+
 Json parts_part_json(const ProductPart& part) {
   Json json = {{"number", part.number},
                {"kind", name_of(part.kind)},
@@ -115,6 +119,23 @@ int list_parts(PartsArguments& o, const Context& context) {
     Json list = Json::array();
     for (const ProductPart& part : parts.parts) list.push_back(parts_part_json(part));
     Json json = {{"product", product.name}, {"source", product.source}, {"parts", std::move(list)}};
+    json["triggers"] = Json::array();
+    for (const PartTrigger& trigger : parts.triggers) {
+      json["triggers"].push_back({{"part", trigger.part},
+                                  {"point_mm", parts_vector_json(trigger.point)},
+                                  {"front", parts_vector_json(trigger.front)},
+                                  {"along", trigger.along},
+                                  {"length_mm", trigger.length},
+                                  {"reach_mm", trigger.reach}});
+    }
+    json["buttons"] = Json::array();
+    for (const PartButton& button : parts.buttons) {
+      json["buttons"].push_back({{"part", button.part},
+                                 {"point_mm", parts_vector_json(button.point)},
+                                 {"normal", parts_vector_json(button.normal)},
+                                 {"width_mm", button.width},
+                                 {"height_mm", button.height}});
+    }
     if (parts.narrow_tunnels) json["narrow_tunnels"] = *parts.narrow_tunnels;
     print(json.dump(2) + "\n");
   } else {
@@ -123,6 +144,15 @@ int list_parts(PartsArguments& o, const Context& context) {
     text += fmt::format("{:>2}  {:<5} {:<12} {:>6} {:>6} {:>6} {:>9}\n", "", "kind", "name",
                         "length", "girth", "width", "thickness");
     for (const ProductPart& part : parts.parts) text += parts_part_text(part);
+    for (const PartTrigger& trigger : parts.triggers) {
+      text +=
+          fmt::format("trigger before {}: {:.0f} mm long, {:.0f} mm before it, at ({})\n",
+                      trigger.part, trigger.length, trigger.reach, parts_point_text(trigger.point));
+    }
+    for (const PartButton& button : parts.buttons) {
+      text += fmt::format("button on {}: {:.0f} mm wide, {:.0f} mm high, at ({})\n", button.part,
+                          button.width, button.height, parts_point_text(button.point));
+    }
     text += "lengths in mm; girth, width and thickness are medians along the part\n";
     if (parts.narrow_tunnels.value_or(0) > 0) {
       text += fmt::format("{} tunnel{} too narrow for a finger, or faults of a scan\n",

@@ -37,18 +37,26 @@ export function isPower(assessment: Assessment, vocabulary: Vocabulary): boolean
 
 /// "Held", "Too large for this hand"
 export function statusWords(assessment: Assessment, vocabulary: Vocabulary): string {
-  const { status } = assessment.grasp;
+  const { status, grip } = assessment.grasp;
   if (status === "not_graspable" && !isPower(assessment, vocabulary)) return say("badge.no_place");
-  const shown = sayName("badge", status, vocabulary.statuses[status]);
+  const unheld = status === "held" ? unheldWords[grip] : undefined;
+  const shown = unheld ? say(unheld) : sayName("badge", status, vocabulary.statuses[status]);
   const doubts = assessment.doubts.map((one) => say("badge.doubt." + one.key));
   return doubts.length > 0 && status === "held" ? say("badge.but", { status: shown, doubts: sayList(doubts) }) : shown;
 }
+
+/// Of grips that hold nothing.
+const unheldWords: { [grip: string]: string } = {
+  resting_hand: "badge.rests",
+  flat_hand: "badge.rests",
+  finger_push: "badge.pushes",
+};
 
 /// "power grip", "tripod grip", "tip pinch"
 export function gripWords(assessment: Assessment, vocabulary: Vocabulary): string {
   if (isPower(assessment, vocabulary)) return say("grip.power");
   const name = assessment.grasp.grip.replace(/_/g, " ");
-  return /pinch$/.test(name) ? name : say("grip.other", { name });
+  return /pinch$/.test(name) || assessment.grasp.grip in unheldWords ? name : say("grip.other", { name });
 }
 
 /// What decided how hard the hand grips, and how far to trust the figures.
@@ -114,6 +122,9 @@ function leftOver(contact: ContactResult): Markup {
 export function balanceVerdict(assessment: Assessment): Markup {
   const { balance, contact } = assessment;
   if (balance.status === "off") return leftOver(contact);
+  if (balance.status === "supported") {
+    return html`${note("", say("rest.supported"), capitalised(balance.message) + ".")}`;
+  }
   const slipsOut = balance.status === "slips_out";
   if (balance.status !== "balanced") {
     return html`${note("fair", say(slipsOut ? "rest.slips_out" : "rest.not"), capitalised(balance.message) + ".")}${slipsOut && html`<p>${say("rest.as_closed")}</p>

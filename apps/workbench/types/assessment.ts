@@ -54,7 +54,7 @@ export interface GraspResult {
 
 /// What is there whatever the status; the rest unless it is "off".
 export interface BalanceResult {
-  status: "off" | "balanced" | "slips_out" | "no_contact" | "not_converged" | "failed";
+  status: "off" | "balanced" | "supported" | "slips_out" | "no_contact" | "not_converged" | "failed";
   message: string;
   friction_coefficient?: number;
   grip_force_n?: number;

@@ -11,7 +11,9 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/holds/hold_place.h"
+#include "palmar/grasp/holds/laid_holds.h"
 #include "palmar/grasp/power/power_place.h"
+#include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
 namespace palmar {
@@ -56,11 +58,16 @@ struct GraspPlace::Impl {
   Grasp take_precisely(const Hold& taken, const Hand& hand, const Progress& progress) const;
   Grasp hold_power(const GraspingHand& hand, const Progress& progress) const;
   Grasp hold_precisely(const Hand& hand, const Progress& progress) const;
+  Grasp place_non_prehensile(const Hand& hand) const;
   std::string other_hold_of(const GraspingHand& hand, Grasp& failed,
                             const Progress& progress) const;
 };
 
 void GraspPlace::Impl::place_by_coordinates(const Progress& progress) {
+  if (options.grip && is_non_prehensile(*options.grip)) {
+    grasp = place_non_prehensile(*reference);
+    return;
+  }
   if (options.grip && !is_power(*options.grip)) {
     PrecisionGripOptions precision = options.precision;
     precision.grip = *options.grip;
@@ -74,6 +81,24 @@ void GraspPlace::Impl::place_by_coordinates(const Progress& progress) {
   if (!place->is_found) return;
   const HandCloser coarse(*reference, kSearchSpacing), fine(*reference, 0.0);
   grasp = close_at(*place, coarse, fine, *product, power, progress);
+}
+
+// A hand that rests or pushes where coordinates say. A laid hand has its middle knuckle there;
+// its fingers point along `axis`, else along the coordinate axis that is most nearly level there.
+Grasp GraspPlace::Impl::place_non_prehensile(const Hand& hand) const {
+  const PrecisionGripOptions& asked = options.precision;
+  Vec3 point = asked.placement.at.value_or(product->distance->bounding_box().center());
+  if (!asked.targets.empty()) point = asked.targets.front().point;
+  if (*options.grip == Grip::kFingerPush) return close_finger_push(hand, *product, point);
+  const DistanceSample at = product->distance->at(point);
+  LaidSite site;
+  site.knuckle = at.closest;
+  site.up = options.holds.up ? options.holds.up->normalized() : at.normal;
+  Eigen::Index level = 0;
+  site.up.cwiseAbs().minCoeff(&level);
+  site.fingers = asked.placement.axis.value_or(Vec3::Unit(level));
+  site.fingers = (site.fingers - site.up * site.up.dot(site.fingers)).normalized();
+  return close_laid_hand(hand, *product, *options.grip, site);
 }
 
 void GraspPlace::Impl::place_by_hold(const Progress& progress) {
@@ -142,6 +167,12 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
 Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const Hand& hand,
                                        const Progress& progress) const {
   const ProductPart& part = part_of(taken, ranked.parts);
+  if (is_laid(taken.grip)) {
+    return close_laid_hand(hand, *product, taken.grip, laid_site_of(taken, ranked.parts, *product));
+  }
+  if (taken.grip == Grip::kFingerPush) {
+    return close_finger_push(hand, *product, point_at(part, taken.fingertips.front().place));
+  }
   PrecisionGripOptions precision = options.precision;
   precision.grip = taken.grip;
   precision.placement = {};
@@ -165,6 +196,7 @@ Grasp GraspPlace::Impl::hold_power(const GraspingHand& hand, const Progress& pro
 
 Grasp GraspPlace::Impl::hold_precisely(const Hand& hand, const Progress& progress) const {
   if (hold) return take_precisely(*hold, hand, progress);
+  if (is_non_prehensile(*options.grip)) return place_non_prehensile(hand);
   PrecisionGripOptions same = options.precision;
   same.grip = *options.grip;
   same.targets.clear();

@@ -29,6 +29,13 @@ constexpr std::array<GripDescription, kGripCount> kGrips = {{
      "disc disk lid"},
     {Grip::kWritingTripod, "writing_tripod", "Writing Tripod", 20, GripFamily::kPrecision,
      "writing pen"},
+    {Grip::kDistalType, "distal_type", "Distal Type", 19, GripFamily::kPower,
+     "scissors ring ring_grip rings"},
+    {Grip::kRestingHand, "resting_hand", "Resting Hand", 0, GripFamily::kNonPrehensile,
+     "rest relaxed mouse"},
+    {Grip::kFlatHand, "flat_hand", "Flat Hand", 0, GripFamily::kNonPrehensile, "flat platform"},
+    {Grip::kFingerPush, "finger_push", "Finger Push", 0, GripFamily::kNonPrehensile,
+     "push press button"},
 }};
 
 std::string plain(std::string_view text) {
@@ -54,6 +61,8 @@ std::string_view name_of(GripFamily family) {
       return "precision";
     case GripFamily::kIntermediate:
       return "intermediate";
+    case GripFamily::kNonPrehensile:
+      return "non_prehensile";
   }
   return "unknown";
 }
@@ -70,6 +79,14 @@ std::optional<Grip> grip_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_power(Grip grip) { return description_of(grip).family == GripFamily::kPower; }
+bool is_power(Grip grip) {
+  return description_of(grip).family == GripFamily::kPower && grip != Grip::kDistalType;
+}
+
+bool is_non_prehensile(Grip grip) {
+  return description_of(grip).family == GripFamily::kNonPrehensile;
+}
+
+bool is_laid(Grip grip) { return grip == Grip::kRestingHand || grip == Grip::kFlatHand; }
 
 }  // namespace palmar

@@ -25,17 +25,24 @@ enum class Grip : std::uint8_t {
   kPrecisionSphere,  ///< 13: five fingertips spread round a body
   kPrecisionDisk,    ///< 12: five fingertips round the rim of a lid or knob, palm over its face
   kWritingTripod,    ///< 20: thumb and index finger press a pen on the side of the middle finger
+  kDistalType,       ///< 19: thumb through one ring, fingers through another: scissors
+  kRestingHand,      ///< a relaxed hand lies on a thing: on a computer mouse, a palm rest
+  kFlatHand,         ///< a flat hand lies on a thing: on a plate, a table
+  kFingerPush,       ///< the index finger presses: on a button, a key
 };
-inline constexpr int kGripCount = 12;
+inline constexpr int kGripCount = 16;
 
-enum class GripFamily : std::uint8_t { kPower, kPrecision, kIntermediate };
+/// Non-prehensile (Napier 1956, J Bone Joint Surg 38-B:902-913): nothing is grasped, the hand rests
+/// on a thing or pushes it ("platform" and "push", Cutkosky 1989, IEEE Trans Robotics Automation
+/// 5:269-279). The GRASP taxonomy leaves it out.
+enum class GripFamily : std::uint8_t { kPower, kPrecision, kIntermediate, kNonPrehensile };
 
 /// What the taxonomy says of a grip.
 struct GripDescription {
   Grip grip{};
   std::string_view name;           ///< "medium_wrap"
   std::string_view taxonomy_name;  ///< "Medium Wrap"
-  int taxonomy_number = 0;
+  int taxonomy_number = 0;         ///< 0: not in the taxonomy
   GripFamily family{};
   /// Other names that are taken for it, separated by blanks: "cylinder", "key", "pad-pinch".
   std::string_view also_called;
@@ -47,6 +54,12 @@ std::string_view name_of(GripFamily family);
 /// The grip with that name, taxonomy name or other name ("key", "pad-pinch", "tripod"); '-' and '_'
 /// and case don't matter. Nothing for an unknown one.
 std::optional<Grip> grip_named(std::string_view name);
-bool is_power(Grip grip);  ///< the palm takes part, or the fingers hook
+/// Closed round the product with palm and fingers, or with hooked fingers. Not the distal type,
+/// which the taxonomy counts among power grips: it is put on by its fingertips.
+bool is_power(Grip grip);
+/// Nothing is grasped: the hand rests on a product that stands fast, or a finger pushes it.
+bool is_non_prehensile(Grip grip);
+/// The whole hand lies on the product: what is_non_prehensile() but for a push.
+bool is_laid(Grip grip);
 
 }  // namespace palmar

@@ -13,6 +13,8 @@ namespace {
 constexpr int kFingersOfWrap = 2;    // a handle with room for two is still wrapped: choice
 constexpr int kFingersOfSphere = 3;  // "five fingertips", of which one may miss: choice
 
+constexpr int kFingersOfRest = 2;  // those on a mouse's buttons: choice
+
 std::string called(Finger finger) {
   return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
@@ -62,6 +64,13 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kTripod:
     case Grip::kWritingTripod:
       return {{Finger::kThumb, Finger::kIndex, Finger::kMiddle}, 2};
+    case Grip::kDistalType:
+      return {{Finger::kThumb, Finger::kMiddle}, 1};
+    case Grip::kRestingHand:
+    case Grip::kFlatHand:
+      return {{}, kFingersOfRest};
+    case Grip::kFingerPush:
+      return {{Finger::kIndex}, 1};
   }
   return {};
 }

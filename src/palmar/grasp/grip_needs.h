@@ -13,7 +13,7 @@ namespace palmar {
 /// What a grip isn't itself without: which fingers have to touch the product. By the definitions of
 /// the GRASP taxonomy (Feix et al. 2016, table II, opposition types and virtual fingers): in wraps
 /// and the sphere the thumb opposes the fingers, in a hook the fingers pull against the palm or the
-/// load, in pinches and the tripod the thumb opposes one or two fingers that are named.
+/// load, in pinches, rings and the tripod the thumb opposes one or two fingers that are named.
 struct GripNeeds {
   std::vector<Finger> fingers;  ///< each of them
   int least_fingers = 0;        ///< so many besides the thumb

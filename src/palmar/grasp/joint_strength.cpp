@@ -55,6 +55,7 @@ double strength_share(Grip grip) {
   constexpr double kGrip = 541.8;
   switch (grip) {
     case Grip::kTipPinch:
+    case Grip::kFingerPush:  // the index finger's part in it
       return 78.3 / kGrip;
     case Grip::kLateral:
       return 117.4 / kGrip;
@@ -63,6 +64,7 @@ double strength_share(Grip grip) {
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
     case Grip::kWritingTripod:
+    case Grip::kDistalType:
       return 109.9 / kGrip;
     default:
       return 1.0;

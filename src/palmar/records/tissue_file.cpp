@@ -23,7 +23,7 @@
 namespace palmar {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = 1 << 20;  // a set of all regions has 20 kB
+constexpr std::uint64_t kMostTissueBytes = 1 << 20;  // a set of all regions has 20 kB
 constexpr double kKpaPerMpa = 1000.0;
 
 /// One number of a law: its key is name + level + unit, as in g0_low_kpa.
@@ -305,7 +305,7 @@ std::string region_toml(const std::string& section, const RegionTissue& region) 
 }  // namespace
 
 Tissue read_tissue(const std::string& path, const Tissue& base) {
-  const std::string text = read_file(path, kMaxBytes);
+  const std::string text = read_file(path, kMostTissueBytes);
   try {
     return TissueReader(path, base).read(toml::parse(text, path));
   } catch (const toml::parse_error& error) {

@@ -254,7 +254,8 @@ class StudySubject {
     }
     record.posture = held.grasp.posture;
     record.product_from_hand = held.grasp.product_from_hand;
-    record.is_balanced = held.balance.status == BalanceStatus::kBalanced;
+    record.is_balanced = held.balance.status == BalanceStatus::kBalanced ||
+                         held.balance.status == BalanceStatus::kSupported;
     if (record.outcome != StudyOutcome::kHeld) record.reason = held.grasp.message;
     if (!is_held(held.grasp)) return record;
     if (options.balance.is_on && !record.is_balanced) record.reason = held.balance.message;

@@ -9,6 +9,7 @@
 
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/grip_choice.h"
+#include "palmar/grasp/holds/hold_limits.h"
 
 namespace palmar {
 namespace {
@@ -19,8 +20,9 @@ constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off 
 constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
 constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
 constexpr double kSamePlace = 0.25;  // breadths of the fingers; nearer places are the same; choice
-constexpr double kStub = 1.8;        // length over diameter of a bar that is a knob; choice
-constexpr double kIndexBeyond = 0.25;  // one of four fingers lies beyond a short handle's end
+constexpr double kIndexBeyond = 0.25;    // one of four fingers lies beyond a short handle's end
+constexpr double kBelowTrigger = 0.25;   // of the fingers' breadth: one finger; choice
+constexpr double kIndexPlaceOf = 0.375;  // of the fingers' breadth: the index finger's middle
 
 struct Place {
   double along = 0.5, edge = 0.0;
@@ -51,6 +53,18 @@ std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, in
   if (part.is_ring) {
     for (const double along : {0.0, 0.25, 0.5, 0.75}) places.push_back({along, 0.0});
     return places;
+  }
+  const PartTrigger* trigger = trigger_of(scene, part);
+  if (trigger != nullptr && trigger->end == (toward > 0 ? 1U : 0U)) {
+    // The index finger on the trigger, which may stand before what the handle carries.
+    // At its middle; or a finger lower, from where the index finger reaches up to it: what the
+    // handle carries may be in the way of the thumb's ball.
+    for (const double lower : {0.0, kBelowTrigger}) {
+      const double at = trigger->along - toward * lower * breadth / part.length;
+      const double end = std::clamp(at, 0.0, 1.0);
+      const double beyond = toward * (at - end) * part.length;
+      places.push_back({end, std::max(-0.5, kIndexPlaceOf - beyond / breadth)});
+    }
   }
   places.push_back({0.5, 0.0});
   if (part.opening) {
@@ -149,7 +163,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
       }
     }
     // A knob or lid is taken from its free end; a whole ball from any side, so from these, too.
-    const bool is_stub = part.kind == PartKind::kBar && part.length < kStub * part.diameter();
+    const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter();
     const bool is_capped = part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub;
     if (!is_capped || part.is_ring || options.along) continue;
     hold.is_over_end = true;

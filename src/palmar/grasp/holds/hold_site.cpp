@@ -5,9 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/grasp/holds/twin_handles.h"
 
 namespace palmar {
 namespace {
@@ -63,11 +65,46 @@ MeanSection mean_section(const ProductPart& part, double middle, double reach) {
   return mean;
 }
 
+constexpr double kOutside = 0.7;  // cosine between the palm and the way out of the other handle
+
 // Extent of a mesh from a point along a direction, mm.
 double extent_ahead(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
   double farthest = 0.0;
   for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, direction.dot(v - point));
   return farthest;
+}
+
+// A palm on the outside of one of two handles: the fingers go round both.
+void take_both(const ProductPart& part, const ProductPart& twin, HoldSite& at) {
+  GripSite& site = at.site;
+  const PartPlace beside = place_of(twin, site.point);
+  const double along = std::clamp(beside.along, 0.0, 1.0);
+  Vec3 apart = site.point - part_frame(twin, along, 0.0).translation;
+  apart -= site.axis * site.axis.dot(apart);
+  const double away = apart.norm();
+  if (away < 1.0 || apart.dot(at.palm) < kOutside * away) return;
+  apart /= away;
+  at.palm = apart;
+  const auto extent = [&](const ProductPart& bar) {
+    const PartSection* nearest = &bar.sections.front();
+    for (const PartSection& section : bar.sections) {
+      if ((section.centre - site.point).norm() < (nearest->centre - site.point).norm()) {
+        nearest = &section;
+      }
+    }
+    const double w = apart.dot(nearest->wide), t = std::sqrt(std::max(0.0, 1.0 - w * w));
+    return Eigen::Vector2d(std::hypot(w * nearest->width, t * nearest->thickness),
+                           std::hypot(t * nearest->width, w * nearest->thickness));
+  };
+  if (part.sections.empty() || twin.sections.empty()) return;
+  const Eigen::Vector2d own = extent(part), others = extent(twin);
+  site.point -= 0.5 * (away - 0.5 * own.x() + 0.5 * others.x()) * apart;
+  site.wide = apart;
+  site.width = away + 0.5 * (own.x() + others.x());
+  site.thickness = std::max(own.y(), others.y());
+  // A tape round both: two half circles and two straight lines.
+  site.girth = std::numbers::pi * site.thickness + 2.0 * std::max(0.0, site.width - site.thickness);
+  at.is_round_both = true;
 }
 
 }  // namespace
@@ -132,6 +169,9 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
   site.girth = section.girth;
   site.width = section.width;
   site.thickness = section.thickness;
+  if (const ProductPart* twin = twin_of(part, parts); twin != nullptr && !hold.is_over_end) {
+    take_both(part, *twin, result);
+  }
   site.ahead = extent_ahead(product.mesh, site.point, site.axis);
   site.score = 1.0;
   const double turn =

@@ -12,10 +12,11 @@ namespace palmar {
 
 /// A power grip's hold seen by one hand.
 struct HoldSite {
-  GripSite site;              ///< `point`: in the middle of the four fingers
-  Vec3 palm = Vec3::UnitZ();  ///< unit, across the axis: from the axis to the palm, product frame
-  double turn = 0.0;          ///< HandlePose::turn of that
-  bool is_loop = false;       ///< fingers go through an opening
+  GripSite site;               ///< `point`: in the middle of the four fingers
+  Vec3 palm = Vec3::UnitZ();   ///< unit, across the axis: from the axis to the palm, product frame
+  double turn = 0.0;           ///< HandlePose::turn of that
+  bool is_loop = false;        ///< fingers go through an opening
+  bool is_round_both = false;  ///< fingers go round both handles of a tool with two
 };
 
 /// Where a hand takes a hold. `hand` gives size and side. The site's measures are means over what

@@ -11,6 +11,8 @@
 
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/holds/twin_handles.h"
 #include "palmar/product/mass.h"
 
 namespace palmar {
@@ -32,14 +34,13 @@ constexpr double kWideShare = 0.04;  // of people's grasps
 constexpr double kBesideHandle = 0.1;
 constexpr double kThinnestHandle = 14.0;    // mm; thinner bars are shafts and stems
 constexpr double kShortestHandle = 45.0;    // mm; two fingers and a half
+constexpr double kBent = 0.8;               // distance of the ends over length: choice
 constexpr double kInLine = 0.95;            // cosine of the angle between a neck and its bottle
-constexpr double kStubShare = 1.8;          // length over diameter: shorter bars are knobs; choice
 constexpr double kLargestKnob = 80.0;       // mm; as wide as hands span with ease; choice
 constexpr double kFewestFingers = 0.45;     // of the fingers' breadth through a loop: two fingers
 constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
 constexpr double kMoment =
-    400.0;                      // N mm of weight about the grip that people begin to avoid; choice
-constexpr double kSpan = 0.55;  // hand lengths that thumb and fingers hold between them; choice
+    400.0;  // N mm of weight about the grip that people begin to avoid; choice
 constexpr double kTooWide = 8.0;               // per share beyond; choice
 constexpr double kNoseAngle = 40.0 * kDegree;  // choice
 constexpr double kLoopAngle = 45.0 * kDegree;  // choice
@@ -47,11 +48,15 @@ constexpr double kFlatLoss = 3.0;              // an edge of a sheet in the palm
 constexpr double kThumbSide = 1.5;   // per share of the product on the little finger's side; choice
 constexpr double kUpsideDown = 2.5;  // thumb down where up was given; choice
 constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from the shape; choice
-constexpr double kHollow = 0.7;      // volume over that with its hollow: less is a vessel; choice
-constexpr double kEvenShare = 0.01;  // of the length; nearer to the middle says nothing; choice
-constexpr double kWrongEnd = 1.5;    // a tool's working end at the little finger; choice
-constexpr double kSkinRoom = 6.0;    // mm that a finger's middle keeps off the product
-constexpr double kBlocked = 6.0;     // all of the hand's room taken; choice
+constexpr double kHollow = 0.7;        // volume over that with its hollow: less is a vessel; choice
+constexpr double kEvenShare = 0.01;    // of the length; nearer to the middle says nothing; choice
+constexpr double kWrongEnd = 1.5;      // a tool's working end at the little finger; choice
+constexpr double kIndexPlace = 0.375;  // of the fingers' breadth, from their middle
+constexpr double kOneOfTwo = 0.1;      // who takes one of two handles; choice
+constexpr double kTriggerSpread = 0.2;  // of the fingers' breadth; choice
+constexpr double kOffTrigger = 0.1;     // who uses it so that no finger is on it; choice
+constexpr double kSkinRoom = 6.0;       // mm that a finger's middle keeps off the product
+constexpr double kBlocked = 6.0;        // all of the hand's room taken; choice
 
 double log_normal(double value, double best, double thin, double thick) {
   const double ratio = std::log(value / best);
@@ -84,7 +89,7 @@ HoldTerm span_term(const HoldScene& scene, const HoldSite& at) {
   const double w = across.dot(at.site.wide), t = across.dot(at.site.axis.cross(at.site.wide));
   const double span = std::sqrt(w * w * at.site.width * at.site.width +
                                 t * t * at.site.thickness * at.site.thickness);
-  const double over = std::clamp(span / (kSpan * length) - 1.0, 0.0, 0.5);
+  const double over = std::clamp(span / (kHandSpan * length) - 1.0, 0.0, 0.5);
   return {"span", span, "mm", -kTooWide * over,
           fmt::format("{:.0f} mm wide across the palm, {:.0f} % of hand length", span,
                       100.0 * span / length)};
@@ -110,8 +115,13 @@ HoldTerm coverage_term(const HoldScene& scene, const ProductPart& part, const Ho
     covered = std::min(breadth, part.opening->width);
   } else if (!part.is_ring) {
     const double middle = hold.along * part.length - hold.toward * hold.edge * breadth;
+    double low = 0.0, high = part.length;
+    if (const PartTrigger* trigger = trigger_of(scene, part)) {  // a finger has its place on that
+      low = std::min(low, trigger->along * part.length - 0.5 * trigger->length);
+      high = std::max(high, trigger->along * part.length + 0.5 * trigger->length);
+    }
     covered = std::max(
-        0.0, std::min(middle + 0.5 * breadth, part.length) - std::max(middle - 0.5 * breadth, 0.0));
+        0.0, std::min(middle + 0.5 * breadth, high) - std::max(middle - 0.5 * breadth, low));
   }
   const double share = covered / breadth;
   const double enough = part.opening ? kFewestFingers : 1.0;
@@ -134,6 +144,29 @@ HoldTerm moment_term(const HoldScene& scene, const GripSite& site) {
   const double ratio = moment / kMoment;
   return {"moment of the weight", moment, "N mm", -0.5 * std::log1p(ratio * ratio),
           fmt::format("its weight is {:.0f} mm beside the grip", lever.norm())};
+}
+
+// The index finger, a quarter of the breadth of the four on the thumb's side, lies on the trigger.
+HoldTerm trigger_term(const HoldScene& scene, const PartTrigger& trigger, const HoldSite& at) {
+  const double breadth = fingers_breadth(*scene.hand);
+  const Vec3 index = at.site.point + kIndexPlace * breadth * at.site.axis;
+  const double off = at.site.axis.dot(trigger.point - index);
+  const ProductPart& part = scene.parts->parts[trigger.part - 1];
+  const Vec3 outwards =
+      (trigger.end == 1 ? 1.0 : -1.0) *
+      (part_frame(part, static_cast<double>(trigger.end), 0.0).rotation * Vec3::UnitX());
+  if (at.site.axis.dot(outwards) < 0.0) {
+    return {"trigger", std::abs(off), "mm", std::log(kOffTrigger),
+            "the little finger is next to the trigger"};
+  }
+  // Anywhere on it, half a finger within its ends.
+  const double beside =
+      std::max(0.0, std::abs(off) - std::max(0.0, 0.5 * trigger.length - 0.125 * breadth));
+  const double z = beside / (kTriggerSpread * breadth);
+  return {"trigger", std::abs(off), "mm", std::max(std::log(kOffTrigger), -0.5 * z * z),
+          beside < 0.125 * breadth
+              ? "the index finger lies on the trigger"
+              : fmt::format("the index finger is {:.0f} mm beside the trigger", std::abs(off))};
 }
 
 // Shares of the surface that lie beyond the hand on the thumb's and on the little finger's side,
@@ -207,6 +240,12 @@ HoldTerm palm_term(const HoldScene& scene, const ProductPart& part, const Hold& 
             std::abs(turn) < kLoopAngle ? "palm outside the loop, fingers through it"
                                         : "palm beside the loop"};
   }
+  if (at.is_round_both) {
+    return {"palm's side", 0.0, "deg", 0.0, "one handle in the palm, the fingers on the other"};
+  }
+  if (twin_of(part, *scene.parts) != nullptr) {
+    return {"palm's side", 180.0, "deg", std::log(kOneOfTwo), "only one of its two handles"};
+  }
   if (part.kind == PartKind::kBar) {
     if (const auto nose = nose_of(scene, site)) {
       const double angle = std::acos(std::clamp(-nose->dot(at.palm), -1.0, 1.0));
@@ -232,6 +271,9 @@ HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldS
   const Vec3 line = end - start;
   const double span = line.norm();
   const double breadth = fingers_breadth(*scene.hand);
+  if (trigger_of(scene, part) != nullptr) {
+    return {"place along it", 0.0, "mm", 0.0, "where its trigger is"};
+  }
   if (part.is_ring || part.opening || span < 0.5 * length) {
     return {"place along it", 0.0, "mm", 0.0, "at its middle"};
   }
@@ -323,6 +365,13 @@ bool is_knob(const ProductPart& part, const ProductParts& parts) {
   return base.kind == PartKind::kPlate || diagonal_of(base) > 2.0 * diagonal_of(part);
 }
 
+// The bent free end of a stick or an umbrella.
+bool is_crook(const ProductPart& part) {
+  return part.kind == PartKind::kBar && !part.joined.empty() &&
+         (!part.ends[0].joined || !part.ends[1].joined) && part.straightness < kBent &&
+         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
+}
+
 bool is_handle(const ProductPart& part, const ProductParts& parts, bool is_beside_loop) {
   if (part.kind == PartKind::kLoop) return parts.parts.size() > 1;
   const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter() &&
@@ -400,13 +449,26 @@ HoldScene hold_scene(const Hand& hand, const Product& product, const ProductPart
                part.opening->width > kFewestFingers * fingers_breadth(hand) &&
                parts.parts.front().kind == PartKind::kBody;
       });
+  const bool has_crook = std::any_of(parts.parts.begin(), parts.parts.end(), is_crook);
   for (const ProductPart& part : parts.parts) {
     const bool is_on_body =
         std::find(part.joined.begin(), part.joined.end(), 1) != part.joined.end();
-    scene.is_handle.push_back(is_handle(part, parts, has_loop_on_body && is_on_body) ? 1 : 0);
+    bool is_one = is_handle(part, parts, has_loop_on_body && is_on_body);
+    // A stick is held by its crook, and what has a trigger by what is behind it.
+    if (has_crook && part.kind == PartKind::kBar) is_one = is_crook(part);
+    is_one = is_one || twin_of(part, parts) != nullptr;
+    if (!parts.triggers.empty()) is_one = trigger_of(scene, part) != nullptr;
+    scene.is_handle.push_back(is_one ? 1 : 0);
     scene.has_handle = scene.has_handle || scene.is_handle.back() != 0;
   }
   return scene;
+}
+
+const PartTrigger* trigger_of(const HoldScene& scene, const ProductPart& part) {
+  for (const PartTrigger& trigger : scene.parts->triggers) {
+    if (trigger.part == part.number) return &trigger;
+  }
+  return nullptr;
 }
 
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
@@ -439,10 +501,17 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
     terms.push_back(room_term(scene, part, at));
     return terms;
   }
-  terms.push_back(coverage_term(scene, part, hold));
+  const PartTrigger* trigger = trigger_of(scene, part);
+  // From a neck with a trigger the hand goes on over the body below.
+  if (trigger == nullptr || !is_neck(part, *scene.parts)) {
+    terms.push_back(coverage_term(scene, part, hold));
+  }
+  if (trigger != nullptr && scene.purpose == HoldPurpose::kUse) {
+    terms.push_back(trigger_term(scene, *trigger, at));
+  }
   if (part.opening) terms.push_back(opening_term(scene, part));
   terms.push_back(place_term(scene, part, at));
-  terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
+  if (trigger == nullptr) terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
   terms.push_back(palm_term(scene, part, hold, at));
   if (part.kind != PartKind::kBar) terms.push_back(moment_term(scene, at.site));
   terms.push_back(room_term(scene, part, at));

@@ -39,6 +39,9 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
 /// side: unit, product frame; nothing if it doesn't.
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site);
 
+/// The trigger before a part; null if there is none.
+const PartTrigger* trigger_of(const HoldScene& scene, const ProductPart& part);
+
 double sum_of(const std::vector<HoldTerm>& terms);
 
 }  // namespace palmar

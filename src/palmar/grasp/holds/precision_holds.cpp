@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_candidates.h"
+#include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/precision/precision_grip.h"
+#include "palmar/grasp/precision/ring_targets.h"
+#include "palmar/product/parts/part_spread.h"
 
 namespace palmar {
 namespace {
@@ -29,8 +33,12 @@ constexpr double kTinyThing = 0.12;   // hand lengths: only two fingers find roo
 constexpr double kFlatThing = 0.4;    // thickness over width: a key, a card
 constexpr double kStem = 14.0;        // mm; thicker bars are for the whole hand
 constexpr double kSmallKnob = 0.25;   // hand lengths: fingertips rather than the palm
-constexpr double kSpanned = 0.55;     // hand lengths that thumb and fingers span
 constexpr double kThinPlate = 30.0;   // mm
+// Of hand length: how far in from the edge of a plate pads like to be, their own phalanges' length
+// (thumb and fingers lie flat on it); farther in the web of the thumb comes up to the edge. Choice.
+constexpr double kInFromEdge = 0.16;
+constexpr double kEdgeSpread = 15.0;  // mm; choice
+constexpr int kOutlineSides = 16;
 
 // Largest first, mm. Of a single part its own: principal axes of a cube are chance.
 Vec3 sorted_extents(const HoldScene& scene) {
@@ -49,15 +57,37 @@ std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part,
   if (part.kind == PartKind::kPen) return {{kTripod, 0.0}, {kPalmarPinch, -1.5}};
   if (extents[0] < kSmallThing * length) {
     if (extents[0] < kTinyThing * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
+    const bool is_box =
+        scene.parts->parts.size() == 1 && face_axes_of(scene.product->mesh).is_box();
+    // Fingertips spread round what is round; on a box they press on two faces.
+    if (is_box && extents[2] >= kFlatThing * extents[1]) {
+      return {{kTripod, -0.4}, {kPalmarPinch, -0.8}, {kPrecisionSphere, -1.0}};
+    }
     if (extents[2] < kFlatThing * extents[1]) return {{kLateral, -0.2}, {kPalmarPinch, -0.6}};
     return {{kPrecisionSphere, -0.4}, {kTripod, -0.6}, {kPalmarPinch, -1.2}};
   }
   if (part.kind == PartKind::kPlate && part.thickness < kThinPlate) {
     // Who can span it takes it into the palm.
-    const double spanned = part.width < kSpanned * length ? 1.0 : 0.0;
+    const double spanned = part.width < kHandSpan * length ? 1.0 : 0.0;
     return {{kPalmarPinch, -1.5 - spanned}, {kLateral, -1.7 - spanned}};
   }
   return {};
+}
+
+// How far in from the edge of a plate a point is (of its convex outline), mm.
+// Directions are counted from the plate's axis, so that they turn and mirror with it.
+double depth_from_edge(const TriangleMesh& mesh, const Vec3& normal, const Vec3& axis,
+                       const Vec3& point) {
+  const Vec3 u = (axis - normal * normal.dot(axis)).normalized(), v = normal.cross(u);
+  double least = 1e300;
+  for (int k = 0; k < kOutlineSides; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kOutlineSides;
+    const Vec3 out = std::cos(angle) * u + std::sin(angle) * v;
+    double farthest = 0.0;
+    for (const Vec3& p : mesh.vertices) farthest = std::max(farthest, out.dot(p - point));
+    least = std::min(least, farthest);
+  }
+  return least;
 }
 
 RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
@@ -88,6 +118,14 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   ranked.terms.push_back({"moment of the weight", scene.weight * lever, "N mm",
                           -0.5 * std::log1p(ratio * ratio),
                           fmt::format("its weight is {:.0f} mm beside the grip", lever)});
+  if (part.kind == PartKind::kPlate && part.face_normal) {
+    const double depth =
+        depth_from_edge(scene.product->mesh, *part.face_normal, part.line.front().axis, middle);
+    const double usual = kInFromEdge * scene.hand->dimensions.hand_length;
+    const double z = std::max(0.0, depth - usual) / kEdgeSpread;
+    ranked.terms.push_back({"reach over the edge", depth, "mm", -0.5 * std::min(z * z, 4.0),
+                            fmt::format("its pads are {:.0f} mm in from the edge", depth)});
+  }
   const double held = grasp.status == GraspStatus::kHeld         ? 0.0
                       : grasp.status == GraspStatus::kPartlyHeld ? -3.0
                                                                  : -8.0;
@@ -101,13 +139,20 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
                                         const Progress& progress) {
   std::vector<RankedHold> found;
   if (scene.parts->parts.empty() || options.is_power_only ||
-      (options.grip && is_power(*options.grip)))
+      (options.grip && (is_power(*options.grip) || is_non_prehensile(*options.grip))))
     return found;
+  const std::optional<ScissorRings> rings = scissor_rings(*scene.parts, *scene.product);
   std::vector<GripPrior> grips;
   if (options.grip) {
     grips.push_back({*options.grip, 0.0});
   } else {
-    grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
+    // What has a handle is taken there, unless that is offered to somebody else.
+    const bool is_passed_over = scene.has_handle && scene.is_handle[0] == 0;
+    if (!is_passed_over || scene.purpose != HoldPurpose::kUse) {
+      grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
+    }
+    // What two rings are for (Feix et al. 2016, grip 19).
+    if (rings) grips.insert(grips.begin(), {Grip::kDistalType, 0.0});
   }
   const auto try_grips = [&](const std::vector<GripPrior>& list, std::optional<Vec3> at) {
     for (const GripPrior& tried : list) {
@@ -115,6 +160,9 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
       PrecisionGripOptions precision;
       precision.grip = tried.grip;
       precision.placement.at = at;
+      if (tried.grip == Grip::kDistalType && rings) {
+        precision.targets = ring_targets(*scene.hand, *scene.product, *rings);
+      }
       const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
       if (grasp.fingertips.empty()) continue;
       RankedHold ranked = ranked_of(scene, grasp, tried.score);
@@ -123,7 +171,19 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
       }
     }
   };
-  try_grips(grips, {});
+  const ProductPart& largest = scene.parts->parts.front();
+  const bool is_wide_plate = !options.grip && largest.kind == PartKind::kPlate &&
+                             largest.thickness < kThinPlate &&
+                             largest.width >= kHandSpan * scene.hand->dimensions.hand_length;
+  if (is_wide_plate) {
+    // What the hand doesn't span is taken by an edge: at either end of its longer axis.
+    const double in = kInFromEdge * scene.hand->dimensions.hand_length / largest.length;
+    for (const double along : {in, 1.0 - in}) {
+      try_grips(grips, part_frame(largest, along, 0.0).translation);
+    }
+  } else {
+    try_grips(grips, {});
+  }
   if (options.grip || scene.parts->parts.size() < 2) return found;
   // A small knob on something larger; the stem of what has no handle.
   const double length = scene.hand->dimensions.hand_length;

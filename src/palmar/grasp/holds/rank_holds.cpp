@@ -13,7 +13,9 @@
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_place.h"
+#include "palmar/grasp/holds/laid_holds.h"
 #include "palmar/grasp/holds/precision_holds.h"
+#include "palmar/grasp/holds/twin_handles.h"
 
 namespace palmar {
 namespace {
@@ -64,8 +66,9 @@ HoldTerm grip_term(const PowerPlace& place, const HoldScene& scene, const Hold& 
   const double score = -kPerMissingFinger * missing - kPerMissingWrap * wrap -
                        kPerClash * measure.other_area +
                        std::min(0.0, kContactWeight * std::log(contact / 1.5));
-  std::string words = fmt::format("{} of {} fingers on it, {:.0f} degrees round it",
-                                  measure.fingers, wanted, 360.0 * measure.wrap);
+  const std::string of_wanted = measure.fingers < wanted ? fmt::format(" of {}", wanted) : "";
+  std::string words = fmt::format("{}{} fingers on it, {:.0f} degrees round it", measure.fingers,
+                                  of_wanted, 360.0 * measure.wrap);
   if (measure.other_area > 50.0) words += ", the back of the hand against it";
   return {"closing", static_cast<double>(measure.fingers), "", score, words};
 }
@@ -93,9 +96,38 @@ std::string against(const std::vector<HoldTerm>& terms) {
   return worst == terms.end() || worst->score > kWorthTelling ? "" : worst->words;
 }
 
-bool is_unlike(const Hand& hand, const RankedHold& a, const RankedHold& b) {
+// Whether the whole product is round about a part's axis: then it is all one on which side of it
+// the palm is.
+bool is_round_about(const ProductPart& axis_of, const ProductParts& parts) {
+  constexpr double kRound = 0.08;  // width over thickness, less 1
+  constexpr double kOff = 2.0;     // mm beside the axis; or a share of the width
+  const Rigid3 frame = part_frame(axis_of, 0.5, 0.0);
+  const Vec3 axis = frame.rotation * Vec3::UnitX();
+  for (const ProductPart& part : parts.parts) {
+    if (part.kind == PartKind::kLoop || part.is_ring || part.sections.empty()) return false;
+    const double width = std::max(part.width, 1.0);
+    if (part.width > (1.0 + kRound) * part.thickness) return false;
+    for (const PartStation& station : part.line) {
+      const Vec3 r = station.centre - frame.translation;
+      if ((r - axis * axis.dot(r)).norm() > std::max(kOff, 0.05 * width)) return false;
+    }
+  }
+  return true;
+}
+
+bool is_unlike(const Hand& hand, const ProductParts& parts, const RankedHold& a,
+               const RankedHold& b) {
   if (a.hold.part != b.hold.part || is_power(a.hold.grip) != is_power(b.hold.grip)) return true;
   if (!is_power(a.hold.grip) && a.hold.grip != b.hold.grip) return true;
+  const ProductPart& part = part_of(a.hold, parts);
+  if (is_power(a.hold.grip) && is_round_about(part, parts)) {
+    constexpr double kElsewhere = 20.0;  // mm along it
+    if (a.hold.is_over_end != b.hold.is_over_end) return true;
+    if (a.hold.is_over_end) return a.hold.along != b.hold.along;
+    const Vec3 axis = part_frame(part, 0.5, 0.0).rotation * Vec3::UnitX();
+    const double apart = axis.dot(a.grasp.grip_point - b.grasp.grip_point);
+    return a.hold.toward != b.hold.toward || std::abs(apart) > kElsewhere;
+  }
   return differ(hand, a.grasp.product_from_hand, b.grasp.product_from_hand);
 }
 
@@ -183,7 +215,11 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
       closed.push_back(std::move(done));
     }
   }
-  for (RankedHold& ranked : precision_holds(scene, options, progress)) {
+  std::vector<RankedHold> others = precision_holds(scene, options, progress);
+  for (RankedHold& ranked : laid_holds(scene, options, progress)) {
+    others.push_back(std::move(ranked));
+  }
+  for (RankedHold& ranked : others) {
     ++result.considered;
     ++result.closed;
     closed.push_back({std::move(ranked), kPrecisionOrder + closed.size()});
@@ -208,9 +244,9 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
   if (best != closed.end()) std::rotate(closed.begin(), best, best + 1);
   for (ClosedHold& hold : closed) {
     if (result.holds.size() == static_cast<std::size_t>(options.most)) break;
-    const bool is_new =
-        std::all_of(result.holds.begin(), result.holds.end(),
-                    [&](const RankedHold& other) { return is_unlike(hand, hold.ranked, other); });
+    const bool is_new = std::all_of(
+        result.holds.begin(), result.holds.end(),
+        [&](const RankedHold& other) { return is_unlike(hand, result.parts, hold.ranked, other); });
     if (is_new) result.holds.push_back(std::move(hold.ranked));
   }
   return result;
@@ -237,9 +273,14 @@ std::string words_of(const Hold& hold, const ProductParts& parts) {
   std::string grip(name_of(hold.grip));
   std::replace(grip.begin(), grip.end(), '_', ' ');
   std::string words = fmt::format("{} of the {}", grip, part.name);
+  if (is_non_prehensile(hold.grip)) return fmt::format("{} on the {}", grip, part.name);
+  if (hold.grip == Grip::kDistalType) {
+    return words + ", thumb through it, fingers through the other ring";
+  }
   if (!is_power(hold.grip)) return words;
   if (hold.is_over_end) return words + ", palm over its end";
   if (part.kind == PartKind::kLoop) words += ", fingers through it";
+  if (twin_of(part, parts) != nullptr) words += " and its twin";
   words += place_words(hold, part, parts);
   const std::size_t end = hold.toward > 0 ? 1 : 0;
   if (!part.is_ring && part.ends[end].joined && !part.ends[1 - end].joined) {

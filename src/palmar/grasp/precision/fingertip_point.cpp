@@ -84,6 +84,8 @@ std::string_view name_of(FingertipPart part) {
       return "tip_side";
     case FingertipPart::kWeb:
       return "web";
+    case FingertipPart::kMiddlePad:
+      return "middle_pad";
   }
   return "unknown";
 }
@@ -96,10 +98,12 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
   if (is_side && finger == Finger::kThumb) {
     throw Error("fingertip point: the thumb has no radial side that grips use");
   }
+  if (part == FingertipPart::kMiddlePad && finger == Finger::kThumb) {
+    throw Error("fingertip point: the thumb has no middle phalanx");
+  }
   const std::size_t last = finger == Finger::kThumb ? 1 : 2;
-  const std::size_t level = part == FingertipPart::kWeb          ? 0
-                            : part == FingertipPart::kRadialSide ? 1
-                                                                 : last;
+  const bool is_on_middle = part == FingertipPart::kRadialSide || part == FingertipPart::kMiddlePad;
+  const std::size_t level = part == FingertipPart::kWeb ? 0 : is_on_middle ? 1 : last;
   const Segment segment = *segments[level];
   const JointDof& flexion = skeleton.joint(joint_of(segment)).dofs.back();
   const Vec3 from = skeleton.joint(joint_of(segment)).centre;

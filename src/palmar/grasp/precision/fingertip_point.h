@@ -14,7 +14,8 @@ enum class FingertipPart {
   kTip,         ///< end of the pulp, below the nail's edge
   kRadialSide,  ///< thumb side of the middle phalanx near its end, where a key is pressed
   kTipSide,     ///< thumb side of the distal phalanx, where a pen lies
-  kWeb          ///< thumb side of the finger's root, where a pen's long end leans
+  kWeb,         ///< thumb side of the finger's root, where a pen's long end leans
+  kMiddlePad    ///< palmar side of the middle phalanx, on which a ring of scissors lies
 };
 std::string_view name_of(FingertipPart part);  ///< "pad", "tip", "radial_side", ...
 
@@ -40,9 +41,10 @@ struct FingertipPoint {
 ///     tip side     from 40 % of the distal phalanx, radial and 30 degrees palmar
 ///     web          from 25 % of the proximal phalanx (farther where the palm's skin is there),
 ///                  radial and 20 degrees dorsal
+///     middle pad   from 55 % of the middle phalanx, palmar
 ///
 /// The shares are our choice. Throws Error naming the finger where the ray meets no skin, or for a
-/// side of the thumb.
+/// side or a middle phalanx of the thumb.
 FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart part);
 
 }  // namespace palmar

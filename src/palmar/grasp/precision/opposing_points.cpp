@@ -23,6 +23,8 @@ constexpr double kPadOffset = 3.0;        // mm off the surface, where its dista
 constexpr double kFingerRoom = 7.0;       // mm off the surface that has to be free for a finger
 constexpr double kThinnest = 0.2;         // mm
 constexpr double kAway = 50.0;            // mm; unit of the cost of being off centre
+constexpr double kAwayFromPlace = 20.0;   // mm; the same where a place is asked for
+constexpr double kNearPlace = 40.0;       // mm from that where points are looked for
 constexpr double kAngleUnit = 20.0 * kDegree;  // of the cost of slanting normals
 constexpr double kWidthUnit = 20.0;            // mm
 constexpr double kPenSlenderness = 4.5;        // length over breadth
@@ -221,9 +223,27 @@ PinchShape pinch_shape(const TriangleMesh& mesh) {
   return shape;
 }
 
+namespace {
+
+// What of a mesh lies near a place: a knob on a board has few of the points that are spread over
+// all of it. All if nothing is near.
+TriangleMesh near_part(const TriangleMesh& mesh, const Vec3& place) {
+  TriangleMesh part;
+  part.vertices = mesh.vertices;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+    if ((middle - place).norm() < kNearPlace) part.triangles.push_back(t);
+  }
+  return part.triangles.empty() ? mesh : part;
+}
+
+}  // namespace
+
 std::vector<OpposingPair> find_opposing_pairs(const Product& product, const PinchShape& shape,
                                               const OpposingOptions& options) {
-  const std::vector<SurfacePoint> points = spread_points(product.mesh, kPoints);
+  const std::vector<SurfacePoint> points =
+      spread_points(options.at ? near_part(product.mesh, *options.at) : product.mesh, kPoints);
+  const double unit = options.at ? kAwayFromPlace : kAway;
   const RayQuery rays(product.mesh);
   const std::vector<Vec3> normals = triangle_normals(product.mesh);
   std::vector<Vec3> places = {shape.centre};
@@ -277,7 +297,7 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
       const Vec3 towards = shape.axes.col(std::abs(line.dot(shape.axes.col(0))) < 0.7 ? 0 : 1);
       const double roll = std::max(rolling(product, pair.a, pair.normal_a, towards, pair.width()),
                                    rolling(product, pair.b, pair.normal_b, towards, pair.width()));
-      pair.cost = options.central * away * away / (kAway * kAway) + slant * slant + wide * wide +
+      pair.cost = options.central * away * away / (unit * unit) + slant * slant + wide * wide +
                   kRollWeight * roll * roll;
       pairs.push_back(pair);
     }

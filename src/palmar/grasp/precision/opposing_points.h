@@ -52,6 +52,9 @@ struct OpposingOptions {
 /// points where that differs from the triangle's by more than 25 degrees lie on an edge and are
 /// left out. The same for a moved, turned or mirrored product.
 ///
+/// With a place asked for, points are spread over what is within 40 mm of it, and 20 mm stand for
+/// 50 in the cost.
+///
 ///     cost = central (|m - c| / 50 mm)^2 + (angle / 20 deg)^2 + (width beyond comfortable / 20)^2
 ///            + (w / 2 R)^2 / 2
 ///

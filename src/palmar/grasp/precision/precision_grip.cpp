@@ -14,20 +14,22 @@
 #include "palmar/grasp/precision/cost_order.h"
 #include "palmar/grasp/precision/fingertip_press.h"
 #include "palmar/grasp/precision/precision_search.h"
+#include "palmar/grasp/precision/ring_targets.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kReached = 1.0;      // mm; what counts as reached
-constexpr double kOffSurface = 2.0;   // mm; targets may be that far from the surface
-constexpr double kPadOffset = 3.0;    // mm off the surface, where its distance is smooth
-constexpr double kLeans = 3.0;        // mm; a pen nearer than that leans on the web
-constexpr std::size_t kPressed = 5;   // holds that are pressed and looked at by all their skin
-constexpr double kSkinUnit = 2.0;     // mm; cost of skin deeper than the fingertips
-constexpr double kAtLimit = 0.15;     // mm; that near to the depth counts as there
-constexpr double kDeepSkin = 4.0;     // mm; skin that much deeper than the fingertips can't be
-constexpr double kCrossing = 1.0;     // mm; fingers that much in each other can't be
-constexpr double kSmallWidth = 20.0;  // mm; then it is for want of room
+constexpr double kReached = 1.0;         // mm; what counts as reached
+constexpr double kOffSurface = 2.0;      // mm; targets may be that far from the surface
+constexpr double kPadOffset = 3.0;       // mm off the surface, where its distance is smooth
+constexpr double kLeans = 3.0;           // mm; a pen nearer than that leans on the web
+constexpr std::size_t kPressed = 5;      // holds that are pressed and looked at by all their skin
+constexpr double kSkinUnit = 2.0;        // mm; cost of skin deeper than the fingertips
+constexpr double kAtLimit = 0.15;        // mm; that near to the depth counts as there
+constexpr double kDeepSkin = 4.0;        // mm; skin that much deeper than the fingertips can't be
+constexpr double kCrossingInRing = 2.5;  // a ring squeezes the finger all round; choice
+constexpr double kCrossing = 1.0;        // mm; fingers that much in each other can't be
+constexpr double kSmallWidth = 20.0;     // mm; then it is for want of room
 constexpr double kFar = 1e-9;
 
 std::string words_of(Finger finger) {
@@ -48,6 +50,11 @@ std::string list_of(const std::vector<FingertipPoint>& tips) {
   return list_of(words);
 }
 
+/// Of the ring grip: fingers that a small pair of scissors has no room for.
+bool is_optional(Grip grip, Finger finger) {
+  return grip == Grip::kDistalType && (finger == Finger::kIndex || finger == Finger::kRing);
+}
+
 /// Goals of the asked points, in the order of the grip's fingers.
 std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
                                      const Product& product, const PrecisionGripOptions& options) {
@@ -65,6 +72,7 @@ std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
     const auto target =
         std::find_if(options.targets.begin(), options.targets.end(),
                      [&](const FingertipTarget& one) { return one.finger == tip.finger; });
+    if (target == options.targets.end() && is_optional(options.grip, tip.finger)) continue;
     if (target == options.targets.end()) {
       throw UsageError(fmt::format("fingertip points: there is none for the {}; grip {} needs {}",
                                    words_of(tip.finger), grip, list_of(tips)));
@@ -179,7 +187,8 @@ void judge(const PressedHold& hold, double widest_span, double width, Grasp& gra
       where = s;
     }
   }
-  if (hold.solution.clash > kCrossing) {
+  const double crossing = grasp.grip == Grip::kDistalType ? kCrossingInRing : kCrossing;
+  if (hold.solution.clash > crossing) {
     if (grasp.status == GraspStatus::kHeld) {
       grasp.status = width < kSmallWidth ? GraspStatus::kTooSmall : GraspStatus::kPartlyHeld;
     }
@@ -251,7 +260,8 @@ void PrecisionGripOptions::check() const {
   if (is_power(grip)) {
     throw UsageError(
         fmt::format("grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
-                    "writing_tripod, lateral, precision_sphere or precision_disk is allowed",
+                    "writing_tripod, lateral, precision_sphere, precision_disk or distal_type is "
+                    "allowed",
                     name_of(grip)));
   }
   if (!(fingertip_depth > 0.0) || fingertip_depth > 6.0) {
@@ -297,7 +307,7 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     grasp.stops[s].segment = static_cast<Segment>(s);
   }
   const std::vector<FingertipPoint> tips = fingertips_of(hand, options.grip);
-  const std::vector<FingertipGoal> goals =
+  std::vector<FingertipGoal> goals =
       options.targets.empty() ? std::vector<FingertipGoal>{} : goals_for(tips, product, options);
   const FingertipIk ik(hand);
   const GripOpenings openings(ik, options.grip);
@@ -308,6 +318,17 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
     return grasp;
   }
   progress.update(0.1, "finding where fingertips hold " + product.name);
+  if (options.grip == Grip::kDistalType && goals.empty()) {
+    const std::optional<ScissorRings> rings = scissor_rings(find_parts(product), product);
+    PrecisionGripOptions at_rings = options;
+    if (rings) at_rings.targets = ring_targets(hand, product, *rings);
+    if (!at_rings.targets.empty()) goals = goals_for(tips, product, at_rings);
+  }
+  if (options.grip == Grip::kDistalType && goals.empty()) {
+    grasp.message = "it has no two rings side by side that thumb and fingers go through";
+    put_beside(hand, product, grasp);
+    return grasp;
+  }
   const PrecisionSearch search =
       goals.empty() ? search_precision_grip(ik, openings, product, options, progress)
                     : solve_precision_targets(ik, openings, product, goals, progress);

@@ -62,6 +62,9 @@ std::vector<FingertipPoint> fingertips_of(const Hand& hand, Grip grip) {
       return fingertips_of(hand, Grip::kPrecisionSphere);
     case Grip::kWritingTripod:
       return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kTipSide)};
+    case Grip::kDistalType:
+      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kMiddlePad),
+              at(Finger::kRing, kMiddlePad)};
     default:
       return {};
   }
@@ -86,6 +89,14 @@ Posture natural_posture(const Skeleton& skeleton, Grip grip) {
       set(posture, Finger::kMiddle, {52, 66, 34});
       set(posture, Finger::kRing, {54, 74, 38});
       set(posture, Finger::kLittle, {54, 72, 38});
+      break;
+    case Grip::kDistalType:
+      posture = named(skeleton, "tripod");
+      set(posture, Finger::kThumb, {10, 15, 0});
+      set(posture, Finger::kIndex, {45, 30, 15});
+      set(posture, Finger::kMiddle, {52, 48, 25});
+      set(posture, Finger::kRing, {56, 54, 28});
+      set(posture, Finger::kLittle, {58, 56, 28});
       break;
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
@@ -194,7 +205,9 @@ GripOpenings::Start GripOpenings::start_for(const Skeleton& skeleton, const Post
     } else {
       goal.point = 0.5 * width * side;
       goal.normal = side;
-      if (tips.size() == 3 && k > 0) goal.point.x() = (k == 1 ? 0.5 : -0.5) * kSideBySide;
+      // Side by side, the radial one first.
+      const double first = 0.5 * (static_cast<double>(tips.size()) - 2.0);
+      if (k > 0) goal.point.x() = (first - (static_cast<double>(k) - 1.0)) * kSideBySide;
     }
     problem.goals.push_back(goal);
   }

@@ -23,18 +23,18 @@ namespace palmar {
 namespace {
 
 constexpr double kPlaceReached = 1.0;         // mm
-constexpr double kOffSurface = 2.0;           // mm
-constexpr double kPadOffset = 3.0;            // mm off the surface, where its distance is smooth
+constexpr double kButtonOffSurface = 2.0;     // mm
+constexpr double kButtonPadOffset = 3.0;      // mm off the surface, where its distance is smooth
 constexpr double kMostTilt = 60.0 * kDegree;  // a pad pressed over its edge presses no more
 constexpr double kAwkwardTilt = 35.0 * kDegree;
 constexpr double kAwkwardMargin = 8.0 * kDegree;
 constexpr double kAwkwardBend = 25.0 * kDegree;  // of DIP from 2/3 PIP
 constexpr double kMostClash = 3.0;  // mm; deeper in product or neighbour is no way to be
-constexpr double kFar = 50.0;       // mm; who misses by more hasn't tried
+constexpr double kReachFar = 50.0;  // mm; who misses by more hasn't tried
 constexpr double kOpposed = 120.0 * kDegree;
 constexpr double kTouchRange = 5.0;  // mm
 
-std::string words_of(Finger finger) {
+std::string finger_words(Finger finger) {
   return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
 
@@ -178,14 +178,14 @@ std::string message_of(const ButtonReach& reach) {
   if (reach.best) {
     const FingerReach& best = reach.fingers[index_of(*reach.best)];
     return fmt::format("the {} reaches it{}, {:.0f} degrees from the end of its {}",
-                       words_of(*reach.best), best.is_awkward ? " awkwardly" : "",
+                       finger_words(*reach.best), best.is_awkward ? " awkwardly" : "",
                        best.margin / kDegree, std::string(name_of(best.tightest)));
   }
   const auto loses = std::find_if(reach.fingers.begin(), reach.fingers.end(),
                                   [](const FingerReach& one) { return one.is_reached; });
   if (loses != reach.fingers.end()) {
     return fmt::format("only the {} reaches it, and the rest of the hand doesn't hold the product",
-                       words_of(loses->finger));
+                       finger_words(loses->finger));
   }
   const auto nearest =
       std::min_element(reach.fingers.begin(), reach.fingers.end(),
@@ -193,13 +193,13 @@ std::string message_of(const ButtonReach& reach) {
   if (nearest->miss <= kPlaceReached) {
     return nearest->is_blocked
                ? fmt::format("the {} gets there, but the product or another finger is in its way",
-                             words_of(nearest->finger))
+                             finger_words(nearest->finger))
                : fmt::format(
                      "the {} gets there, but not with its pad, which is tilted by {:.0f} degrees",
-                     words_of(nearest->finger), nearest->tilt / kDegree);
+                     finger_words(nearest->finger), nearest->tilt / kDegree);
   }
   return fmt::format("no finger reaches it; the {} comes nearest and misses it by {:.1f} mm",
-                     words_of(nearest->finger), nearest->miss);
+                     finger_words(nearest->finger), nearest->miss);
 }
 
 }  // namespace
@@ -268,15 +268,16 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
           fmt::format("button \"{}\": point and force must be finite numbers", button.name));
     }
     const DistanceSample sample = product.distance->at(button.point);
-    if (std::abs(sample.distance) > kOffSurface) {
+    if (std::abs(sample.distance) > kButtonOffSurface) {
       throw UsageError(fmt::format(
           "button \"{}\" ({:g}, {:g}, {:g} mm) is {:.1f} mm {} the surface of {}; at most {:g} mm "
           "is allowed",
           button.name, button.point.x(), button.point.y(), button.point.z(),
           std::abs(sample.distance), sample.distance > 0.0 ? "off" : "below", product.name,
-          kOffSurface));
+          kButtonOffSurface));
     }
-    const Vec3 normal = product.distance->at(sample.closest + kPadOffset * sample.normal).normal;
+    const Vec3 normal =
+        product.distance->at(sample.closest + kButtonPadOffset * sample.normal).normal;
     const Vec3 force = button.force.norm() > 0.0 ? button.force : Vec3(-normal);
     places.push_back({sample.closest, -force.normalized(), force});
   }
@@ -288,7 +289,7 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
     reach.button = buttons[i];
     for (int f = 0; f < kFingerCount; ++f) {
       reach.fingers.push_back(reacher.send(static_cast<Finger>(f), places[i].point,
-                                           places[i].normal, places[i].force, kFar));
+                                           places[i].normal, places[i].force, kReachFar));
     }
     for (const FingerReach& one : reach.fingers) {
       if (!one.is_reached || !one.is_grip_kept) continue;
@@ -312,7 +313,7 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
   const Reacher reacher(hand, product, grasp);
   struct Value {
     int finger = -1;
-    double margin = 0.0, miss = kFar;
+    double margin = 0.0, miss = kReachFar;
   };
   std::vector<Value> values(places.size());
   progress.update(0.0, "sending fingers over the surface");

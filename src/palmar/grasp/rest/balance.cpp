@@ -19,6 +19,7 @@
 #include "palmar/grasp/rest/finger_cones.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/grasp/rest/press_down.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/tendons/grip_muscles.h"
 
@@ -567,6 +568,9 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   if (!options.is_on) return {};
   ContactOptions plain = contact;
   plain.error_band = false;
+  if (is_non_prehensile(grasp.grip)) {
+    return press_down(hand, product, grasp, options, plain, progress);
+  }
   if (!is_power(grasp.grip)) {
     return settle_precision(hand, product, grasp, options, plain, progress);
   }

@@ -16,6 +16,17 @@
 
 namespace palmar {
 
+/// What a relaxed hand puts on what it lies on [N], the same for all hands of a comparison: its own
+/// weight and, the forearm hanging between it and the elbow, the forearm's share,
+///
+///     F = m g (0.006 + 0.016 x 0.43 x 254 / (254 + 81)) = 8.2 N
+///
+/// with segment masses of 0.6 and 1.6 % of body mass, the forearm's centre of mass at 43 % of its
+/// length from the elbow (Winter 2009, Biomechanics and Motor Control of Human Movement,
+/// table 4.1), a body of 75 kg, 254 mm from elbow to wrist and the hand carried 81 mm beyond it
+/// (choices).
+inline constexpr double kRestingForce = 8.2;
+
 struct BalanceOptions {
   bool is_on = true;
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
@@ -46,6 +57,8 @@ enum class BalanceStatus {
   kOff,
   kBalanced,      ///< forces and moments add up to less than 1 % of the grip force
   kSlipsOut,      ///< the product leaves the hand; `slip` says which way
+  kSupported,     ///< the hand rests on it or pushes it with the force asked for; what the
+                  ///< product stands on carries that
   kNoContact,     ///< nothing is touched
   kNotConverged,  ///< neither within the allowed number of steps
   kFailed         ///< the contact couldn't be solved on the way
@@ -85,6 +98,8 @@ struct Balance {
 /// Friction is that of skin that sticks where it was when the hand was closed and gives way
 /// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal
 /// force. docs/method/balance.md has the equations.
+///
+/// A hand that rests on the product or pushes it is only brought to its force: press_down.h.
 ///
 /// Not coming to rest is a status, never an exception. Throws UsageError on bad options, Cancelled.
 Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,

@@ -14,6 +14,11 @@ constexpr double kLargestAim = 0.01;  // residual over grip force that counts as
 
 std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
   if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
+  if (is_laid(grip)) return grip_force.value_or(kRestingForce);
+  // A push holds no weight that would raise it.
+  if (share_of_strength && grip == Grip::kFingerPush) {
+    return share_of_strength->share * share_of_strength->reached(grip);
+  }
   if (share_of_strength) return share_of_strength->force(grip);
   return grip_force;
 }
@@ -21,6 +26,14 @@ std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
 std::string BalanceOptions::asked_words(Grip grip) const {
   if (!is_on) return "as the hand was closed to the limit depths";
   if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
+  if (is_laid(grip) && !grip_force) {
+    return "the weight of a hand and its share of the forearm's (Winter 2009)";
+  }
+  if (share_of_strength && grip == Grip::kFingerPush) {
+    ShareOfStrength push = *share_of_strength;
+    push.least = 0.0;
+    return push.words(grip);
+  }
   if (share_of_strength) return share_of_strength->words(grip);
   return grip_force ? "as given" : "as firm as closing to the limit depths";
 }
@@ -61,6 +74,8 @@ std::string_view name_of(BalanceStatus status) {
       return "balanced";
     case BalanceStatus::kSlipsOut:
       return "slips_out";
+    case BalanceStatus::kSupported:
+      return "supported";
     case BalanceStatus::kNoContact:
       return "no_contact";
     case BalanceStatus::kNotConverged:

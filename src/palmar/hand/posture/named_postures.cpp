@@ -22,7 +22,7 @@ struct NamedAngles {
 };
 
 constexpr std::array<NamedAngles, 10> kPostures = {{
-    {"flat", -10, 12, 0, 0, {{{0, 0, 0, -2}, {0, 0, 0, 1}, {0, 0, 0, 5}, {0, 0, 0, 5}}}},
+    {"flat", -20, 0, 0, 0, {{{0, 0, 0, -2}, {0, 0, 0, 1}, {0, 0, 0, 5}, {0, 0, 0, 5}}}},
     {"relaxed",
      4,
      32,

@@ -18,6 +18,8 @@
 #include "palmar/product/parts/part_outline.h"
 #include "palmar/product/parts/part_spread.h"
 #include "palmar/product/parts/part_stations.h"
+#include "palmar/product/parts/part_triggers.h"
+#include "palmar/product/parts/ring_parts.h"
 #include "palmar/product/parts/rough_parts.h"
 #include "palmar/product/parts/solid_grid.h"
 #include "palmar/product/parts/voxel_skeleton.h"
@@ -137,7 +139,8 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
                    {grid.depth_at(point) + grid.spacing, options.finger});
     return outline ? outline->girth : 0.0;
   };
-  const RoughParts rough = rough_parts(grid, graph, girth_at);
+  RoughParts rough = rough_parts(grid, graph, girth_at);
+  complete_rings(mesh, grid, graph, options.finger, rough);
   std::vector<int> label = labels_of(mesh, grid, rough);
   const MeshTopology topology = build_topology(mesh);
   absorb_islands(mesh, topology, label);
@@ -252,6 +255,8 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   for (std::size_t t = 0; t < label.size(); ++t) {
     result.part_of_triangle[t] = std::max(0, number[label[t]] - 1);
   }
+  result.triggers = triggers_of(product, result.parts);
+  result.buttons = buttons_of(mesh, result.part_of_triangle);
   const TopologyReport report = examine_topology(mesh, topology);
   if (report.is_closed && report.is_two_manifold) {
     int loops = 0;

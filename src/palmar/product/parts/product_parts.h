@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +89,27 @@ struct ProductPart {
   double diameter() const;
 };
 
+/// Something small in front of a bar, next to what the bar carries, that a finger which reaches
+/// round the bar comes to lie on: the trigger of a drill or of a spray bottle.
+struct PartTrigger {
+  int part = 1;                ///< number of the bar
+  std::size_t end = 1;         ///< of its two ends the one that it is next to
+  Vec3 point = Vec3::Zero();   ///< middle of its front, product frame, mm
+  Vec3 front = Vec3::UnitX();  ///< unit, across the bar: where it faces
+  double along = 1.0;          ///< of the part; may lie beyond its end
+  double length = 0.0;         ///< along the bar, mm
+  double reach = 0.0;          ///< it stands so far before the bar, mm
+};
+
+/// Something low on a flat face that a fingertip presses. Product frame, mm.
+struct PartButton {
+  int part = 1;                 ///< number of the part that it is on
+  Vec3 point = Vec3::Zero();    ///< middle of its top
+  Vec3 normal = Vec3::UnitZ();  ///< unit, out of the face
+  double width = 0.0;           ///< the smaller of its two extents along the face
+  double height = 0.0;          ///< how far it stands out
+};
+
 struct PartOptions {
   /// mm; a tunnel or gap that a disc of this diameter can't pass counts as closed. The index
   /// finger of women is 16 mm thick at its distal joint on average (circumference 50.8 mm, Greiner
@@ -100,6 +122,8 @@ struct PartOptions {
 struct ProductParts {
   std::vector<ProductPart> parts;     ///< largest volume first
   std::vector<int> part_of_triangle;  ///< index into `parts`, one per triangle of the mesh
+  std::vector<PartTrigger> triggers;
+  std::vector<PartButton> buttons;  ///< largest first
   /// Tunnels of the mesh that are no loop: too narrow for a finger, or faults of a scan; nothing
   /// unless the mesh is closed and 2-manifold.
   std::optional<int> narrow_tunnels;

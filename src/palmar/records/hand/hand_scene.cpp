@@ -66,7 +66,7 @@ std::vector<std::uint32_t> corners(const TriangleMesh& mesh) {
 }
 
 template <class Name>
-std::vector<float> codes(const std::vector<Name>& names) {
+std::vector<float> float_codes(const std::vector<Name>& names) {
   std::vector<float> value;
   value.reserve(names.size());
   for (const Name name : names) value.push_back(static_cast<float>(name));
@@ -149,10 +149,10 @@ void add_skin(Glb& glb, const Hand& hand) {
   attributes["JOINTS_0"] = add_bytes(glb, blend.joint, 4);
   attributes["WEIGHTS_0"] = add_floats(glb, blend.weight, 4);
   if (hand.segment.size() == hand.skin.vertices.size()) {
-    attributes["_SEGMENT"] = add_floats(glb, codes(hand.segment), 1);
+    attributes["_SEGMENT"] = add_floats(glb, float_codes(hand.segment), 1);
   }
   if (hand.region.size() == hand.skin.vertices.size()) {
-    attributes["_REGION"] = add_floats(glb, codes(hand.region), 1);
+    attributes["_REGION"] = add_floats(glb, float_codes(hand.region), 1);
   }
   const int indices = add_indices(glb, corners(hand.skin));
   PlainJson primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 0}};

@@ -64,16 +64,17 @@ HoldFingertip read_fingertip(const TomlSection& section) {
 }
 
 void check_fingertips(const TomlSection& file, const Hold& hold) {
-  const bool needs_tips = !is_power(hold.grip);
+  const bool needs_tips = !is_power(hold.grip) && !is_laid(hold.grip);
   if (needs_tips && hold.fingertips.empty()) {
-    file.fail("grip", fmt::format("is {}, a precision grip, which holds with fingertips; a "
+    file.fail("grip", fmt::format("is {}, which holds with fingertips; a "
                                   "[[fingertip]] is required for each finger",
                                   name_of(hold.grip)));
   }
   if (!needs_tips && !hold.fingertips.empty()) {
-    file.fail("fingertip", fmt::format("goes with precision grips only; {} holds with the whole "
-                                       "hand",
-                                       name_of(hold.grip)));
+    file.fail("fingertip",
+              fmt::format("goes with grips of fingertips only; {} holds with the whole "
+                          "hand",
+                          name_of(hold.grip)));
   }
   std::set<Finger> seen;
   for (const HoldFingertip& tip : hold.fingertips) {

@@ -155,12 +155,12 @@ TEST(HoldFile, FingertipsGoWithPrecisionGripsOnceEach) {
   const std::string tripod = "part = 1\ngrip = \"tripod\"\nalong = 0.5\n";
   const std::string thumb =
       "[[fingertip]]\nfinger = \"thumb\"\nalong = 0.5\nturn_deg = 0\nheight_mm = 4\n";
-  EXPECT_THAT(hold_message(tripod), HasSubstr("2: grip is tripod, a precision grip, which holds "
+  EXPECT_THAT(hold_message(tripod), HasSubstr("2: grip is tripod, which holds "
                                               "with fingertips; a [[fingertip]] is required"));
   EXPECT_EQ(hold_message(tripod + thumb), "no error");
   EXPECT_THAT(hold_message(tripod + thumb + thumb), HasSubstr("gives thumb twice"));
   EXPECT_THAT(hold_message(kShortest + thumb),
-              HasSubstr("fingertip goes with precision grips only; medium_wrap"));
+              HasSubstr("fingertip goes with grips of fingertips only; medium_wrap"));
   EXPECT_THAT(hold_message(tripod + "[[fingertip]]\nfinger = \"toe\"\n"),
               AllOf(StartsWith("text.toml:5: "), HasSubstr("finger is \"toe\"")));
   EXPECT_THAT(hold_message(tripod + "[[fingertip]]\nfinger = \"thumb\"\nalong = 0.1\n"),

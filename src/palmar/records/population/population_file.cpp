@@ -21,7 +21,7 @@
 namespace palmar {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = 1 << 22;
+constexpr std::uint64_t kMostPopulationBytes = 1 << 22;
 constexpr double kLargestDimension = 400.0;  // mm; as fault_of() allows
 constexpr double kLargestNumber = 1e6;       // of intercepts and slopes
 constexpr double kSmallest = 1e-6;           // stands for "more than 0"
@@ -251,7 +251,7 @@ std::string stratum_toml(const Stratum& stratum) {
 }  // namespace
 
 Population read_population(const std::string& path) {
-  return parse_population(read_file(path, kMaxBytes), path);
+  return parse_population(read_file(path, kMostPopulationBytes), path);
 }
 
 Population parse_population(const std::string& text, const std::string& path) {

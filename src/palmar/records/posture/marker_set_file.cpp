@@ -25,7 +25,7 @@ namespace {
 
 using PlainJson = nlohmann::json;
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 26;
+constexpr std::uint64_t kMostMarkerBytes = std::uint64_t{1} << 26;
 constexpr double kFarFromSkin = 60.0;  // mm; wands stand off less
 constexpr std::size_t kFewest = 4;     // markers, as in posture_fit.h
 
@@ -208,7 +208,7 @@ std::string some_of(const std::vector<std::string>& names) {
 }  // namespace
 
 MarkerSet read_marker_set(const std::string& path, const Hand& hand) {
-  const std::string text = read_file(path, kMaxBytes);
+  const std::string text = read_file(path, kMostMarkerBytes);
   if (!looks_like_text(std::string_view(text).substr(0, 4096))) {
     throw InputError(path + ": no text; a marker set as JSON or CSV is needed");
   }

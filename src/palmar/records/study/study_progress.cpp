@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kMaxBytes = 1 << 20;
+constexpr std::uint64_t kMostProgressBytes = 1 << 20;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void write_study_progress(const std::filesystem::path& store, StudyProgressNote 
 
 std::optional<StudyProgressNote> read_study_progress(const std::filesystem::path& store) {
   try {
-    const Json json = Json::parse(read_file(progress_path(store), kMaxBytes));
+    const Json json = Json::parse(read_file(progress_path(store), kMostProgressBytes));
     StudyProgressNote note;
     note.shard = {json.at("shard").get<int>(), json.at("shards").get<int>()};
     note.done = json.at("done");

@@ -13,7 +13,8 @@ std::vector<HoldDoubt> doubts_of(const Assessment& assessment) {
   const BalanceStatus rest = assessment.balance.status;
   if (rest == BalanceStatus::kSlipsOut) {
     doubts.push_back({"slips_out", assessment.balance.message});
-  } else if (rest != BalanceStatus::kOff && rest != BalanceStatus::kBalanced) {
+  } else if (rest != BalanceStatus::kOff && rest != BalanceStatus::kBalanced &&
+             rest != BalanceStatus::kSupported) {
     doubts.push_back({"not_at_rest", assessment.balance.message});
   }
   std::vector<Region> touching;
