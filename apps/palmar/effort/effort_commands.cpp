@@ -249,7 +249,10 @@ void add_grasp(CLI::App& effort, Context& context) {
       request.effort = o->effort;
       request.effort.tendons = tendon_model(o->model.points, o->model.hood);
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
-      request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
+      request.hand = {.name = o->grasp.hand,
+                      .tissue = o->contact.tissue,
+                      .value = nullptr,
+                      .person = o->balance.person()};
       request.grasp_file = o->file;
       request.note = [&context](const std::string& text) { note(context.common, text); };
       const EffortResult result = effort_of_grasp(request, make_progress(context.common));
