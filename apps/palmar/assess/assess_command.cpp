@@ -43,7 +43,7 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
                                  grasp_text(assessment.grasp), contact_text(assessment.contact)) +
                      friction_text(hand, assessment) + index_text(assessment.indices);
   for (const HoldDoubt& doubt : doubts_of(assessment)) {
-    if (doubt.key == "few_contacts") text += "to be doubted: " + doubt.words + "\n";
+    if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
