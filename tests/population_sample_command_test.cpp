@@ -83,6 +83,12 @@ TEST(PopulationSampleCommand, DesignsDrawTheirHands) {
   EXPECT_EQ(ends.at("hands")[2].at("subject"), "P5 woman");
   EXPECT_NEAR(ends.at("hands")[1].at("dimensions").at("hand_length_mm").get<double>(),
               193.28 + 1.6448536 * 9.946, 1e-3);
+  // Who asks for percentiles gets them, whether or not the design is said.
+  EXPECT_EQ(json_of("sample ansur2 --percentiles 5,95"), ends);
+  const ProgramRun other =
+      run_palmar("population sample ansur2 --percentiles 5 --design random");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("--percentiles goes with --design percentiles"));
 }
 
 TEST(PopulationSampleCommand, BadInputIsNamed) {

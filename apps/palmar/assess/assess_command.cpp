@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <set>
+
 #include "assess/balance_arguments.h"
 #include "assess/friction_arguments.h"
 #include "cli.h"
 #include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
+#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study_report.h"
 #include "product/cad_arguments.h"
+#include "study/study_comparison_text.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -26,7 +32,9 @@ struct AssessArguments {
   CadArguments cad;
   std::string natural_postures;
   std::string out, language = "en", paper = "a4";
-  bool pdf = false;
+  bool pdf = false, left = false;
+  std::vector<std::string> populations;
+  int hands = 0;
   bool no_pictures = false;
 };
 
@@ -35,7 +43,7 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
                                  grasp_text(assessment.grasp), contact_text(assessment.contact)) +
                      friction_text(hand, assessment) + index_text(assessment.indices);
   for (const HoldDoubt& doubt : doubts_of(assessment)) {
-    if (doubt.key == "few_contacts") text += "to be doubted: " + doubt.words + "\n";
+    if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
@@ -72,8 +80,11 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
     request.rest.is_balanced = false;
   }
   request.model = arguments.contact.model();
-  request.hand = {
-      .name = arguments.grasp.hand, .tissue = arguments.contact.tissue, .value = nullptr};
+  request.hand = {.name = arguments.grasp.hand,
+                  .tissue = arguments.contact.tissue,
+                  .value = nullptr,
+                  .person = arguments.balance.person(),
+                  .is_left = arguments.left};
   const LoadProductOptions reading = arguments.cad.options(arguments.grasp.unit);
   for (const std::string& path : arguments.products) request.products.emplace_back(path, reading);
   request.natural_postures = arguments.natural_postures;
@@ -87,6 +98,58 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.command_line = context.command_line;
   request.note = [&context](const std::string& text) { note(context.common, text); };
   return request;
+}
+
+/// The same question put to many hands: a small study with its report.
+int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
+  constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
+  static const std::set<std::string> kTaken = {
+      "PRODUCT", "help",  "unit",        "population",   "hands",       "out",    "language",
+      "pdf",     "paper", "hold",        "part",         "along",       "toward", "up",
+      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths"};
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() > 0 && !kTaken.contains(name)) {
+      throw UsageError("--" + name +
+                       " is of one hand and doesn't go with --population; a study file says it for "
+                       "many (palmar study run FILE.toml)");
+    }
+  }
+  QuickStudy quick;
+  quick.products = arguments.products;
+  quick.unit = parse_unit(arguments.grasp.unit);
+  quick.populations = arguments.populations;
+  quick.hands = arguments.hands > 0 ? arguments.hands : kFewHands;
+  if (arguments.grasp.hand != "template") quick.hand = arguments.grasp.hand;
+  quick.holding = arguments.grasp.settings().holding;
+  const RestSettings rest = arguments.balance.settings();
+  quick.grip_force = rest.grip_force;
+  quick.limit_depths = rest.limit_depths;
+  const std::string folder = arguments.out.empty() ? free_report_folder() : arguments.out;
+  create_folder(folder);
+
+  StudyRunRequest run;
+  run.study = study_of(quick);
+  if (context.common.seed != 0) run.study.seed = context.common.seed;
+  run.out = folder + "/hands.palmar";
+  run.note = [&context](const std::string& text) { note(context.common, text); };
+  const StudyRunOutcome ran = run_study(run, make_progress(context.common));
+  StudyReportRequest report;
+  report.store = ran.store;
+  report.folder = folder;
+  report.report.language = language_named(arguments.language);
+  report.report.pictures = !arguments.no_pictures;
+  const Paper paper = paper_named(arguments.paper);
+  if (arguments.pdf) report.pdf = paper;
+  report_study(report, make_progress(context.common));
+  StudyCompareRequest compare;
+  compare.store = ran.store;
+  compare.language = report.report.language;
+  const StudyCompareOutcome outcome = compare_study(compare);
+  finish_progress();
+  print(context.common.json ? comparison_object(outcome, compare.comparison).dump(2) + "\n"
+                            : answer_text(outcome.answer) + "Report: " + folder + "/report.html\n");
+  return 0;
 }
 
 int run_assess(const AssessArguments& arguments, const Context& context) {
@@ -122,6 +185,14 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_option("--natural-postures", arguments->natural_postures,
                    "CSV of measured grasp postures (degrees, a column per joint angle): basis of "
                    "the index of ease in place of the built-in one");
+  verb->add_flag("--left", arguments->left, "A left hand");
+  verb->add_option("--population", arguments->populations,
+                   "Many hands in place of one, as a small study: a built-in population (`palmar "
+                   "population list`), a population file (.toml) or a table of given hands (.csv)")
+      ->allow_extra_args(false);
+  verb->add_option("--hands", arguments->hands,
+                   "Number of hands to draw from each population; 12 if not given")
+      ->check(CLI::Range(1, QuickStudy::kMostHands));
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   verb->add_option("--language", arguments->language, "Language of the report: en or de")
@@ -132,8 +203,14 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_option("--paper", arguments->paper, "Paper of --pdf: a4 or letter")
       ->capture_default_str();
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
-  verb->callback([&context, arguments] {
-    context.run = [&context, arguments] { return run_assess(*arguments, context); };
+  verb->callback([&context, arguments, verb] {
+    context.run = [&context, arguments, verb] {
+      if (!arguments->populations.empty()) return run_as_study(*arguments, *verb, context);
+      if (arguments->hands > 0) {
+        throw UsageError("--hands is the number of hands of a --population, which is not given");
+      }
+      return run_assess(*arguments, context);
+    };
   });
 }
 

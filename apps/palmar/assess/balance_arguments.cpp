@@ -4,25 +4,57 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <algorithm>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/text_scan.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "text.h"
 
 namespace palmar::cli {
-PersonOfAge parse_person(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  const std::string sex = text.substr(0, comma);
-  char* end = nullptr;
-  const std::string years = comma == std::string::npos ? "" : text.substr(comma + 1);
-  const double age = std::strtod(years.c_str(), &end);
-  const bool is_number = !years.empty() && *end == '\0';
-  if (!is_number || (sex != "male" && sex != "female")) {
-    throw UsageError("--person is \"" + text + "\"; male,AGE or female,AGE is required");
+namespace {
+
+struct PersonArgument {
+  PersonOfAge strength;
+  std::optional<double> percentile;  ///< of hand size
+};
+
+/// "woman:P5", "man:P50,age=60", "woman:age=64", "man"; or, as it was once, "male,30". Throws
+/// UsageError.
+PersonArgument person_argument(const std::string& text) {
+  const std::size_t end = text.find_first_of(":,");
+  const std::string sex = text.substr(0, end);
+  PersonArgument person;
+  person.strength.age = kUsualAge;
+  const bool is_woman = sex == "woman" || sex == "female";
+  bool is_known = is_woman || sex == "man" || sex == "male";
+  person.strength.sex = is_woman ? Sex::kFemale : Sex::kMale;
+  std::size_t start = end == text.npos ? text.size() : end + 1;
+  while (is_known && start < text.size()) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    const std::string part = text.substr(start, comma - start);
+    const bool is_percentile = part.starts_with('P') || part.starts_with('p');
+    const bool is_age = part.starts_with("age=");
+    const auto number = parse_double(part.substr(is_percentile ? 1 : is_age ? 4 : 0));
+    is_known = number.has_value();
+    if (is_known && is_percentile) {
+      person.percentile = *number;
+    } else if (is_known) {
+      person.strength.age = *number;
+    }
+    start = comma + 1;
   }
-  return {sex == "male" ? Sex::kMale : Sex::kFemale, age};
+  if (!is_known) {
+    throw UsageError("--person is \"" + text +
+                     "\"; woman or man is required, with a percentile of hand size, an age, or "
+                     "both: woman:P5, man:P50,age=60, woman:age=64");
+  }
+  return person;
 }
+
+}  // namespace
+
+PersonOfAge parse_person(const std::string& text) { return person_argument(text).strength; }
 
 std::string usual_words() {
   const ShareOfStrength usual = usual_share(kUsualFriction);
@@ -48,17 +80,38 @@ void BalanceArguments::add_to(CLI::App& verb) {
       ->excludes(force);
   CLI::Option* strength =
       verb.add_option("--strength-n", settings_.strength, "Largest grip force of the user, N");
-  verb.add_option("--person", person_,
-                  "male,AGE or female,AGE: mean grip strength of that group (Steiber 2016)")
+  verb.add_option(
+          "--person", person_,
+          "Whose hand and strength: woman or man, a percentile of hand size (ANSUR II), an age (45 "
+          "if none is given; strength: Steiber 2016): woman:P5, man:P50,age=60, "
+          "woman:age=64; a hand of that size grips with 25 % of that strength unless a "
+          "force or share is given")
       ->excludes(strength);
 }
 
 RestSettings BalanceArguments::settings() const {
   RestSettings result = settings_;
   result.is_balanced = !no_balance_;
-  if (!person_.empty()) result.person = parse_person(person_);
+  if (!person_.empty()) {
+    const PersonArgument person = person_argument(person_);
+    const bool is_force_said = result.grip_force || result.limit_depths || !result.is_balanced;
+    // Somebody of a size holds as firmly as is said, else with the usual share of her own strength.
+    if (!is_force_said || !person.percentile) {
+      result.person = person.strength;
+      if (!result.strength_share && person.percentile) result.strength_share = kUsualStrengthShare;
+    }
+  }
   result.check();
   return result;
+}
+
+std::optional<PersonOfSize> BalanceArguments::person() const {
+  if (person_.empty()) return std::nullopt;
+  const PersonArgument person = person_argument(person_);
+  if (!person.percentile) return std::nullopt;
+  const PersonOfSize size{person.strength.sex, *person.percentile};
+  size.check();
+  return size;
 }
 
 std::string balance_text(const Assessment& assessment) {

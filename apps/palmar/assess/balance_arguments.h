@@ -7,10 +7,11 @@
 #include "cli.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar::cli {
 
-/// "male,30" or "female,64". Throws UsageError.
+/// "woman:age=64" or "man". Throws UsageError.
 PersonOfAge parse_person(const std::string& text);
 
 /// How firmly the hand grips and whether the grasp comes to rest.
@@ -19,6 +20,8 @@ class BalanceArguments {
   /// Adds --no-balance, --limit-depths, --grip-force-n, --strength-share, --strength-n and --person
   /// to a verb.
   void add_to(CLI::App& verb);
+  /// To whose size the hand is scaled, if --person says; throws UsageError.
+  std::optional<PersonOfSize> person() const;
   RestSettings settings() const;  ///< throws UsageError naming the option
 
  private:

@@ -269,7 +269,10 @@ void add_grasp(CLI::App& effort, Context& context) {
       request.effort = o->effort;
       request.effort.tendons = tendon_model(o->model.points, o->model.hood);
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
-      request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
+      request.hand = {.name = o->grasp.hand,
+                      .tissue = o->contact.tissue,
+                      .value = nullptr,
+                      .person = o->balance.person()};
       request.grasp_file = o->file;
       request.note = [&context](const std::string& text) { note(context.common, text); };
       const EffortResult result = effort_of_grasp(request, make_progress(context.common));
@@ -312,7 +315,7 @@ void add_capacity(CLI::App& effort, Context& context) {
                    "How strong the person is: largest force on a grip dynamometer, N; default the "
                    "mean of adults, 427 N");
   verb->add_option("--person", o->person,
-                   "male,AGE or female,AGE: mean grip strength of that group (Steiber 2016)")
+                   "woman, man or man:age=60: mean grip strength of that group (Steiber 2016)")
       ->excludes("--strength-n");
   verb->callback([&context, o] {
     context.run = [&context, o] {

@@ -102,7 +102,7 @@ std::string grip_list() {
 }
 
 std::optional<Grip> parse_grip(const std::string& text) {
-  if (text == "any" || text == "power") return std::nullopt;
+  if (text == "any" || text == "auto" || text == "power") return std::nullopt;
   if (const std::optional<Grip> grip = grip_named(text)) return grip;
   std::vector<std::string> known = {"any", "power"};
   for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));

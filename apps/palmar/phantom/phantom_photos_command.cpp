@@ -71,8 +71,8 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--positions", p.positions, "Positions of the rig")->capture_default_str();
   verb->add_option("--step-deg", p.step, "From position to position")->capture_default_str();
-  verb->add_option("--width-px", p.width, "Of a photograph")->capture_default_str();
-  verb->add_option("--height-px", p.height, "Of a photograph")->capture_default_str();
+  verb->add_option("--width-px", p.width, "Width of a photograph")->capture_default_str();
+  verb->add_option("--height-px", p.height, "Height of a photograph")->capture_default_str();
   verb->add_option("--calibration", o->request.calibration,
                    "Photographs of the tilted board per camera")
       ->capture_default_str();
@@ -84,10 +84,10 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--noise", p.noise, "Deviation of the sensor's noise, of 255")
       ->capture_default_str();
-  verb->add_option("--blur-px", p.blur, "Of lens and sensor")->capture_default_str();
+  verb->add_option("--blur-px", p.blur, "Blur of lens and sensor")->capture_default_str();
   verb->add_option("--exposure", p.exposure, "Deviation of the exposures, as a share")
       ->capture_default_str();
-  verb->add_option("--aperture-mm", p.aperture, "Of the lenses: blurs what isn't in focus")
+  verb->add_option("--aperture-mm", p.aperture, "Aperture of the lenses: blurs what isn't in focus")
       ->capture_default_str();
   verb->add_option("--focus-mm", p.focus, "Focus behind the hand's middle; negative: in front")
       ->capture_default_str();

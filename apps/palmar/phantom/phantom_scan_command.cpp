@@ -84,7 +84,8 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--texture-px", o->request.texture_side, "Side of that texture")
       ->capture_default_str();
-  verb->add_option("--unit", o->unit, "Of the files: mm, cm, m or inch")->capture_default_str();
+  verb->add_option("--unit", o->unit, "Unit of the files: mm, cm, m or inch")
+      ->capture_default_str();
   verb->add_option("--postures", o->postures,
                    "Which, with commas: reference, finger_flexion, finger_abduction (these by "
                    "default), the thumb's limits thumb_flexion, thumb_extension, thumb_abduction, "
@@ -108,7 +109,8 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
   verb->add_option("--forearm-mm", o->request.defects.forearm, "Forearm that is scanned")
       ->capture_default_str();
   verb->add_option("--ring", o->ring, "Finger that wears one: thumb, index, middle, ring, little");
-  verb->add_option("--ring-colour", o->ring_colour, "Of its metal, #rrggbb")->capture_default_str();
+  verb->add_option("--ring-colour", o->ring_colour, "Colour of its metal, #rrggbb")
+      ->capture_default_str();
   verb->add_flag("--no-creases", o->no_creases, "No lines are drawn");
   verb->add_flag("--no-dots", o->no_dots, "No dots are drawn");
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");

@@ -72,22 +72,24 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
   verb->add_option("--table", o->table, "wood, dark, grey, blue or white")->capture_default_str();
   verb->add_flag("--plain", p.is_plain, "The table has no grain");
   verb->add_option("--skin", o->skin, "light, middle or dark")->capture_default_str();
-  verb->add_option("--tilt-deg", p.tilt, "Of the camera from the sheet's normal")
+  verb->add_option("--tilt-deg", p.tilt, "Tilt of the camera from the sheet's normal")
       ->capture_default_str();
-  verb->add_option("--distance-mm", p.distance, "Of the camera from the sheet")
+  verb->add_option("--distance-mm", p.distance, "Distance of the camera from the sheet")
       ->capture_default_str();
-  verb->add_option("--width-px", p.pixels_wide, "Of the photograph")->capture_default_str();
-  verb->add_option("--height-px", p.pixels_high, "Of the photograph")->capture_default_str();
+  verb->add_option("--width-px", p.pixels_wide, "Width of the photograph")->capture_default_str();
+  verb->add_option("--height-px", p.pixels_high, "Height of the photograph")->capture_default_str();
   verb->add_option("--together", o->request.together, "0: fingers spread; 1: side by side")
       ->capture_default_str();
   verb->add_option("--wrist-inside-mm", p.wrist_inside,
                    "How far inside the sheet's edge the wrist crease is")
       ->capture_default_str();
-  verb->add_option("--focal", p.focal,
-                   "Of the lens over the picture's longer side; 0.74: 26 mm on film, as most "
-                   "telephones have")
+  verb->add_option(
+          "--focal", p.focal,
+          "Focal length of the lens over the picture's longer side; 0.74: 26 mm on film, as most "
+          "telephones have")
       ->capture_default_str();
-  verb->add_option("--k1", p.k1, "Of the lens' distortion; a telephone's picture: about -0.02")
+  verb->add_option("--k1", p.k1,
+                   "First coefficient of the lens' distortion; a telephone's picture: about -0.02")
       ->capture_default_str();
   verb->add_flag("--no-exif", o->no_exif, "The photograph doesn't say what lens took it");
   verb->callback([&context, o] { context.run = [&context, o] { return run_sheet(*o, context); }; });

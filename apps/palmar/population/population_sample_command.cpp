@@ -126,6 +126,8 @@ struct SampleArguments {
   PopulationSampleRequest request;
   std::string design = name_of(SamplingOptions{}.design), percentiles;
   bool without_residuals = false, as_csv = false;
+  const CLI::Option* design_option = nullptr;
+  bool is_design_given() const { return design_option->count() > 0; }
 };
 
 SamplingDesign parse_design(const std::string& name) {
@@ -146,15 +148,17 @@ void add_sample(CLI::App& noun, Context& context) {
   verb->add_option("POPULATION", o->request.population, kNameOrFile)->required();
   verb->add_option("--hands", sampling.hands, "Number of hands (random, latin_hypercube)")
       ->capture_default_str();
-  verb->add_option("--design", o->design, "random, latin_hypercube, boundary or percentiles")
-      ->capture_default_str();
+  o->design_option =
+      verb->add_option("--design", o->design, "random, latin_hypercube, boundary or percentiles")
+          ->capture_default_str();
   verb->add_option("--boundary", sampling.boundary, "Share of people inside the boundary hands")
       ->capture_default_str();
   verb->add_option("--points", sampling.boundary_points,
                    "Number of boundary hands beside the mean one")
       ->capture_default_str();
   verb->add_option("--percentiles", o->percentiles,
-                   "Percentiles of every stratum: a list as in 5,50,95");
+                   "Hands at these percentiles of every stratum: a list as in 5,50,95 (design "
+                   "percentiles)");
   verb->add_flag("--no-residuals", o->without_residuals,
                  "Leave out the scatter of regressed dimensions about their regressions");
   verb->add_flag("--csv", o->as_csv, "Table on stdout (as without --json)");
@@ -166,6 +170,12 @@ void add_sample(CLI::App& noun, Context& context) {
       request.sampling.seed = context.common.seed;
       request.sampling.residuals = !o->without_residuals;
       if (!o->percentiles.empty()) {
+        // Who asks for percentiles means them; another design would leave them out unseen.
+        if (o->is_design_given() && request.sampling.design != SamplingDesign::kPercentiles) {
+          throw UsageError("--percentiles goes with --design percentiles, not with --design " +
+                           o->design);
+        }
+        request.sampling.design = SamplingDesign::kPercentiles;
         request.sampling.percentiles = parse_list("--percentiles", o->percentiles);
       }
       request.note = [&context](const std::string& text) { note(context.common, text); };

@@ -24,7 +24,8 @@ void RedesignArguments::add_to(CLI::App& verb) {
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   verb.add_option("--hand", request.hand, "Hand that is scaled: template or a *.hand.glb file");
-  verb.add_option("--grip", grips, "auto, medium_wrap, tripod ...")->expected(1);
+  verb.add_option("--grip", grips, "any (as people would choose), medium_wrap, tripod ...")
+      ->expected(1);
   holds.add_hold_to(verb);
   holds.add_to(verb);
   verb.add_option("--at", at, "Where it is held, product frame: x,y,z mm");

@@ -32,7 +32,8 @@ void StudyArguments::add_to(CLI::App& verb) {
   add("--profile", quick_.profiles,
       "none, reduced_range, thick_gloves ...; may be given several times")
       ->allow_extra_args(false);
-  add("--grip", quick_.grips, "auto, medium_wrap, tripod ...; may be given several times")
+  add("--grip", quick_.grips,
+      "any (as people would choose), medium_wrap, tripod ...; may be given several times")
       ->allow_extra_args(false);
   holds_.add_hold_to(verb);
   holds_.add_to(verb);

@@ -37,7 +37,7 @@ function pointLine(): Markup {
 function pairView(all: Assessment[], view: AssessmentView): Markup | null {
   if (all.length < 2) return null;
   const names = [all[0].product.name, all[1].product.name];
-  return html`<h3>${say("view.pair", { first: names[0], second: names[1] })}</h3>${turnableView({
+  return html`<div class="on-screen"><h3>${say("view.pair", { first: names[0], second: names[1] })}</h3>${turnableView({
     id: "scene-0 scene-1",
     label: names.map((product) => say("view.label", { product })).join("\n"),
     fallback: say("view.pictures"),
@@ -45,7 +45,7 @@ function pairView(all: Assessment[], view: AssessmentView): Markup | null {
     below: pointLine(),
     toggles: viewToggles(),
     scene: null,
-  })}`;
+  })}</div>`;
 }
 
 function productSection(one: Assessment, view: AssessmentView, index: number): Section {
@@ -60,7 +60,7 @@ function productSection(one: Assessment, view: AssessmentView, index: number): S
     id: "product-" + index,
     title: one.product.name,
     isOpen: index === 0,
-    content: html`${graspNotes(one, vocabulary)}<h3>${say("section.comfort")}</h3>${comfortSection(one, vocabulary)}${isJudged && balanceVerdict(one)}<h3>${say("section.view")}</h3>${turnableView({
+    content: html`${graspNotes(one, vocabulary)}<h3>${say("section.comfort")}</h3>${comfortSection(one, vocabulary)}${isJudged && balanceVerdict(one)}<h3 class="on-screen">${say("section.view")}</h3>${turnableView({
       id: "scene-" + index,
       label: say("view.label", { product: one.product.name }),
       fallback: say("view.pictures"),

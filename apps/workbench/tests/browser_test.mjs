@@ -108,13 +108,13 @@ const narrow = `
   return { width: document.documentElement.scrollWidth, window: innerWidth };`;
 
 try {
-  run("product make prism --width-mm 35 --depth-mm 35 --length-mm 120 --fillet-mm 2 --out sharp.step");
-  run("product make prism --width-mm 35 --depth-mm 35 --length-mm 120 --fillet-mm 12 --out round.step");
-  run("assess sharp.step round.step --grip-force-n 60 --out two");
-  run("study run --product sharp.step --product round.step --grip-force-n 60 --hands 6 --out six.palmar");
+  run("product make cylinder --diameter-mm 22 --length-mm 120 --out thin.step");
+  run("product make cylinder --diameter-mm 40 --length-mm 120 --out thick.step");
+  run("assess thin.step thick.step --grip-force-n 40 --out two");
+  run("study run --product thin.step --product thick.step --grip-force-n 40 --hands 6 --out six.palmar");
   run("study report six.palmar --no-figures --out six");
   const two = join(folder, "two/report.html"), six = join(folder, "six/report.html");
-  const less = /round presses \d+ % less than sharp at its hardest place, in the same grip of 60 N/;
+  const less = /thick presses \d+ % less than thin at its hardest place, in the same grip of 40 N/;
   for (const [page, images, sentence] of [[two, 4, less], [six, 4, /presses [\d.]+ % less than .* of 6 hands agree/]]) {
     const first = inPage(page, "1280,720", firstScreen);
     assert.ok(first.bottom <= 720, `${page}: the first screen ends at ${first.bottom}`);

@@ -426,9 +426,9 @@ PopulationRequest population_request(const std::string& words) {
 }
 
 std::optional<Grip> asked_grip_named(const std::string& name) {
-  if (name == "auto") return std::nullopt;
+  if (name == "any" || name == "auto") return std::nullopt;  // "auto": its name until 0.1.0
   if (const auto grip = grip_named(name)) return grip;
-  std::vector<std::string> known = {"auto"};
+  std::vector<std::string> known = {"any"};
   for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
   throw UsageError("grip " + in_quotes(name) + " is not known; " +
                    did_you_mean(name, known, "allowed are " + joined(known, ", ")));

@@ -277,10 +277,14 @@ class StudySpeaker {
 
   void speak_of_unequal(const TextValues& values, const GripForces& forces, bool is_kept) {
     answer_.sentence = texts_(is_kept ? "study.kept_unequal" : "study.unequal_force", values);
-    const double force = std::floor(kReachedByMost * std::min(forces.first, forces.second));
+    // A kept posture makes the redesign's grip weak; in a posture of its own it reaches more.
+    const bool is_redesign = !options_.command.empty();
+    const double reached =
+        is_redesign ? std::max(forces.first, forces.second) : std::min(forces.first, forces.second);
+    const double force = std::floor(kReachedByMost * reached);
     if (!(force > 0.0)) return;
     const std::string same = " --grip-force-n " + significant(force, 4);
-    if (!options_.command.empty()) {
+    if (is_redesign) {
       next("equal_redesign",
            changed_command(options_.command, {"--posture", "--grip-force-n", "--out"},
                            "--posture new" + same + " --out equal"));

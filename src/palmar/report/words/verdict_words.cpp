@@ -280,6 +280,9 @@ class SetSpeaker {
     double least = 0.0;
     for (const ProductVerdict& one : verdict_.products) {
       if (one.held != HeldVerdict::kHeld) continue;
+      // Hooked fingers carry: no force can be asked of them.
+      const auto number = static_cast<std::size_t>(&one - verdict_.products.data());
+      if (set_.assessments[number].assessment.grasp.grip == Grip::kFixedHook) return;
       least = least > 0.0 ? std::min(least, one.grip_force) : one.grip_force;
     }
     const double force = std::floor(kSafeForce * least);

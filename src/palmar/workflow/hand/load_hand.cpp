@@ -6,12 +6,57 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
+#include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/template_hand.h"
+#include "palmar/population/built_in_populations.h"
+#include "palmar/population/hand_sample.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/tissue_file.h"
 
 namespace palmar {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+const Population& people_of(Sex sex) {
+  return population_named(sex == Sex::kFemale ? "ansur2_women" : "ansur2_men");
+}
+
+std::shared_ptr<const Hand> sized_as(const Hand& base, const PersonOfSize& person) {
+  person.check();
+  SamplingOptions sampling;
+  sampling.design = SamplingDesign::kPercentiles;
+  sampling.percentiles = {person.percentile};
+  const std::vector<HandSample> samples = sample_hands(people_of(person.sex), sampling);
+  auto hand = std::make_shared<Hand>(make_hand_instance(base, samples.front().dimensions).hand);
+  hand->name = name_of(person);
+  hand->provenance += " Scaled to the " + name_of(person) + ".";
+  return hand;
+}
+
+}  // namespace
+
+void PersonOfSize::check() const {
+  if (!(percentile > 0.0 && percentile < 100.0)) {
+    throw UsageError("setting \"person\" has the percentile " + significant(percentile, 6) +
+                     "; above 0 and below 100 is required");
+  }
+}
+
+std::string name_of(const PersonOfSize& person) {
+  const std::string number = significant(person.percentile, 6);
+  const bool is_teen = person.percentile >= 10.0 && person.percentile < 20.0;
+  const char last = number.back();
+  const std::string end = is_teen || number.find('.') != number.npos ? "th"
+                          : last == '1'                              ? "st"
+                          : last == '2'                              ? "nd"
+                          : last == '3'                              ? "rd"
+                                                                     : "th";
+  return std::string(person.sex == Sex::kFemale ? "woman" : "man") + " of the " + number + end +
+         " percentile (ANSUR II)";
+}
 
 std::string share_folder() {
   if (const char* folder = std::getenv("PALMAR_SHARE")) return folder;
@@ -35,7 +80,11 @@ std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string
 }
 
 std::shared_ptr<const Hand> load_hand(const HandChoice& choice) {
-  const auto hand = choice.value ? choice.value : load_hand(choice.name);
+  auto hand = choice.value ? choice.value : load_hand(choice.name);
+  if (choice.person) hand = sized_as(*hand, *choice.person);
+  if (choice.is_left && hand->side == Side::kRight) {
+    hand = std::make_shared<const Hand>(mirrored(*hand));
+  }
   if (choice.tissue.empty()) return hand;
   auto other = std::make_shared<Hand>(*hand);
   other->tissue = read_tissue(choice.tissue, hand->tissue);
