@@ -81,6 +81,8 @@ TEST(ContactFitCommand, MistakesAreNamed) {
   EXPECT_THAT(message("curves.csv --indenter sphere:10 --law linear", 2), HasSubstr("stiffening"));
   EXPECT_THAT(message("curves.csv --indenter sphere:10 --tissue-model layered", 2),
               HasSubstr("--layer-mm is needed"));
+  EXPECT_THAT(message("curves.csv --indenter sphere:10 --tissue-model bone", 2),
+              HasSubstr("stiffens with energy"));
   EXPECT_THAT(message("curves.csv --indenter plane", 2), HasSubstr("touches without end"));
 }
 

@@ -145,7 +145,8 @@ TEST_F(PressBadInput, TissueAndCover) {
   expect_usage_error(sphere + "--layer-mm 0", "thickness of the layer is 0 mm", "0.05");
   expect_usage_error(sphere + "--poisson 0.51", "Poisson's ratio is 0.51", "0 to 0.5");
   expect_usage_error(sphere + "--tissue-model layered", "layered", "--layer-mm");
-  expect_usage_error(sphere + "--tissue-model foam", "\"foam\"", "halfspace or layered");
+  expect_usage_error(sphere + "--tissue-model bone", "bone", "has no bones");
+  expect_usage_error(sphere + "--tissue-model foam", "\"foam\"", "halfspace, layered or bone");
   expect_usage_error(sphere + "--tissue-model halfspace --layer-mm 4", "--layer-mm", "exclude");
   expect_usage_error(sphere + "--tissue-level soft", "\"soft\"", "low, nominal or high");
   expect_usage_error(sphere + "--preset xie2013", "\"xie2013\"", "palmar or xie2014");

@@ -248,6 +248,7 @@ int run(const Arguments& arguments) {
   std::vector<Curve> curves(1);
   curves.push_back(press_with(TissueModel::kHalfSpace, hand, options));
   curves.push_back(press_with(TissueModel::kLayered, hand, options));
+  curves.push_back(press_with(TissueModel::kBone, hand, options));
 
   PressDeck deck;
   deck.title = fmt::format("middle_distal on a plate at {} deg", arguments.tilt_deg);

@@ -107,7 +107,7 @@ class PreparedHand {
  public:
   /// Throws UsageError on a bad hand or layered tissue with the point kernel. Cost: about 1 s for
   /// 10 000 vertices on one core.
-  /// TissueModel::kBone: 10 s more, unless the hand's own `compliance` (skin_compliance.h) is
+  /// TissueModel::kBone: 13 s more, unless the hand's own `compliance` (skin_compliance.h) is
   /// given.
   explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {},
                         std::shared_ptr<const SkinCompliance> compliance = nullptr);

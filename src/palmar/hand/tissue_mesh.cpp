@@ -159,8 +159,8 @@ TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options) 
 
   const double range = 2.0 * lattice_options.edge;
   const ClippedMesh inside = clip_tetrahedra(lattice, surface_of(skin, 1.0, range), kSurfaceSnap);
-  ClippedMesh between =
-      clip_tetrahedra(inside.mesh, surface_of(bone, -1.0, range), kSurfaceSnap, inside.is_on_surface);
+  ClippedMesh between = clip_tetrahedra(inside.mesh, surface_of(bone, -1.0, range), kSurfaceSnap,
+                                        inside.is_on_surface);
   drop_loose(between.mesh, between.is_on_surface);
   std::vector<int> kept;
   TissueMesh tissue;

@@ -198,8 +198,9 @@ class TissueReader {
   }
 
   void apply(const toml::table& values, const std::string& section, RegionTissue& region) const {
-    std::vector<std::string> known = {"source", "on_bone"};
+    std::vector<std::string> known = {"source"};
     for (const ModelKey& model : kModelKeys) known.emplace_back(model.name);
+    known.emplace_back("on_bone");
     for (const RegionKey& item : kRegionKeys) known.emplace_back(item.name);
     for (const auto& [key, node] : values) {
       const std::string name(key.str());

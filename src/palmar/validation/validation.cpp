@@ -172,6 +172,12 @@ ContactModel layered_model() {
   return model;
 }
 
+ContactModel bone_model() {
+  ContactModel model;
+  model.tissue = TissueModel::kBone;
+  return model;
+}
+
 ValidationBench::ValidationBench(std::shared_ptr<const Hand> hand, Progress progress)
     : hand_(std::move(hand)), progress_(std::move(progress)) {
   if (!hand_) throw UsageError("validate: no hand was given");

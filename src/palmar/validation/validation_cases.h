@@ -58,6 +58,7 @@ void set_history(ValidationRows& rows, const std::string& added_in,
 ContactModel independent_model();
 /// `palmar` with bone under the skin.
 ContactModel layered_model();
+ContactModel bone_model();
 
 // validation_press.cpp
 ValidationRows validate_half_space(ValidationBench& bench);

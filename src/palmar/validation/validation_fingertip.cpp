@@ -31,6 +31,7 @@ constexpr std::array<double, 8> kDepth = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0
 constexpr std::array<double, 8> kLow = {0.065, 0.3, 0.761, 1.497, 2.545, 3.941, 5.717, 7.902};
 constexpr std::array<double, 8> kHigh = {0.097, 0.476, 1.248, 2.494, 4.288, 6.691, 9.759, 13.546};
 
+constexpr const char* kOnBone = "c98ee62";  // the commit with this law and its moduli
 constexpr const char* kBand = "Xie 2014, four men, sphere of half the tip's width; 25 % outside";
 
 std::string text(double depth) { return std::to_string(depth).substr(0, 3) + " mm"; }
@@ -90,6 +91,9 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   bench.update(0.5, "case G2, layered");
   const PreparedHand& layer = bench.prepared(layered_model());
   const auto layered = press(plate({kDepth.begin(), kDepth.end()}), &layer);
+  bench.update(0.7, "case G2, tissue on bone");
+  const PreparedHand& bone = bench.prepared(bone_model());
+  const auto on_bone = press(plate({kDepth.begin(), kDepth.end()}), &bone);
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
   const auto near_paraboloid = [&](double depth) {
     return depth <= kMeasuredDepth ? near_value(2.0, kPeakTolerance, shape)
@@ -106,15 +110,23 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
                          between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], kBand)));
     // The modulus of layered skin is fitted to this band.
     set_history(rows, "dc20bd8", "a26ebfc");
+    rows.push_back(judge("bone, peak / mean at " + at, "", peak_over_mean(on_bone[i]),
+                         near_paraboloid(kDepth[i])));
+    set_history(rows, kOnBone);
+    rows.push_back(judge("bone, force at " + at, "N", on_bone[i].force,
+                         between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], kBand)));
+    // So is that of tissue on bone.
+    set_history(rows, kOnBone, kOnBone);
   }
-  for (const auto& [model, name] : {std::pair{&half_space, "half-space"}, {&layer, "layered"}}) {
+  for (const auto& [model, name] :
+       {std::pair{&half_space, "half-space"}, {&layer, "layered"}, {&bone, "bone"}}) {
     PressOptions force = plate({});
     force.forces = {2.0};
     const PressStep step = press(force, model).front();
     rows.push_back(judge(std::string(name) + ", peak / mean at 2 N", "", peak_over_mean(step),
                          near_value(2.0, kPeakTolerance, shape)));
+    set_history(rows, model == &bone ? kOnBone : "dc20bd8");
   }
-  set_history(rows, "dc20bd8");
   return rows;
 }
 

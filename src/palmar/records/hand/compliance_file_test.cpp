@@ -48,7 +48,8 @@ TEST(ComplianceFile, GivesBackWhatWasWrittenAndNothingElse) {
   }
   // Nothing but the file is left in the folder.
   int files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++files;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    ++files;
   EXPECT_EQ(files, 1);
 
   // Another hand's, a file cut short, a file with a byte too many.
