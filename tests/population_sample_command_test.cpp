@@ -85,8 +85,7 @@ TEST(PopulationSampleCommand, DesignsDrawTheirHands) {
               193.28 + 1.6448536 * 9.946, 1e-3);
   // Who asks for percentiles gets them, whether or not the design is said.
   EXPECT_EQ(json_of("sample ansur2 --percentiles 5,95"), ends);
-  const ProgramRun other =
-      run_palmar("population sample ansur2 --percentiles 5 --design random");
+  const ProgramRun other = run_palmar("population sample ansur2 --percentiles 5 --design random");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("--percentiles goes with --design percentiles"));
 }

@@ -37,7 +37,7 @@ constexpr double kWallMargin = 0.7;  // mm before a limit depth from which skin 
 constexpr double kEaseMp = 20.0 * kDegree, kEaseIp = 35.0 * kDegree;
 constexpr double kThumbAlike = 15.0 * kDegree;  // that MP and IP differ in bending from there
 constexpr double kStrain = 3.0;
-constexpr double kTouched = 2.0;     // mm; skin of fingers that far off the product counts no more
+constexpr double kTouched = 2.0;  // mm; skin of fingers that far off the product counts no more
 // mm between the thumb and the fingers: when the grasp comes to rest they still bend.
 constexpr double kClearOfFingers = 1.0;
 constexpr double kHalfPad = 5.0;     // mm

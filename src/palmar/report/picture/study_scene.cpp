@@ -22,8 +22,8 @@ namespace palmar {
 namespace {
 
 constexpr int kMostProductTriangles = 40000;
-constexpr double kShownReach = 30.0;     // mm; deeper inside nothing is brought to the surface
-constexpr double kThesisEnd = 0.7;  // MPa; colour scale of Xie 2014, fig. 5-12
+constexpr double kShownReach = 30.0;  // mm; deeper inside nothing is brought to the surface
+constexpr double kThesisEnd = 0.7;    // MPa; colour scale of Xie 2014, fig. 5-12
 
 std::size_t place(int i) { return static_cast<std::size_t>(i); }
 

@@ -116,9 +116,9 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
     grasp.status = GraspStatus::kPartlyHeld;
     grasp.message += "; but it " + balance.message;
   }
-  const bool is_at_rest =
-      balance.status == BalanceStatus::kBalanced || balance.status == BalanceStatus::kOff ||
-      balance.status == BalanceStatus::kSupported;
+  const bool is_at_rest = balance.status == BalanceStatus::kBalanced ||
+                          balance.status == BalanceStatus::kOff ||
+                          balance.status == BalanceStatus::kSupported;
   if (options.grasp.grip && !is_power(*options.grasp.grip) &&
       (grasp.status != GraspStatus::kHeld || !is_at_rest)) {
     grasp.message += other_grip_words(hand, product, options, stoppable);

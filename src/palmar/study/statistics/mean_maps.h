@@ -29,8 +29,8 @@ struct StudyMaps {
 
 struct MeanMapOptions {
   /// MPa. Blood-flow family: at more the skin's blood flow stops if the grip is held long. The only
-  /// family of thresholds that speaks of the pressure at a point; the onsets of pain and discomfort hold
-  /// for their probes' areas (pressure_thresholds.h).
+  /// family of thresholds that speaks of the pressure at a point; the onsets of pain and discomfort
+  /// hold for their probes' areas (pressure_thresholds.h).
   double threshold = kBloodFlowStop;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
