@@ -37,9 +37,7 @@ constexpr double kWallMargin = 0.7;  // mm before a limit depth from which skin 
 constexpr double kEaseMp = 20.0 * kDegree, kEaseIp = 35.0 * kDegree;
 constexpr double kThumbAlike = 15.0 * kDegree;  // that MP and IP differ in bending from there
 constexpr double kStrain = 3.0;
-constexpr double kTouched = 2.0;  // mm; skin of fingers that far off the product counts no more
-// mm between the thumb and the fingers: when the grasp comes to rest they still bend.
-constexpr double kClearOfFingers = 1.0;
+constexpr double kTouched = 2.0;     // mm; skin of fingers that far off the product counts no more
 constexpr double kHalfPad = 5.0;     // mm
 constexpr double kWorth = 2000.0;    // mm^2 of contact that a thumb without residuals is worth
 constexpr double kHalfWorth = 15.0;  // sum of squares with which it is worth half of that
@@ -218,7 +216,7 @@ ThumbCloser::Opposed ThumbCloser::opposed(const HeldProduct& product, const Post
 std::vector<Obstacle> ThumbCloser::obstacles(const Posture& posture) const {
   std::vector<Obstacle> list;
   for (const RoundCone& cone : cones_->posed(hand_->skeleton, posture)) {
-    if (cone.finger != Finger::kThumb && cone.level > 0) list.push_back({cone, -kClearOfFingers});
+    if (cone.finger != Finger::kThumb && cone.level > 0) list.push_back({cone, kNeighbourGive});
   }
   return list;
 }

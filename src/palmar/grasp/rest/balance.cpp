@@ -50,6 +50,8 @@ constexpr double kCouplingFree = 10.0 * kDegree;  // rad
 constexpr double kCouplingStiffness = 1500.0;     // N mm/rad; our choice
 // mm; pulp of thumb and finger pressed together, 2 mm each; our choice
 constexpr double kPulpGive = 4.0;
+// that muscles and product bend a joint beyond its active range; our choice
+constexpr double kPassiveMore = 10.0 * kDegree;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
 /// The main direction of a way in the hand, in words.
@@ -205,7 +207,7 @@ double Settling::extra_grip() const {
 bool Settling::is_stuck(std::size_t joint, double residual) const {
   const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[joint]);
   const double angle = state_.posture[dof.dof];
-  return (angle >= dof.upper - 1e-9 && residual > 0.0) ||
+  return (angle >= dof.upper + kPassiveMore - 1e-9 && residual > 0.0) ||
          (angle <= dof.lower + 1e-9 && residual < 0.0);
 }
 
@@ -324,8 +326,9 @@ void Settling::step(const Misfit& misfit, double missing) {
   for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
     const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[j]);
     const double angle = state_.posture[dof.dof];
-    turned[dof.dof] = std::clamp(angle + way[static_cast<Eigen::Index>(j)],
-                                 std::min(dof.lower, angle), std::max(dof.upper, angle));
+    turned[dof.dof] =
+        std::clamp(angle + way[static_cast<Eigen::Index>(j)], std::min(dof.lower, angle),
+                   std::max(dof.upper + kPassiveMore, angle));
   }
   state_.posture = without_crossing(turned);
   move_product(way.segment<3>(kSqueezeJoints), way.tail<3>());
