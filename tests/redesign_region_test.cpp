@@ -114,7 +114,9 @@ TEST(RedesignRegion, OfARoundBarHasNothingToRoundAndSaysSo) {
       "--out region",
       folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("there is nothing to round"));
+  // Where the hand presses hardest decides whether a place is looked at as a ridge at all.
+  EXPECT_THAT(run.err, testing::AnyOf(HasSubstr("there is nothing to round"),
+                                      HasSubstr("none of the handle's ridges can be rounded")));
   EXPECT_TRUE(fs::exists(folder + "/region/region.step"));
   EXPECT_FALSE(fs::exists(folder + "/region/redesign.step"));
 }
