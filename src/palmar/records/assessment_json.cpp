@@ -11,6 +11,7 @@
 #include "palmar/records/index_json.h"
 #include "palmar/records/json_values.h"
 #include "palmar/records/posture/placement_json.h"
+#include "palmar/records/verdict_json.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {
