@@ -116,7 +116,7 @@ TEST(RedesignRegion, OfARoundBarHasNothingToRoundAndSaysSo) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   // Where the hand presses hardest decides whether a place is looked at as a ridge at all.
   EXPECT_THAT(run.err, ::testing::AnyOf(HasSubstr("there is nothing to round"),
-                                      HasSubstr("none of the handle's ridges can be rounded")));
+                                        HasSubstr("none of the handle's ridges can be rounded")));
   EXPECT_TRUE(fs::exists(folder + "/region/region.step"));
   EXPECT_FALSE(fs::exists(folder + "/region/redesign.step"));
 }
