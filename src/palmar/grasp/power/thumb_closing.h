@@ -18,11 +18,13 @@ using ThumbPose = std::array<double, 4>;
 
 /// Opposes the thumb of one hand to the fingers that are closed already.
 ///
-/// Where the thumb goes is a least-squares fit of its four angles, from the best of a dozen ways to
-/// reach the product: its pad and proximal phalanx lie on the surface, opposite the index and
-/// middle finger, on the far side from the palm, on no end face, clear of the fingers, with joints
-/// as near their ease as that allows. Nothing in it has steps: a product or a hand that differs a
-/// little gets a thumb that differs a little.
+/// Where the thumb goes is a least-squares fit of its four angles, the best that is reached from a
+/// dozen ways of the metacarpal to the product and three dozen bent thumbs: its pad and proximal
+/// phalanx lie on the surface, beside the index and middle finger, where it presses against what
+/// fingertips press across the palm and else on the far side from the palm, on no end face, clear
+/// of the fingers, with joints as near their ease as that allows. The fit itself has no steps: a
+/// product or a hand that differs a little gets a thumb that differs a little, unless two places
+/// are equally good.
 class ThumbCloser {
  public:
   /// `groups`: the skin; `sparse`: some of it for the fit. All must live longer.

@@ -20,6 +20,7 @@
 #include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/grasp/rest/press_down.h"
+#include "palmar/grasp/rest/way_words.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/tendons/grip_muscles.h"
 
@@ -53,19 +54,6 @@ constexpr double kPulpGive = 4.0;
 // that muscles and product bend a joint beyond its active range; our choice
 constexpr double kPassiveMore = 10.0 * kDegree;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
-
-/// The main direction of a way in the hand, in words.
-std::string way_words(const Hand& hand, Vec3 way) {
-  if (hand.side == Side::kLeft) way.x() = -way.x();
-  int most = 0;
-  for (int c = 1; c < 3; ++c) {
-    if (std::abs(way[c]) > std::abs(way[most])) most = c;
-  }
-  static constexpr std::array<const char*, 6> kWords = {
-      "the thumb's side", "the little finger's side",  "the fingertips",
-      "the wrist",        "the open side of the palm", "the palm"};
-  return kWords[static_cast<std::size_t>(2 * most + (way[most] < 0.0 ? 1 : 0))];
-}
 
 /// One run of the search for rest.
 class Settling {

@@ -28,9 +28,20 @@ double strength_of(const CapacityRequest& request) {
   return grip / usual_grip_strength();
 }
 
+bool squeezes(Grip grip) { return is_power(grip) && grip != Grip::kFixedHook; }
+
+std::string refusal(Grip grip) {
+  return fmt::format(
+      "setting \"grip\" is {}; what muscles can do at most is computed for power grips, in which "
+      "fingers press against the palm (power, medium_wrap, large_diameter, small_diameter or "
+      "power_sphere)",
+      name_of(grip));
+}
+
 }  // namespace
 
 void CapacityRequest::check() const {
+  if (grasp.grip && !squeezes(*grasp.grip)) throw UsageError(refusal(*grasp.grip));
   product.check();
   grasp.check();
   contact.check();
@@ -66,11 +77,9 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   const auto hand = load_hand(request.hand);
   const PreparedHand prepared(hand, request.model);
   const Grasp grasp = hold_product(hand, product, request.grasp, options.grasp, progress);
-  if (!is_power(grasp.grip) || grasp.grip == Grip::kFixedHook) {
-    throw UsageError(fmt::format(
-        "{} is held in a {}; what muscles can do at most is computed for power grips, in which "
-        "fingers press against the palm (setting \"grip\" power)",
-        product.name, name_of(grasp.grip)));
+  if (!squeezes(grasp.grip)) {
+    throw UsageError(
+        fmt::format("{} is held in a grip of another kind: {}", product.name, refusal(grasp.grip)));
   }
   Capacity result;
   result.strength = strength_of(request);
@@ -96,6 +105,12 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
                     tried.assessment.balance.strength_use.has_value();
     return tried;
   };
+  if (grasp.status == GraspStatus::kNotGraspable || grasp.status == GraspStatus::kTooLarge ||
+      grasp.status == GraspStatus::kTooSmall) {
+    result.limited_by = "reach";
+    result.message = grasp.message;
+    return result;
+  }
   Tried best;
   double held = 0.0, lost = 0.0;
   for (const double share : kShares) {
