@@ -54,23 +54,6 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const Sk
   return result;
 }
 
-/// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
-/// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
-std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus_on_bone(
-    const SkinOnProduct& skin, const SkinLoad& load) {
-  std::array<double, kRegionCount> result{};
-  std::vector<double> root;
-  for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
-  const auto y = system.solve_on(load.in_contact, root);
-  if (!y) return result;
-  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const int v = load.vertex[k];
-    result[index_of(prepared->hand->region[v])] +=
-        0.5 * (load.force[k] - (*y)[k] * root[k] * skin.sample[v].distance);
-  }
-  return result;
-}
-
 ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad& load,
                                       const std::vector<double>& gap,
                                       const ContactResult& nominal) {

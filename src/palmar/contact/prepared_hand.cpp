@@ -55,13 +55,12 @@ std::shared_ptr<const SkinCompliance> compliance_of(const Hand& hand, const Skin
   return std::make_shared<const SkinCompliance>(skin_compliance(hand, skin));
 }
 
-/// How much longer a hand is than its family's base around some vertices: the root of the ratio of
-/// the areas of their neighbourhoods.
-std::vector<double> length_ratios(const std::vector<int>& vertices, const SkinGeometry& base,
-                                  const SkinGeometry& skin) {
+/// How much longer a hand is than its family's base around each vertex: the root of the ratio of
+/// the areas of its neighbourhoods.
+std::vector<double> length_ratios(const SkinGeometry& base, const SkinGeometry& skin) {
   std::vector<double> result;
-  result.reserve(vertices.size());
-  for (const int v : vertices) {
+  result.reserve(skin.area.size());
+  for (int v = 0; v < skin.vertex_count(); ++v) {
     double own = skin.area[v];
     double old = base.area[v];
     for (const int w : base.neighbours(v)) {
@@ -186,7 +185,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& f
     impl->bone = bone_tissue_blocks(
         *impl->hand, impl->skin,
         scaled_volumes(shared.compliance->volume, *impl->hand, shared.skin, impl->skin));
-    impl->node_scale = length_ratios(shared.compliance->node, shared.skin, impl->skin);
+    impl->scale = length_ratios(shared.skin, impl->skin);
   }
   impl->response = shared.pairs
                        ? stretched_response(*impl->hand, impl->skin, impl->model,

@@ -27,7 +27,7 @@ struct PreparedHand::Impl {
   // With TissueModel::kBone.
   BoneTissueBlocks bone;
   std::shared_ptr<const SkinCompliance> compliance;  ///< of the hand or its family's base
-  std::vector<double> node_scale;                    ///< of a hand of a family: see LoadedSkin
+  std::vector<double> scale;  ///< of a hand of a family, per vertex: see LoadedSkin
 
   bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
 

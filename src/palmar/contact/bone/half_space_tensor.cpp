@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/bone/half_space_tensor.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -13,7 +14,6 @@ namespace palmar {
 namespace {
 
 constexpr std::array<double, 3> kBinomial = {3.0, 3.0, 1.0};  // 1 - (1 - g)^3 = 3 g - 3 g^2 + g^3
-constexpr double kFarDiscs = 6.0;     // radii; a disc is a point there within 0.5 %
 constexpr double kFarSpread = 400.0;  // r^2 / a; spread forces are points there within 1e-4
 
 /// exp(-y) I0(y) and exp(-y) I1(y), y >= 0: Abramowitz, Stegun 1964, 9.8.1 to 9.8.4; error below
@@ -82,7 +82,6 @@ Eigen::Matrix3d point_tensor(const Vec3& between, double r) {
 Eigen::Matrix3d disc_tensor(const Vec3& between, double a_i, double a_j, const Vec3& n_i,
                             const Vec3& n_j) {
   const double r = between.norm();
-  if (r > kFarDiscs * std::max(a_i, a_j)) return point_tensor(between, r);
   const double D = 0.5 * (disc_response(r, a_i) + disc_response(r, a_j));
   const double g = 0.5 * (directed_disc_response(r, a_i) + directed_disc_response(r, a_j));
   return composed(between, n_i, n_j, D, 1.5 * D + 0.5 * g, 1.5 * D - 0.5 * g);
@@ -107,6 +106,11 @@ Eigen::Matrix3d spread_tensor(const Vec3& between, double w_i, double w_j, const
     }
   }
   return composed(between, n_i, n_j, B, B + T, 2.0 * B - T) / (4.0 * std::numbers::pi);
+}
+
+double near_share(double r, double w_i, double w_j) {
+  const double x = std::clamp((r / (0.5 * (w_i + w_j)) - 3.0) / 3.0, 0.0, 1.0);
+  return 1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x));
 }
 
 }  // namespace palmar

@@ -31,4 +31,8 @@ Eigen::Matrix3d disc_tensor(const Vec3& between, double a_i, double a_j, const V
 Eigen::Matrix3d spread_tensor(const Vec3& between, double w_i, double w_j, const Vec3& n_i,
                               const Vec3& n_j);
 
+/// Share of a half-space that is taken from the elements' response between two nodes, and put back
+/// between two vertices: 1 up to 3 widths (the mean of both), 0 from 6 on, smooth between.
+double near_share(double r, double w_i, double w_j);
+
 }  // namespace palmar

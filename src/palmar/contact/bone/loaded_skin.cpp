@@ -4,192 +4,133 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "palmar/contact/bone/half_space_tensor.h"
 
 namespace palmar {
-namespace {
-
-constexpr double kFar = 6.0;  // radii; beyond, a disc is a point (half_space_tensor.h)
-
-using Eigen::Index;
-
-}  // namespace
 
 LoadedSkin::LoadedSkin(const SkinGeometry& skin, const SkinCompliance& compliance,
-                       const std::vector<double>& node_scale)
+                       const SkinResponse* half_space, const std::vector<double>& scale)
     : skin_(&skin),
       compliance_(&compliance),
-      node_scale_(&node_scale),
-      row_of_(static_cast<std::size_t>(skin.vertex_count()), -1),
-      local_node_(compliance.node.size(), -1) {
+      half_space_(half_space),
+      root_scale_(static_cast<std::size_t>(skin.vertex_count()), 1.0F),
+      row_of_(root_scale_.size(), -1),
+      local_(root_scale_.size(), -1) {
+  for (std::size_t v = 0; v < scale.size(); ++v) {
+    root_scale_[v] = static_cast<float>(1.0 / std::sqrt(scale[v]));
+  }
   for (std::size_t i = 0; i < compliance.vertex.size(); ++i) {
     row_of_[compliance.vertex[i]] = static_cast<int>(i);
   }
 }
 
-double LoadedSkin::half_space(int v, const Vec3& along_v, int w, const Vec3& along_w) const {
-  const Vec3 between = skin_->position[v] - skin_->position[w];
-  const double far = kFar * std::max(skin_->radius[v], skin_->radius[w]);
-  const double r2 = between.squaredNorm();
-  if (r2 > far * far) {
-    return (along_v.dot(along_w) + along_v.dot(between) * along_w.dot(between) / r2) /
-           (4.0 * std::numbers::pi * std::sqrt(r2));
+void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& directions) {
+  for (const int v : vertex_) local_[v] = -1;
+  vertex_ = vertices;
+  const std::size_t m = vertex_.size();
+  scaled_.resize(m);
+  cosine_.resize(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    const int v = vertex_[i];
+    local_[v] = static_cast<int>(i);
+    scaled_[i] = directions[i].cast<float>() * root_scale_[v];
+    cosine_[i] = static_cast<float>(-directions[i].dot(skin_->normal[v]));
   }
-  return along_v.dot(
-      disc_tensor(between, skin_->radius[v], skin_->radius[w], skin_->normal[v], skin_->normal[w]) *
-      along_w);
-}
-
-/// R among the nodes that the vertices hang on.
-void LoadedSkin::set_smooth_part() {
-  const PatchMatrix& R = compliance_->smooth;
-  for (const int node : active_) local_node_[node] = -1;
-  active_.clear();
-  for (const int v : vertex_) {
-    if (row_of_[v] < 0) continue;
-    const auto row = static_cast<std::size_t>(row_of_[v]);
-    for (std::size_t k = compliance_->support_begin[row]; k < compliance_->support_begin[row + 1];
-         ++k) {
-      int& local = local_node_[compliance_->support[k]];
-      if (local >= 0) continue;
-      local = 0;
-      active_.push_back(compliance_->support[k]);
-    }
-  }
-  std::sort(active_.begin(), active_.end());
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    local_node_[active_[a]] = static_cast<int>(a);
-  }
-  const auto size = static_cast<Index>(3 * active_.size());
-  smooth_.setZero(size, size);
-  std::vector<std::vector<int>> of_patch(static_cast<std::size_t>(R.patch_count()));
-  std::vector<int> met;
-  for (const int node : active_) {
-    const int I = R.patch_of(3 * node);
-    if (of_patch[I].empty()) met.push_back(I);
-    of_patch[I].push_back(node);
-  }
-  const auto scale = [&](int a, int b) {
-    if (node_scale_->empty()) return 1.0F;
-    return static_cast<float>(1.0 / std::sqrt((*node_scale_)[a] * (*node_scale_)[b]));
-  };
-  for (const int I : met) {
-    for (std::size_t k = 0; k < R.near(I).size(); ++k) {
-      const int J = R.near(I)[k];
-      const Eigen::MatrixXd& block = R.block(I, k);
-      for (const int b : of_patch[J]) {
-        for (const int a : of_patch[I]) {
-          const Eigen::Matrix3f part =
-              scale(a, b) * block.block<3, 3>(R.place_of(3 * a), R.place_of(3 * b)).cast<float>();
-          smooth_.block<3, 3>(3 * local_node_[a], 3 * local_node_[b]) = part;
-          smooth_.block<3, 3>(3 * local_node_[b], 3 * local_node_[a]) = part.transpose();
-        }
+  // What is listed for a row stands left of its diagonal; the rest follows by symmetry.
+  lower_.begin.assign(1, 0);
+  lower_.column.clear();
+  lower_.value.clear();
+  count_.assign(m, 0);
+  const SkinCompliance& C = *compliance_;
+  for (std::size_t i = 0; i < m; ++i) {
+    const int v = vertex_[i];
+    const auto add = [&](int w, const auto& entry) {
+      const int j = local_[w];
+      if (j < 0) return;
+      lower_.column.push_back(j);
+      lower_.value.push_back(entry(static_cast<std::size_t>(j)));
+      ++count_[i];
+      if (static_cast<std::size_t>(j) != i) ++count_[j];
+    };
+    if (const int row = row_of_[v]; row >= 0) {
+      for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
+        add(C.vertex[C.other[k]],
+            [&](std::size_t j) { return scaled_[i].dot(C.tensor[k] * scaled_[j]); });
+      }
+    } else {
+      for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {
+        const int w = half_space_->vertex[k];
+        if (w > v || row_of_[w] >= 0) continue;
+        add(w, [&](std::size_t j) { return half_space_->response[k] * cosine_[i] * cosine_[j]; });
       }
     }
+    lower_.begin.push_back(lower_.column.size());
   }
-}
-
-void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& directions) {
-  vertex_ = vertices;
-  direction_ = directions;
-  set_smooth_part();
-  const auto m = static_cast<Index>(vertices.size());
-  matrix_.setZero(m, m);
-  // R P^T, one column per vertex, its direction included.
-  Eigen::MatrixXf moved(smooth_.rows(), m);
-  moved.setZero();
-  const auto for_support = [&](Index i, const auto& visit) {
-    const int row = row_of_[vertex_[i]];
-    if (row < 0) return;
-    for (std::size_t k = compliance_->support_begin[row]; k < compliance_->support_begin[row + 1];
-         ++k) {
-      visit(3 * local_node_[compliance_->support[k]],
-            (compliance_->weight[k] * direction_[i]).cast<float>().eval());
-    }
+  responses_.begin.assign(1, 0);
+  for (std::size_t i = 0; i < m; ++i) {
+    responses_.begin.push_back(responses_.begin.back() + count_[i]);
+  }
+  responses_.column.resize(responses_.begin.back());
+  responses_.value.resize(responses_.begin.back());
+  // Rows are met in order, so columns come out ascending.
+  next_.assign(responses_.begin.begin(), responses_.begin.end() - 1);
+  const auto put = [&](std::size_t row, std::size_t column, float value) {
+    responses_.column[next_[row]] = static_cast<int>(column);
+    responses_.value[next_[row]++] = value;
   };
-  for (Index j = 0; j < m; ++j) {
-    for_support(j, [&](Index node, const Eigen::Vector3f& share) {
-      moved.col(j) += share[0] * smooth_.col(node) + share[1] * smooth_.col(node + 1) +
-                      share[2] * smooth_.col(node + 2);
-    });
-  }
-  const Eigen::MatrixXf turned = moved.transpose();  // vertices along memory
-  for (Index i = 0; i < m; ++i) {
-    const bool is_on_bone = row_of_[vertex_[i]] >= 0;
-    auto column = matrix_.col(i).head(i + 1);
-    for_support(i, [&](Index node, const Eigen::Vector3f& share) {
-      column += share[0] * turned.col(node).head(i + 1) +
-                share[1] * turned.col(node + 1).head(i + 1) +
-                share[2] * turned.col(node + 2).head(i + 1);
-    });
-    for (Index j = 0; j <= i; ++j) {
-      if ((row_of_[vertex_[j]] >= 0) != is_on_bone) continue;
-      column[j] +=
-          static_cast<float>(half_space(vertex_[j], direction_[j], vertex_[i], direction_[i]));
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t k = lower_.begin[i]; k < lower_.begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(lower_.column[k]);
+      put(i, j, lower_.value[k]);
+      if (j != i) put(j, i, lower_.value[k]);
     }
   }
-  matrix_.triangularView<Eigen::StrictlyLower>() = matrix_.transpose();
 }
 
 std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
                                              const std::vector<int>& at,
                                              const std::vector<Vec3>& along) const {
-  // Forces on the active nodes; nodes that are not active, under `at`, don't move by R.
-  Eigen::VectorXf on_node = Eigen::VectorXf::Zero(smooth_.rows());
+  const auto count = static_cast<std::size_t>(skin_->vertex_count());
+  std::vector<Eigen::Vector3f> load(count, Eigen::Vector3f::Zero());
+  std::vector<float> normal_load(count, 0.0F);
   for (std::size_t j = 0; j < vertex_.size(); ++j) {
-    const int row = row_of_[vertex_[j]];
-    if (row < 0 || force[j] == 0.0) continue;
-    for (std::size_t k = compliance_->support_begin[row]; k < compliance_->support_begin[row + 1];
-         ++k) {
-      on_node.segment<3>(3 * local_node_[compliance_->support[k]]) +=
-          (force[j] * compliance_->weight[k] * direction_[j]).cast<float>();
+    load[vertex_[j]] = static_cast<float>(force[j]) * scaled_[j];
+    normal_load[vertex_[j]] = static_cast<float>(force[j]) * cosine_[j];
+  }
+  std::vector<char> is_asked(count, 0), is_loaded(count, 0);
+  for (const int v : at) is_asked[v] = 1;
+  for (std::size_t j = 0; j < vertex_.size(); ++j) is_loaded[vertex_[j]] = force[j] != 0.0;
+  std::vector<Eigen::Vector3f> moved(count, Eigen::Vector3f::Zero());
+  const SkinCompliance& C = *compliance_;
+  const auto visit_row = [&](int v) {
+    const auto row = static_cast<std::size_t>(row_of_[v]);
+    for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
+      const int w = C.vertex[C.other[k]];
+      if (is_loaded[w] && is_asked[v]) moved[v] += C.tensor[k] * load[w];
+      if (is_loaded[v] && is_asked[w] && w != v) moved[w] += C.tensor[k].transpose() * load[v];
+    }
+  };
+  std::vector<char> is_visited(count, 0);
+  for (const std::vector<int>* list : {&at, &vertex_}) {
+    for (const int v : *list) {
+      if (row_of_[v] < 0 || is_visited[v] || !(is_asked[v] || is_loaded[v])) continue;
+      is_visited[v] = 1;
+      visit_row(v);
     }
   }
-  const PatchMatrix& R = compliance_->smooth;
-  std::vector<Vec3> moved(compliance_->node.size(), Vec3::Zero());
-  std::vector<char> is_known(moved.size(), 0);
-  const auto motion_of = [&](int node) -> const Vec3& {
-    if (is_known[node]) return moved[node];
-    is_known[node] = 1;
-    for (std::size_t b = 0; b < active_.size(); ++b) {
-      const int other = active_[b];
-      const bool is_first = R.patch_of(3 * node) >= R.patch_of(3 * other);
-      const int I = R.patch_of(3 * (is_first ? node : other));
-      const int J = R.patch_of(3 * (is_first ? other : node));
-      const std::vector<int>& near = R.near(I);
-      const auto found = std::lower_bound(near.begin(), near.end(), J);
-      if (found == near.end() || *found != J) continue;
-      const Eigen::MatrixXd& block = R.block(I, static_cast<std::size_t>(found - near.begin()));
-      const Vec3 f = on_node.segment<3>(static_cast<Index>(3 * b)).cast<double>();
-      double scale = 1.0;
-      if (!node_scale_->empty()) {
-        scale = 1.0 / std::sqrt((*node_scale_)[node] * (*node_scale_)[other]);
-      }
-      if (is_first) {
-        moved[node] += scale * (block.block<3, 3>(R.place_of(3 * node), R.place_of(3 * other)) * f);
-      } else {
-        moved[node] +=
-            scale *
-            (block.block<3, 3>(R.place_of(3 * other), R.place_of(3 * node)).transpose() * f);
-      }
-    }
-    return moved[node];
-  };
   std::vector<double> result(at.size(), 0.0);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const int row = row_of_[at[i]];
-    if (row >= 0) {
-      for (std::size_t k = compliance_->support_begin[row]; k < compliance_->support_begin[row + 1];
-           ++k) {
-        result[i] += compliance_->weight[k] * along[i].dot(motion_of(compliance_->support[k]));
-      }
+    const int v = at[i];
+    if (row_of_[v] >= 0) {
+      result[i] = static_cast<double>(root_scale_[v]) * along[i].dot(moved[v].cast<double>());
+      continue;
     }
-    for (std::size_t j = 0; j < vertex_.size(); ++j) {
-      if (force[j] == 0.0 || (row_of_[vertex_[j]] >= 0) != (row >= 0)) continue;
-      result[i] += force[j] * half_space(at[i], along[i], vertex_[j], direction_[j]);
+    double sum = 0.0;
+    for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {
+      const int w = half_space_->vertex[k];
+      if (row_of_[w] >= 0) continue;
+      sum += static_cast<double>(half_space_->response[k]) * static_cast<double>(normal_load[w]);
     }
+    result[i] = -along[i].dot(skin_->normal[v]) * sum;
   }
   return result;
 }

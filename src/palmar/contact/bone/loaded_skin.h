@@ -2,30 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "palmar/contact/bone/skin_compliance.h"
+#include "palmar/contact/response/skin_response.h"
+#include "palmar/contact/response/sparse_rows.h"
 
 namespace palmar {
 
 /// The compliance of a skin on bone among some vertices, each with the direction in which it is
-/// pressed: entries m_i . C_ij m_j. Skin without tissue elements (the back of the hand) has the
-/// half-space's among itself and none with the rest. Keeps its memory. The arguments must outlive
+/// pressed: entries m_i . C_ij m_j. Skin without tissue elements (the back of the hand) has, along
+/// its normals, the response of a half-space among itself and none with the rest. Keeps its memory.
+/// What is pointed to, skin and compliance must outlive
 /// it.
 class LoadedSkin {
  public:
-  /// `scale`: R, and lengths of the skin, are those of `compliance` of a hand 1 / scale as large,
-  /// per node: entries are divided by sqrt(s_a s_b). Exact for a
-  /// hand scaled as a whole, and symmetric in any case. Empty: of the hand itself.
+  /// `scale`: `compliance` is that of a hand 1 / scale as large, per skin vertex: entries are
+  /// divided by sqrt(s_i s_j). Exact for a hand scaled as a whole; symmetric and positive definite
+  /// in any case. Empty: of the hand itself. `half_space` is needed where skin without tissue
+  /// elements is loaded.
   LoadedSkin(const SkinGeometry& skin, const SkinCompliance& compliance,
-             const std::vector<double>& node_scale);
+             const SkinResponse* half_space, const std::vector<double>& scale);
 
   /// Vertices ascending; directions [unit] in the frame of the compliance (hand, reference
   /// posture).
   void set(const std::vector<int>& vertices, const std::vector<Vec3>& directions);
   /// Symmetric, 1/mm.
-  const Eigen::MatrixXf& matrix() const { return matrix_; }
+  const SparseRows& responses() const { return responses_; }
 
   /// Displacement times modulus [N/mm] of other vertices along their directions under forces [N] on
   /// the vertices that were set.
@@ -33,19 +36,17 @@ class LoadedSkin {
                                    const std::vector<Vec3>& along) const;
 
  private:
-  double half_space(int v, const Vec3& along_v, int w, const Vec3& along_w) const;
-  void set_smooth_part();
-
   const SkinGeometry* skin_;
   const SkinCompliance* compliance_;
-  const std::vector<double>* node_scale_;
-  std::vector<int> row_of_;
+  const SkinResponse* half_space_;
+  std::vector<float> root_scale_;  // 1 / sqrt(s) per skin vertex
+  std::vector<int> row_of_;        // per skin vertex, in the compliance; -1 for none
+  std::vector<int> local_;         // per skin vertex, in vertex_; -1 for none
   std::vector<int> vertex_;
-  std::vector<Vec3> direction_;
-  std::vector<int> local_node_;  // per node: place among the active ones, -1
-  std::vector<int> active_;      // nodes
-  Eigen::MatrixXf smooth_;       // R among the active nodes
-  Eigen::MatrixXf matrix_;
+  std::vector<Eigen::Vector3f> scaled_;  // directions times root_scale_
+  std::vector<float> cosine_;            // of the directions with the inward normals
+  SparseRows lower_, responses_;
+  std::vector<std::size_t> count_, next_;
 };
 
 }  // namespace palmar

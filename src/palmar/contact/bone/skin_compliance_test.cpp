@@ -18,6 +18,17 @@ namespace {
 
 using contact_test::BondedLayer;
 
+Eigen::MatrixXd full(const SparseRows& rows) {
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (std::size_t k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+      result(i, rows.column[k]) = static_cast<double>(rows.value[k]);
+    }
+  }
+  return result;
+}
+
 TEST(HalfSpaceTensor, SpreadForcesArePointForcesFarAwayAndSofterNearby) {
   const Vec3 n = Vec3::UnitZ();
   const Vec3 far(60.0, 0.0, 0.0);
@@ -56,13 +67,12 @@ TEST_P(SphereOnLayer, MeetsTheIntegralEquation) {
   const SphereCase& c = GetParam();
   const BondedLayer layer(c.edge, c.thickness, 20.0, 1.6, 10.0);
   const SkinCompliance compliance = layer.compliance();
-  const std::vector<double> own_size;
-  LoadedSkin loaded(layer.skin, compliance, own_size);
+  LoadedSkin loaded(layer.skin, compliance, nullptr, {});
   loaded.set(compliance.vertex, std::vector<Vec3>(compliance.vertex.size(), Vec3(0.0, 0.0, -1.0)));
-  const Eigen::MatrixXf& C = loaded.matrix();
+  const Eigen::MatrixXd C = full(loaded.responses());
   EXPECT_EQ(C, C.transpose());
   ContactProblem problem;
-  problem.response = C.cast<double>();
+  problem.response = C;
   problem.distance.resize(C.rows());
   for (int i = 0; i < C.rows(); ++i) {
     problem.distance[i] = layer.skin.position[i].squaredNorm() / (2.0 * c.radius) - c.depth;
@@ -83,8 +93,7 @@ INSTANTIATE_TEST_SUITE_P(ThinToThick, SphereOnLayer,
 TEST(LoadedSkin, DisplacementOfOtherVerticesIsTheirRowOfTheMatrix) {
   const BondedLayer layer(2.0, 5.0, 14.0, 2.0, 8.0);
   const SkinCompliance compliance = layer.compliance();
-  const std::vector<double> own_size;
-  LoadedSkin all(layer.skin, compliance, own_size);
+  LoadedSkin all(layer.skin, compliance, nullptr, {});
   const auto count = compliance.vertex.size();
   std::vector<Vec3> direction;
   for (std::size_t i = 0; i < count; ++i) {
@@ -93,8 +102,9 @@ TEST(LoadedSkin, DisplacementOfOtherVerticesIsTheirRowOfTheMatrix) {
   all.set(compliance.vertex, direction);
   const std::vector<int> some(compliance.vertex.begin(), compliance.vertex.begin() + 20);
   const std::vector<int> others(compliance.vertex.begin() + 20, compliance.vertex.end());
-  LoadedSkin part(layer.skin, compliance, own_size);
+  LoadedSkin part(layer.skin, compliance, nullptr, {});
   part.set(some, {direction.begin(), direction.begin() + 20});
+  const Eigen::MatrixXd C = full(all.responses());
   std::vector<double> force(20);
   for (std::size_t j = 0; j < force.size(); ++j) force[j] = 1.0 + 0.1 * static_cast<double>(j);
   const std::vector<double> moved =
@@ -102,8 +112,7 @@ TEST(LoadedSkin, DisplacementOfOtherVerticesIsTheirRowOfTheMatrix) {
   for (std::size_t i = 0; i < others.size(); ++i) {
     double sum = 0.0;
     for (std::size_t j = 0; j < force.size(); ++j) {
-      sum += force[j] *
-             static_cast<double>(all.matrix()(static_cast<int>(i) + 20, static_cast<int>(j)));
+      sum += force[j] * C(static_cast<int>(i) + 20, static_cast<int>(j));
     }
     EXPECT_NEAR(moved[i], sum, 1e-4);
   }

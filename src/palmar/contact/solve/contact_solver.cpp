@@ -17,18 +17,15 @@
 namespace palmar {
 namespace {
 
-constexpr int kMostExtensions = 8;   // of the problem by skin that bulges into the product
-constexpr double kBulgeRange = 4.0;  // mm; gaps beyond this don't close by bulging
-constexpr int kMostStiffeningRounds = 40;
-constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus
-constexpr double kCoatingReach = 5.0;       // thicknesses; beyond, a layer's response is gone
+constexpr int kMostExtensions = 8;     // of the problem by skin that bulges into the product
+constexpr double kCoatingReach = 5.0;  // thicknesses; beyond, a layer's response is gone
 
-void append(std::string& message, const std::string& text) {
+}  // namespace
+
+void append_note(std::string& message, const std::string& text) {
   if (!message.empty()) message += "; ";
   message += text;
 }
-
-}  // namespace
 
 ContactSolver::Impl::Impl(const PreparedHand& prepared_hand, const ContactOptions& contact_options)
     : hand(&prepared_hand),
@@ -36,7 +33,7 @@ ContactSolver::Impl::Impl(const PreparedHand& prepared_hand, const ContactOption
       options(contact_options),
       system(prepared->blocks) {
   if (prepared->is_on_bone()) {
-    loaded_.emplace(prepared->skin, *prepared->compliance, prepared->node_scale);
+    loaded_.emplace(prepared->skin, *prepared->compliance, &prepared->response, prepared->scale);
   }
 }
 
@@ -156,7 +153,7 @@ void ContactSolver::Impl::assemble(const SkinOnProduct& skin, const SkinLoad& lo
 
 bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load,
                                        ContactResult& result) {
-  if (prepared->is_on_bone()) return solve_on_bone(skin, load, result);
+  if (prepared->is_on_bone()) return solve_on_bone(skin, load, false, result);
   assemble(skin, load);
   std::vector<double> b(load.vertex.size());
   for (std::size_t k = 0; k < b.size(); ++k) {
@@ -175,112 +172,14 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
   return outcome.is_solved;
 }
 
-/// The directions in which the product presses the skin, turned back with it to the reference
-/// posture by the frames of normal and first edge at each vertex.
-std::vector<Vec3> ContactSolver::Impl::reference_directions(
-    const SkinOnProduct& skin, const std::vector<int>& vertices) const {
-  const SkinGeometry& reference = prepared->skin;
-  const auto frame = [](const Vec3& normal, const Vec3& edge) {
-    Eigen::Matrix3d axes;
-    axes.col(0) = normal;
-    axes.col(1) = (edge - edge.dot(normal) * normal).normalized();
-    axes.col(2) = normal.cross(axes.col(1));
-    return axes;
-  };
-  std::vector<Vec3> result;
-  result.reserve(vertices.size());
-  for (const int v : vertices) {
-    const int next = reference.neighbours(v).front();
-    const Eigen::Matrix3d before =
-        frame(reference.normal[v], reference.position[next] - reference.position[v]);
-    const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
-    result.emplace_back(before * (posed.transpose() * -skin.sample[v].normal));
-  }
-  return result;
-}
-
-void ContactSolver::Impl::set_bone_moduli(SkinLoad& load) const {
-  const int count = prepared->skin.vertex_count();
-  load.root_modulus.resize(count);
-  for (int v = 0; v < count; ++v) {
-    load.root_modulus[v] = options.shear_modulus
-                               ? std::sqrt(*options.shear_modulus)
-                               : root_modulus(prepared->bone, load.level, stiffening_, v);
-  }
-  load.shear_modulus.clear();
-  for (const int v : load.vertex) {
-    load.shear_modulus.push_back(load.root_modulus[v] * load.root_modulus[v]);
-  }
-}
-
-/// With q = p / sqrt(G) the problem of given moduli reads C q + sqrt(G) d >= 0. The moduli follow
-/// from the work of the forces (block_energy.h): fixed-point iteration, which converges fast
-/// because the skin's displacements, and with them the energies at the modulus G0, hardly depend on
-/// the moduli.
-bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& load,
-                                        ContactResult& result) {
-  ContactSystem::Outcome outcome;
-  std::vector<double> b(load.vertex.size());
-  std::vector<double> displacement(b.size());
-  load.direction = reference_directions(skin, load.vertex);
-  if (load.force.size() != b.size()) load.force.assign(b.size(), 0.0);
-  bool is_steady = false;
-  for (int round = 0; round < kMostStiffeningRounds && !is_steady; ++round) {
-    set_bone_moduli(load);
-    if (round == 0) loaded_->set(load.vertex, load.direction);
-    if (round == 0 || !options.coatings.empty()) {
-      system.assemble(loaded_->matrix(), load.vertex);
-      set_coating(skin, load);
-      if (!coating_.diagonal.empty()) system.add(coating_.diagonal, coating_.entries);
-    }
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const double root = load.root_modulus[load.vertex[k]];
-      b[k] = root * skin.sample[load.vertex[k]].distance;
-      load.force[k] /= root;
-    }
-    outcome = system.solve(b, load.in_contact, load.force, load.gap);
-    result.iterations += outcome.pivots;
-    if (!outcome.is_solved) return false;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const double root = load.root_modulus[load.vertex[k]];
-      load.force[k] *= root;
-      load.gap[k] /= root;
-    }
-    if (options.shear_modulus) break;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const int v = load.vertex[k];
-      displacement[k] = load.gap[k] - skin.sample[v].distance;
-      if (!options.coatings.empty() && load.force[k] > 0.0) {
-        displacement[k] -= coating_displacement(skin, load, static_cast<std::size_t>(v));
-      }
-    }
-    const BlockStiffening next = stiffening_of(prepared->bone, load.level, stiffening_, load.vertex,
-                                               load.force, displacement);
-    is_steady = true;
-    for (std::size_t r = 0; r < next.size(); ++r) {
-      is_steady = is_steady && std::abs(next[r] / stiffening_[r] - 1.0) < kSteadyStiffening;
-    }
-    if (!is_steady) stiffening_ = next;
-  }
-  if (!is_steady && !options.shear_modulus) {
-    append(result.message, "the stiffening of the tissue is not steady after " +
-                               std::to_string(kMostStiffeningRounds) + " rounds");
-  }
-  double complementarity = 0.0;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
-  }
-  result.complementarity_error = std::max(result.complementarity_error, complementarity);
-  return true;
-}
-
 /// After the whole problem has failed: each region alone; what has no solution carries no force.
 void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& load,
                                           ContactResult& result) {
   result.status = ContactStatus::kNotConverged;
   if (prepared->model.coupling == RegionCoupling::kCoupled) {
-    append(result.message, "the contact of " + std::to_string(load.vertex.size()) +
-                               " coupled vertices has no solution; regions were solved one by one");
+    append_note(result.message,
+                "the contact of " + std::to_string(load.vertex.size()) +
+                    " coupled vertices has no solution; regions were solved one by one");
   }
   for (int r = 0; r < kRegionCount; ++r) {
     std::vector<std::size_t> rows;
@@ -296,9 +195,10 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
     }
     if (rows.empty()) continue;
     if (!solve_system(skin, part, result)) {
-      append(result.message, "contact of region " + std::string(name_of(static_cast<Region>(r))) +
-                                 " (" + std::to_string(rows.size()) +
-                                 " vertices) has no solution; it carries no force");
+      append_note(result.message, "contact of region " +
+                                      std::string(name_of(static_cast<Region>(r))) + " (" +
+                                      std::to_string(rows.size()) +
+                                      " vertices) has no solution; it carries no force");
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
       load.force[rows[i]] = part.force[i];
@@ -310,7 +210,6 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
 
 std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
                                                  const SkinLoad& load) const {
-  if (prepared->is_on_bone()) return pressed_in_on_bone(skin, load);
   const std::size_t n = skin.sample.size();
   std::vector<double> sum(n, 0.0);
   const SkinResponse& response = prepared->response;
@@ -359,29 +258,6 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
   return result;
 }
 
-std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& skin,
-                                                         const SkinLoad& load) const {
-  std::vector<char> is_known(skin.sample.size(), 0);
-  for (const int v : load.vertex) is_known[v] = 1;
-  std::vector<int> near;
-  for (const int v : skin.near) {
-    const double d = skin.sample[v].distance;
-    if (!is_known[v] && d >= 0.0 && d < kBulgeRange) near.push_back(v);
-  }
-  std::vector<double> share(load.force);
-  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
-  const std::vector<double> moved =
-      loaded_->displacement(share, near, reference_directions(skin, near));
-  std::vector<int> result;
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const auto v = static_cast<std::size_t>(near[k]);
-    double gap = skin.sample[v].distance + moved[k] / load.root_modulus[v];
-    if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
-    if (gap < 0.0) result.push_back(near[k]);
-  }
-  return result;
-}
-
 bool ContactSolver::Impl::may_bulge() const {
   return prepared->model.tissue != TissueModel::kHalfSpace || !options.coatings.empty();
 }
@@ -407,18 +283,20 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
                                              : start[v] != 0);
       load.force.push_back(was_force.empty() ? 0.0 : was_force[v]);
     }
-    if (!solve_system(skin, load, result)) {
+    const bool is_on_bone = prepared->is_on_bone();
+    if (!(is_on_bone ? solve_on_bone(skin, load, true, result)
+                     : solve_system(skin, load, result))) {
       solve_by_region(skin, load, result);
       return;
     }
-    if (!may_bulge()) return;
+    if (is_on_bone || !may_bulge()) return;
     const std::vector<int> more = pressed_in(skin, load);
     if (more.empty()) return;
     if (round == kMostExtensions) {
-      append(result.message,
-             std::to_string(more.size()) +
-                 " vertices beside the contact still bulge into the product after " +
-                 std::to_string(kMostExtensions) + " extensions of the problem");
+      append_note(result.message,
+                  std::to_string(more.size()) +
+                      " vertices beside the contact still bulge into the product after " +
+                      std::to_string(kMostExtensions) + " extensions of the problem");
       return;
     }
     was_force.resize(skin.sample.size(), 0.0);
@@ -486,7 +364,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   if (!skin.collision.empty()) solve_load(skin, load, result);
   const std::vector<double>& covered = coating_.diagonal;
   if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
-    append(result.message, "no skin in contact is on a coated part of the product");
+    append_note(result.message, "no skin in contact is on a coated part of the product");
   }
   was_in_contact.assign(n, 0);
   was_force = result.force;
@@ -522,28 +400,6 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
     region.max_penetration = deepest.depth[r];
     region.shear_modulus = deepest.shear_modulus[r];
     result.total.force += force[r];
-  }
-}
-
-/// The skin around the contact as the solution has it, along its own normals.
-void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const SkinLoad& load,
-                                           SkinDisplacement& u) const {
-  std::vector<char> is_known(skin.sample.size(), 0);
-  for (const int v : load.vertex) is_known[v] = 1;
-  std::vector<int> around;
-  std::vector<Vec3> inwards;
-  for (std::size_t v = 0; v < is_known.size(); ++v) {
-    if (is_known[v] || !u.is_active[v]) continue;
-    around.push_back(static_cast<int>(v));
-    inwards.emplace_back(-prepared->skin.normal[v]);
-  }
-  std::vector<double> share(load.force);
-  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
-  const std::vector<double> moved = loaded_->displacement(share, around, inwards);
-  for (std::size_t k = 0; k < around.size(); ++k) {
-    const int v = around[k];
-    u.elastic[v] = moved[k] / load.root_modulus[v];
-    u.with_bulge[v] = std::max(u.elastic[v], -skin.sample[v].distance);
   }
 }
 

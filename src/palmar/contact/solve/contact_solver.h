@@ -16,6 +16,11 @@
 
 namespace palmar {
 
+constexpr double kBulgeRange = 4.0;  ///< mm; gaps beyond this don't close by bulging
+
+/// Appends a sentence to a result's message.
+void append_note(std::string& message, const std::string& text);
+
 /// What stands behind ContactSolver and solve_hand_contact(); the contact of one hand, with its
 /// memory.
 struct ContactSolver::Impl {
@@ -60,7 +65,9 @@ struct ContactSolver::Impl {
   double coating_displacement(const SkinOnProduct& skin, const SkinLoad& load, std::size_t v) const;
   void assemble(const SkinOnProduct& skin, const SkinLoad& load);
   bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
-  bool solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
+  bool solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
+                     ContactResult& result);
+  void extend(const std::vector<int>& more, SkinLoad& load) const;
   void set_bone_moduli(SkinLoad& load) const;
   std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
                                          const std::vector<int>& vertices) const;

@@ -12,7 +12,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kLast = 1e-12;  // largest gap of a loaded vertex / largest |b| at the end
 constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers the residual
 constexpr double kInner = 1e-5;  // by what each further one does; single precision gives as much
 constexpr int kMostCorrections = 8;
@@ -78,20 +77,13 @@ void ContactSystem::assemble(const SkinResponse& response, const std::vector<int
   assemble_far(response);
 }
 
-void ContactSystem::assemble(const Eigen::MatrixXf& matrix, const std::vector<int>& vertices) {
+void ContactSystem::assemble(const SparseRows& matrix, const std::vector<int>& vertices) {
   vertex_ = vertices;
-  const auto m = vertices.size();
-  all_rows_.resize(m);
+  all_rows_.resize(vertices.size());
   std::iota(all_rows_.begin(), all_rows_.end(), 0);
-  begin_.resize(m + 1);
-  column_.resize(m * m);
-  value_.resize(m * m);
-  for (std::size_t i = 0; i <= m; ++i) begin_[i] = i * m;
-  for (std::size_t i = 0; i < m; ++i) {
-    std::iota(column_.begin() + static_cast<std::ptrdiff_t>(i * m),
-              column_.begin() + static_cast<std::ptrdiff_t>((i + 1) * m), 0);
-    std::copy_n(matrix.data() + i * m, m, value_.data() + i * m);
-  }
+  begin_ = matrix.begin;
+  column_ = matrix.column;
+  value_ = matrix.value;
   has_blocks_ = false;
   has_far_ = false;
 }
@@ -239,8 +231,10 @@ void ContactSystem::make_blocks() {
 }
 
 bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
+  if (has_blocks_ && in_contact == was_set_) return is_definite_;
   if (!has_blocks_) make_blocks();
   has_blocks_ = true;
+  was_set_ = in_contact;
   const std::size_t blocks = first_.size() - 1;
   kept_.resize(blocks);
   place_.resize(in_contact.size());
@@ -258,7 +252,8 @@ bool ContactSystem::set_contact(const std::vector<char>& in_contact) {
     if (!kept_[b].empty()) ++block;
   }
   matrix_.take_part(all_, kept_);
-  return matrix_.factor();
+  is_definite_ = matrix_.factor();
+  return is_definite_;
 }
 
 bool ContactSystem::correct(double tolerance, const std::vector<double>& residual,
@@ -345,7 +340,8 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
 
 ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
                                             std::vector<char>& in_contact,
-                                            std::vector<double>& force, std::vector<double>& gap) {
+                                            std::vector<double>& force, std::vector<double>& gap,
+                                            double accuracy) {
   const auto m = static_cast<std::size_t>(size());
   Outcome outcome;
   if (force.size() != m) force.assign(m, 0.0);
@@ -376,7 +372,7 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
       if (!is_regular) break;
       find_gap();
       const double error = error_on_set() / b_scale;
-      const bool is_last = error <= kLast || round == kMostCorrections;
+      const bool is_last = error <= accuracy || round == kMostCorrections;
       // What the solution isn't good enough to determine counts as feasible for now.
       const double slack = std::max(10.0 * error, 1e-11);
       const double p_slack = slack * largest(force);
@@ -430,7 +426,7 @@ std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<cha
       r -= right[i];
       error = std::max(error, std::abs(r));
     }
-    if (error <= kLast * scale) break;
+    if (error <= kBestAccuracy * scale) break;
     int iterations = 0;
     if (!correct(kInner, residual, x, iterations)) return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palmar/contact/response/skin_response.h"
+#include "palmar/contact/response/sparse_rows.h"
 #include "palmar/contact/solve/block_matrix.h"
 
 namespace palmar {
@@ -22,7 +23,7 @@ namespace palmar {
 /// Block principal pivoting (Judice, Pires 1994) over the contact set; each linear system by
 /// conjugate gradients in single precision on a BlockMatrix of the skin's patches, refined in
 /// double precision. While the set still changes a coarse solution is enough; the last one is
-/// refined until no loaded vertex has a gap above 1e-12 of the largest. Single exchanges (Murty
+/// refined until no loaded vertex has a gap above 1e-12 of the largest |b|. Single exchanges (Murty
 /// 1974) where block exchanges stall; dense block pivoting and Lemke's method as the last resort.
 /// Keeps its memory from call to call.
 class ContactSystem {
@@ -35,7 +36,7 @@ class ContactSystem {
                 const std::vector<Region>* region);
 
   /// Takes a symmetric matrix, whose rows are `vertices` (ascending).
-  void assemble(const Eigen::MatrixXf& matrix, const std::vector<int>& vertices);
+  void assemble(const SparseRows& matrix, const std::vector<int>& vertices);
 
   /// Adds value to the entries (i, j) and (j, i); i != j. Call end_additions() after the last.
   struct Entry {
@@ -53,9 +54,12 @@ class ContactSystem {
     double relative_residual = 0.0;  ///< max |min(s_i / max|b|, p_i / max p)|, recomputed
   };
   /// Solves from the guess in_contact and, if it has the right size, the guess `force`; leaves the
-  /// contact set, p in `force` [N] and s in `gap` [MPa mm]. Unsolved: both zero.
+  /// contact set, p in `force` [N] and s in `gap` [MPa mm]. Unsolved: both zero. `accuracy`: gaps
+  /// that loaded vertices may have in the end, in parts of the largest |b|.
   Outcome solve(const std::vector<double>& b, std::vector<char>& in_contact,
-                std::vector<double>& force, std::vector<double>& gap);
+                std::vector<double>& force, std::vector<double>& gap,
+                double accuracy = kBestAccuracy);
+  static constexpr double kBestAccuracy = 1e-12;
 
   /// x of A_FF x = right_F on the contact set F, zero elsewhere. Nothing if A_FF isn't positive
   /// definite.
@@ -106,6 +110,8 @@ class ContactSystem {
   std::vector<std::size_t> first_;  // of each block, in by_patch_
   BlockMatrix all_;
   // The contact set, block by block, and A on it.
+  std::vector<char> was_set_;
+  bool is_definite_ = false;
   std::vector<int> set_;
   std::vector<std::vector<int>> kept_;  // per block of all_: its rows in the set
   std::vector<Place> place_;            // per row of the set

@@ -41,9 +41,15 @@ class PressedBall : public testing::Test {
     for (const int v : compliance_.vertex) {
       if (skin_.position[v].z() > 8.0) vertex_.push_back(v);
     }
-    LoadedSkin loaded(skin_, compliance_, own_size_);
+    LoadedSkin loaded(skin_, compliance_, nullptr, {});
     loaded.set(vertex_, std::vector<Vec3>(vertex_.size(), Vec3(0.0, 0.0, -1.0)));
-    C_ = loaded.matrix().cast<double>();
+    const SparseRows& rows = loaded.responses();
+    C_ = Eigen::MatrixXd::Zero(static_cast<int>(rows.size()), static_cast<int>(rows.size()));
+    for (int i = 0; i < C_.rows(); ++i) {
+      for (std::size_t k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+        C_(i, rows.column[k]) = static_cast<double>(rows.value[k]);
+      }
+    }
     ASSERT_GT(vertex_.size(), 40U);
   }
 
@@ -106,7 +112,6 @@ class PressedBall : public testing::Test {
   SkinCompliance compliance_;
   BoneTissueBlocks blocks_;
   std::vector<int> vertex_;
-  std::vector<double> own_size_;
   Eigen::MatrixXd C_;
 };
 

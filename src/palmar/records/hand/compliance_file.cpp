@@ -13,7 +13,7 @@
 namespace palmar {
 namespace {
 
-constexpr std::string_view kMagic = "palmar skin compliance 1\n";
+constexpr std::string_view kMagic = "palmar skin compliance 2\n";
 constexpr std::uint64_t kMostComplianceBytes = std::uint64_t{1} << 30;
 
 void append_mesh(std::string& bytes, const TriangleMesh& mesh) {
@@ -75,20 +75,23 @@ bool read_ascending(ByteReader& reader, std::int64_t end, std::vector<int>& resu
   return true;
 }
 
-bool read_supports(ByteReader& reader, SkinCompliance& result) {
-  result.support_begin.push_back(0);
+/// Entries of the rows, one after the other; each row's last is its diagonal.
+bool read_rows(ByteReader& reader, SkinCompliance& result) {
+  result.begin.push_back(0);
   for (std::size_t i = 0; i < result.vertex.size(); ++i) {
-    const auto count = count_from(reader, 12);
-    if (!count) return false;
-    for (int k = 0; k < *count; ++k) {
-      result.support.push_back(reader.next<std::int32_t>());
-      result.weight.push_back(reader.next<double>());
-      if (result.support.back() < 0 ||
-          result.support.back() >= static_cast<int>(result.node.size())) {
-        return false;
-      }
+    std::vector<int> row;
+    if (!read_ascending(reader, static_cast<std::int64_t>(i) + 1, row)) return false;
+    if (row.empty() || row.back() != static_cast<int>(i)) return false;
+    result.other.insert(result.other.end(), row.begin(), row.end());
+    result.begin.push_back(result.other.size());
+  }
+  const std::string_view values = reader.text(9 * sizeof(float) * result.other.size());
+  if (!reader.is_good) return false;
+  result.tensor.resize(result.other.size());
+  for (std::size_t k = 0; k < result.tensor.size(); ++k) {
+    for (std::size_t e = 0; e < 9; ++e) {
+      result.tensor[k].data()[e] = read_value<float>(values, sizeof(float) * (9 * k + e));
     }
-    result.support_begin.push_back(result.support.size());
   }
   return true;
 }
@@ -97,33 +100,7 @@ std::optional<SkinCompliance> compliance_from(ByteReader& reader, std::int64_t v
   SkinCompliance result;
   for (double& v : result.volume) v = reader.next<double>();
   if (!read_ascending(reader, vertices, result.vertex)) return std::nullopt;
-  if (!read_ascending(reader, vertices, result.node)) return std::nullopt;
-  if (!read_supports(reader, result)) return std::nullopt;
-  const auto patches = count_from(reader, 4);
-  if (!patches) return std::nullopt;
-  std::vector<int> patch;
-  for (std::size_t a = 0; a < result.node.size(); ++a) {
-    const auto own = reader.next<std::int32_t>();
-    if (own < 0 || own >= *patches) return std::nullopt;
-    patch.insert(patch.end(), 3, own);
-  }
-  std::vector<std::vector<int>> near(static_cast<std::size_t>(*patches));
-  for (int I = 0; I < *patches; ++I) {
-    if (!read_ascending(reader, std::int64_t{I} + 1, near[I])) return std::nullopt;
-    if (near[I].empty() || near[I].back() != I) return std::nullopt;
-  }
-  result.smooth = PatchMatrix(std::move(patch), *patches, std::move(near));
-  for (int I = 0; I < *patches; ++I) {
-    for (std::size_t k = 0; k < result.smooth.near(I).size(); ++k) {
-      Eigen::MatrixXd& block = result.smooth.block(I, k);
-      const auto size = static_cast<std::size_t>(block.size());
-      const std::string_view values = reader.text(sizeof(float) * size);
-      if (!reader.is_good) return std::nullopt;
-      for (std::size_t e = 0; e < size; ++e) {
-        block.data()[e] = static_cast<double>(read_value<float>(values, sizeof(float) * e));
-      }
-    }
-  }
+  if (!read_rows(reader, result)) return std::nullopt;
   if (!reader.is_good || reader.left() != 0) return std::nullopt;
   return result;
 }
@@ -142,6 +119,7 @@ std::string compliance_key(const Hand& hand, const SkinComplianceOptions& option
   for (const Region region : hand.region) bytes += static_cast<char>(region);
   for (const Bone& bone : hand.bones) append_mesh(bytes, bone.mesh);
   append_value(bytes, options.mesh.finger_edge);
+  append_value(bytes, options.reach);
   return sha256_hex(bytes);
 }
 
@@ -151,29 +129,13 @@ void write_compliance(const std::filesystem::path& path, const std::string& key,
   bytes += key;
   for (const double v : compliance.volume) append_value(bytes, v);
   append_indices(bytes, compliance.vertex);
-  append_indices(bytes, compliance.node);
   for (std::size_t i = 0; i < compliance.vertex.size(); ++i) {
-    const std::size_t first = compliance.support_begin[i];
-    const std::size_t last = compliance.support_begin[i + 1];
-    append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(last - first));
-    for (std::size_t k = first; k < last; ++k) {
-      append_value<std::int32_t>(bytes, compliance.support[k]);
-      append_value(bytes, compliance.weight[k]);
-    }
+    const auto first = compliance.other.begin();
+    append_indices(bytes, {first + static_cast<std::ptrdiff_t>(compliance.begin[i]),
+                           first + static_cast<std::ptrdiff_t>(compliance.begin[i + 1])});
   }
-  const PatchMatrix& R = compliance.smooth;
-  append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(R.patch_count()));
-  for (std::size_t a = 0; a < compliance.node.size(); ++a) {
-    append_value<std::int32_t>(bytes, R.patch_of(3 * static_cast<int>(a)));
-  }
-  for (int I = 0; I < R.patch_count(); ++I) append_indices(bytes, R.near(I));
-  for (int I = 0; I < R.patch_count(); ++I) {
-    for (std::size_t k = 0; k < R.near(I).size(); ++k) {
-      const Eigen::MatrixXd& block = R.block(I, k);
-      for (Eigen::Index e = 0; e < block.size(); ++e) {
-        append_value<float>(bytes, static_cast<float>(block.data()[e]));
-      }
-    }
+  for (const Eigen::Matrix3f& tensor : compliance.tensor) {
+    for (int e = 0; e < 9; ++e) append_value<float>(bytes, tensor.data()[e]);
   }
   // Two programs may write at once: each under a name of its own.
   std::filesystem::path part = path;

@@ -1,0 +1,261 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ContactSolver does where the tissue lies on bone (block_energy.h).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "palmar/contact/contact_totals.h"
+#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/core/enum_index.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kMostRounds = 60;
+constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus
+constexpr double kCoarse = 1e-6;            // accuracy while moduli and skin in question change
+constexpr double kNearlySteady = 0.02;      // change below which bulging skin is looked for
+constexpr double kMostAhead = 0.5;          // share of a step by which the next is foreseen
+
+/// Logarithms of the moduli that follow on `last`, once the steps towards them shrink evenly:
+/// Aitken's extrapolation along the last step (Irons, Tuck 1969).
+class Extrapolation {
+ public:
+  BlockStiffening next(const BlockStiffening& from, const BlockStiffening& to) {
+    BlockStiffening step{};
+    double along = 0.0;
+    double square = 0.0;
+    for (std::size_t b = 0; b < step.size(); ++b) {
+      step[b] = std::log(to[b] / from[b]);
+      along += step[b] * last_[b];
+      square += last_[b] * last_[b];
+    }
+    const double ratio = has_last_ && square > 0.0 ? along / square : 0.0;
+    has_last_ = true;
+    last_ = step;
+    const double ahead = std::clamp(ratio / (1.0 - ratio), 0.0, kMostAhead);
+    BlockStiffening result = to;
+    if (std::abs(ratio) >= 1.0) return result;
+    for (std::size_t b = 0; b < step.size(); ++b) {
+      result[b] = std::max(1.0, to[b] * std::exp(ahead * step[b]));
+      last_[b] = std::log(result[b] / from[b]);
+    }
+    return result;
+  }
+
+ private:
+  BlockStiffening last_{};
+  bool has_last_ = false;
+};
+
+}  // namespace
+
+/// The directions in which the product presses the skin, turned back with it to the reference
+/// posture by the frames of normal and first edge at each vertex.
+std::vector<Vec3> ContactSolver::Impl::reference_directions(
+    const SkinOnProduct& skin, const std::vector<int>& vertices) const {
+  const SkinGeometry& reference = prepared->skin;
+  const auto frame = [](const Vec3& normal, const Vec3& edge) {
+    Eigen::Matrix3d axes;
+    axes.col(0) = normal;
+    axes.col(1) = (edge - edge.dot(normal) * normal).normalized();
+    axes.col(2) = normal.cross(axes.col(1));
+    return axes;
+  };
+  std::vector<Vec3> result;
+  result.reserve(vertices.size());
+  for (const int v : vertices) {
+    const int next = reference.neighbours(v).front();
+    const Eigen::Matrix3d before =
+        frame(reference.normal[v], reference.position[next] - reference.position[v]);
+    const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
+    result.emplace_back(before * (posed.transpose() * -skin.sample[v].normal));
+  }
+  return result;
+}
+
+void ContactSolver::Impl::set_bone_moduli(SkinLoad& load) const {
+  const int count = prepared->skin.vertex_count();
+  load.root_modulus.resize(count);
+  for (int v = 0; v < count; ++v) {
+    load.root_modulus[v] = options.shear_modulus
+                               ? std::sqrt(*options.shear_modulus)
+                               : root_modulus(prepared->bone, load.level, stiffening_, v);
+  }
+  load.shear_modulus.clear();
+  for (const int v : load.vertex) {
+    load.shear_modulus.push_back(load.root_modulus[v] * load.root_modulus[v]);
+  }
+}
+
+/// With q = p / sqrt(G) the problem of given moduli reads C q + sqrt(G) d >= 0. The moduli follow
+/// from the work of the forces (block_energy.h): fixed-point iteration, which converges fast
+/// because the skin's displacements, and with them the energies at the modulus G0, hardly depend on
+/// the moduli. With `may_extend` skin that bulges into the product joins the problem on the way.
+bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
+                                        ContactResult& result) {
+  std::vector<double> b, displacement;
+  std::vector<double> was_root(prepared->skin.position.size(), 0.0);
+  if (load.force.size() != load.vertex.size()) load.force.assign(load.vertex.size(), 0.0);
+  bool is_new = true;
+  bool is_last = false;
+  bool is_whole = !may_extend;  // no skin bulged into the product when looked at last
+  Extrapolation extrapolation;
+  for (int round = 0; round < kMostRounds; ++round) {
+    set_bone_moduli(load);
+    if (is_new) {
+      load.direction = reference_directions(skin, load.vertex);
+      loaded_->set(load.vertex, load.direction);
+      b.resize(load.vertex.size());
+      displacement.resize(b.size());
+    }
+    if (is_new || !options.coatings.empty()) {
+      system.assemble(loaded_->responses(), load.vertex);
+      set_coating(skin, load);
+      if (!coating_.diagonal.empty()) system.add(coating_.diagonal, coating_.entries);
+    }
+    is_new = false;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const int v = load.vertex[k];
+      const double root = load.root_modulus[v];
+      b[k] = root * skin.sample[v].distance;
+      // Tissue of another modulus, moved alike, has forces in proportion.
+      load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
+    }
+    const ContactSystem::Outcome outcome = system.solve(
+        b, load.in_contact, load.force, load.gap, is_last ? ContactSystem::kBestAccuracy : kCoarse);
+    result.iterations += outcome.pivots;
+    if (!outcome.is_solved) return false;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const int v = load.vertex[k];
+      was_root[v] = load.root_modulus[v];
+      load.force[k] *= was_root[v];
+      load.gap[k] /= was_root[v];
+      displacement[k] = load.gap[k] - skin.sample[v].distance;
+      if (!options.coatings.empty() && load.force[k] > 0.0) {
+        displacement[k] -= coating_displacement(skin, load, static_cast<std::size_t>(v));
+      }
+    }
+    if (is_last) {
+      double complementarity = 0.0;
+      for (std::size_t k = 0; k < b.size(); ++k) {
+        complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
+      }
+      result.complementarity_error = std::max(result.complementarity_error, complementarity);
+      return true;
+    }
+    double change = 0.0;
+    if (!options.shear_modulus) {
+      const BlockStiffening next = stiffening_of(prepared->bone, load.level, stiffening_,
+                                                 load.vertex, load.force, displacement);
+      for (std::size_t r = 0; r < next.size(); ++r) {
+        change = std::max(change, std::abs(next[r] / stiffening_[r] - 1.0));
+      }
+      stiffening_ = extrapolation.next(stiffening_, next);
+    }
+    if (getenv("DBG"))
+      fprintf(stderr, "round %d change %g m %zu pivots %d cg %d new %d\n", round, change, b.size(),
+              outcome.pivots, outcome.iterations, 0);
+    const bool is_steady = change < kSteadyStiffening;
+    if (may_extend && (is_steady || (!is_whole && change < kNearlySteady))) {
+      const std::vector<int> more = pressed_in_on_bone(skin, load);
+      is_whole = more.empty();
+      if (!is_whole) {
+        extend(more, load);
+        is_new = true;
+      }
+    }
+    is_last = is_steady && is_whole;
+    if (round == kMostRounds - 2 && !is_last) {
+      append_note(result.message, "the stiffening of the tissue is not steady after " +
+                                      std::to_string(kMostRounds) + " rounds");
+      is_last = true;
+    }
+  }
+  return true;
+}
+
+/// Takes more vertices into a load, in contact.
+void ContactSolver::Impl::extend(const std::vector<int>& more, SkinLoad& load) const {
+  SkinLoad larger;
+  larger.level = load.level;
+  std::size_t k = 0;
+  std::size_t m = 0;
+  while (k < load.vertex.size() || m < more.size()) {
+    const bool is_old = m == more.size() || (k < load.vertex.size() && load.vertex[k] < more[m]);
+    larger.vertex.push_back(is_old ? load.vertex[k] : more[m]);
+    larger.force.push_back(is_old ? load.force[k] : 0.0);
+    larger.in_contact.push_back(is_old ? load.in_contact[k] : 1);
+    ++(is_old ? k : m);
+  }
+  larger.gap.assign(larger.vertex.size(), 0.0);
+  larger.depth.assign(larger.vertex.size(), 0.0);
+  load = std::move(larger);
+}
+
+std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& skin,
+                                                         const SkinLoad& load) const {
+  std::vector<char> is_known(skin.sample.size(), 0);
+  for (const int v : load.vertex) is_known[v] = 1;
+  std::vector<int> near;
+  for (const int v : skin.near) {
+    const double d = skin.sample[v].distance;
+    if (!is_known[v] && d >= 0.0 && d < kBulgeRange) near.push_back(v);
+  }
+  std::vector<double> share(load.force);
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
+  const std::vector<double> moved =
+      loaded_->displacement(share, near, reference_directions(skin, near));
+  std::vector<int> result;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const auto v = static_cast<std::size_t>(near[k]);
+    double gap = skin.sample[v].distance + moved[k] / load.root_modulus[v];
+    if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
+    if (gap < 0.0) result.push_back(near[k]);
+  }
+  return result;
+}
+
+/// The skin around the contact as the solution has it, along its own normals.
+void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const SkinLoad& load,
+                                           SkinDisplacement& u) const {
+  std::vector<char> is_known(skin.sample.size(), 0);
+  for (const int v : load.vertex) is_known[v] = 1;
+  std::vector<int> around;
+  std::vector<Vec3> inwards;
+  for (std::size_t v = 0; v < is_known.size(); ++v) {
+    if (is_known[v] || !u.is_active[v]) continue;
+    around.push_back(static_cast<int>(v));
+    inwards.emplace_back(-prepared->skin.normal[v]);
+  }
+  std::vector<double> share(load.force);
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
+  const std::vector<double> moved = loaded_->displacement(share, around, inwards);
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    const int v = around[k];
+    u.elastic[v] = moved[k] / load.root_modulus[v];
+    u.with_bulge[v] = std::max(u.elastic[v], -skin.sample[v].distance);
+  }
+}
+
+/// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
+/// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
+std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus_on_bone(
+    const SkinOnProduct& skin, const SkinLoad& load) {
+  std::array<double, kRegionCount> result{};
+  std::vector<double> root;
+  for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
+  const auto y = system.solve_on(load.in_contact, root);
+  if (!y) return result;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const int v = load.vertex[k];
+    result[index_of(prepared->hand->region[v])] +=
+        0.5 * (load.force[k] - (*y)[k] * root[k] * skin.sample[v].distance);
+  }
+  return result;
+}
+
+}  // namespace palmar
