@@ -41,10 +41,12 @@ enum class SkinDistance {
              ///< independent regions only, else kSurface
 };
 
-/// Law of the bulge's height.
+/// Law of the bulge's height, and with it the procedure.
 enum class BulgeLaw {
   kHeld,    ///< a0 is the height itself, reached at 1 N; rises smoothly from the contact's edge
-  kPrinted  ///< Xie 2014, eq. (3-6), (3-7) as printed: a = a0 G0 / G per newton, cut at the border
+  kPrinted  ///< Xie 2014, A3 to A7 and eq. (3-5) to (3-15) as printed: the bulge, a = a0 G0 / G
+            ///< per newton, is part of the response matrix (docs/method/xie2014.md); independent
+            ///< regions of half-spaces only, else kHeld
 };
 
 /// The equations of the skin. PreparedHand depends on them; the default is the preset `palmar`.
@@ -57,8 +59,8 @@ struct ContactModel {
   bool operator==(const ContactModel&) const = default;
 };
 
-/// Every equation as in Xie 2014: point kernel, half-space, independent regions, Isomap, printed
-/// bulge.
+/// Every equation as in Xie 2014 (docs/method/xie2014.md): point kernel, half-space, independent
+/// regions, Isomap, the bulge in the response matrix.
 ContactModel xie2014_model();
 
 /// "palmar" or "xie2014"; nothing for another name.
@@ -170,6 +172,36 @@ enum class ContactStatus {
 /// limit depth of the palm); it is left out of the solution and reported.
 constexpr double kMaxContactDepth = 15.0;  // mm
 
+/// How often the solver had to leave its usual way in one call, the error band's included; all 0 as
+/// a rule.
+struct ContactFallbacks {
+  int refused_matrices = 0;   ///< systems with a matrix that has no Cholesky factors
+  int gradient_limits = 0;    ///< systems that conjugate gradients did not solve in 500 steps
+  int exchange_limits = 0;    ///< systems whose contact set was not found in 400 exchanges
+  int dense_solutions = 0;    ///< systems that dense block pivoting solved in their place
+  int lemke_solutions = 0;    ///< systems that Lemke's method solved after all these
+  int by_region = 0;          ///< coupled problems without solution, solved region by region
+  int unsolved_regions = 0;   ///< regions without solution, which carry no force
+  int extension_limits = 0;   ///< problems left with skin that bulges into the product
+  int stiffening_limits = 0;  ///< problems whose stiffening did not become steady in 40 rounds
+  int without_bulge = 0;      ///< xie2014: regions solved with the bulge left out of the equations
+  int band_levels = 0;        ///< levels or slopes of the error band without solution
+
+  ContactFallbacks& operator+=(const ContactFallbacks& other);
+  bool operator==(const ContactFallbacks&) const = default;
+};
+
+/// A count of ContactFallbacks with its name, as in files ("lemke_solutions"), and what it says of
+/// the result, as in "... systems were solved by Lemke's method".
+struct FallbackCount {
+  std::string_view name, words;
+  int ContactFallbacks::*count;
+};
+extern const std::array<FallbackCount, 11> kFallbackCounts;
+
+/// All of them in words, or "" if there are none.
+std::string fallbacks_in_words(const ContactFallbacks& fallbacks);
+
 /// Contact of a posed hand with a product. Per-vertex fields follow hand.skin; product frame, mm,
 /// N, MPa.
 struct ContactResult {
@@ -188,6 +220,7 @@ struct ContactResult {
   double residual_penetration_contact = 0.0;  ///< largest |distance| of loaded vertices after, mm
   double residual_penetration_other = 0.0;    ///< deepest other vertex after deformation, mm
   int iterations = 0;
+  ContactFallbacks fallbacks;
   std::optional<ContactBand> band;  ///< with ContactOptions::error_band
 };
 
@@ -213,8 +246,10 @@ struct ContactResult {
 /// left out and reported in `message`. Skin that has gone right through a thin product, so that the
 /// product lies in its flesh, is pushed back the same way (surface_passed()).
 ///
-/// Never throws on a numerical failure: see status. Throws UsageError on bad options or if
-/// posed_skin has not one point per skin vertex.
+/// With BulgeLaw::kPrinted all of this is as the thesis has it instead; docs/method/xie2014.md.
+///
+/// Never throws on a numerical failure: see status and fallbacks. Throws UsageError on bad options
+/// or if posed_skin has not one point per skin vertex.
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
                                  const Rigid3& product_from_hand, const DistanceField& product,
                                  const ContactOptions& options = {});

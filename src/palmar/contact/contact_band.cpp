@@ -26,14 +26,14 @@ void set_high(const RegionContact& from, ContactBandRow& row) {
 
 }  // namespace
 
-std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const SkinOnProduct& skin,
-                                                                        const SkinLoad& load) {
+std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus(
+    const SkinOnProduct& skin, const SkinLoad& load) {
   // With the contact set F held, A_FF p = -b, b_i = G_i d_i, and F = sum of p. With y of
   // A_FF y = 1:  dF = y . (-db - dA p). b is proportional to G, A (but for the coating) without it.
-  std::array<double, kRegionCount> result{};
   if (prepared->is_on_bone()) return force_per_modulus_on_bone(skin, load);
   const auto y = system.solve_on(load.in_contact, std::vector<double>(load.vertex.size(), 1.0));
-  if (!y) return result;
+  if (!y) return std::nullopt;
+  std::array<double, kRegionCount> result{};
   const auto region_of = [&](std::size_t k) {
     return static_cast<std::size_t>(prepared->hand->region[load.vertex[k]]);
   };
@@ -54,14 +54,26 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus(const Sk
   return result;
 }
 
+void set_band_level(const ContactResult& at_level, TissueLevel level, ContactBand& band) {
+  const auto set = level == TissueLevel::kLow ? set_low : set_high;
+  set(at_level.total, band.total);
+  for (ContactBandRow& row : band.regions) {
+    for (const RegionContact& region : at_level.regions) {
+      if (region.region == row.region) set(region, row);
+    }
+  }
+}
+
 ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad& load,
-                                      const std::vector<double>& gap,
-                                      const ContactResult& nominal) {
+                                      const std::vector<double>& gap, ContactResult& nominal) {
   ContactBand result;
   for (const RegionContact& region : nominal.regions) {
     result.regions.push_back({.region = region.region});
   }
-  const std::array<double, kRegionCount> slope = force_per_modulus(skin, load);
+  const auto known_slope = force_per_modulus(skin, load);
+  if (!known_slope) ++nominal.fallbacks.band_levels;
+  const std::array<double, kRegionCount> slope =
+      known_slope.value_or(std::array<double, kRegionCount>{});
   for (ContactBandRow& row : result.regions) {
     row.force_per_modulus = slope[index_of(row.region)];
     result.total.force_per_modulus += row.force_per_modulus;
@@ -71,7 +83,12 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
     other.level = level;
     other.shear_modulus = moduli(load, level);
     ContactResult at_level;
-    if (!solve_system(skin, other, at_level)) continue;
+    const bool is_solved = solve_system(skin, other, at_level);
+    nominal.fallbacks += at_level.fallbacks;
+    if (!is_solved) {
+      ++nominal.fallbacks.band_levels;
+      continue;
+    }
     const std::size_t n = nominal.force.size();
     at_level.force.assign(n, 0.0);
     at_level.pressure.assign(n, 0.0);
@@ -87,13 +104,7 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
     }
     const std::array<double, kRegionCount> none{};
     add_totals(*prepared, skin, gap_at_level, modulus, none, none, options.cell_area, at_level);
-    const auto set = level == TissueLevel::kLow ? set_low : set_high;
-    set(at_level.total, result.total);
-    for (ContactBandRow& row : result.regions) {
-      for (const RegionContact& region : at_level.regions) {
-        if (region.region == row.region) set(region, row);
-      }
-    }
+    set_band_level(at_level, level, result);
   }
   return result;
 }

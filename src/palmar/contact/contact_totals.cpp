@@ -5,9 +5,23 @@
 #include <algorithm>
 
 #include "palmar/contact/contact_patch.h"
+#include "palmar/contact/printed/sub_active_region.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {
+
+DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
+                           const std::vector<Region>& region) {
+  DeepestOfRegion deepest;
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const int v = load.vertex[k];
+    const std::size_t r = index_of(region[v]);
+    if (-skin.sample[v].distance < deepest.depth[r]) continue;
+    deepest.depth[r] = -skin.sample[v].distance;
+    deepest.shear_modulus[r] = load.shear_modulus[k];
+  }
+  return deepest;
+}
 
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                 const std::vector<double>& gap, const std::vector<double>& shear_modulus,
@@ -20,8 +34,11 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     if (result.force[v] <= 0.0) continue;
     loaded[index_of(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }
-  std::vector<double> area = contact_area(prepared.skin.position, prepared.hand->skin.triangles,
-                                          result.pressure, gap, shear_modulus);
+  const std::vector<Triangle>& triangles = prepared.hand->skin.triangles;
+  std::vector<double> area =
+      prepared.is_as_printed()
+          ? contact_triangles(result.undeformed, triangles, result.force)
+          : contact_area(prepared.skin.position, triangles, result.pressure, gap, shear_modulus);
 
   RegionContact& total = result.total;
   for (int r = 0; r < kRegionCount; ++r) {
@@ -38,7 +55,9 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     for (const int v : loaded[r]) {
       // A patch of few vertices is finer than the mesh: its edge correction would leave an area on
       // which the mean exceeds the peak. No vertex gets less than its force needs at the peak.
-      area[v] = std::max(area[v], result.force[v] / part.peak_pressure);
+      if (!prepared.is_as_printed()) {
+        area[v] = std::max(area[v], result.force[v] / part.peak_pressure);
+      }
       part.force += result.force[v];
       // The skin pushes the product inwards, against the product's outward normal.
       part.force_vector -= result.force[v] * skin.sample[v].normal;

@@ -6,13 +6,23 @@
 #include <vector>
 
 #include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/response/skin_displacement.h"
 #include "palmar/contact/solve/skin_product.h"
 
 namespace palmar {
 
+/// Deepest penetration [mm] of each region's skin in the problem, and its shear modulus there
+/// [MPa].
+struct DeepestOfRegion {
+  std::array<double, kRegionCount> depth{}, shear_modulus{};
+};
+DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
+                           const std::vector<Region>& region);
+
 /// Sets result.regions and result.total from the forces and the deformed skin. `gap` [mm], of
 /// the skin without its bulge, and `shear_modulus` [MPa] stand per vertex, `d_max` [mm] and
-/// `modulus` [MPa] per region.
+/// `modulus` [MPa] per region. Solved as printed (BulgeLaw::kPrinted), the area is that of the
+/// posed triangles in contact, and `gap` and `shear_modulus` are not looked at.
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                 const std::vector<double>& gap, const std::vector<double>& shear_modulus,
                 const std::array<double, kRegionCount>& d_max,

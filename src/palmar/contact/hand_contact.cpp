@@ -17,11 +17,16 @@ void require(bool holds, const std::string& what, double value, const std::strin
   throw UsageError(what + " is " + std::to_string(value) + "; " + allowed + " is required");
 }
 
-/// The point kernel is no pressure that a cover could pass on.
+/// The point kernel is no pressure that a cover could pass on; the thesis has no cover.
 void check_kernel(const ContactModel& model, const ContactOptions& options) {
   if (model.kernel == Kernel::kPoint && !options.coatings.empty()) {
     throw UsageError(
         "kernel \"point\" knows no soft cover; kernel \"patch\" is required with a coating");
+  }
+  if (model.bulge == BulgeLaw::kPrinted && !options.coatings.empty()) {
+    throw UsageError(
+        "the equations of xie2014 know no soft cover; the preset palmar is required with a "
+        "coating");
   }
 }
 

@@ -88,9 +88,12 @@ std::array<double, kRegionCount> scaled_volumes(const std::array<double, kRegion
   return result;
 }
 
-/// A flat picture of one region says nothing about the way to the next.
+/// A flat picture of one region says nothing about the way to the next, and the thesis' procedure
+/// knows nothing but regions of half-spaces.
 ContactModel completed(ContactModel model) {
-  if (model.coupling == RegionCoupling::kCoupled) model.distance = SkinDistance::kSurface;
+  const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
+  if (is_coupled) model.distance = SkinDistance::kSurface;
+  if (is_coupled || model.tissue != TissueModel::kHalfSpace) model.bulge = BulgeLaw::kHeld;
   return model;
 }
 

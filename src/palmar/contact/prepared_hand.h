@@ -30,6 +30,7 @@ struct PreparedHand::Impl {
   std::vector<double> scale;  ///< of a hand of a family, per vertex: see LoadedSkin
 
   bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
+  bool is_as_printed() const { return model.bulge == BulgeLaw::kPrinted; }
 
   const RegionTissue& tissue(Region r) const { return hand->tissue.region[index_of(r)]; }
 };

@@ -139,6 +139,11 @@ Json contact_object(const ContactResult& contact, double grip_force) {
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
   json["iterations"] = contact.iterations;
+  Json fallbacks = Json::object();
+  for (const FallbackCount& one : kFallbackCounts) {
+    fallbacks[std::string(one.name)] = contact.fallbacks.*one.count;
+  }
+  json["fallbacks"] = std::move(fallbacks);
   Json regions = Json::array();
   for (const RegionContact& region : contact.regions) {
     Json one = {{"region", name_of(region.region)}};

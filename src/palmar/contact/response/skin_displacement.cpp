@@ -121,28 +121,6 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
   for (const GrownVertex& g : around) field[g.vertex].bulge *= scale;
 }
 
-/// Xie 2014, eq. 3-9 to 3-11 with 3-6 and 3-7 as printed.
-void add_printed(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                 const SkinLoad& load, const LoadedPart& part, const std::vector<char>& is_around,
-                 bool swelling, PartField& field) {
-  const RegionTissue& tissue = prepared.tissue(part.region);
-  const SkinResponse& response = prepared.response;
-  for (const int k : part.row) {
-    const int j = load.vertex[k];
-    const double G = load.shear_modulus[k];
-    const double a = tissue.swelling_height * prepared.stiffness.law[1][j].g0 / G;
-    for (std::size_t e = response.begin[j]; e < response.begin[j + 1]; ++e) {
-      const int i = response.vertex[e];
-      if (!is_around[i] || prepared.hand->region[i] != part.region) continue;
-      field[i].elastic += load.force[k] / G * static_cast<double>(response.response[e]);
-      if (!swelling || skin.sample[i].distance < 0.0) continue;
-      field[i].bulge += load.force[k] * a *
-                        gaussian_response(static_cast<double>(response.distance[e]),
-                                          tissue.swelling_radius, tissue.swelling_width);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<LoadedPart> loaded_parts(const PreparedHand::Impl& prepared, const SkinLoad& load) {
@@ -180,7 +158,6 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
                                    const SkinLoad& load, const std::vector<LoadedPart>& parts,
                                    bool swelling) {
   const std::size_t n = skin.sample.size();
-  const bool is_printed = prepared.model.bulge == BulgeLaw::kPrinted;
   const bool adds_up = prepared.model.coupling == RegionCoupling::kCoupled;
   SkinDisplacement u{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0),
                      std::vector<char>(n, 0)};
@@ -196,14 +173,10 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
     for (const GrownVertex& g : around) {
       is_around[g.vertex] = 1;
     }
-    if (is_printed) {
-      add_printed(prepared, skin, load, part, is_around, swelling, field);
-    } else {
-      add_held(prepared, load, part, around, is_around, swelling, field);
-    }
+    add_held(prepared, load, part, around, is_around, swelling, field);
     for (const GrownVertex& g : around) {
       const int v = g.vertex;
-      const double fade = is_printed ? 1.0 : smooth_step(3.0 * (1.0 - g.distance / reach));
+      const double fade = smooth_step(3.0 * (1.0 - g.distance / reach));
       const double weight = fade / (g.distance * g.distance + 1.0);
       weight_sum[v] += weight;
       best_fade[v] = std::max(best_fade[v], fade);

@@ -53,9 +53,6 @@ struct SkinDisplacement {
 /// last third of the part's neighbourhood. Parts that were solved together add up; parts that were
 /// solved one by one are blended with weights f_k / (r_k^2 + 1 mm^2), as bulges always are. A bulge
 /// that would enter the product is held on its surface, without force (Xie 2014, eq. 3-7).
-///
-/// With BulgeLaw::kPrinted: u = (R_Bou / G - a R_Gau) p within the part's own region and
-/// neighbourhood, a = a0 G0 / G outside the penetrating skin and 0 inside it (eq. 3-5 to 3-9).
 SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                                    const SkinLoad& load, const std::vector<LoadedPart>& parts,
                                    bool swelling);

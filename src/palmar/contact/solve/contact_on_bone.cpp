@@ -128,6 +128,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     const ContactSystem::Outcome outcome = system.solve(
         b, load.in_contact, load.force, load.gap, is_last ? ContactSystem::kBestAccuracy : kCoarse);
     result.iterations += outcome.pivots;
+    result.fallbacks += outcome.fallbacks;
     if (!outcome.is_solved) return false;
     for (std::size_t k = 0; k < b.size(); ++k) {
       const int v = load.vertex[k];
@@ -170,6 +171,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
     is_last = is_steady && is_whole;
     if (round == kMostRounds - 2 && !is_last) {
+      ++result.fallbacks.stiffening_limits;
       append_note(result.message, "the stiffening of the tissue is not steady after " +
                                       std::to_string(kMostRounds) + " rounds");
       is_last = true;
@@ -243,13 +245,13 @@ void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const Skin
 
 /// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
 /// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
-std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus_on_bone(
+std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus_on_bone(
     const SkinOnProduct& skin, const SkinLoad& load) {
-  std::array<double, kRegionCount> result{};
   std::vector<double> root;
   for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
   const auto y = system.solve_on(load.in_contact, root);
-  if (!y) return result;
+  if (!y) return std::nullopt;
+  std::array<double, kRegionCount> result{};
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const int v = load.vertex[k];
     result[index_of(prepared->hand->region[v])] +=

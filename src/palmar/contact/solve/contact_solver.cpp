@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palmar/contact/contact_totals.h"
+#include "palmar/contact/printed/sub_active_region.h"
 #include "palmar/contact/response/deformed_skin.h"
 #include "palmar/contact/response/layered_response.h"
 #include "palmar/contact/response/response.h"
@@ -161,6 +162,7 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
   }
   const ContactSystem::Outcome outcome = system.solve(b, load.in_contact, load.force, load.gap);
   result.iterations += outcome.pivots;
+  result.fallbacks += outcome.fallbacks;
   double complementarity = 0.0;
   for (std::size_t k = 0; k < b.size(); ++k) {
     load.gap[k] /= load.shear_modulus[k];
@@ -177,6 +179,7 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
                                           ContactResult& result) {
   result.status = ContactStatus::kNotConverged;
   if (prepared->model.coupling == RegionCoupling::kCoupled) {
+    ++result.fallbacks.by_region;
     append_note(result.message,
                 "the contact of " + std::to_string(load.vertex.size()) +
                     " coupled vertices has no solution; regions were solved one by one");
@@ -195,6 +198,7 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
     }
     if (rows.empty()) continue;
     if (!solve_system(skin, part, result)) {
+      ++result.fallbacks.unsolved_regions;
       append_note(result.message, "contact of region " +
                                       std::string(name_of(static_cast<Region>(r))) + " (" +
                                       std::to_string(rows.size()) +
@@ -293,6 +297,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     const std::vector<int> more = pressed_in(skin, load);
     if (more.empty()) return;
     if (round == kMostExtensions) {
+      ++result.fallbacks.extension_limits;
       append_note(result.message,
                   std::to_string(more.size()) +
                       " vertices beside the contact still bulge into the product after " +
@@ -311,27 +316,6 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
   }
 }
 
-namespace {
-
-struct DeepestOfRegion {
-  std::array<double, kRegionCount> depth{}, shear_modulus{};
-};
-
-DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
-                           const std::vector<Region>& region) {
-  DeepestOfRegion deepest;
-  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
-    const int v = load.vertex[k];
-    const std::size_t r = index_of(region[v]);
-    if (-skin.sample[v].distance < deepest.depth[r]) continue;
-    deepest.depth[r] = -skin.sample[v].distance;
-    deepest.shear_modulus[r] = load.shear_modulus[k];
-  }
-  return deepest;
-}
-
-}  // namespace
-
 SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
                                           const Rigid3& product_from_hand,
                                           const DistanceField& product, std::optional<Region> only,
@@ -345,7 +329,12 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   result.undeformed.resize(n);
   for (std::size_t v = 0; v < n; ++v) result.undeformed[v] = product_from_hand * posed_skin[v];
   undeformed_ = &result.undeformed;
-  find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_, wanted);
+  if (prepared->is_as_printed()) {
+    find_skin_as_printed(*prepared->hand, result.undeformed, product, only, skin_);
+  } else {
+    find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_,
+                         wanted);
+  }
   const SkinOnProduct& skin = skin_;
   result.message = skin.message;
   result.force.assign(n, 0.0);
@@ -354,6 +343,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   result.total = {};
   result.band.reset();
   result.iterations = 0;
+  result.fallbacks = {};
   result.complementarity_error = 0.0;
   result.residual_penetration_contact = 0.0;
   result.residual_penetration_other = 0.0;
@@ -361,7 +351,11 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   if (skin.is_too_deep) result.status = ContactStatus::kTooDeep;
 
   SkinLoad load;
-  if (!skin.collision.empty()) solve_load(skin, load, result);
+  if (!skin.collision.empty() && prepared->is_as_printed()) {
+    load = solve_as_printed(skin, TissueLevel::kNominal, result);
+  } else if (!skin.collision.empty()) {
+    solve_load(skin, load, result);
+  }
   const std::vector<double>& covered = coating_.diagonal;
   if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
     append_note(result.message, "no skin in contact is on a coated part of the product");
@@ -384,11 +378,15 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
   const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {},
                                     may_bulge() ? kNearRange : 0.0, result);
   const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);
-  result.deformed = result.undeformed;
+  if (prepared->is_as_printed()) {
+    deform_as_printed(skin_, load, result);
+  } else {
+    result.deformed = result.undeformed;
+  }
   std::array<double, kRegionCount> force{};
   for (std::size_t v = 0; v < result.force.size(); ++v) {
     if (!(result.force[v] > 0.0)) continue;
-    result.deformed[v] = skin_.sample[v].closest;
+    if (!prepared->is_as_printed()) result.deformed[v] = skin_.sample[v].closest;
     force[index_of(prepared->hand->region[v])] += result.force[v];
   }
   for (std::size_t r = 0; r < force.size(); ++r) {
@@ -409,6 +407,10 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   const SkinLoad load =
       find_forces(posed_skin, product_from_hand, product, only, kNearRange, result);
   const SkinOnProduct& skin = skin_;
+  if (prepared->is_as_printed()) {
+    finish_as_printed(skin, product, load, result);
+    return;
+  }
   const std::size_t n = posed_skin.size();
   std::vector<double> modulus(n, 0.0);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {

@@ -77,12 +77,22 @@ struct ContactSolver::Impl {
   void solve_load(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   /// Near skin outside the problem that the solution moves into the product.
   std::vector<int> pressed_in(const SkinOnProduct& skin, const SkinLoad& load) const;
-  std::array<double, kRegionCount> force_per_modulus_on_bone(const SkinOnProduct& skin,
-                                                             const SkinLoad& load);
-  std::array<double, kRegionCount> force_per_modulus(const SkinOnProduct& skin,
-                                                     const SkinLoad& load);
+  /// dF / d ln G of each region, N; nothing if the system on the contact set has no solution.
+  std::optional<std::array<double, kRegionCount>> force_per_modulus_on_bone(
+      const SkinOnProduct& skin, const SkinLoad& load);
+  std::optional<std::array<double, kRegionCount>> force_per_modulus(const SkinOnProduct& skin,
+                                                                    const SkinLoad& load);
   ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
-                   const ContactResult& nominal);
+                   ContactResult& nominal);
+
+  // Xie 2014 as printed; solve_as_printed.cpp.
+  SkinLoad solve_as_printed(const SkinOnProduct& skin, TissueLevel level,
+                            ContactResult& result) const;
+  static void deform_as_printed(const SkinOnProduct& skin, const SkinLoad& load,
+                                ContactResult& result);
+  void finish_as_printed(const SkinOnProduct& skin, const DistanceField& product,
+                         const SkinLoad& load, ContactResult& result) const;
+  ContactBand band_as_printed(const SkinOnProduct& skin, ContactResult& nominal) const;
 
   CoatingCompliance coating_;
   std::optional<LoadedSkin> loaded_;               ///< of tissue on bone
@@ -91,5 +101,8 @@ struct ContactSolver::Impl {
   SkinSampler sampler_;
   SkinOnProduct skin_;
 };
+
+/// Enters forces, areas and peaks of the low or the high tissue into the rows of a band.
+void set_band_level(const ContactResult& at_level, TissueLevel level, ContactBand& band);
 
 }  // namespace palmar

@@ -327,9 +327,15 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
     }
   }
   ContactSolution solution = solve_contact(problem);
-  if (solution.status != LcpStatus::kSolved) solution = solve_contact_lemke(problem);
   outcome.pivots += solution.pivots;
-  if (solution.status != LcpStatus::kSolved) return false;
+  if (solution.status == LcpStatus::kSolved) {
+    ++outcome.fallbacks.dense_solutions;
+  } else {
+    solution = solve_contact_lemke(problem);
+    outcome.pivots += solution.pivots;
+    if (solution.status != LcpStatus::kSolved) return false;
+    ++outcome.fallbacks.lemke_solutions;
+  }
   for (int i = 0; i < m; ++i) {
     force[i] = solution.force[i];
     in_contact[i] = solution.force[i] > 0.0;
@@ -361,7 +367,10 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
   };
   bool is_regular = true;
   while (is_regular && outcome.pivots < kMostPivots) {
-    if (!set_contact(in_contact)) break;
+    if (!set_contact(in_contact)) {
+      ++outcome.fallbacks.refused_matrices;
+      break;
+    }
     for (std::size_t i = 0; i < m; ++i) {
       if (!in_contact[i]) force[i] = 0.0;
     }
@@ -383,7 +392,10 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
       }
       if (infeasible.empty() ? is_last : (is_last || !is_exact)) break;
     }
-    if (!is_regular) break;
+    if (!is_regular) {
+      ++outcome.fallbacks.gradient_limits;
+      break;
+    }
     if (infeasible.empty()) {
       outcome.is_solved = true;
       for (double& p : force) p = std::max(p, 0.0);  // rounding
@@ -405,6 +417,7 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
       in_contact[i] = !in_contact[i];
     }
   }
+  if (outcome.pivots == kMostPivots) ++outcome.fallbacks.exchange_limits;
   force.assign(m, 0.0);
   gap.assign(m, 0.0);
   outcome.is_solved = solve_dense(b, in_contact, force, gap, outcome);

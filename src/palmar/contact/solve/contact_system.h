@@ -52,6 +52,7 @@ class ContactSystem {
     int iterations = 0;              ///< of conjugate gradients, all together
     double complementarity = 0;      ///< max |s_i p_i|, recomputed, N MPa mm
     double relative_residual = 0.0;  ///< max |min(s_i / max|b|, p_i / max p)|, recomputed
+    ContactFallbacks fallbacks;      ///< of this system
   };
   /// Solves from the guess in_contact and, if it has the right size, the guess `force`; leaves the
   /// contact set, p in `force` [N] and s in `gap` [MPa mm]. Unsolved: both zero. `accuracy`: gaps
