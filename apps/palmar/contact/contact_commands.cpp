@@ -40,7 +40,8 @@ ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
   ContactModel model = *named;
   if (!arguments.kernel.empty()) model.kernel = parse_kernel(arguments.kernel);
   if (!arguments.tissue_model.empty()) model.tissue = parse_tissue_model(arguments.tissue_model);
-  if (is_hand) return model;
+  if (is_hand) return arguments.tissue_model.empty() ? with_permitted_tissue(model) : model;
+  if (arguments.tissue_model.empty()) model.tissue = TissueModel::kHalfSpace;
   if (model.tissue == TissueModel::kBone) {
     throw UsageError(
         "--tissue-model bone: a plane or ellipsoid has no bones; --specimen template:REGION is "

@@ -100,14 +100,14 @@ void ContactArguments::add_to(CLI::App& verb) {
   verb.add_option("--preset", preset,
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
-  verb.add_option("--regions", regions_,
-                  "coupled (one problem over the whole hand) or independent (each region alone); "
-                  "default: as in the preset");
+  verb.add_option(
+      "--regions", regions_,
+      "coupled (one problem over the whole hand) or independent (each region alone, with "
+      "the tissue model halfspace); default: as in the preset");
   verb.add_option(
       "--tissue-model", tissue_model_,
-      "halfspace (endless tissue), layered (a flat layer over bone) or bone (the tissue between "
-      "skin and bones; prepared once); default: as in the "
-      "preset");
+      "bone (the tissue between skin and bones), layered (a flat layer over bone) or halfspace "
+      "(endless tissue); default: as in the preset (palmar: bone)");
   verb.add_option("--kernel", kernel_,
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_option("--tissue", tissue,
@@ -148,7 +148,7 @@ ContactModel ContactArguments::model() const {
   if (!kernel_.empty()) result.kernel = parse_kernel(kernel_);
   if (!tissue_model_.empty()) result.tissue = parse_tissue_model(tissue_model_);
   if (!regions_.empty()) result.coupling = parse_regions(regions_);
-  return result;
+  return tissue_model_.empty() ? with_permitted_tissue(result) : result;
 }
 
 Kernel parse_kernel(const std::string& text) {

@@ -7,10 +7,12 @@
 #include "contact/press_deck_command.h"
 #include "hand/hand_pose_command.h"
 #include "hand/hand_scale_command.h"
+#include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/hand/dimensions/tape_measures.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/skin/drawn_creases.h"
 #include "palmar/hand/template_hand.h"
+#include "palmar/records/hand/compliance_file.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/hand/hand_json.h"
@@ -30,7 +32,7 @@ DrawnCreases drawn_creases(const std::string& name) {
 
 void add_template(CLI::App& hand, Context& context) {
   struct Options {
-    std::string asset, out;
+    std::string asset, out, compliance;
     double edge = TemplateOptions{}.edge_length;
   };
   const auto o = std::make_shared<Options>();
@@ -42,6 +44,8 @@ void add_template(CLI::App& hand, Context& context) {
   verb->add_option("--edge-mm", o->edge, "Mean edge length of the skin mesh, mm")
       ->capture_default_str();
   verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
+  verb->add_option("--compliance", o->compliance,
+                   "File to write as well: how its skin gives way on its bones (some 13 s)");
   verb->callback([&context, o] {
     context.run = [&context, o] {
       const std::string asset =
@@ -49,6 +53,13 @@ void add_template(CLI::App& hand, Context& context) {
       const Hand made = build_template(read_hand_asset(asset), {.edge_length = o->edge});
       write_hand(o->out, made);
       note(context.common, fmt::format("wrote {} ({} vertices)", o->out, made.skin.vertex_count()));
+      if (!o->compliance.empty()) {
+        // Of the hand as a file has it, in single precision.
+        const auto written = load_hand(o->out);
+        write_compliance(o->compliance, compliance_key(*written),
+                         skin_compliance(*written, skin_geometry(written->skin)));
+        note(context.common, "wrote " + o->compliance);
+      }
       return 0;
     };
   });

@@ -59,6 +59,13 @@ struct ContactModel {
   bool operator==(const ContactModel&) const = default;
 };
 
+/// What Palmar computes with unless told otherwise: ContactModel{} with the tissue on the hand's own
+/// bones. (ContactModel{} itself, a half-space, serves skins that have no bones.)
+ContactModel palmar_model();
+/// Tissue on bone is one body: with the point kernel or independent regions the half-space stands
+/// in its place.
+ContactModel with_permitted_tissue(ContactModel model);
+
 /// Every equation as in Xie 2014 (docs/method/xie2014.md): point kernel, half-space, independent
 /// regions, Isomap, the bulge in the response matrix.
 ContactModel xie2014_model();
@@ -109,10 +116,12 @@ class PreparedHand {
  public:
   /// Throws UsageError on a bad hand or layered tissue with the point kernel. Cost: about 1 s for
   /// 10 000 vertices on one core.
-  /// TissueModel::kBone: 13 s more, unless the hand's own `compliance` (skin_compliance.h) is
-  /// given.
+  /// TissueModel::kBone: 13 s more, unless `compliance` (skin_compliance.h) is given; it is the
+  /// hand's own, or that of `base`, a hand of another size with the same mesh, and then scaled
+  /// (loaded_skin.h). Throws UsageError if triangles or regions differ from the base's.
   explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {},
-                        std::shared_ptr<const SkinCompliance> compliance = nullptr);
+                        std::shared_ptr<const SkinCompliance> compliance = nullptr,
+                        const std::shared_ptr<const Hand>& base = nullptr);
   /// The same for a hand of the family's mesh, much faster (hand_family.h). Throws UsageError also
   /// if triangles or regions differ from the base's.
   PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& family);

@@ -4,6 +4,15 @@
 
 namespace palmar {
 
+ContactModel palmar_model() { return {.tissue = TissueModel::kBone}; }
+
+ContactModel with_permitted_tissue(ContactModel model) {
+  const bool is_one_body =
+      model.kernel == Kernel::kPatch && model.coupling == RegionCoupling::kCoupled;
+  if (model.tissue == TissueModel::kBone && !is_one_body) model.tissue = TissueModel::kHalfSpace;
+  return model;
+}
+
 ContactModel xie2014_model() {
   return {.kernel = Kernel::kPoint,
           .tissue = TissueModel::kHalfSpace,
@@ -13,7 +22,7 @@ ContactModel xie2014_model() {
 }
 
 std::optional<ContactModel> contact_model_named(const std::string& preset) {
-  if (preset == "palmar") return ContactModel{};
+  if (preset == "palmar") return palmar_model();
   if (preset == "xie2014") return xie2014_model();
   return std::nullopt;
 }
@@ -36,7 +45,7 @@ std::string_view name_of(SkinDistance distance) {
 std::string_view name_of(BulgeLaw bulge) { return bulge == BulgeLaw::kHeld ? "held" : "printed"; }
 
 std::string name_of(const ContactModel& model) {
-  const ContactModel palmar;
+  const ContactModel palmar = palmar_model();
   if (model == xie2014_model()) return "xie2014";
   std::string name = "palmar";
   const auto add = [&](bool differs, std::string_view what) {

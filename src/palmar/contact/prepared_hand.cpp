@@ -148,7 +148,8 @@ const Hand& HandFamily::base() const { return *impl_->base; }
 const ContactModel& HandFamily::model() const { return impl_->model; }
 
 PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model,
-                           std::shared_ptr<const SkinCompliance> compliance) {
+                           std::shared_ptr<const SkinCompliance> compliance,
+                           const std::shared_ptr<const Hand>& base) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
   check_model(model);
@@ -162,7 +163,14 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
   }
   if (impl->is_on_bone()) {
     impl->compliance = compliance_of(*impl->hand, impl->skin, std::move(compliance));
-    impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, impl->compliance->volume);
+    auto volume = impl->compliance->volume;
+    if (base && base != impl->hand) {
+      check_alike(*impl->hand, *base);
+      const SkinGeometry original = skin_geometry(base->skin);
+      volume = scaled_volumes(volume, *impl->hand, original, impl->skin);
+      impl->scale = length_ratios(original, impl->skin);
+    }
+    impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, volume);
   }
   impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   impl->blocks = skin_patches(impl->skin, kBlockSize);

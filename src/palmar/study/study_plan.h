@@ -63,7 +63,7 @@ struct StudySetting {
   double friction = 0.5;
   /// Whether a grasp comes to rest; if not, it stays as the hand was closed (Xie 2014).
   bool is_balanced = true;
-  ContactModel model;
+  ContactModel model = palmar_model();
   bool indices = true;
   /// Whether the indices have the volume of the wrench space, too: a tenth of a study's time.
   bool wrench_volume = false;

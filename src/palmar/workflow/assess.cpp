@@ -91,7 +91,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   AssessOptions options = options_of(request, hand->skeleton);
   const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
-  const PreparedHand prepared(hand, request.model, tissue_on_bone(*hand, request.model));
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
 
   AssessOutcome outcome;
   outcome.asked = tasks.size();

@@ -30,7 +30,7 @@ struct AssessRequest {
   std::vector<ProductChoice> products;  ///< files or values; at least one
   HandChoice hand;
   GraspSettings grasp;
-  ContactModel model;  ///< the equations of the skin
+  ContactModel model = palmar_model();  ///< the equations of the skin
   ContactOptions contact = contact_with_band();
   FrictionSettings friction;
   RestSettings rest;  ///< one grip force for all products, unless it says otherwise

@@ -35,7 +35,7 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   options.balance.load = options.friction.load;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared(hand, request.model, tissue_on_bone(*hand, request.model));
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
   Assessment held =
       request.grasp_file.empty()
           ? assess(prepared, product, options, progress,

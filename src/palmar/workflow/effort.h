@@ -22,7 +22,7 @@ struct EffortRequest {
   HandChoice hand;
   GraspSettings grasp;
   std::string grasp_file;  ///< JSON of a grasp that is taken as it is; "": one is searched
-  ContactModel model;      ///< the equations of the skin
+  ContactModel model = palmar_model();      ///< the equations of the skin
   ContactOptions contact;  ///< without the error band
   FrictionSettings friction;
   RestSettings rest;  ///< of a grasp that is searched

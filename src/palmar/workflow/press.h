@@ -15,7 +15,7 @@ namespace palmar {
 struct PressRequest {
   PressOptions test;   ///< its kernel and, with a tissue file, its tissue are set here
   HandChoice hand;     ///< whose region is pressed; its tissue file also serves plane and ellipsoid
-  ContactModel model;  ///< the equations; a plane or ellipsoid takes the kernel
+  ContactModel model = palmar_model();  ///< the equations; a plane or ellipsoid takes the kernel
   std::string out;     ///< file to write, .json, .csv or .svg (the curve); "": none
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };

@@ -113,6 +113,15 @@ SkinCompliance skin_compliance(const SkinGeometry& skin, const NodeCompliance& n
   return result;
 }
 
+SkinCompliance mirrored(const SkinCompliance& compliance) {
+  SkinCompliance result = compliance;
+  for (Eigen::Matrix3f& tensor : result.tensor) {
+    tensor.row(0) *= -1.0F;
+    tensor.col(0) *= -1.0F;
+  }
+  return result;
+}
+
 SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
                                const SkinComplianceOptions& options) {
   const TissueMesh tissue = make_tissue_mesh(hand, options.mesh);

@@ -43,6 +43,9 @@ struct SkinComplianceOptions {
 SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
                                const SkinComplianceOptions& options = {});
 
+/// Of the mirrored hand (template_hand.h): x turns its sign.
+SkinCompliance mirrored(const SkinCompliance& compliance);
+
 inline constexpr double kBackOfHand = 12.0;  ///< mm; our choice
 
 /// From the nodes to pairs of vertices up to `reach` [mm] apart. Without volumes.

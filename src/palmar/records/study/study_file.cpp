@@ -366,6 +366,7 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
   read_word(section, "kernel", kKernels, setting.model.kernel);
   read_word(section, "tissue_model", kTissueModels, setting.model.tissue);
   read_word(section, "regions", kRegionCouplings, setting.model.coupling);
+  if (!section.has("tissue_model")) setting.model = with_permitted_tissue(setting.model);
   setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
   setting.indices = section.boolean("indices").value_or(setting.indices);
   setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);

@@ -13,6 +13,7 @@
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar {
 namespace {
@@ -75,7 +76,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   options.indices.is_on = false;
   options.footprint = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared(hand, request.model);
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
   const Grasp grasp = hold_product(hand, product, request.grasp, options.grasp, progress);
   if (!squeezes(grasp.grip)) {
     throw UsageError(

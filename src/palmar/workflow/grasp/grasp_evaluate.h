@@ -28,7 +28,7 @@ struct EvaluateRequest {
   std::optional<Rigid3> product_from_hand = std::nullopt;
   /// The product in the frame of the recording (or mesh) that the posture was found from.
   std::optional<Rigid3> measured_from_product = std::nullopt;
-  ContactModel model;  ///< the equations of the skin
+  ContactModel model = palmar_model();  ///< the equations of the skin
   ContactOptions contact = contact_with_band();
   FrictionSettings friction;
   std::string natural_postures;  ///< CSV, basis of the index of ease; "": the built-in one

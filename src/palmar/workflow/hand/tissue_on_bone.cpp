@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/hand/template_hand.h"
 #include "palmar/records/hand/compliance_file.h"
 
 namespace palmar {
@@ -30,9 +31,15 @@ std::optional<std::filesystem::path> cache_folder() {
 
 std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const ContactModel& model) {
   if (model.tissue != TissueModel::kBone) return nullptr;
+  if (hand.side == Side::kLeft) {
+    return std::make_shared<const SkinCompliance>(mirrored(*tissue_on_bone(mirrored(hand), model)));
+  }
   const auto folder = cache_folder();
   const std::string key = compliance_key(hand);
-  std::filesystem::path path;
+  std::filesystem::path path = std::filesystem::path(share_folder()) / "template.compliance";
+  if (auto known = read_compliance(path, key, hand)) {
+    return std::make_shared<const SkinCompliance>(std::move(*known));
+  }
   if (folder) {
     path = *folder / ("skin-" + key.substr(0, 24) + ".compliance");
     if (auto known = read_compliance(path, key, hand)) {
@@ -50,6 +57,16 @@ std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const Con
     }
   }
   return made;
+}
+
+PreparedHand prepared_hand(const HandChoice& choice, const std::shared_ptr<const Hand>& hand,
+                           const ContactModel& model) {
+  if (model.tissue != TissueModel::kBone) return PreparedHand(hand, model);
+  if (!choice.person) return PreparedHand(hand, model, tissue_on_bone(*hand, model));
+  HandChoice unscaled = choice;
+  unscaled.person.reset();
+  const auto base = load_hand(unscaled);
+  return PreparedHand(hand, model, tissue_on_bone(*base, model), base);
 }
 
 }  // namespace palmar

@@ -6,12 +6,20 @@
 
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/contact.h"
+#include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {
 
 /// The compliance of a hand's skin for a model that needs it (TissueModel::kBone), else nothing.
-/// Read from the folder `palmar` in the user's cache ($XDG_CACHE_HOME, else ~/.cache) if it is
-/// there; else made (13 s) and put there. A cache that can't be written is no error.
+/// The template's came with Palmar (template.compliance beside it); others are made in some 13 s
+/// and kept in the user's cache ($XDG_CACHE_HOME/palmar or ~/.cache/palmar), under a hash of what
+/// they depend on; a cache that can't be used is as if it weren't there. A left hand's is the
+/// mirror image of the right one's.
 std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const ContactModel& model);
+
+/// A hand ready for contact. One that is scaled to a person takes the compliance of the hand that
+/// it was scaled from. Throws as PreparedHand.
+PreparedHand prepared_hand(const HandChoice& choice, const std::shared_ptr<const Hand>& hand,
+                           const ContactModel& model);
 
 }  // namespace palmar
