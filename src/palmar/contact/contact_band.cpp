@@ -72,7 +72,7 @@ std::array<double, kRegionCount> ContactSolver::Impl::force_per_modulus_on_bone(
 }
 
 ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad& load,
-                                      const std::vector<double>& gap,
+                                      const std::vector<double>& gap, const SkinGeometry& pressed,
                                       const ContactResult& nominal) {
   ContactBand result;
   for (const RegionContact& region : nominal.regions) {
@@ -91,19 +91,18 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
     if (!solve_system(skin, other, at_level)) continue;
     const std::size_t n = nominal.force.size();
     at_level.force.assign(n, 0.0);
-    at_level.pressure.assign(n, 0.0);
     at_level.deformed = nominal.deformed;
     std::vector<double> modulus(n, 0.0);
     std::vector<double> gap_at_level = gap;
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
       const int v = load.vertex[k];
       at_level.force[v] = other.force[k];
-      at_level.pressure[v] = other.force[k] / prepared->skin.area[v];
       modulus[v] = other.shear_modulus[k];
       gap_at_level[v] = other.gap[k];
     }
     const std::array<double, kRegionCount> none{};
-    add_totals(*prepared, skin, gap_at_level, modulus, none, none, options.cell_area, at_level);
+    add_totals(*prepared, skin, pressed, gap_at_level, modulus, none, none, options.cell_area,
+               at_level);
     const auto set = level == TissueLevel::kLow ? set_low : set_high;
     set(at_level.total, result.total);
     for (ContactBandRow& row : result.regions) {

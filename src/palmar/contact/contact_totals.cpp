@@ -5,12 +5,14 @@
 #include <algorithm>
 
 #include "palmar/contact/contact_patch.h"
+#include "palmar/contact/pressed_skin.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {
 
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                const std::vector<double>& gap, const std::vector<double>& shear_modulus,
+                const SkinGeometry& pressed, const std::vector<double>& gap,
+                const std::vector<double>& shear_modulus,
                 const std::array<double, kRegionCount>& d_max,
                 const std::array<double, kRegionCount>& modulus, double cell_area,
                 ContactResult& result) {
@@ -20,7 +22,8 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     if (result.force[v] <= 0.0) continue;
     loaded[index_of(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }
-  std::vector<double> area = contact_area(prepared.skin.position, prepared.hand->skin.triangles,
+  result.pressure = pressure_on_skin(pressed, prepared.skin, result.force);
+  std::vector<double> area = contact_area(pressed.position, prepared.hand->skin.triangles,
                                           result.pressure, gap, shear_modulus);
 
   RegionContact& total = result.total;
@@ -48,8 +51,8 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
     part.centre = moment / part.force;
     // A region's own cells see its own load; those of the whole hand see all of it.
-    const CellPeaks peaks = peak_over_cells(prepared.skin, loaded[r], result.pressure,
-                                            prepared.hand->region, cell_area);
+    const CellPeaks peaks =
+        peak_over_cells(pressed, loaded[r], result.force, prepared.hand->region, cell_area);
     part.peak_pressure_cells = peaks.own;
     total.peak_pressure_cells = std::max(total.peak_pressure_cells, peaks.all);
     total.force += part.force;

@@ -10,11 +10,12 @@
 
 namespace palmar {
 
-/// Sets result.regions and result.total from the forces and the deformed skin. `gap` [mm], of
-/// the skin without its bulge, and `shear_modulus` [MPa] stand per vertex, `d_max` [mm] and
-/// `modulus` [MPa] per region.
+/// Sets result.pressure, result.regions and result.total from the forces and the skin as it is
+/// `pressed` (pressed_skin.h). `gap` [mm], of the skin without its bulge, and `shear_modulus` [MPa]
+/// stand per vertex, `d_max` [mm] and `modulus` [MPa] per region.
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                const std::vector<double>& gap, const std::vector<double>& shear_modulus,
+                const SkinGeometry& pressed, const std::vector<double>& gap,
+                const std::vector<double>& shear_modulus,
                 const std::array<double, kRegionCount>& d_max,
                 const std::array<double, kRegionCount>& modulus, double cell_area,
                 ContactResult& result);
