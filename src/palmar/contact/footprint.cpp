@@ -19,8 +19,7 @@ namespace {
 
 constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
 constexpr double kBridge = 5.0;  // mm; how deep under an edge a facet of skin goes straight through
-constexpr double kMaxRatio = 2.0;  // of areas; skin pressed into a fold has next to none left
-constexpr double kFacing = 0.3;    // cosine; skin and product normals must not agree by more
+constexpr double kFacing = 0.3;  // cosine; skin and product normals must not agree by more
 
 /// Loaded points sorted along x, for finding those near a triangle.
 class LoadedPoints {
@@ -75,9 +74,9 @@ std::vector<double> areas_of_corners(const TriangleMesh& mesh) {
   return area;
 }
 
-/// Pressure per vertex of skin, MPa, of which the surface's integral is the force: over the area of
-/// the product that skin round about has landed on in place of the area that its own pressure
-/// counts by. The two differ where facets cut through an edge and where skin lies over skin.
+/// Pressure per vertex of skin, MPa: less than the skin's where it lands on more of the product
+/// than the area that its own pressure counts by, as facets do that cut through an edge. Never
+/// more: skin that lands on less lies over other skin, or beside a hollow.
 std::vector<double> pressure_on_landings(const TriangleMesh& skin, const ContactResult& contact,
                                          const std::vector<Landing>& landings,
                                          const std::vector<double>& surface_area) {
@@ -101,7 +100,7 @@ std::vector<double> pressure_on_landings(const TriangleMesh& skin, const Contact
   std::vector<double> pressure = contact.pressure;
   for (std::size_t v = 0; v < pressure.size(); ++v) {
     if (!(pressure[v] > 0.0)) continue;
-    pressure[v] *= force[v] / std::max(force_on_landed[v], force[v] / kMaxRatio);
+    pressure[v] *= force[v] / std::max(force_on_landed[v], force[v]);
   }
   return pressure;
 }
