@@ -31,12 +31,30 @@ struct AssessArguments {
   BalanceArguments balance;
   CadArguments cad;
   std::string natural_postures;
+  std::string sensors, measured;
   std::string out, language = "en", paper = "a4";
   bool pdf = false, left = false;
   std::vector<std::string> populations;
   int hands = 0;
   bool no_pictures = false;
 };
+
+/// What the sensors say, and how near a measurement is.
+std::string sensor_text(const Assessment& assessment) {
+  if (!assessment.sensors) return "";
+  const SensorReading& reading = *assessment.sensors;
+  std::string text = fmt::format(
+      "sensors: {} of {} cells, {:.1f} N on them, {:.1f} N beside; highest cell {:.1f} kPa\n",
+      reading.layout.name, reading.cells.size(), reading.force, reading.force_beside,
+      1000.0 * reading.peak_pressure);
+  if (!assessment.measured) return text;
+  const PressureComparison& one = *assessment.measured;
+  return text + fmt::format(
+                    "measured: {:.1f} N, highest cell {:.1f} kPa; over {} loaded cells Pearson's r "
+                    "{:.2f}, Spearman's {:.2f}, differences {:.1f} kPa (RMS)\n",
+                    one.force_measured, 1000.0 * one.peak_measured, one.compared, one.pearson.r,
+                    one.spearman.r, 1000.0 * one.rms);
+}
 
 std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
   std::string text = fmt::format("== {}\n{}{}{}", product.name, balance_text(assessment),
@@ -45,6 +63,7 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
   for (const HoldDoubt& doubt : doubts_of(assessment)) {
     if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
+  text += sensor_text(assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
@@ -88,6 +107,8 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   const LoadProductOptions reading = arguments.cad.options(arguments.grasp.unit);
   for (const std::string& path : arguments.products) request.products.emplace_back(path, reading);
   request.natural_postures = arguments.natural_postures;
+  request.sensors = arguments.sensors;
+  request.measured = arguments.measured;
   request.out = arguments.out;
   if (request.out.empty() && !context.common.json) request.out = free_report_folder();
   request.language = language_named(arguments.language);
@@ -185,6 +206,13 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_option("--natural-postures", arguments->natural_postures,
                    "CSV of measured grasp postures (degrees, a column per joint angle): basis of "
                    "the index of ease in place of the built-in one");
+  verb->add_option("--sensors", arguments->sensors,
+                   "Pressure sensors between hand and product, force and mean pressure per cell: "
+                   "mat (wrapped round the held part), glove, or a layout's file (.toml)");
+  verb->add_option(
+      "--measured", arguments->measured,
+      "CSV of what such sensors measured (row, column, patch; force_n, pressure_kpa or "
+      "pressure_mpa), to lay beside the simulation; one product");
   verb->add_flag("--left", arguments->left, "A left hand");
   verb->add_option("--population", arguments->populations,
                    "Many hands in place of one, as a small study: a built-in population (`palmar "

@@ -298,6 +298,42 @@ export interface SetVerdict {
   }[];
 }
 
+/// A sensor between hand and product, and what a real one measured.
+export interface SensorResult {
+  layout: { name: string; kind: "mat" | "glove" | "free"; pitch_mm: number; source: string };
+  rows: number;
+  columns: number;
+  force_n: number;
+  force_beside_n: number;
+  peak_pressure_mpa: number;
+  pressed_area_mm2: number;
+  cells: {
+    patch: string;
+    row: number;
+    column: number;
+    area_mm2: number;
+    force_n: number;
+    mean_pressure_mpa: number;
+    region: string | null;
+  }[];
+  measured: MeasuredPressure | null;
+}
+
+export interface MeasuredPressure {
+  source: string;
+  force_measured_n: number;
+  force_simulated_n: number;
+  peak_measured_mpa: number;
+  peak_simulated_mpa: number;
+  compared: number;
+  pearson: { r: number; n: number; p_value: number; low?: number; high?: number };
+  spearman: { r: number; n: number; p_value: number };
+  rms_mpa: number;
+  mean_difference_mpa: number;
+  parts: { name: string; cells: number; measured_n: number; simulated_n: number }[];
+  cell_force_n: number[]; // in the order of the cells
+}
+
 export interface Assessment {
   product: ProductResult;
   hand: HandResult;
@@ -311,6 +347,7 @@ export interface Assessment {
   index_table: GraspIndex[];
   settings: AssessmentSettings;
   faces?: FaceContact[]; // of products from CAD
+  sensors?: SensorResult; // if they were asked for
   friction?: FrictionResult;
   times_s: { grasp: number; balance: number; contact: number; indices: number; friction?: number };
 }
@@ -332,6 +369,7 @@ export interface AssessmentView {
   scale: ColourBar;
   products: {
     charts: { title: string; svg: TrustedMarkup }[]; // force and peak pressure by region
+    sensor_map: TrustedMarkup | null;
     sensitivity_chart: TrustedMarkup | null;
     friction_words: string;
     pictures: Picture[];

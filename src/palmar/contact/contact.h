@@ -144,7 +144,7 @@ struct RegionContact {
   Region region{};
   double force = 0.0;                ///< sum of vertex forces, N
   Vec3 force_vector = Vec3::Zero();  ///< of the skin on the product, product frame, N
-  double area = 0.0;                 ///< contact area on the skin, mm^2
+  double area = 0.0;                 ///< contact area on the product, mm^2
   double peak_pressure = 0.0;        ///< largest vertex pressure, MPa
   double peak_pressure_cells = 0.0;  ///< largest mean over a sensor cell, MPa
   double mean_pressure = 0.0;        ///< force / area, MPa
@@ -222,7 +222,7 @@ struct ContactResult {
   std::vector<double> distance;        ///< signed distance before contact, mm (capped far away)
   std::vector<double> displacement;    ///< u: positive into the hand, negative a bulge, mm
   std::vector<double> force;           ///< p, N
-  std::vector<double> pressure;        ///< p / Voronoi area, MPa
+  std::vector<double> pressure;        ///< p / area on the product, MPa; see pressed_skin.h
   std::vector<RegionContact> regions;  ///< regions in contact only, ascending
   RegionContact total;                 ///< region field meaningless; totals of all regions
   double complementarity_error = 0.0;  ///< max |s_i p_i| over all regions, N mm, recomputed
@@ -234,7 +234,9 @@ struct ContactResult {
 };
 
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`
-/// places it. Geodesic distances and Voronoi areas are those of the reference posture.
+/// places it. The responses, with their geodesic distances and discs, are those of the reference
+/// posture, where the tissue is at rest; areas, pressures and sensor cells are those of the skin as
+/// it lies on the product (pressed_skin.h).
 ///
 /// With the responses f_ij (times shear modulus) and a shear modulus for each row,
 ///

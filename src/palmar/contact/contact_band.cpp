@@ -65,7 +65,8 @@ void set_band_level(const ContactResult& at_level, TissueLevel level, ContactBan
 }
 
 ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad& load,
-                                      const std::vector<double>& gap, ContactResult& nominal) {
+                                      const std::vector<double>& gap, const SkinGeometry& pressed,
+                                      ContactResult& nominal) {
   ContactBand result;
   for (const RegionContact& region : nominal.regions) {
     result.regions.push_back({.region = region.region});
@@ -91,19 +92,18 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
     }
     const std::size_t n = nominal.force.size();
     at_level.force.assign(n, 0.0);
-    at_level.pressure.assign(n, 0.0);
     at_level.deformed = nominal.deformed;
     std::vector<double> modulus(n, 0.0);
     std::vector<double> gap_at_level = gap;
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
       const int v = load.vertex[k];
       at_level.force[v] = other.force[k];
-      at_level.pressure[v] = other.force[k] / prepared->skin.area[v];
       modulus[v] = other.shear_modulus[k];
       gap_at_level[v] = other.gap[k];
     }
     const std::array<double, kRegionCount> none{};
-    add_totals(*prepared, skin, gap_at_level, modulus, none, none, options.cell_area, at_level);
+    add_totals(*prepared, skin, pressed, gap_at_level, modulus, none, none, options.cell_area,
+               at_level);
     set_band_level(at_level, level, result);
   }
   return result;

@@ -65,24 +65,21 @@ std::vector<double> contact_area(const std::vector<Vec3>& positions,
 }
 
 CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
-                          const std::vector<double>& pressure, const std::vector<Region>& region,
+                          const std::vector<double>& force, const std::vector<Region>& region,
                           double cell_area) {
-  const bool is_prepared = skin.cells.cell_area == cell_area;
-  SensorCells own_cells;
-  if (!is_prepared) own_cells = sensor_cells(skin, centres, cell_area);
-  const SensorCells& cells = is_prepared ? skin.cells : own_cells;
+  const SensorCells cells =
+      sensor_cells(skin, centres, std::vector<double>(centres.size(), cell_area));
   CellPeaks peaks;
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const std::size_t row = is_prepared ? static_cast<std::size_t>(centres[c]) : c;
     const Region home = region[centres[c]];
     double own = 0.0;
     double all = 0.0;
     double area = 0.0;
-    for (int k = cells.begin[row]; k < cells.begin[row + 1]; ++k) {
+    for (int k = cells.begin[c]; k < cells.begin[c + 1]; ++k) {
       const int v = cells.vertex[k];
-      const double force = pressure[v] * cells.shared[k];
-      all += force;
-      if (region[v] == home) own += force;
+      const double part = force[v] * cells.shared[k] / skin.area[v];
+      all += part;
+      if (region[v] == home) own += part;
       area += cells.shared[k];
     }
     if (!(area > 0.0)) continue;

@@ -36,10 +36,11 @@ struct CellPeaks {
 
 /// Peaks over the cells centred on `centres`. The cell is a disc of `cell_area` [mm^2] on the skin;
 /// each vertex' force spreads evenly over the disc of its Voronoi area, and the part of it that
-/// lies in the cell counts (SensorCells). Skin without load counts as 0. `pressure` [MPa] and
-/// `region` stand per vertex.
+/// lies in the cell counts (SensorCells). Skin without load counts as 0. `force` [N] and `region`
+/// stand per vertex. On skin as it is pressed (pressed_skin.h) the cells lie on the product, as
+/// those of a mat do.
 CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
-                          const std::vector<double>& pressure, const std::vector<Region>& region,
+                          const std::vector<double>& force, const std::vector<Region>& region,
                           double cell_area);
 
 }  // namespace palmar

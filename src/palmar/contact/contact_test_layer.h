@@ -105,8 +105,8 @@ struct BondedLayer {
       sigma.push_back(smoothing_width(skin, v, 0.91 * edge));
     }
     const ElasticBody body{&mesh, &is_held, &points, attachment};
-    return skin_compliance(
-        skin, node_compliance(skin, skin_mesh.triangles, body, vertex, sigma), 1000.0);
+    return skin_compliance(skin, node_compliance(skin, skin_mesh.triangles, body, vertex, sigma),
+                           1000.0);
   }
 };
 

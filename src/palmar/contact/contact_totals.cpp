@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "palmar/contact/contact_patch.h"
+#include "palmar/contact/pressed_skin.h"
 #include "palmar/contact/printed/sub_active_region.h"
 #include "palmar/core/enum_index.h"
 
@@ -24,7 +25,8 @@ DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
 }
 
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
-                const std::vector<double>& gap, const std::vector<double>& shear_modulus,
+                const SkinGeometry& pressed, const std::vector<double>& gap,
+                const std::vector<double>& shear_modulus,
                 const std::array<double, kRegionCount>& d_max,
                 const std::array<double, kRegionCount>& modulus, double cell_area,
                 ContactResult& result) {
@@ -35,10 +37,13 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     loaded[index_of(prepared.hand->region[v])].push_back(static_cast<int>(v));
   }
   const std::vector<Triangle>& triangles = prepared.hand->skin.triangles;
-  std::vector<double> area =
-      prepared.is_as_printed()
-          ? contact_triangles(result.undeformed, triangles, result.force)
-          : contact_area(prepared.skin.position, triangles, result.pressure, gap, shear_modulus);
+  std::vector<double> area;
+  if (prepared.is_as_printed()) {
+    area = contact_triangles(result.undeformed, triangles, result.force);
+  } else {
+    result.pressure = pressure_on_skin(pressed, prepared.skin, result.force);
+    area = contact_area(pressed.position, triangles, result.pressure, gap, shear_modulus);
+  }
 
   RegionContact& total = result.total;
   for (int r = 0; r < kRegionCount; ++r) {
@@ -67,8 +72,8 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
     part.centre = moment / part.force;
     // A region's own cells see its own load; those of the whole hand see all of it.
-    const CellPeaks peaks = peak_over_cells(prepared.skin, loaded[r], result.pressure,
-                                            prepared.hand->region, cell_area);
+    const CellPeaks peaks =
+        peak_over_cells(pressed, loaded[r], result.force, prepared.hand->region, cell_area);
     part.peak_pressure_cells = peaks.own;
     total.peak_pressure_cells = std::max(total.peak_pressure_cells, peaks.all);
     total.force += part.force;

@@ -3,6 +3,7 @@
 #include "palmar/contact/footprint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -19,7 +20,6 @@ namespace {
 constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
 constexpr double kBridge = 5.0;  // mm; how deep under an edge a facet of skin goes straight through
 constexpr double kFacing = 0.3;  // cosine; skin and product normals must not agree by more
-constexpr double kMaxRatio = 2.0;  // of areas; skin folded into a crease has next to none left
 
 /// Loaded points sorted along x, for finding those near a triangle.
 class LoadedPoints {
@@ -55,26 +55,52 @@ class LoadedPoints {
   std::vector<Vec3> points_;
 };
 
-/// Pressure per area of the skin as it lies on the product, MPa. ContactResult counts per area of
-/// the reference posture; bent and flattened skin covers more or less of the product than that.
-std::vector<double> pressure_on_product(const Hand& hand, const ContactResult& contact) {
-  std::vector<double> now(contact.force.size(), 0.0);
-  std::vector<double> before(contact.force.size(), 0.0);
-  for (const Triangle& t : hand.skin.triangles) {
-    if (std::none_of(t.begin(), t.end(), [&](int v) { return contact.force[v] > 0.0; })) continue;
-    const auto area = [&](const std::vector<Vec3>& at) {
-      return (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]).norm();
-    };
-    const double area_now = area(contact.deformed);
-    const double area_before = area(hand.skin.vertices);
+/// A vertex of the product's surface under the skin: which triangle of skin lies on it, and where.
+struct Landing {
+  std::size_t vertex = 0;
+  Triangle skin{};
+  std::array<double, 3> weights{};
+};
+
+/// A third of the area of every triangle, for each of its corners, mm^2: by it a pressure that is
+/// linear over triangles is integrated.
+std::vector<double> areas_of_corners(const TriangleMesh& mesh) {
+  std::vector<double> area(mesh.vertices.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const double part = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm() / 6.0;
+    for (const int v : t) area[v] += part;
+  }
+  return area;
+}
+
+/// Pressure per vertex of skin, MPa: less than the skin's where it lands on more of the product
+/// than the area that its own pressure counts by, as facets do that cut through an edge. Never
+/// more: skin that lands on less lies over other skin, or beside a hollow.
+std::vector<double> pressure_on_landings(const TriangleMesh& skin, const ContactResult& contact,
+                                         const std::vector<Landing>& landings,
+                                         const std::vector<double>& surface_area) {
+  std::vector<double> landed(contact.force.size(), 0.0);
+  for (const Landing& one : landings) {
+    for (int k = 0; k < 3; ++k) landed[one.skin[k]] += one.weights[k] * surface_area[one.vertex];
+  }
+  // Of a vertex and its neighbours: alone it has too few landings to tell.
+  std::vector<double> force_on_landed(landed.size(), 0.0), force(landed.size(), 0.0);
+  for (const Triangle& t : skin.triangles) {
+    double sum = 0.0, sum_landed = 0.0;
     for (const int v : t) {
-      now[v] += area_now;
-      before[v] += area_before;
+      sum += contact.force[v];
+      sum_landed += contact.pressure[v] * landed[v];
+    }
+    for (const int v : t) {
+      force[v] += sum;
+      force_on_landed[v] += sum_landed;
     }
   }
   std::vector<double> pressure = contact.pressure;
   for (std::size_t v = 0; v < pressure.size(); ++v) {
-    if (contact.force[v] > 0.0) pressure[v] *= before[v] / std::max(now[v], before[v] / kMaxRatio);
+    if (!(pressure[v] > 0.0)) continue;
+    pressure[v] *= force[v] / std::max(force_on_landed[v], force[v]);
   }
   return pressure;
 }
@@ -112,8 +138,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   box.max().array() += kBridge;
   const ClosestPointQuery query(skin);
   const std::vector<Vec3> normals = vertex_normals(surface.vertices, surface.triangles);
-  const std::vector<double> pressure = pressure_on_product(hand, contact);
-  footprint.pressure.assign(surface.vertices.size(), 0.0);
+  std::vector<Landing> landings;
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!box.contains(surface.vertices[i])) continue;
     const auto found = query.closest(surface.vertices[i], kBridge);
@@ -128,7 +153,15 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
     // through the product, and the edge lies before it.
     const Vec3 off = surface.vertices[i] - found->point;
     if (off.norm() > kReach && off.dot(n) > -0.7 * off.norm()) continue;
-    for (int k = 0; k < 3; ++k) footprint.pressure[i] += found->weights[k] * pressure[t[k]];
+    landings.push_back({i, t, found->weights});
+  }
+  const std::vector<double> pressure =
+      pressure_on_landings(skin, contact, landings, areas_of_corners(surface));
+  footprint.pressure.assign(surface.vertices.size(), 0.0);
+  for (const Landing& one : landings) {
+    for (int k = 0; k < 3; ++k) {
+      footprint.pressure[one.vertex] += one.weights[k] * pressure[one.skin[k]];
+    }
   }
   return footprint;
 }

@@ -11,6 +11,7 @@
 #include "palmar/records/index_json.h"
 #include "palmar/records/json_values.h"
 #include "palmar/records/posture/placement_json.h"
+#include "palmar/records/sensors/sensor_json.h"
 #include "palmar/records/verdict_json.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
@@ -382,6 +383,7 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
                   {"indices", indices_object(assessment.contact, assessment.indices)},
                   {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};
+    if (assessment.sensors) entry["sensors"] = sensor_object(assessment);
     if (one.product.faces != nullptr) entry["faces"] = face_array(one.product, assessment.faces);
     Json times = {{"grasp", assessment.times.grasp},
                   {"balance", assessment.times.balance},

@@ -128,6 +128,42 @@ CsvTable region_table(const AssessmentSet& set) {
   return table;
 }
 
+CsvTable sensor_table(const AssessmentSet& set) {
+  CsvTable table;
+  table.header = {"product",
+                  "hand",
+                  "layout",
+                  "patch",
+                  "row",
+                  "column",
+                  "area_mm2",
+                  "force_n",
+                  "mean_pressure_mpa",
+                  "region",
+                  "measured_force_n",
+                  "measured_mean_pressure_mpa",
+                  "source"};
+  for (const AssessedProduct& one : set.assessments) {
+    if (!one.assessment.sensors) continue;
+    const SensorReading& reading = *one.assessment.sensors;
+    for (std::size_t i = 0; i < reading.cells.size(); ++i) {
+      const SensorCell& cell = reading.cells[i];
+      std::string force, pressure;
+      if (one.assessment.measured) {
+        const double measured = one.assessment.measured->measured[i];
+        force = shortest(measured);
+        if (cell.area > 0.0) pressure = shortest(measured / cell.area);
+      }
+      table.rows.push_back({one.product.name, one.assessment.hand_name, reading.layout.name,
+                            cell.patch, std::to_string(cell.row), std::to_string(cell.column),
+                            shortest(cell.area), shortest(cell.force), shortest(cell.mean_pressure),
+                            cell.region ? std::string(name_of(*cell.region)) : "", force, pressure,
+                            one.product.source});
+    }
+  }
+  return table;
+}
+
 CsvTable face_table(const AssessmentSet& set) {
   CsvTable table;
   table.header = {"product",

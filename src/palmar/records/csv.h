@@ -29,4 +29,8 @@ CsvTable region_table(const AssessmentSet& set);
 /// pressure, pressures.
 CsvTable face_table(const AssessmentSet& set);
 
+/// One row per sensor cell of products that have sensors between hand and product; where something
+/// was measured, that beside it.
+CsvTable sensor_table(const AssessmentSet& set);
+
 }  // namespace palmar

@@ -10,6 +10,8 @@
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/records/posture/coordination_file.h"
+#include "palmar/records/sensors/measured_pressure_file.h"
+#include "palmar/records/sensors/sensor_layout_file.h"
 #include "palmar/report/page/assessment_report.h"
 #include "palmar/report/words/verdict_words.h"
 #include "palmar/workflow/grasp/hold_product.h"
@@ -68,6 +70,15 @@ AssessOptions options_of(const AssessRequest& request, const Skeleton& skeleton)
   return options;
 }
 
+void add_measured(const Product& product, const MeasuredPressure& measured,
+                  Assessment& assessment) {
+  if (!assessment.sensors) {
+    throw UsageError(product.name + ": the hand doesn't touch it, so nothing stands beside " +
+                     measured.source);
+  }
+  assessment.measured = compare_pressure(*assessment.sensors, measured);
+}
+
 }  // namespace
 
 void AssessRequest::check() const {
@@ -75,6 +86,13 @@ void AssessRequest::check() const {
     throw UsageError("setting \"products\": none is given; at least one is required");
   }
   for (const ProductChoice& product : products) product.check();
+  if (!measured.empty() && sensors.empty()) {
+    throw UsageError("setting \"measured\": needs a sensor layout; setting \"sensors\" says which");
+  }
+  if (!measured.empty() && products.size() != 1) {
+    throw UsageError("setting \"measured\": goes with one product; " +
+                     std::to_string(products.size()) + " are given");
+  }
   grasp.check();
   contact.check();
   friction.options();
@@ -84,11 +102,16 @@ void AssessRequest::check() const {
 AssessOutcome assess_products(const AssessRequest& request, const Progress& progress) {
   request.check();
   if (!request.out.empty()) check_report_folder(request.out);
+  std::optional<SensorLayout> sensors;
+  std::optional<MeasuredPressure> measured;
+  if (!request.sensors.empty()) sensors = read_sensor_layout(request.sensors);
+  if (!request.measured.empty()) measured = read_measured_pressure(request.measured, *sensors);
   std::vector<ProductTask> tasks = read_products(request, progress);
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(request.hand);
   AssessOptions options = options_of(request, hand->skeleton);
+  options.sensors = sensors;
   const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
   const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
@@ -111,6 +134,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
                    held = take_product(hand, task.product, request.grasp, options.grasp, p);
                    return held.grasp;
                  });
+      if (measured) add_measured(task.product, *measured, assessment);
       outcome.set.assessments.push_back(
           {std::move(task.product), std::move(assessment), held.ways, held.ways_hand});
     } catch (const Cancelled&) {

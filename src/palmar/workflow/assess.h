@@ -37,6 +37,11 @@ struct AssessRequest {
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
   /// ease; "": the built-in one.
   std::string natural_postures;
+  /// Sensors between hand and product: a built-in layout or a TOML file (read_sensor_layout()); "":
+  /// none.
+  std::string sensors;
+  /// CSV of what such sensors measured on the one product (read_measured_pressure()); "": nothing.
+  std::string measured;
   Language language = Language::kEnglish;   ///< of the report and the verdict
   std::string out;                          ///< folder of the report; "": none is written
   bool pictures = true;                     ///< PNG pictures in it

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
@@ -187,6 +188,46 @@ TEST(AssessProducts, HandThatIsNotThereIsNamed) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("nowhere/her.hand.glb"));
   }
+}
+
+TEST(AssessProducts, SensorsBearTheForceOfTheContact) {
+  for (const char* layout : {"mat", "glove"}) {
+    AssessRequest request = request_for({handle(44.0)});
+    request.sensors = layout;
+    const AssessOutcome outcome = assess_products(request);
+    const Assessment& held = outcome.set.assessments.front().assessment;
+    ASSERT_TRUE(held.sensors);
+    const double force = held.contact.total.force;
+    EXPECT_NEAR(held.sensors->force + held.sensors->force_beside, force, 1e-9 * force) << layout;
+    // The mat goes round all of the handle; hands are wider than a glove's patches.
+    EXPECT_GT(held.sensors->force, (layout == std::string("mat") ? 0.98 : 0.6) * force) << layout;
+    // No cell of 25 mm^2 has more than the largest mean over discs of 24.
+    EXPECT_LT(held.sensors->peak_pressure, 1.5 * held.contact.total.peak_pressure_cells);
+    EXPECT_GT(held.sensors->peak_pressure, 0.6 * held.contact.total.peak_pressure_cells);
+  }
+}
+
+TEST(AssessProducts, MeasuredPressureStandsBesideTheSimulation) {
+  // What the sensor itself would show, as measurement: nothing differs.
+  const TemporaryFolder folder;
+  AssessRequest request = request_for({handle(44.0)});
+  request.sensors = "mat";
+  request.pictures = false;
+  request.out = (folder / "first").string();
+  const AssessOutcome first = assess_products(request);
+  request.measured = request.out + "/sensors.csv";
+  request.out = (folder / "second").string();
+  const AssessOutcome second = assess_products(request);
+  const Assessment& held = second.set.assessments.front().assessment;
+  ASSERT_TRUE(held.measured);
+  EXPECT_NEAR(held.measured->pearson.r, 1.0, 1e-9);
+  EXPECT_NEAR(held.measured->rms, 0.0, 1e-12);
+  EXPECT_NEAR(held.measured->force_measured, held.measured->force_simulated, 1e-9);
+  const std::string page = read_file(folder / "second" / "report.html");
+  EXPECT_THAT(page, HasSubstr("Sensors between hand and product"));
+  EXPECT_THAT(page, HasSubstr("Simulated less measured"));
+  EXPECT_THAT(read_file(folder / "second" / "assessment.json"), HasSubstr("\"cell_force_n\""));
+  EXPECT_THAT(read_file(folder / "second" / "sensors.csv"), HasSubstr("measured_force_n"));
 }
 
 TEST(AssessRequest, CheckNamesFieldValueAndWhatIsAllowed) {

@@ -83,7 +83,7 @@ SmallMotion about(const SmallMotion& motion, const Vec3& point) {
 
 void add_regions(const PreparedHand::Impl& prepared, const std::vector<int>& loaded,
                  const std::vector<RubbingPatch>& patches, double coefficient,
-                 FrictionResult& result) {
+                 const ContactResult& contact, FrictionResult& result) {
   std::array<RegionFriction, kRegionCount> part{};
   std::array<double, kRegionCount> used{}, area{}, slipping{};
   for (std::size_t k = 0; k < loaded.size(); ++k) {
@@ -92,8 +92,9 @@ void add_regions(const PreparedHand::Impl& prepared, const std::vector<int>& loa
     part[r].limit += patches[k].limit;
     part[r].force += result.force[v];
     used[r] += result.force[v].norm();
-    area[r] += prepared.skin.area[loaded[k]];
-    if (result.mobilised[v] >= kSlipping) slipping[r] += prepared.skin.area[loaded[k]];
+    const double pressed = contact.force[v] / contact.pressure[v];
+    area[r] += pressed;
+    if (result.mobilised[v] >= kSlipping) slipping[r] += pressed;
   }
   double all = 0.0, all_slipping = 0.0;
   for (std::size_t r = 0; r < part.size(); ++r) {
@@ -245,7 +246,7 @@ FrictionResult solve_friction(const PreparedHand& hand, const ContactResult& con
     result.force[v] = force[k];
     result.mobilised[v] = std::min(1.0, force[k].norm() / patches[k].limit);
   }
-  add_regions(prepared, loaded, patches, options.coefficient, result);
+  add_regions(prepared, loaded, patches, options.coefficient, contact, result);
   return result;
 }
 

@@ -119,8 +119,8 @@ void ContactSolver::Impl::finish_as_printed(const SkinOnProduct& skin, const Dis
     residual = std::max(residual, result.force[v] > 0.0 ? std::abs(d) : -d);
   }
   const DeepestOfRegion deepest = deepest_of(skin, load, prepared->hand->region);
-  add_totals(*prepared, skin, {}, {}, deepest.depth, deepest.shear_modulus, options.cell_area,
-             result);
+  add_totals(*prepared, skin, prepared->skin, {}, {}, deepest.depth, deepest.shear_modulus,
+             options.cell_area, result);
   if (options.error_band && !load.vertex.empty()) result.band = band_as_printed(skin, result);
 }
 
@@ -144,7 +144,7 @@ ContactBand ContactSolver::Impl::band_as_printed(const SkinOnProduct& skin,
       other.pressure[v] = other.force[v] / prepared->skin.area[v];
     }
     const std::array<double, kRegionCount> none{};
-    add_totals(*prepared, skin, {}, {}, none, none, options.cell_area, other);
+    add_totals(*prepared, skin, prepared->skin, {}, {}, none, none, options.cell_area, other);
     set_band_level(other, level, result);
   }
   return result;

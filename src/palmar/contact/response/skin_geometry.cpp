@@ -76,15 +76,12 @@ void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
   result.radius.reserve(result.area.size());
   for (const double a : result.area) result.radius.push_back(std::sqrt(a / std::numbers::pi));
   result.edge_length.resize(result.ring.size());
-  std::vector<int> all(skin.vertices.size());
-  for (std::size_t v = 0; v < all.size(); ++v) {
-    all[v] = static_cast<int>(v);
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
     for (int k = result.ring_begin[v]; k < result.ring_begin[v + 1]; ++k) {
       const int w = result.ring[k];
       result.edge_length[k] = (skin.vertices[v] - skin.vertices[w]).norm();
     }
   }
-  result.cells = sensor_cells(result, all, kUsualCellArea);
 }
 
 }  // namespace
@@ -122,15 +119,16 @@ SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& ot
   return result;
 }
 
-SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area) {
-  const double cell_radius = std::sqrt(cell_area / std::numbers::pi);
+SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres,
+                         std::span<const double> cell_area) {
   SensorCells cells;
-  cells.cell_area = cell_area;
   cells.begin.reserve(centres.size() + 1);
   cells.begin.push_back(0);
   std::vector<int> near;
   std::vector<int> mark(skin.position.size(), -1);
-  for (const int centre : centres) {
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    const int centre = centres[c];
+    const double cell_radius = std::sqrt(cell_area[c] / std::numbers::pi);
     near.assign(1, centre);
     mark[centre] = centre;
     for (std::size_t k = 0; k < near.size(); ++k) {

@@ -11,13 +11,12 @@ namespace palmar {
 
 /// Which skin a pressure sensor's cell, a disc on the skin centred on a vertex, covers.
 struct SensorCells {
-  double cell_area = 0.0;  ///< mm^2
   std::vector<int> begin;  ///< one more than cells: where a cell's vertices begin in `vertex`
   std::vector<int> vertex;
   std::vector<double> shared;  ///< area of the vertex' Voronoi disc that lies in the cell, mm^2
 };
 
-/// What the contact model needs to know about a skin in its reference posture.
+/// What the contact model needs to know about a skin, in its reference posture or as it is pressed.
 struct SkinGeometry {
   std::vector<Vec3> position;       ///< mm
   std::vector<Vec3> normal;         ///< unit, outward
@@ -26,7 +25,6 @@ struct SkinGeometry {
   std::vector<int> ring_begin;      ///< vertex count + 1: where the neighbours begin in `ring`
   std::vector<int> ring;            ///< neighbours over one edge, ascending
   std::vector<double> edge_length;  ///< of each entry of `ring`, mm
-  SensorCells cells;                ///< centred on every vertex, of kUsualCellArea
 
   int vertex_count() const { return static_cast<int>(position.size()); }
   std::span<const int> neighbours(int vertex) const {
@@ -34,16 +32,17 @@ struct SkinGeometry {
   }
 };
 
-/// Cell of the sensors used by Xie 2014 (4.2 per cm^2); cells of other sizes are made when asked
-/// for.
+/// Cell of the sensors used by Xie 2014 (4.2 per cm^2).
 constexpr double kUsualCellArea = 24.0;  // mm^2
 
 SkinGeometry skin_geometry(const TriangleMesh& skin);
 /// The same for a skin with the triangles of `other`, from its neighbours.
 SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other);
 
-/// The cells centred on `centres`, in their order; distances by arc_distance().
-SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres, double cell_area);
+/// The cells of `cell_area` [mm^2, one each] centred on `centres`, in their order; distances by
+/// arc_distance().
+SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres,
+                         std::span<const double> cell_area);
 
 /// Area-weighted unit vertex normals of a mesh whose vertices have moved.
 std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,

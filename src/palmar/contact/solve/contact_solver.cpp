@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palmar/contact/contact_totals.h"
+#include "palmar/contact/pressed_skin.h"
 #include "palmar/contact/printed/sub_active_region.h"
 #include "palmar/contact/response/deformed_skin.h"
 #include "palmar/contact/response/layered_response.h"
@@ -365,7 +366,6 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const int v = load.vertex[k];
     result.force[v] = load.force[k];
-    result.pressure[v] = load.force[k] / prepared->skin.area[v];
     was_in_contact[v] = load.in_contact[k];
     was_force[v] = load.force[k];
   }
@@ -431,10 +431,11 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
     gap[v] = result.distance[v] + u.elastic[v];
   }
   const DeepestOfRegion deepest = deepest_of(skin, load, prepared->hand->region);
-  add_totals(*prepared, skin, gap, modulus, deepest.depth, deepest.shear_modulus, options.cell_area,
-             result);
+  const SkinGeometry pressed = pressed_skin(*prepared, skin, result.undeformed);
+  add_totals(*prepared, skin, pressed, gap, modulus, deepest.depth, deepest.shear_modulus,
+             options.cell_area, result);
   if (options.error_band && !load.vertex.empty()) {
-    result.band = band(skin, load, gap, result);
+    result.band = band(skin, load, gap, pressed, result);
   }
 }
 

@@ -30,8 +30,8 @@ struct ContactSolver::Impl {
   void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
              const DistanceField& product, std::optional<Region> only, ContactResult& result);
   /// The same for who wants forces only: loaded skin is put on the product, all else stays where it
-  /// was; of regions and totals just force, largest penetration and shear modulus are set. A third
-  /// of the time.
+  /// was; of pressures none, of regions and totals just force, largest penetration and shear
+  /// modulus are set. A third of the time.
   void solve_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
                     const DistanceField& product, ContactResult& result);
 
@@ -83,7 +83,7 @@ struct ContactSolver::Impl {
   std::optional<std::array<double, kRegionCount>> force_per_modulus(const SkinOnProduct& skin,
                                                                     const SkinLoad& load);
   ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
-                   ContactResult& nominal);
+                   const SkinGeometry& pressed, ContactResult& nominal);
 
   // Xie 2014 as printed; solve_as_printed.cpp.
   SkinLoad solve_as_printed(const SkinOnProduct& skin, TissueLevel level,

@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/records/json_values.h"
 #include "palmar/report/chart/bar_chart.h"
+#include "palmar/report/chart/sensor_chart.h"
 #include "palmar/report/page/friction_words.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"
@@ -91,7 +92,13 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
     sensitivity = attached(attachments, name + "-sensitivity",
                            to_svg(bar_figure(sensitivity_chart(*contact.band))));
   }
+  PageJson sensors = nullptr;
+  if (one.assessment.sensors) {
+    sensors = attached(attachments, name + "-sensors",
+                       to_svg(sensor_figure(*one.assessment.sensors, one.assessment.measured)));
+  }
   return {{"charts", charts_json(contact, name, attachments)},
+          {"sensor_map", std::move(sensors)},
           {"sensitivity_chart", std::move(sensitivity)},
           {"friction_words", friction_verdict(hand, one.assessment)},
           {"pictures", pictures_json(pictures, name, attachments)},

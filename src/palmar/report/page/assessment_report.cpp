@@ -210,6 +210,8 @@ void check_report_folder(const std::string& folder) {
   });
   refuse_unless("faces.csv",
                 [](const std::string& text) { return text.starts_with("product,hand,face,"); });
+  refuse_unless("sensors.csv",
+                [](const std::string& text) { return text.starts_with("product,hand,layout,"); });
   refuse_unless("regions.csv",
                 [](const std::string& text) { return text.starts_with("product,hand,region,"); });
 }
@@ -230,6 +232,11 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   // One of an earlier run must not stand beside results that it isn't of.
   if (!faces.rows.empty() || std::filesystem::exists(root / "faces.csv")) {
     write_file(root / "faces.csv", format_csv(faces));
+  }
+
+  const CsvTable sensors = sensor_table(set);
+  if (!sensors.rows.empty() || std::filesystem::exists(root / "sensors.csv")) {
+    write_file(root / "sensors.csv", format_csv(sensors));
   }
 
   const ColourScale scale = pressure_scale(set);

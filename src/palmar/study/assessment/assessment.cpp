@@ -85,6 +85,10 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
     result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
     result.faces = face_contacts(result.footprint, product);
   }
+  if (options.sensors && result.contact.total.force > 0.0) {
+    result.sensors =
+        sensor_reading(hand.hand(), product, result.grasp, result.contact, *options.sensors);
+  }
   // Finished is finished: who cancels now still gets it.
   if (progress.report) progress.report(1.0, "assessed");
   return result;

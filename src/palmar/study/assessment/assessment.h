@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "palmar/product/product.h"
 #include "palmar/study/assessment/face_contacts.h"
 #include "palmar/study/assessment/grasp_indices.h"
+#include "palmar/study/sensors/measured_pressure.h"
 
 namespace palmar {
 
@@ -26,8 +28,9 @@ struct AssessOptions {
   BalanceOptions balance;  ///< on unless switched off
   ContactOptions contact;
   IndexOptions indices;
-  FrictionOptions friction;  ///< off unless it has a coefficient
-  bool footprint = true;     ///< map the pressure to the product
+  FrictionOptions friction;             ///< off unless it has a coefficient
+  std::optional<SensorLayout> sensors;  ///< laid between hand and product
+  bool footprint = true;                ///< map the pressure to the product
   std::uint64_t seed =
       0;  ///< written into the results; the power grasp itself draws no random numbers
 };
@@ -51,7 +54,9 @@ struct Assessment {
   FrictionResult friction;
   ProductFootprint footprint;
   std::vector<FaceContact> faces;  ///< touched; empty without footprint or faces of the product
-  GraspIndices indices;            ///< empty if switched off
+  std::optional<SensorReading> sensors;        ///< of a product that is touched, if asked for
+  std::optional<PressureComparison> measured;  ///< beside `sensors`
+  GraspIndices indices;                        ///< empty if switched off
   AssessOptions options;
   AssessTimes times;
 };
