@@ -16,6 +16,7 @@
 #include "palmar/report/page/assessment_page.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/holds_picture.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/report/words/verdict_words.h"
 
 namespace palmar {
@@ -129,10 +130,11 @@ bool has_thumbnail(const Picture& picture, bool are_compared) {
 }
 
 /// Other ways to hold the product, if they are known.
-void add_sheet_of_holds(const AssessedProduct& one, const Progress& progress,
+void add_sheet_of_holds(const AssessedProduct& one, Language language, const Progress& progress,
                         std::vector<Picture>& pictures) {
   if (one.ways == nullptr || one.ways->holds.size() < 2 || progress.is_cancelled()) return;
   HoldsPictureOptions drawing;
+  drawing.language = language;
   drawing.tile_width = kSheetTile;
   drawing.up = one.assessment.options.grasp.holds.up;
   try {
@@ -149,10 +151,12 @@ std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, 
                                            const AssessedProduct& one, const ColourScale& scale,
                                            const ReportOptions& options, bool are_compared,
                                            const Progress& progress) {
-  std::vector<Picture> pictures = assessment_pictures(
-      hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
-      progress);
-  add_sheet_of_holds(one, progress, pictures);
+  std::vector<Picture> pictures = assessment_pictures(hand, one, scale,
+                                                      {.width = options.picture_width,
+                                                       .height = options.picture_height,
+                                                       .language = options.language},
+                                                      progress);
+  add_sheet_of_holds(one, options.language, progress, pictures);
   std::vector<EncodedPicture> embedded(pictures.size());
   std::vector<std::string> full(pictures.size());
   parallel_for(static_cast<int>(pictures.size()), [&](int k) {
@@ -232,7 +236,10 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
     write_file(root / "faces.csv", format_csv(faces));
   }
 
-  const ColourScale scale = pressure_scale(set);
+  ColourScale scale = pressure_scale(set);
+  const Phrases phrases(options.language);
+  scale.quantity = phrases(scale.quantity);
+  scale.none = phrases(scale.none);
   std::vector<std::vector<EncodedPicture>> embedded(set.assessments.size());
   std::set<std::string> used;
   for (std::size_t i = 0; i < set.assessments.size() && !progress.is_cancelled(); ++i) {

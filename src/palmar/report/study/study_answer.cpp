@@ -287,7 +287,7 @@ class StudySpeaker {
     if (is_redesign) {
       next("equal_redesign",
            changed_command(options_.command, {"--posture", "--grip-force-n", "--out"},
-                           "--posture new" + same + " --out equal"));
+                           "--hold-posture new" + same + " --out equal"));
     } else {
       run_again("equal_force", statistics_.front().outcomes.hands(), same);
     }
