@@ -174,7 +174,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
 void add_assess_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<AssessArguments>();
   CLI::App* verb = add_verb(app, "assess", "How products feel in the hand: grasp, contact, report",
-                            "palmar assess old.stl new.stl --unit mm --out report");
+                            "palmar assess old.step new.step --out report");
   verb->add_option("PRODUCT", arguments->products, "Files: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   arguments->grasp.add_to(*verb);

@@ -25,7 +25,7 @@ void add_report(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
       add_verb(noun, "report", "One page with all figures, comparisons, 3-D views and provenance",
-               "palmar study report handles.palmar --out report");
+               "palmar study report women.palmar --out report");
   verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
   verb->add_option("--out", o->out, "Folder for report.html, tables and figures")->required();
   verb->add_option("--threshold-kpa", o->threshold,
@@ -71,7 +71,7 @@ void add_compare(CLI::App& noun, Context& context) {
   o->quantities.clear();
   CLI::App* verb =
       add_verb(noun, "compare", "Differences between products over the same hands",
-               "palmar study compare handles.palmar --quantity peak_pressure_cells_mpa");
+               "palmar study compare women.palmar --quantity peak_pressure_cells_mpa");
   verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
   verb->add_option("--quantity", o->quantities,
                    "What is compared, one or several: peak_pressure_cells_mpa, contact_area_mm2, "
