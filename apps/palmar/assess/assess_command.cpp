@@ -17,6 +17,7 @@
 #include "palmar/workflow/study.h"
 #include "palmar/workflow/study/study_report.h"
 #include "product/cad_arguments.h"
+#include "report_arguments.h"
 #include "study/study_comparison_text.h"
 #include "text.h"
 
@@ -31,8 +32,9 @@ struct AssessArguments {
   BalanceArguments balance;
   CadArguments cad;
   std::string natural_postures;
-  std::string out, language = "en", paper = "a4";
-  bool pdf = false, left = false;
+  ReportArguments report;
+  std::string out;
+  bool left = false;
   std::vector<std::string> populations;
   int hands = 0;
   bool no_pictures = false;
@@ -90,9 +92,9 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.natural_postures = arguments.natural_postures;
   request.out = arguments.out;
   if (request.out.empty() && !context.common.json) request.out = free_report_folder();
-  request.language = language_named(arguments.language);
-  const Paper paper = paper_named(arguments.paper);
-  if (arguments.pdf) request.pdf = paper;
+  request.language = arguments.report.language();
+  request.pdf = arguments.report.pdf();
+  request.extras = arguments.report.extras();
   request.pictures = !arguments.no_pictures;
   request.seed = context.common.seed;
   request.command_line = context.command_line;
@@ -104,9 +106,10 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
 int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
   constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
   static const std::set<std::string> kTaken = {
-      "PRODUCT", "help",  "unit",        "population",   "hands",       "out",    "language",
-      "pdf",     "paper", "hold",        "part",         "along",       "toward", "up",
-      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths"};
+      "PRODUCT",      "help",  "unit",    "population", "hands",       "out",
+      "language",     "pdf",   "paper",   "hold",       "part",        "along",
+      "toward",       "up",    "purpose", "hand",       "no-pictures", "grip-force-n",
+      "limit-depths", "units", "project", "slides",     "excel",       "rounded-csv"};
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_single_name();
     if (option->count() > 0 && !kTaken.contains(name)) {
@@ -137,10 +140,10 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   StudyReportRequest report;
   report.store = ran.store;
   report.folder = folder;
-  report.report.language = language_named(arguments.language);
+  report.report.language = arguments.report.language();
+  report.report.extras = arguments.report.extras();
   report.report.pictures = !arguments.no_pictures;
-  const Paper paper = paper_named(arguments.paper);
-  if (arguments.pdf) report.pdf = paper;
+  report.pdf = arguments.report.pdf();
   report_study(report, make_progress(context.common));
   StudyCompareRequest compare;
   compare.store = ran.store;
@@ -195,13 +198,7 @@ void add_assess_command(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, QuickStudy::kMostHands));
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
-  verb->add_option("--language", arguments->language, "Language of the report: en or de")
-      ->capture_default_str();
-  verb->add_flag(
-      "--pdf", arguments->pdf,
-      "Print the first screen (answer.pdf) and all (report.pdf) with a headless browser");
-  verb->add_option("--paper", arguments->paper, "Paper of --pdf: a4 or letter")
-      ->capture_default_str();
+  arguments->report.add_to(*verb);
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
   verb->callback([&context, arguments, verb] {
     context.run = [&context, arguments, verb] {

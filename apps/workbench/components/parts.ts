@@ -58,7 +58,7 @@ export function charts(figures: TrustedMarkup[]): Markup {
 export function pictureFigures(pictures: Picture[]): Markup | null {
   if (pictures.length === 0) return null;
   return html`<div class="pictures">${pictures.map((one) =>
-    html`<figure><img src="${one.src}" alt="${one.alt}"><figcaption>${one.title}</figcaption></figure>`)}</div>
+    html`<figure data-picture="${one.name}"><img src="${one.src}" alt="${one.alt}"><figcaption>${one.title}</figcaption></figure>`)}</div>
 `;
 }
 

@@ -225,6 +225,7 @@ ${side}<p>${say("figures.small")} ${scale} ${say("figures.full")}</p>
     ],
     maker: view.maker,
     data: [{ id: "palmar-assessment", attachment: "report" }, { id: "palmar-view", attachment: "view" }],
+    desk: view.desk,
     hasViewer: true,
   });
 }

@@ -247,6 +247,7 @@ export function studyPage(page: StudyPage): string {
     ],
     maker: page.maker,
     data: [{ id: "palmar-study", attachment: "data" }],
+    desk: page.desk,
     hasViewer: page.scene !== null,
   });
 }

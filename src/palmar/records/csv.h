@@ -29,4 +29,8 @@ CsvTable region_table(const AssessmentSet& set);
 /// pressure, pressures.
 CsvTable face_table(const AssessmentSet& set);
 
+/// One row per product and index that could be computed: its key, name, group, value, unit and
+/// which direction is better.
+CsvTable index_table(const AssessmentSet& set);
+
 }  // namespace palmar

@@ -125,6 +125,7 @@ std::string assessment_page(const AssessmentSet& set,
   }
   const PageJson view = {{"maker", maker_json()},
                          {"language", name_of(options.language)},
+                         {"desk", desk_json(options.extras, attachments)},
                          {"is_cut_short", options.is_cut_short},
                          {"vocabulary", vocabulary_json(*set.hand)},
                          {"scale", colour_bar_json(scale)},

@@ -435,6 +435,7 @@ std::string study_page(const StudyPage& page) {
                    {"vocabulary", vocabulary_json(page.base)},
                    {"products", std::move(products)},
                    {"language", name_of(page.language)},
+                   {"desk", desk_json(page.extras, attachments)},
                    {"answer", answer_json(page.answer)},
                    {"verdict", verdict_json(page)},
                    {"warnings", warnings_json(page.warnings)},

@@ -102,7 +102,9 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
           .name = picture.name,
           .title = picture.title,
           .alt = picture.alt,
-          .png = encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall),
+          .png = encode_png(
+              narrowed(picture.image, options.extras.slides ? picture.image.width : kEmbeddedWidth),
+              PngEffort::kSmall),
           .thumbnail = ""};
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) {
@@ -165,9 +167,12 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
 
   progress.update(0.0, "statistics");
   const StudyAnalysis analysis = analyse_study(results, options.comparison);
+  std::vector<DeskTable> desk;
   for (const NamedTable& one : study_csv(results, analysis)) {
     write_file(root / one.name, format_csv(one.table));
+    desk.push_back({std::filesystem::path(one.name).stem().string(), one.about, one.table});
   }
+  write_desk_tables(root, plan.title.empty() ? plan.name : plan.title, desk, options.extras);
   progress.update(0.1, "figures");
   const Phrases phrases(options.language);
   std::vector<StudyFigure> figures = study_figures(results, analysis);
@@ -229,7 +234,8 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
                        study_answer(results, {.language = options.language,
                                               .comparison = options.comparison,
                                               .store = "",
-                                              .command = options.command})};
+                                              .command = options.command}),
+                       options.extras};
   write_file(root / "report.html", study_page(page));
 }
 

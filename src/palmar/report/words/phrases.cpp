@@ -129,6 +129,7 @@ std::string Phrases::operator()(const std::string& english) const {
 }
 
 std::optional<std::string> Phrases::direct(const std::string& english, int depth) const {
+  if (depth > kDeepest) return std::nullopt;
   if (const auto whole = whole_.find(english); whole != whole_.end()) return whole->second;
   for (const Template& one : templates_) {
     if (!english.starts_with(one.pieces.front())) continue;
@@ -136,9 +137,11 @@ std::optional<std::string> Phrases::direct(const std::string& english, int depth
     if (!fits(english, one.pieces.front().size(), one.pieces, one.names, 0, values)) continue;
     bool are_known = true;
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const std::optional<std::string> known =
-          is_verbatim(one.names[k]) ? values[k] : found(values[k], depth + 1);
-      are_known = are_known && (known || !must_be_known(one.names[k]));
+      const bool is_needed = must_be_known(one.names[k]);
+      const std::optional<std::string> known = is_verbatim(one.names[k]) ? values[k]
+                                               : is_needed ? direct(values[k], depth + 1)
+                                                           : found(values[k], depth + 1);
+      are_known = are_known && (known || !is_needed);
       values[k] = known ? *known : with_decimal_commas(values[k]);
     }
     if (!are_known) continue;

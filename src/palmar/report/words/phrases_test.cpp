@@ -40,6 +40,16 @@ TEST(Phrases, SentencesInARowAreLookedUpOneByOne) {
             "Bilanz: sie gilt als vom Griff gehalten.");
 }
 
+TEST(Phrases, AShortSentenceDoesNotSwallowALongOne) {
+  // "{grip} of the {part}" would fit these, too.
+  EXPECT_EQ(german()("friction could hold it. Until the skin has taken it up, the product moves by "
+                     "0.050 mm and turns by 0.011°, and 1.5 % of the loaded skin slips a little."),
+            "friction could hold it. Bis die Haut sie aufgenommen hat, bewegt sich das Produkt um "
+            "0,050 mm und dreht sich um 0,011°, und 1,5 % der belasteten Haut rutschen ein wenig.");
+  EXPECT_EQ(german()("fixed hook of the loop handle, fingers through it, 50 % along it"),
+            "Hakengriff: Henkel, Finger hindurch, bei 50 % der Länge");
+}
+
 TEST(Phrases, NamesStayEvenIfTheyAreWords) {
   // A product whose name is a word of the table, and whose name has a point.
   EXPECT_EQ(german()("handle: how it is held, palm side."),
