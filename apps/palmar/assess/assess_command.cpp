@@ -12,6 +12,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
+#include "palmar/records/study/people_range.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/study.h"
@@ -122,7 +123,9 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   quick.products = arguments.products;
   quick.unit = parse_unit(arguments.grasp.unit);
   quick.populations = arguments.populations;
-  quick.hands = arguments.hands > 0 ? arguments.hands : kFewHands;
+  const bool are_given = std::any_of(quick.populations.begin(), quick.populations.end(),
+                                     [](const std::string& one) { return is_people_range(one); });
+  quick.hands = arguments.hands > 0 || are_given ? arguments.hands : kFewHands;
   if (arguments.grasp.hand != "template") quick.hand = arguments.grasp.hand;
   quick.holding = arguments.grasp.settings().holding;
   const RestSettings rest = arguments.balance.settings();
@@ -191,7 +194,8 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_flag("--left", arguments->left, "A left hand");
   verb->add_option("--population", arguments->populations,
                    "Many hands in place of one, as a small study: a built-in population (`palmar "
-                   "population list`), a population file (.toml) or a table of given hands (.csv)")
+                   "population list`), people from one size to another (woman:P5..man:P95), a "
+                   "population file (.toml) or a table of given hands (.csv)")
       ->allow_extra_args(false);
   verb->add_option("--hands", arguments->hands,
                    "Number of hands to draw from each population; 12 if not given")

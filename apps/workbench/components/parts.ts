@@ -63,7 +63,7 @@ export function pictureFigures(pictures: Picture[]): Markup | null {
 }
 
 export function licence(text: string): Markup {
-  return folded(say("licence.title"), html`<pre>${text}</pre>`);
+  return html`<div class="on-screen">${folded(say("licence.title"), html`<pre>${text}</pre>`)}</div>`; // paper has no scripts
 }
 
 /// Which colour means how much. `key` and `isShown`: one of several that a view changes between.

@@ -14,6 +14,7 @@
 #include "palmar/core/version.h"
 #include "palmar/formats/file.h"
 #include "palmar/population/hand_profile.h"
+#include "palmar/records/study/people_range.h"
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_progress.h"
 #include "palmar/records/study/study_store.h"
@@ -168,7 +169,12 @@ StudyRequest study_of(const QuickStudy& quick) {
     request.products.push_back(std::move(product));
   }
   for (const std::string& name : quick.populations) {
-    request.populations.push_back(population_request(name));
+    if (quick.hands > 0 && is_people_range(name)) {
+      throw UsageError("setting \"hands\" has no meaning with the given people \"" + name + "\"");
+    }
+    for (PopulationRequest& one : population_requests(name)) {
+      request.populations.push_back(std::move(one));
+    }
   }
   for (PopulationRequest& one : request.populations) {
     if (quick.hands > 0 && !one.table.empty()) {
