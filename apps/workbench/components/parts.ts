@@ -15,7 +15,7 @@ export function badge(verdict: Verdict, words: Child): Markup {
 }
 
 /// A paragraph that stands out, begun by a word or two.
-export function note(verdict: Verdict | "", begin: string, words: Child): Markup {
+export function note(verdict: Verdict | "", begin: Child, words: Child): Markup {
   return html`<p class="note${verdict && " " + verdict}"><strong>${begin}</strong> ${words}</p>
 `;
 }
