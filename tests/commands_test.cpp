@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run_program.h"
 
@@ -219,6 +221,55 @@ TEST(OptionNames, OldOnesAreAcceptedWithANote) {
   EXPECT_EQ(old.out, present.out);
   EXPECT_THAT(old.err, HasSubstr("--region is now called --box"));
   EXPECT_EQ(present.err.find("now called"), present.err.npos);
+}
+
+// The page for people says what the program does: the new name is in the help, the old one isn't.
+TEST(OptionNames, TheTableOfOldAndNewNamesIsTrue) {
+  std::istringstream page(read_text(PALMAR_SOURCE_DIR "/docs/using/options.md"));
+  const std::map<std::string, std::string> verb_of = {
+      {"`assess`, `grasp`, `effort`", "assess"},
+      {"`redesign press`", "redesign press"},
+      {"`photos mesh`, `hand from-photos`", "photos mesh"},
+      {"`assess`, `effort`", "effort grasp"},
+      {"`redesign region`", "redesign region"},
+      {"`redesign`", "redesign press"},
+      {"`phantom`", "phantom scan"},
+      {"`redesign fillet`, `features`", "redesign fillet"},
+      {"`population correlate`, `regress`", "population correlate"},
+      {"`hand from-...`, `mri`, `phantom`", "hand from-scan"},
+      {"`contact press`", "contact press"}};
+  bool is_table = false;
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line == "| old | new | where |") is_table = true;
+    if (!is_table || !line.starts_with("| `--")) continue;
+    std::vector<std::string> cells;
+    for (std::size_t from = 2, end = 0; (end = line.find(" |", from)) != line.npos;
+         from = end + 3) {
+      cells.push_back(line.substr(from, end - from));
+    }
+    ASSERT_EQ(cells.size(), 3U) << line;
+    const auto verb = verb_of.find(cells[2]);
+    ASSERT_NE(verb, verb_of.end()) << cells[2];
+    const std::string help = run_palmar(verb->second + " --help").out;
+    const auto names = [](const std::string& cell) {
+      std::vector<std::string> found;
+      for (std::size_t at = cell.find("--"); at != cell.npos; at = cell.find("--", at + 2)) {
+        found.push_back(cell.substr(at, cell.find_first_of("` ,", at) - at));
+      }
+      return found;
+    };
+    for (const std::string& name : names(cells[0])) {
+      const bool is_model = name == "--base" && verb->second == "hand from-scan";
+      EXPECT_TRUE(is_model || help.find("\n  " + name + " ") == help.npos)
+          << name << " in " << line;
+    }
+    for (const std::string& name : names(cells[1])) {
+      EXPECT_NE(help.find("\n  " + name + " "), help.npos) << name << " in " << line;
+    }
+    ++rows;
+  }
+  EXPECT_EQ(rows, 14);
 }
 
 TEST(OptionNames, ANumberGoesWithItsUnit) {
