@@ -62,9 +62,11 @@ test("every text is asked for somewhere", () => {
   assert.equal(String(unused), "");
 });
 
-// Put together from parts in grasp_verdict.cpp, grip_needs.cpp, check.cpp, friction_words.cpp and
-// study_analysis.cpp, so that no piece of them stands anywhere as a whole.
-const puzzles = ["the base of the {finger}", "the middle part of the {finger}",
+// Put together from parts in grasp_verdict.cpp, grip_needs.cpp, check.cpp, friction_words.cpp,
+// study_verdict.cpp and study_analysis.cpp, so that no piece of them stands anywhere as a whole.
+const puzzles = ["It asks for more range of motion than {n_count} of {n_all} hands have.",
+  "It asks for more grip strength than {n_count} of {n_all} hands have.",
+  "the base of the {finger}", "the middle part of the {finger}",
   "only {n_count} finger besides the thumb touches it; a {grip} needs {n_needed}",
   "only {n_count} fingers besides the thumb touch it; a {grip} needs {n_needed}",
   "{n_pairs} pairs of triangles go through each other",
