@@ -107,10 +107,10 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
 int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
   constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
   static const std::set<std::string> kTaken = {
-      "PRODUCT",      "help",  "unit",    "population", "hands",       "out",
-      "language",     "pdf",   "paper",   "hold",       "part",        "along",
-      "toward",       "up",    "purpose", "hand",       "no-pictures", "grip-force-n",
-      "limit-depths", "units", "project", "slides",     "excel",       "rounded-csv"};
+      "PRODUCT", "help",  "unit",        "population",   "hands",        "out",    "language",
+      "pdf",     "paper", "hold",        "part",         "along",        "toward", "up",
+      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths", "units",  "project",
+      "slides",  "excel", "rounded-csv", "mass-kg"};
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_single_name();
     if (option->count() > 0 && !kTaken.contains(name)) {
@@ -128,6 +128,7 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   quick.hands = arguments.hands > 0 || are_given ? arguments.hands : kFewHands;
   if (arguments.grasp.hand != "template") quick.hand = arguments.grasp.hand;
   quick.holding = arguments.grasp.settings().holding;
+  quick.mass = arguments.friction.settings().mass.value_or(0.0);
   const RestSettings rest = arguments.balance.settings();
   quick.grip_force = rest.grip_force;
   quick.limit_depths = rest.limit_depths;

@@ -8,7 +8,7 @@ import { converted, headed, inUsUnits, units } from "./unit_words";
 
 function textsIn(root: Element): Text[] {
   const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT, {
-    acceptNode: (node) => node.parentElement?.closest("script,style,svg,code,pre,.view-says")
+    acceptNode: (node) => node.parentElement?.closest("script,style,svg,code,pre,h1,.project,.view-says")
       ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT,
   });
   const found: Text[] = [];

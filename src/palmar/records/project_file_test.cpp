@@ -43,7 +43,7 @@ TEST_F(ProjectFile, HasNameAuthorNotesAndLogo) {
   EXPECT_EQ(project.notes, "Second round.");
   EXPECT_EQ(project.logo_type, "image/svg+xml");
   EXPECT_FALSE(project.is_empty());
-  EXPECT_TRUE(read_project(written("")).is_empty());
+  EXPECT_TRUE(read_project(written("name = \"\"\n")).is_empty());
 }
 
 TEST_F(ProjectFile, SaysWhatIsWrongWithLineAndKey) {

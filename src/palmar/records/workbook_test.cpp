@@ -87,7 +87,7 @@ TEST(Workbook, AnotherProgramReadsIt) {
             0)
       << read_file(out);
   EXPECT_EQ(read_file(out),
-            "['About', 'regions'] <A & \"B\"> 12.3456789012345 0.0 None 1000 A2 A1:D3 True\n");
+            "['About', 'regions'] <A & \"B\"> 12.3456789012345 0.0 None 1000.0 A2 A1:D3 True\n");
   std::filesystem::remove_all(folder);
 }
 

@@ -142,6 +142,9 @@ void QuickStudy::check() const {
         fmt::format("setting \"hands\" is {}; 1 to {} is allowed, 0 for the population's own",
                     hands, kMostHands));
   }
+  if (!(mass >= 0.0 && mass <= 100.0)) {
+    throw UsageError(fmt::format("setting \"mass\" is {:g}; 0 to 100 kg is allowed", mass));
+  }
   if (int(grip_force.has_value()) + int(strength_share.has_value()) + int(limit_depths) > 1) {
     throw UsageError(
         "more than one of setting \"grip force\", setting \"strength share\" and setting \"limit "
@@ -166,6 +169,7 @@ StudyRequest study_of(const QuickStudy& quick) {
     product.file = name;
     product.unit = quick.unit;
     product.held.holding = quick.holding;
+    product.held.mass = quick.mass;
     request.products.push_back(std::move(product));
   }
   for (const std::string& name : quick.populations) {
