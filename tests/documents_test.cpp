@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -187,25 +188,25 @@ TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
   const std::vector<std::string> long_ones = {"hand from-",       "mri",          "phantom",
                                               "photos calibrate", "photos mesh",  "study submit",
                                               "validate",         "hand template"};
-  int ran = 0;
+  const std::string folder = temporary_folder();
+  fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples",
+           fs::copy_options::recursive);
+  std::set<std::string> ran;  // what several examples begin with is made once
   for (const auto& [verb, lines] : examples_of_help()) {
     EXPECT_FALSE(lines.empty()) << "palmar " << verb << " --help has no example";
     const bool is_long =
         verb == "photos" || std::any_of(long_ones.begin(), long_ones.end(),
                                         [&](const auto& one) { return verb.starts_with(one); });
     if (is_long) continue;
-    const std::string folder = temporary_folder();
-    fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples",
-             fs::copy_options::recursive);
     for (const std::string& line : lines) {
+      if (!ran.insert(line).second) continue;
       const ProgramRun run = run_palmar(shortened(line.substr(0, line.find("   ("))), folder);
       if (run.exit_code == kProgramMissing) break;
       EXPECT_EQ(run.exit_code, 0) << verb << ": palmar " << line << "\n" << run.err;
       EXPECT_EQ(run.err.find("is now called"), run.err.npos) << line;
-      ++ran;
     }
   }
-  EXPECT_GT(ran, 30);
+  EXPECT_GT(ran.size(), 30U);
 }
 
 }  // namespace
