@@ -328,7 +328,7 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
 
 TEST(Assess, OptionsReplaceThoseOfThePreset) {
   const Json settings =
-      assessed("--preset xie2014 --kernel patch --regions coupled --no-error-band").at("settings");
+      assessed("--preset xie2014 --kernel patch --coupling coupled --no-error-band").at("settings");
   EXPECT_EQ(settings.at("kernel"), "patch");
   EXPECT_EQ(settings.at("regions"), "coupled");
   EXPECT_NE(settings.at("contact_model"), "xie2014");
@@ -346,7 +346,7 @@ TEST(Assess, RegionsAloneMissTheLiftOfTheirNeighbours) {
   // the same posture. (At rest both are held with the same grip force.)
   const std::string closed = "--no-balance --no-error-band";
   const Json together = assessed(closed).at("contact");
-  const Json alone = assessed(closed + " --regions independent").at("contact");
+  const Json alone = assessed(closed + " --coupling independent").at("contact");
   EXPECT_GT(alone.at("force_n").get<double>(), 1.02 * together.at("force_n").get<double>());
 }
 
@@ -403,8 +403,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadOption{"preset", "--preset thesis",
                   "--preset: \"thesis\" is not known; palmar or xie2014 is allowed"},
-        BadOption{"regions", "--regions some",
-                  "--regions: \"some\" is not known; coupled or independent is allowed"},
+        BadOption{"regions", "--coupling some",
+                  "--coupling: \"some\" is not known; coupled or independent is allowed"},
         BadOption{"tissue_model", "--tissue-model foam",
                   "--tissue-model: \"foam\" is not known; halfspace, layered or bone is allowed"},
         BadOption{"kernel", "--kernel x", "--kernel: \"x\" is not known; patch or point"},

@@ -195,7 +195,7 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
       {"assess" + part + "--fingertip thumb:1,2,3",
        "palmar: --fingertip: grip power holds with the whole hand; a precision grip is required, "
        "such as --grip tripod\n"},
-      {"assess" + part + "--grip tripod --region 0,0,0,9,9,9",
+      {"assess" + part + "--grip tripod --box 0,0,0,9,9,9",
        "takes fingertips to points; --at or --fingertip says where\n"},
       // There is a --strength of the muscles, too.
       {"effort grasp" + part + "--strength-share 0.5",
@@ -219,9 +219,9 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
       {"product make sphere --out ball.pdf", "palmar: --out is ball.pdf; .step"},
       {"product make sphere --format pdf --out balls/", "palmar: --format is \"pdf\"; step"},
       {"redesign press" + prism + "--grip-force-n 20",
-       "palmar: --grip-force-n: in a kept posture the shape decides the force; --posture new goes"},
+       "palmar: --grip-force-n: in a kept posture the shape decides the force; --hold-posture new goes"},
       {"redesign press" + prism + "--over most", "palmar: --over is \"most\"; mean"},
-      {"redesign press" + prism + "--depth-limit-mm 99", "--depth-limit-mm is 99 mm; 0.1 to 50"},
+      {"redesign press" + prism + "--largest-depth-mm 99", "--largest-depth-mm is 99 mm; 0.1 to 50"},
       {"redesign press" + prism + "--rim-mm 99", "--rim-mm is 99 mm; 0.5 to 50"},
       {"redesign press" + prism + "--edge-mm 99", "--edge-mm is 99 mm; 0.3 to 10"},
       {"redesign press" + prism + "--keep-blend-mm 999", "--keep-blend-mm is 999 mm; 0 to 100"},

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run_program.h"
 
@@ -182,8 +184,107 @@ TEST(Help, EveryVerbShowsAWorkedExample) {
         "grasp close", "contact press", "doctor"}) {
     const ProgramRun run = run_palmar(verb + " --help");
     EXPECT_EQ(run.exit_code, 0) << verb;
-    EXPECT_THAT(run.out, HasSubstr("Example: palmar " + verb)) << verb;
+    EXPECT_THAT(run.out, HasSubstr("Example: palmar ")) << verb;
+    EXPECT_THAT(run.out, HasSubstr(" palmar " + verb)) << verb;
   }
+}
+
+TEST(Help, PutsWhatMattersMostFirst) {
+  const std::string help = run_palmar("assess --help").out;
+  const std::size_t start = help.find("Start here:"), more = help.find("Skin and contact:");
+  ASSERT_NE(start, help.npos);
+  ASSERT_NE(more, help.npos);
+  for (const char* const option : {"--unit", "--out", "--person", "--grip", "--hold",
+                                   "--grip-force-n", "--mass-kg", "--population"}) {
+    const std::size_t at = help.find("\n  " + std::string(option) + " ");
+    EXPECT_GT(at, start) << option;
+    EXPECT_LT(at, more) << option;
+  }
+  EXPECT_GT(help.find("\n  --kernel "), more);
+}
+
+TEST(Help, GroupsOfCommandsHaveAnExampleOfTheirOwn) {
+  for (const std::string noun : {"hand", "product", "grasp", "contact", "effort", "mri", "phantom",
+                                 "photos", "population", "redesign", "study"}) {
+    EXPECT_THAT(run_palmar(noun + " --help").out, HasSubstr(" palmar " + noun + " ")) << noun;
+  }
+}
+
+TEST(OptionNames, OldOnesAreAcceptedWithANote) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 35 --out bar.stl", folder).exit_code,
+            0);
+  const std::string close = "grasp close bar.stl --unit mm --json ";
+  const ProgramRun old = run_palmar(close + "--region -30,-30,0,30,30,60", folder);
+  const ProgramRun present = run_palmar(close + "--box -30,-30,0,30,30,60", folder);
+  EXPECT_EQ(old.exit_code, 0) << old.err;
+  EXPECT_EQ(old.out, present.out);
+  EXPECT_THAT(old.err, HasSubstr("--region is now called --box"));
+  EXPECT_EQ(present.err.find("now called"), present.err.npos);
+}
+
+// The page for people says what the program does: the new name is in the help, the old one isn't.
+TEST(OptionNames, TheTableOfOldAndNewNamesIsTrue) {
+  std::istringstream page(read_text(PALMAR_SOURCE_DIR "/docs/using/options.md"));
+  const std::map<std::string, std::string> verb_of = {
+      {"`assess`, `grasp`, `effort`", "assess"},
+      {"`redesign press`", "redesign press"},
+      {"`photos mesh`, `hand from-photos`", "photos mesh"},
+      {"`assess`, `effort`", "effort grasp"},
+      {"`redesign region`", "redesign region"},
+      {"`redesign`", "redesign press"},
+      {"`phantom`", "phantom scan"},
+      {"`redesign fillet`, `features`", "redesign fillet"},
+      {"`population correlate`, `regress`", "population correlate"},
+      {"`hand from-...`, `mri`, `phantom`", "hand from-scan"},
+      {"`contact press`", "contact press"}};
+  bool is_table = false;
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line == "| old | new | where |") is_table = true;
+    if (!is_table || !line.starts_with("| `--")) continue;
+    std::vector<std::string> cells;
+    for (std::size_t from = 2, end = 0; (end = line.find(" |", from)) != line.npos;
+         from = end + 3) {
+      cells.push_back(line.substr(from, end - from));
+    }
+    ASSERT_EQ(cells.size(), 3U) << line;
+    const auto verb = verb_of.find(cells[2]);
+    ASSERT_NE(verb, verb_of.end()) << cells[2];
+    const std::string help = run_palmar(verb->second + " --help").out;
+    const auto names = [](const std::string& cell) {
+      std::vector<std::string> found;
+      for (std::size_t at = cell.find("--"); at != cell.npos; at = cell.find("--", at + 2)) {
+        found.push_back(cell.substr(at, cell.find_first_of("` ,", at) - at));
+      }
+      return found;
+    };
+    for (const std::string& name : names(cells[0])) {
+      const bool is_model = name == "--base" && verb->second == "hand from-scan";
+      EXPECT_TRUE(is_model || help.find("\n  " + name + " ") == help.npos)
+          << name << " in " << line;
+    }
+    for (const std::string& name : names(cells[1])) {
+      EXPECT_NE(help.find("\n  " + name + " "), help.npos) << name << " in " << line;
+    }
+    ++rows;
+  }
+  EXPECT_EQ(rows, 14);
+}
+
+TEST(OptionNames, ANumberGoesWithItsUnit) {
+  // 0.05 MPa are 50 kPa; a negative one is refused as it is called now.
+  const ProgramRun run = run_palmar("redesign region bar.step --threshold-mpa=-0.05 --out x");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--threshold-kpa"));
+  EXPECT_THAT(run.err, HasSubstr("-50"));
+}
+
+TEST(OptionNames, AWordThatStillMeansSomethingStays) {
+  // A region of the hand is a region.
+  const ProgramRun run = run_palmar("hand export template --format inp --region nowhere --out x");
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_EQ(run.err.find("now called"), run.err.npos) << run.err;
 }
 
 TEST(ProductCommand, RepairClosesASmallHoleAndLeavesTheOriginal) {

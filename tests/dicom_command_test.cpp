@@ -41,7 +41,7 @@ const std::string& scan() {
     const std::string made = temporary_folder();
     const ProgramRun run = run_palmar(
         "phantom mri --seed 4 --side left --pixel-mm 2 --slice-mm 4 --slices 30 --oblique-deg 10 "
-        "--postures reference --out p",
+        "--posture reference --out p",
         made);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return made;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "run_program.h"
@@ -24,23 +26,71 @@ std::vector<std::string> pages() {
   const fs::path root(PALMAR_SOURCE_DIR);
   for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
     if (entry.path().extension() != ".md") continue;
-    if (read_text(entry.path().string()).find("\n    palmar ") == std::string::npos) continue;
+    if (read_text(entry.path().string()).find("\n    palmar ") == std::string::npos &&
+        read_text(entry.path().string()).find("\npalmar ") == std::string::npos) {
+      continue;
+    }
     all.push_back(fs::relative(entry.path(), root).string());
   }
   std::sort(all.begin(), all.end());
   return all;
 }
 
-/// Indented lines "    palmar ..." of a page.
-std::vector<std::string> shown_commands(const std::string& page) {
-  std::vector<std::string> commands;
+/// Commands that a page shows: lines "palmar ..." (README: "build/release/bin/palmar ...") with
+/// what a backslash continues. Indented ones run on the stand-ins below; those in fences, between
+/// ```, read files of people that the repository doesn't have.
+struct ShownCommand {
+  std::string text;  ///< without "palmar "
+  bool is_fenced = false;
+};
+
+std::vector<ShownCommand> shown_commands(const std::string& page) {
+  std::vector<ShownCommand> commands;
   std::istringstream text(read_text((fs::path(PALMAR_SOURCE_DIR) / page).string()));
+  bool is_fenced = false;
   for (std::string line; std::getline(text, line);) {
-    if (line.rfind("    palmar ", 0) != 0) continue;
+    if (line.starts_with("```")) is_fenced = !is_fenced;
+    while (line.ends_with("\\")) {
+      std::string next;
+      std::getline(text, next);
+      line = line.substr(0, line.size() - 1) + next;
+    }
+    if (!is_fenced && !line.starts_with("    ")) continue;
+    line.erase(0, std::min(line.size(), line.find_first_not_of(' ')));
+    if (line.starts_with("build/release/bin/")) line.erase(0, 18);
+    if (!line.starts_with("palmar ")) continue;
     // What follows "  #" explains the command.
-    commands.push_back(line.substr(11, line.find("  #") - 11));
+    commands.push_back({line.substr(7, line.find("  #") - 7), is_fenced});
   }
   return commands;
+}
+
+/// The same command on fewer hands, coarser images and without pictures, which take most of the
+/// time and are drawn by other tests.
+std::string shortened(std::string command) {
+  const auto at_most = [&](const std::string& option, const std::string& value) {
+    const std::size_t at = command.find(option + " ");
+    if (at == command.npos) return;
+    const std::size_t from = at + option.size() + 1;
+    command.replace(from, command.find(' ', from) - from, value);
+  };
+  if (command.starts_with("assess ")) command += " --no-pictures";
+  if (command.starts_with("study run --product")) at_most("--hands", "2");
+  if (command.starts_with("assess ") && command.find("--population") != command.npos) {
+    at_most("--hands", "2");
+  }
+  // No test looks for bones in fine images; docs/method/mri.md has what was found in them by hand.
+  if (command.starts_with("phantom mri ")) {
+    command += " --pixel-mm 1.2 --slice-mm 1.4 --slices 90 --no-fixture";
+  }
+  if (command.starts_with("hand from-")) command += " --no-report";
+  if (command.starts_with("redesign ")) {
+    const std::string many = command.find(" --hands ") == command.npos ? " --hands 2" : "";
+    at_most("--hands", "2");
+    command += many;
+    if (command.starts_with("redesign f")) command += " --evaluations 3";  // fillet, features
+  }
+  return command;
 }
 
 /// A folder with the products that the pages name; made once.
@@ -69,38 +119,38 @@ const std::string& stand_ins() {
 
 class Documents : public ::testing::TestWithParam<std::string> {};
 
+constexpr int kProgramMissing = 6;  // docs/using/exit-codes.md
+
 TEST_P(Documents, ShowCommandsThatWork) {
   const std::string folder = temporary_folder();
   fs::copy(stand_ins(), folder, fs::copy_options::recursive);
-  constexpr int kProgramMissing = 6;  // docs/using/exit-codes.md
   std::string missing;
-  for (const std::string& command : shown_commands(GetParam())) {
-    // Pictures take most of the time; assess_test draws them.
-    std::string shortened = command;
-    if (command.rfind("assess ", 0) == 0) shortened += " --no-pictures";
-    // So do fine images. No test looks for bones in fine images; docs/method/mri.md has what was
-    // found in them by hand.
-    if (command.rfind("phantom mri ", 0) == 0) {
-      shortened += " --pixel-mm 1.2 --slice-mm 1.4 --slices 90 --no-fixture";
-    }
-    if (command.rfind("hand from-", 0) == 0) shortened += " --no-report";
-    // So do many hands and candidates; the tests of redesigns run small searches.
-    if (command.rfind("redesign ", 0) == 0) {
-      const std::string many = " --hands 30";
-      const std::size_t at = shortened.find(many);
-      if (at != shortened.npos) shortened.erase(at, many.size());
-      shortened += " --hands 2";
-      const bool searches = command.rfind("redesign f", 0) == 0;  // fillet, features
-      if (searches) shortened += " --evaluations 3";
-    }
-    const ProgramRun run = run_palmar(shortened, folder);
+  for (const ShownCommand& command : shown_commands(GetParam())) {
+    if (command.is_fenced) continue;
+    const ProgramRun run = run_palmar(shortened(command.text), folder);
     if (run.exit_code == kProgramMissing) {
-      missing += "palmar " + command + "\n" + run.err;
+      missing += "palmar " + command.text + "\n" + run.err;
       continue;
     }
-    EXPECT_EQ(run.exit_code, 0) << GetParam() << ": palmar " << command << "\n" << run.err;
+    EXPECT_EQ(run.exit_code, 0) << GetParam() << ": palmar " << command.text << "\n" << run.err;
+    EXPECT_EQ(run.err.find("is now called"), run.err.npos) << command.text << "\n" << run.err;
   }
   if (!missing.empty()) GTEST_SKIP() << missing;
+}
+
+TEST_P(Documents, ShowCommandsInFencesThatAreUnderstood) {
+  constexpr int kUnreadable = 3;
+  const std::string folder = temporary_folder();
+  for (const ShownCommand& command : shown_commands(GetParam())) {
+    if (!command.is_fenced || command.text.starts_with("phantom ")) continue;
+    // Its files aren't there: it must say so, and not that it doesn't know an option.
+    const ProgramRun run = run_palmar(command.text, folder);
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == kUnreadable ||
+                run.exit_code == kProgramMissing)
+        << GetParam() << ": palmar " << command.text << " ends with " << run.exit_code << "\n"
+        << run.err;
+    EXPECT_EQ(run.err.find("is now called"), run.err.npos) << command.text << "\n" << run.err;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Documents, ::testing::ValuesIn(pages()), [](const auto& page) {
@@ -109,6 +159,55 @@ INSTANTIATE_TEST_SUITE_P(Pages, Documents, ::testing::ValuesIn(pages()), [](cons
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 });
+
+/// Verbs as "study run", with the lines of their examples.
+std::vector<std::pair<std::string, std::vector<std::string>>> examples_of_help() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  std::vector<std::string> verbs = {""};
+  for (std::size_t i = 0; i < verbs.size(); ++i) {
+    const std::string verb = verbs[i];
+    std::istringstream help(run_palmar(verb + " --help").out);
+    std::vector<std::string> lines;
+    bool are_verbs = false;
+    for (std::string line; std::getline(help, line);) {
+      if (line.starts_with("Example: ") || line.starts_with("         palmar ")) {
+        lines.push_back(line.substr(9 + 7));
+      }
+      if (!line.starts_with("  ")) are_verbs = line == "Subcommands:";
+      if (!are_verbs || !line.starts_with("  ") || line.starts_with("   ")) continue;
+      const std::string name = line.substr(2, line.find(' ', 2) - 2);
+      if (verb != "product make") verbs.push_back(verb.empty() ? name : verb + " " + name);
+    }
+    all.emplace_back(verb, lines);
+  }
+  return all;
+}
+
+TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
+  // Minutes each, of images and photographs, or on a cluster: other tests run them.
+  const std::vector<std::string> long_ones = {"hand from-",       "mri",          "phantom",
+                                              "photos calibrate", "photos mesh",  "study submit",
+                                              "validate",         "hand template"};
+  const std::string folder = temporary_folder();
+  fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples",
+           fs::copy_options::recursive);
+  std::set<std::string> ran;  // what several examples begin with is made once
+  for (const auto& [verb, lines] : examples_of_help()) {
+    EXPECT_FALSE(lines.empty()) << "palmar " << verb << " --help has no example";
+    const bool is_long =
+        verb == "photos" || std::any_of(long_ones.begin(), long_ones.end(),
+                                        [&](const auto& one) { return verb.starts_with(one); });
+    if (is_long) continue;
+    for (const std::string& line : lines) {
+      if (!ran.insert(line).second) continue;
+      const ProgramRun run = run_palmar(shortened(line.substr(0, line.find("   ("))), folder);
+      if (run.exit_code == kProgramMissing) break;
+      EXPECT_EQ(run.exit_code, 0) << verb << ": palmar " << line << "\n" << run.err;
+      EXPECT_EQ(run.err.find("is now called"), run.err.npos) << line;
+    }
+  }
+  EXPECT_GT(ran.size(), 30U);
+}
 
 }  // namespace
 }  // namespace palmar::testing

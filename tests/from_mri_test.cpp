@@ -56,7 +56,7 @@ const std::string& person() {
   static const std::string folder = [] {
     const std::string made = temporary_folder();
     const ProgramRun run = run_palmar(
-        "phantom mri --seed 4 --side left --pixel-mm 3 --slice-mm 4 --slices 30 --postures "
+        "phantom mri --seed 4 --side left --pixel-mm 3 --slice-mm 4 --slices 30 --posture "
         "reference,thumb_flexion,grasp --out p",
         made);
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -24,7 +24,7 @@ const std::string& scans() {
     const std::string made = temporary_folder();
     const ProgramRun run = run_palmar(
         "phantom mri --seed 4 --side left --pixel-mm 2 --slice-mm 4 --slices 30 --oblique-deg 10 "
-        "--postures grasp,reference --out p",
+        "--posture grasp,reference --out p",
         made);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("truth: p/truth/subject.json"));
@@ -96,7 +96,7 @@ TEST(MriSeries, DamageIsNamed) {
 }
 
 TEST(PhantomMri, WrongUseIsNamed) {
-  const ProgramRun posture = run_palmar("phantom mri --out x --postures refrence", ".");
+  const ProgramRun posture = run_palmar("phantom mri --out x --posture refrence", ".");
   EXPECT_EQ(posture.exit_code, 2);
   EXPECT_THAT(posture.err, HasSubstr("did you mean reference?"));
   const ProgramRun side = run_palmar("phantom mri --out x --side middle", ".");

@@ -104,8 +104,8 @@ TEST_F(PopulationTable, BadTablesAndOptionsEndWithTheirExitCodes) {
   EXPECT_EQ(run("describe none.csv").exit_code, 3);
   EXPECT_EQ(run("describe hands.csv --by colour").exit_code, 2);
   EXPECT_EQ(run("describe hands.csv --where sex").exit_code, 2);
-  EXPECT_EQ(run("correlate hands.csv --level 95").exit_code, 2);
-  EXPECT_EQ(run("regress hands.csv --level 1.5").exit_code, 2);
+  EXPECT_EQ(run("correlate hands.csv --confidence 95").exit_code, 2);
+  EXPECT_EQ(run("regress hands.csv --confidence 1.5").exit_code, 2);
   EXPECT_EQ(run("regress hands.csv --on hand_length,hand_length").exit_code, 2);
   EXPECT_THAT(run("--help").out, HasSubstr("Example: palmar population sample"));
   EXPECT_EQ(run("regress hands.csv --on sex").exit_code, 2);

@@ -47,11 +47,15 @@ TEST(PressCommand, PoissonsRatioStiffensByOneMinusNu) {
 
 TEST(PressCommand, SoftCoverTakesForceAway) {
   const double rigid = force_of(kSphere + std::string("--depth-mm 2"));
-  const double covered =
-      force_of(kSphere + std::string("--depth-mm 2 --coating-mm 3 --coating-modulus-kpa 50 "
-                                     "--coating-poisson 0.4"));
+  const double covered = force_of(kSphere + std::string("--depth-mm 2 --coating 3,50,0.4"));
   EXPECT_LT(covered, 0.95 * rigid);
   EXPECT_GT(covered, 0.5 * rigid);
+}
+
+TEST(PressCommand, TheCoverInItsOldWordsIsTheSame) {
+  EXPECT_EQ(force_of(kSphere + std::string("--depth-mm 2 --coating-mm 3 --coating-modulus-kpa 50 "
+                                           "--coating-poisson 0.4")),
+            force_of(kSphere + std::string("--depth-mm 2 --coating 3,50,0.4")));
 }
 
 TEST(PressCommand, TwoPunchesLoseForceToEachOther) {
@@ -151,11 +155,11 @@ TEST_F(PressBadInput, TissueAndCover) {
   expect_usage_error(sphere + "--tissue-level soft", "\"soft\"", "low, nominal or high");
   expect_usage_error(sphere + "--preset xie2013", "\"xie2013\"", "palmar or xie2014");
   expect_usage_error(sphere + "--kernel point --layer-mm 4", "kernel \"point\"", "layer");
+  expect_usage_error(sphere + "--coating 2", "\"2\"", "shear modulus in kPa");
+  expect_usage_error(sphere + "--coating=-2,100", "thickness is -2", "0.05 to 50 mm");
+  expect_usage_error(sphere + "--coating 2,100,0.7", "ratio is 0.7", "0 to 0.5");
+  expect_usage_error(sphere + "--coating 2,100,0.5,0,0,0,1,1,1", "all round", "2 or 3 numbers");
   expect_usage_error(sphere + "--coating-mm 2", "--coating-modulus-kpa", "together");
-  expect_usage_error(sphere + "--coating-mm -2 --coating-modulus-kpa 100",
-                     "thickness of the coating is -2 mm", "0.05");
-  expect_usage_error(sphere + "--coating-mm 2 --coating-modulus-kpa 100 --coating-poisson 0.7",
-                     "coating is 0.7", "0 to 0.5");
   expect_usage_error(sphere + "--shear-modulus-kpa 0", "--shear-modulus-kpa is 0", "more than 0");
   expect_usage_error(sphere + "--spacing-mm 0", "spacing is 0 mm", "0.05 to 10 mm");
   expect_usage_error(sphere + "--tilt-deg 80", "tilt is 80 deg", "-60 to 60");

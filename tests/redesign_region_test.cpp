@@ -122,9 +122,9 @@ TEST(RedesignRegion, OfARoundBarHasNothingToRoundAndSaysSo) {
 }
 
 TEST(RedesignRegion, RefusesWhatItDoesntUnderstand) {
-  const ProgramRun run = run_palmar("redesign region " + kPrism + " --share most --out x");
+  const ProgramRun run = run_palmar("redesign region " + kPrism + " --hands-share most --out x");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--share"));
+  EXPECT_THAT(run.err, HasSubstr("--hands-share"));
   EXPECT_FALSE(fs::exists("x"));
 }
 

@@ -105,7 +105,7 @@ class RingedHand : public ::testing::Test {
     static const std::string made = [] {
       std::string path = temporary_folder();
       const ProgramRun run =
-          run_palmar("phantom scan --seed 3 --postures reference --ring ring --out p", path);
+          run_palmar("phantom scan --seed 3 --posture reference --ring ring --out p", path);
       EXPECT_EQ(run.exit_code, 0) << run.err;
       return path;
     }();

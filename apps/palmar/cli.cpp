@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
 
+#include "help_pages.h"
+
 #include <signal.h>
 #include <unistd.h>
 
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/setting_names.h"
@@ -23,12 +26,22 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 bool progress_line_open = false;
-/// Options of the verb that runs, as typed ("--box-mm", "PRODUCT"): they outlive the parser.
+/// Options of the verb that runs, as typed ("--space-mm", "PRODUCT"): they outlive the parser.
 std::vector<std::string> running_options;
 SettingOptions running_setting_options;
 /// Ends of options that say in which unit a number is.
 constexpr std::array kUnitEnds = {"-mm", "-mm2", "-mm3", "-deg", "-px",    "-mb",   "-n",
                                   "-kg", "-kpa", "-mpa", "-s",   "-g-cm3", "-n-mm", "-g"};
+
+/// Settings whose option has another word, which stands in the command that has it.
+constexpr std::array<std::pair<const char*, const char*>, 6> kOtherWords = {{
+    {"region", "--box"},
+    {"box", "--space-mm"},
+    {"share", "--overlap-share"},
+    {"share", "--hands-share"},
+    {"depth-limit", "--largest-depth-mm"},
+    {"posture", "--hold-posture"},
+}};
 
 void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
@@ -72,7 +85,7 @@ std::string running_option(const std::string& name) {
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
                    const std::string& example) {
   CLI::App* verb = parent.add_subcommand(name, description);
-  verb->footer("Example: " + example);
+  verb->footer(example_text(example));
   verb->fallthrough();
   return verb;
 }
@@ -121,6 +134,11 @@ std::string option_named(const std::string& setting) {
   // A list's option is given once per value: it is not plural.
   if (option.empty() && name.ends_with('s')) {
     option = running_option(name.substr(0, name.size() - 1));
+  }
+  for (const auto& [word, other_name] : kOtherWords) {
+    const bool is_here = std::find(running_options.begin(), running_options.end(), other_name) !=
+                         running_options.end();
+    if (option.empty() && name == word && is_here) option = other_name;
   }
   return option.empty() ? "setting \"" + setting + "\"" : option;  // a study's, say
 }

@@ -71,8 +71,8 @@ std::optional<LengthUnit> parse_unit(const std::string& text);
 /// Messages of the library name settings in words; from now on they get the names of this verb's
 /// options: those in `others`, else the ones that have the same words.
 void name_settings_by(const CLI::App& verb, const SettingOptions& others);
-/// The option of a setting of the running verb: "accept odd slices" -> "--accept-odd-slices", "box"
-/// -> "--box-mm", "populations" -> "--population", "product" -> "PRODUCT" if it is an argument.
+/// The option of a setting of the running verb: "accept odd slices" -> "--accept-odd-slices", "cut"
+/// -> "--cut-mm", "populations" -> "--population", "product" -> "PRODUCT" if it is an argument.
 /// What is no option of it stays: a study's setting "default".
 std::string option_named(const std::string& setting);
 

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "cli.h"
+#include "help_pages.h"
+#include "option_names.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/parallel.h"
@@ -91,14 +95,20 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   app.add_option("--seed", context.common.seed, "Seed of random numbers, kept in the results");
   app.footer(
-      "Example: palmar assess handle.stl --unit mm --out report\n"
+      "Example: palmar product make prism --fillet-mm 3 --out handle.step\n"
+      "         palmar assess handle.step --out report\n"
       "Exit codes: 0 done, 1 unexpected or output not writable, 2 wrong usage, 3 unreadable\n"
       "input or unit unknown, 4 numerical failure, 5 a stated check failed,\n"
       "6 an optional program is missing, 130 cancelled.");
   add_commands(app, context);
+  arrange_help(app);
 
+  std::vector<std::string> notes;
+  std::vector<std::string> words =
+      with_present_names(app, std::vector<std::string>(argv + 1, argv + argc), notes);
   try {
-    app.parse(argc, argv);
+    std::reverse(words.begin(), words.end());  // as the parser takes them
+    app.parse(words);
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help, --version
   } catch (const CLI::ParseError& error) {
@@ -107,6 +117,7 @@ int run(int argc, char** argv) {
   signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of print(), not a silent death
   set_thread_count(context.common.threads);
   name_settings_by(*deepest_parsed(&app), context.setting_options);
+  for (const std::string& one : notes) note(context.common, one);
   const int code = context.run();
   finish_progress();
   return code;

@@ -12,11 +12,13 @@
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
+#include "palmar/records/study/people_range.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/study.h"
 #include "palmar/workflow/study/study_report.h"
 #include "product/cad_arguments.h"
+#include "report_arguments.h"
 #include "study/study_comparison_text.h"
 #include "text.h"
 
@@ -32,8 +34,9 @@ struct AssessArguments {
   CadArguments cad;
   std::string natural_postures;
   std::string sensors, measured;
-  std::string out, language = "en", paper = "a4";
-  bool pdf = false, left = false;
+  ReportArguments report;
+  std::string out;
+  bool left = false;
   std::vector<std::string> populations;
   int hands = 0;
   bool no_pictures = false;
@@ -111,9 +114,9 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.measured = arguments.measured;
   request.out = arguments.out;
   if (request.out.empty() && !context.common.json) request.out = free_report_folder();
-  request.language = language_named(arguments.language);
-  const Paper paper = paper_named(arguments.paper);
-  if (arguments.pdf) request.pdf = paper;
+  request.language = arguments.report.language();
+  request.pdf = arguments.report.pdf();
+  request.extras = arguments.report.extras();
   request.pictures = !arguments.no_pictures;
   request.seed = context.common.seed;
   request.command_line = context.command_line;
@@ -125,9 +128,10 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
 int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
   constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
   static const std::set<std::string> kTaken = {
-      "PRODUCT", "help",  "unit",        "population",   "hands",       "out",    "language",
-      "pdf",     "paper", "hold",        "part",         "along",       "toward", "up",
-      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths"};
+      "PRODUCT", "help",  "unit",        "population",   "hands",        "out",    "language",
+      "pdf",     "paper", "hold",        "part",         "along",        "toward", "up",
+      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths", "units",  "project",
+      "slides",  "excel", "rounded-csv", "mass-kg"};
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_single_name();
     if (option->count() > 0 && !kTaken.contains(name)) {
@@ -140,9 +144,12 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   quick.products = arguments.products;
   quick.unit = parse_unit(arguments.grasp.unit);
   quick.populations = arguments.populations;
-  quick.hands = arguments.hands > 0 ? arguments.hands : kFewHands;
+  const bool are_given = std::any_of(quick.populations.begin(), quick.populations.end(),
+                                     [](const std::string& one) { return is_people_range(one); });
+  quick.hands = arguments.hands > 0 || are_given ? arguments.hands : kFewHands;
   if (arguments.grasp.hand != "template") quick.hand = arguments.grasp.hand;
   quick.holding = arguments.grasp.settings().holding;
+  quick.mass = arguments.friction.settings().mass.value_or(0.0);
   const RestSettings rest = arguments.balance.settings();
   quick.grip_force = rest.grip_force;
   quick.limit_depths = rest.limit_depths;
@@ -158,10 +165,10 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   StudyReportRequest report;
   report.store = ran.store;
   report.folder = folder;
-  report.report.language = language_named(arguments.language);
+  report.report.language = arguments.report.language();
+  report.report.extras = arguments.report.extras();
   report.report.pictures = !arguments.no_pictures;
-  const Paper paper = paper_named(arguments.paper);
-  if (arguments.pdf) report.pdf = paper;
+  report.pdf = arguments.report.pdf();
   report_study(report, make_progress(context.common));
   StudyCompareRequest compare;
   compare.store = ran.store;
@@ -195,7 +202,7 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
 void add_assess_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<AssessArguments>();
   CLI::App* verb = add_verb(app, "assess", "How products feel in the hand: grasp, contact, report",
-                            "palmar assess old.stl new.stl --unit mm --out report");
+                            "palmar assess old.step new.step --out report");
   verb->add_option("PRODUCT", arguments->products, "Files: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   arguments->grasp.add_to(*verb);
@@ -216,20 +223,15 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_flag("--left", arguments->left, "A left hand");
   verb->add_option("--population", arguments->populations,
                    "Many hands in place of one, as a small study: a built-in population (`palmar "
-                   "population list`), a population file (.toml) or a table of given hands (.csv)")
+                   "population list`), people from one size to another (woman:P5..man:P95), a "
+                   "population file (.toml) or a table of given hands (.csv)")
       ->allow_extra_args(false);
   verb->add_option("--hands", arguments->hands,
                    "Number of hands to draw from each population; 12 if not given")
       ->check(CLI::Range(1, QuickStudy::kMostHands));
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
-  verb->add_option("--language", arguments->language, "Language of the report: en or de")
-      ->capture_default_str();
-  verb->add_flag(
-      "--pdf", arguments->pdf,
-      "Print the first screen (answer.pdf) and all (report.pdf) with a headless browser");
-  verb->add_option("--paper", arguments->paper, "Paper of --pdf: a4 or letter")
-      ->capture_default_str();
+  arguments->report.add_to(*verb);
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
   verb->callback([&context, arguments, verb] {
     context.run = [&context, arguments, verb] {

@@ -16,7 +16,7 @@ namespace palmar::cli {
 namespace {
 
 struct PressArguments {
-  std::string specimen = "plane", indenter, depths, forces, out;
+  std::string specimen = "plane", indenter, depths, forces, out, cover;
   std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal", tissue;
   double tilt_deg = 0.0;
   double cell = PressOptions{}.cell_area;
@@ -58,7 +58,19 @@ ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
   return model;
 }
 
-std::optional<Coating> parse_coating(const PressArguments& arguments) {
+std::optional<Coating> parse_cover(const PressArguments& arguments) {
+  if (!arguments.cover.empty()) {
+    if (arguments.coating || arguments.coating_modulus_kpa) {
+      throw UsageError("--coating says what --coating-mm and --coating-modulus-kpa say");
+    }
+    Coating cover = parse_coating(arguments.cover);
+    if (!cover.where.isEmpty()) {
+      throw UsageError("--coating: \"" + arguments.cover +
+                       "\": the cover of an indenter is all round it; thickness in mm, shear "
+                       "modulus in kPa and Poisson's ratio are allowed (2 or 3 numbers)");
+    }
+    return cover;
+  }
   if (!arguments.coating && !arguments.coating_modulus_kpa) return std::nullopt;
   if (!arguments.coating || !arguments.coating_modulus_kpa) {
     throw UsageError("--coating-mm and --coating-modulus-kpa are needed together");
@@ -92,7 +104,7 @@ PressOptions parse_options(const PressArguments& arguments, std::string& hand_na
   options.cell_area = arguments.cell * arguments.cell;
   options.layer_thickness = arguments.layer;
   options.poisson = arguments.poisson;
-  options.coating = parse_coating(arguments);
+  options.coating = parse_cover(arguments);
   options.tissue_level = parse_tissue_level(arguments.tissue_level);
   if (arguments.shear_modulus_kpa) options.shear_modulus = *arguments.shear_modulus_kpa / 1000.0;
   return options;
@@ -118,6 +130,11 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
   request.out = arguments.out;
   request.check();
+  if (arguments.coating) {
+    note(common,
+         "--coating-mm, --coating-modulus-kpa and --coating-poisson are now one: --coating "
+         "THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON]; the old names go with the next release");
+  }
   if (!hand_name.empty() && arguments.spacing) {
     note(common, "--spacing-mm is left out: a hand has its own vertices");
   }
@@ -172,11 +189,13 @@ void add_contact_commands(CLI::App& app, Context& context) {
                    "Thickness of the layer over bone of a plane or ellipsoid, mm");
   verb->add_option("--poisson", o->poisson,
                    "Poisson's ratio of a plane or ellipsoid, 0 to 0.5; default 0.5");
-  verb->add_option("--coating-mm", o->coating, "Thickness of an elastic cover of the indenter, mm");
-  verb->add_option("--coating-modulus-kpa", o->coating_modulus_kpa,
-                   "Shear modulus of the cover, kPa");
-  verb->add_option("--coating-poisson", o->coating_poisson, "Poisson's ratio of the cover")
-      ->capture_default_str();
+  verb->add_option("--coating", o->cover,
+                   "Elastic cover of the indenter: THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON]; "
+                   "Poisson's ratio 0.5 if not given");
+  // As it was written until the release before; not in the help.
+  verb->add_option("--coating-mm", o->coating)->group("");
+  verb->add_option("--coating-modulus-kpa", o->coating_modulus_kpa)->group("");
+  verb->add_option("--coating-poisson", o->coating_poisson)->group("");
   verb->add_option("--cell-mm", o->cell, "Side of a square sensor cell, mm")->capture_default_str();
   verb->add_option("--out", o->out, "File to write: .json, .csv, or .svg (the curve)");
   verb->callback(

@@ -199,7 +199,7 @@ void add_contact_fit_verb(CLI::App& contact, Context& context) {
   const auto o = std::make_shared<FitArguments>();
   CLI::App* verb =
       add_verb(contact, "fit", "Tissue parameters from measured depths and forces",
-               "palmar contact fit curves.csv --specimen template:middle_distal --indenter plane "
+               "palmar contact fit examples/fingertip-xie2014.csv --specimen template:middle_distal --indenter plane "
                "--tilt-deg 30 --out tissue.toml");
   verb->add_option("CSV", o->curves,
                    "Readings: columns depth_mm, force_n or force_mn; optional area_mm2, subject, "

@@ -242,7 +242,7 @@ void add_grasp(CLI::App& effort, Context& context) {
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
       add_verb(effort, "grasp", "Forces of the muscles of fingers and thumb that hold a product",
-               "palmar effort grasp handle.stl --unit mm");
+               "palmar effort grasp handle.step");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--grasp", o->file,
                    "Grasp to take instead of finding one: JSON of palmar grasp close");
@@ -305,7 +305,7 @@ void add_capacity(CLI::App& effort, Context& context) {
   const auto o = std::make_shared<Options>();
   CLI::App* verb = add_verb(effort, "capacity",
                             "Largest grip force, torque and push that a hand reaches on a product",
-                            "palmar effort capacity handle.stl --unit mm");
+                            "palmar effort capacity handle.step");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   o->grasp.add_to(*verb);
   o->contact.add_to(*verb);

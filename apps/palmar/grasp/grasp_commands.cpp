@@ -56,14 +56,14 @@ void add_grasp_commands(CLI::App& app, Context& context) {
   add_grasp_verb(*grasp, context,
                  {.name = "close",
                   .about = "Close a hand on a product",
-                  .example = "palmar grasp close handle.stl --unit mm --out grasp.json",
+                  .example = "palmar grasp close handle.step --out grasp.json",
                   .out = "JSON file to write: posture, placement, what stopped each segment",
                   .json = grasp_json,
                   .text = grasp_text});
   add_grasp_verb(*grasp, context,
                  {.name = "place",
                   .about = "List the best placements of a product in the hand, best first",
-                  .example = "palmar grasp place marker.stl --unit mm --grip tripod",
+                  .example = "palmar grasp place handle.step --grip tripod",
                   .out = "JSON file to write: the list with postures and placements",
                   .json = placements_json,
                   .text = placements_text});

@@ -74,7 +74,7 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<EvaluateArguments>();
   CLI::App* verb = add_verb(grasp, "evaluate",
                             "Contact and indices of a given posture and placement (no search)",
-                            "palmar grasp evaluate handle.stl --grasp grasp.json");
+                            "palmar grasp evaluate handle.step --grasp grasp.json");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--unit", o->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();

@@ -84,7 +84,7 @@ int run_holds(const HoldsArguments& o, const Context& context) {
 void add_grasp_holds(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<HoldsArguments>();
   CLI::App* verb = add_verb(grasp, "holds", "Show the ways in which people would hold a product",
-                            "palmar grasp holds mug.stl --unit mm --png sheet.png");
+                            "palmar grasp holds handle.step --png sheet.png");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
   verb->add_option("--grip", o->grip, "Only holds of this grip: " + grip_list())

@@ -13,7 +13,7 @@ namespace {
 RegionCoupling parse_regions(const std::string& text) {
   if (text == "coupled") return RegionCoupling::kCoupled;
   if (text == "independent") return RegionCoupling::kIndependent;
-  throw UsageError("--regions: \"" + text + "\" is not known; coupled or independent is allowed");
+  throw UsageError("--coupling: \"" + text + "\" is not known; coupled or independent is allowed");
 }
 
 FingertipTarget parse_fingertip(const std::string& text) {
@@ -29,10 +29,10 @@ FingertipTarget parse_fingertip(const std::string& text) {
 }
 
 Box3 parse_region(const std::string& text) {
-  const std::vector<double> values = parse_list("--region", text);
+  const std::vector<double> values = parse_list("--box", text);
   if (values.size() != 6) {
     throw UsageError(
-        fmt::format("--region: \"{}\" has {} numbers; two corners of a box in mm are "
+        fmt::format("--box: \"{}\" has {} numbers; two corners of a box in mm are "
                     "required (6 numbers)",
                     text, values.size()));
   }
@@ -66,7 +66,7 @@ void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option(
       "--axis", axis_,
       "Direction of the grip axis, towards the thumb's side, x,y,z in the product's frame");
-  verb.add_option("--region", region_,
+  verb.add_option("--box", region_,
                   "Hold the product by the surface inside this box: X0,Y0,Z0,X1,Y1,Z1, two corners "
                   "in mm in the product's frame (power grips)");
   verb.add_option("--turn-deg", turn_deg_, "Turn of the hand about the grip axis, deg");
@@ -100,10 +100,9 @@ void ContactArguments::add_to(CLI::App& verb) {
   verb.add_option("--preset", preset,
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
-  verb.add_option(
-      "--regions", regions_,
-      "coupled (one problem over the whole hand) or independent (each region alone, with "
-      "the tissue model halfspace); default: as in the preset");
+  verb.add_option("--coupling", regions_,
+                  "Regions of the hand: coupled (one problem over the whole hand) or independent "
+                  "(each region alone, with the tissue model halfspace); default: as in the preset");
   verb.add_option(
       "--tissue-model", tissue_model_,
       "bone (the tissue between skin and bones), layered (a flat layer over bone) or halfspace "

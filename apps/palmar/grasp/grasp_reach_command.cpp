@@ -96,7 +96,7 @@ int run_reach(const ReachArguments& o, const Context& context) {
 void add_grasp_reach(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<ReachArguments>();
   CLI::App* verb = add_verb(grasp, "reach", "Which fingers reach buttons while the product is held",
-                            "palmar grasp reach drill.stl --unit mm --button trigger:40,12,-60");
+                            "palmar grasp reach handle.step --button trigger:22.5,0,80");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--button", o->buttons,
                    "Point that is pressed, may be given several times: NAME:X,Y,Z in mm, or "

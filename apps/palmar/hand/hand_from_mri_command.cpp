@@ -114,7 +114,7 @@ int run(const FromMriArguments& arguments, const Context& context) {
 void add_from_mri(CLI::App& hand, Context& context) {
   const auto a = std::make_shared<FromMriArguments>();
   CLI::App* verb = add_verb(hand, "from-mri", "A person's hand from MR series of several postures",
-                            "palmar hand from-mri scans/ --out anna.hand.glb");
+                            "palmar hand from-mri subject3/mri --out anna.hand.glb");
   verb->add_option(
           "IMAGE", a->request.images,
           "Folders of DICOM series, DICOM files of several frames, NIfTI files, or folders that "
@@ -138,7 +138,7 @@ void add_from_mri(CLI::App& hand, Context& context) {
                    "The object that the grasp holds, where it was in the scanner (patient frame): "
                    "contact areas of scan and hand are compared");
   verb->add_option("--unit", a->unit, "Unit of the product's file: mm, cm, m or inch");
-  verb->add_option("--model", a->request.model,
+  verb->add_option("--start-hand", a->request.model,
                    "Hand to start from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->add_option("--name", a->request.name, "Name of the hand; default: that of the file");

@@ -39,7 +39,7 @@ void add_from_scan(CLI::App& hand, Context& context) {
       add_verb(hand, "from-scan",
                "A person's hand from surface scans: of any scanning app or photogrammetry program, "
                "with creases and dots drawn on the skin if possible",
-               "palmar hand from-scan natural.glb flexed.glb spread.glb --out "
+               "palmar hand from-scan subject3/scan/reference.ply --out "
                "anna.hand.glb");
   verb->add_option("SCAN", a->request.scans,
                    "OBJ with its texture, GLB, PLY with colours, or STL; one file per posture. The "

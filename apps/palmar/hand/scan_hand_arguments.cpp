@@ -47,7 +47,7 @@ void ScanHandArguments::add_to(CLI::App& verb, const std::string& work_help) {
                   "earlier run, edited");
   verb.add_option("--truth", options_.truth,
                   "subject.json of a synthetic person: how far the hand is off, in the report");
-  verb.add_option("--model", options_.model,
+  verb.add_option("--start-hand", options_.model,
                   "Hand whose segments, regions and joints are fitted to the surface")
       ->capture_default_str();
   verb.add_option("--name", options_.name, "Name of the hand; default: that of the file");

@@ -69,7 +69,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
                             "palmar phantom mri --seed 3 --out subject3");
   verb->add_option("--out", o->request.out, "Folder; mri/POSTURE and truth/ go into it")
       ->required();
-  verb->add_option("--postures", o->postures,
+  verb->add_option("--posture", o->postures,
                    "Which, with commas: reference, thumb_flexion, thumb_extension, "
                    "thumb_abduction, thumb_adduction, finger_flexion, finger_abduction, grasp; "
                    "default: all")
@@ -98,7 +98,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
   verb->add_flag("--both-hands", o->request.both_hands,
                  "The other hand is beside it, on the patient's left");
-  verb->add_option("--base", o->request.base,
+  verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->callback([&context, o] { context.run = [&context, o] { return run_mri(*o, context); }; });

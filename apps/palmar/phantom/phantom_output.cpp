@@ -32,7 +32,7 @@ std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) 
     const auto found = std::find(all.begin(), all.end(), name);
     if (found == all.end()) {
       const std::string nearest = nearest_name(name, all);
-      throw UsageError(fmt::format("--postures: \"{}\" is no posture; {}", name,
+      throw UsageError(fmt::format("--posture: \"{}\" is no posture; {}", name,
                                    nearest.empty()
                                        ? fmt::format("{} are allowed", fmt::join(all, ", "))
                                        : "did you mean " + nearest + "?"));

@@ -16,7 +16,7 @@ namespace palmar::cli {
 void print_made_scans(const Context& context, const PhantomPerson& person,
                       const nlohmann::ordered_json& scans, const std::string& text);
 
-/// Postures of the given names; none without names. Throws UsageError naming --postures and
+/// Postures of the given names; none without names. Throws UsageError naming --posture and
 /// the nearest name.
 std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names);
 

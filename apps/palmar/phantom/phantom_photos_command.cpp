@@ -102,7 +102,7 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--block-mm", o->block,
                    "A cardboard box of these edges instead of the hand: width,depth,height");
   verb->add_flag("--no-hand", o->request.no_hand, "The board alone");
-  verb->add_option("--base", o->request.base,
+  verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->callback(

@@ -86,7 +86,7 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--unit", o->unit, "Unit of the files: mm, cm, m or inch")
       ->capture_default_str();
-  verb->add_option("--postures", o->postures,
+  verb->add_option("--posture", o->postures,
                    "Which, with commas: reference, finger_flexion, finger_abduction (these by "
                    "default), the thumb's limits thumb_flexion, thumb_extension, thumb_abduction, "
                    "thumb_adduction, grasp")
@@ -116,7 +116,7 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");
   verb->add_flag("--mirrored", o->request.mirrored,
                  "Mirror the scans, as a wrong export does; the truth stays");
-  verb->add_option("--base", o->request.base,
+  verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->callback(

@@ -60,7 +60,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
   SheetPhotographOptions& p = o->request.photograph;
   verb->add_option("--out", o->request.out, "Folder; photo.jpg, truth.json, truth.ply go into it")
       ->required();
-  verb->add_option("--base", o->request.base,
+  verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();
   verb->add_option("--hand", o->request.hand,

@@ -16,7 +16,7 @@ void PhotoMeshArguments::add_to(CLI::App& verb) {
       "--lenses", options_.lenses,
       "Lenses: a file of palmar photos calibrate, or a folder of photographs of the tilted board; "
       "without, they are found from the photographs of the hand, which is less accurate");
-  verb.add_option("--box-mm", box_,
+  verb.add_option("--space-mm", box_,
                   "Width, depth, height of the space above the board's middle that holds the hand")
       ->capture_default_str();
   verb.add_option("--cut-mm", options_.model.cut,
@@ -30,7 +30,7 @@ void PhotoMeshArguments::add_to(CLI::App& verb) {
 
 PhotoMeshOptions PhotoMeshArguments::options() const {
   PhotoMeshOptions options = options_;
-  const Vec3 size = parse_vector("--box-mm", box_);
+  const Vec3 size = parse_vector("--space-mm", box_);
   options.model.box = Box3(Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0),
                            Vec3(0.5 * size.x(), 0.5 * size.y(), size.z()));
   options.looks_for_motion = !no_motion_;

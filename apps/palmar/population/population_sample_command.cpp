@@ -32,7 +32,12 @@ void add_list(CLI::App& noun, Context& context) {
         populations.push_back({{"name", one.name}, {"title", one.title}, {"source", one.source}});
         text += fmt::format("  {:<16} {}\n", one.name, one.title);
       }
-      text += "profiles\n";
+      text +=
+          "people from one size to another, for assess, study and redesign\n"
+          "  woman:P5..man:P95   women of P5 and P50, men of P50 and P95 (ANSUR II); the same as "
+          "small-to-large\n"
+          "  woman:P5..woman:P95 women of P5, P50 and P95; men alike\n"
+          "profiles\n";
       for (const HandProfile& one : built_in_profiles()) {
         profiles.push_back({{"name", one.name},
                             {"range_share", one.range_share},

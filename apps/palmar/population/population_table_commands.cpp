@@ -55,7 +55,7 @@ struct TableArguments {
 };
 
 void add_level_to(CLI::App& verb, double& level) {
-  verb.add_option("--level", level, "Confidence level")->capture_default_str();
+  verb.add_option("--confidence", level, "Confidence level")->capture_default_str();
 }
 
 NoteSink notes_for(const Context& context) {

@@ -112,7 +112,7 @@ void add_inspection(CLI::App& noun, Context& context, const std::string& name,
                     const std::string& description, bool fails_on_error) {
   const auto o = std::make_shared<FileArguments>();
   CLI::App* verb =
-      add_verb(noun, name, description, "palmar product " + name + " handle.stl --unit mm");
+      add_verb(noun, name, description, "palmar product " + name + " handle.step");
   verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   o->cad.add_to(*verb);
@@ -138,7 +138,7 @@ void add_convert(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<FileArguments>();
   CLI::App* verb =
       add_verb(noun, "convert", "Convert to another format, in mm, welded and oriented",
-               "palmar product convert handle.3mf --out handle.stl");
+               "palmar product convert handle.step --out handle.stl");
   verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   verb->add_option("--out", o->out, "File to write: .stl, .obj or .ply; .step if it was CAD")

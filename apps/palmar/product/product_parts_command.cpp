@@ -170,7 +170,7 @@ void add_product_parts_command(CLI::App& product, Context& context) {
   const auto o = std::make_shared<PartsArguments>();
   CLI::App* verb = add_verb(product, "parts",
                             "List and draw what hands can take hold of: handles, loops, bodies",
-                            "palmar product parts mug.obj --unit mm --out parts.png");
+                            "palmar product parts handle.step --out parts.png");
   verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");

@@ -105,7 +105,7 @@ void add_product_repair(CLI::App& product, Context& context) {
   const auto o = std::make_shared<RepairArguments>();
   CLI::App* verb =
       add_verb(product, "repair", "Repair what is safe, and report what was done and what is left",
-               "palmar product repair scan.stl --unit mm --out repaired.stl");
+               "palmar product repair handle.stl --unit mm --out repaired.stl");
   verb->add_option("PRODUCT", o->product, "Mesh file: STL, OBJ, PLY, 3MF, glTF")->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   verb->add_option("--out", o->out, "File to write, in mm: .stl, .obj or .ply")->required();

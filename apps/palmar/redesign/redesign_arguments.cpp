@@ -32,12 +32,12 @@ void RedesignArguments::add_to(CLI::App& verb) {
   verb.add_option("--axis", axis, "Direction of the handle there: x,y,z");
   verb.add_option("--language", language, "Language of the report: en or de")
       ->capture_default_str();
-  verb.add_option("--posture", posture,
+  verb.add_option("--hold-posture", posture,
                   "kept: redesigns are held in the posture in which the same hand holds the "
                   "original; new: each is grasped on its own")
       ->capture_default_str();
   verb.add_option("--grip-force-n", request.grip_force,
-                  "Grip force with which all are held, N; 0: as closed. With --posture new")
+                  "Grip force with which all are held, N; 0: as closed. With --hold-posture new")
       ->capture_default_str();
 }
 

@@ -43,7 +43,7 @@ void add_common(CLI::App& verb, FeatureArguments& a) {
       ->capture_default_str();
   verb.add_option("--largest-offset-mm", a.request.limits.largest_offset,
                   "Most that any point of the surface may move, mm");
-  verb.add_option("--keep-out", a.request.limits.keep_out,
+  verb.add_option("--keep-face", a.request.limits.keep_out,
                   "Faces that must stay as they are: face=3+5, name=grip, ends");
   verb.add_option("--smallest-radius-mm", a.request.limits.smallest_radius,
                   "Smallest radius of fillets, mm")
@@ -75,7 +75,7 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
   {
     const auto a = std::make_shared<FeatureArguments>();
     CLI::App* verb = add_verb(noun, "fillet", "The radius of edges with the best goal over hands",
-                              "palmar redesign fillet prism.step --edges long --radius-mm 1:15 "
+                              "palmar redesign fillet handle.step --edges long --radius-mm 1:15 "
                               "--largest-offset-mm 3 --hands 30 --seed 2014 --out fillet");
     add_common(*verb, *a);
     verb->add_option("--edges", a->edges,
@@ -96,7 +96,7 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(
       noun, "features", "Sizes of features with the best goal over hands; proposals of which",
       "palmar redesign features \"made: cylinder diameter_mm=30 length_mm=130\" --vary "
-      "diameter_mm=25:45 --posture new --hands 30 --out handle");
+      "diameter_mm=25:45 --hold-posture new --hands 30 --out handle");
   add_common(*verb, *a);
   verb->add_option(
           "--vary", a->request.vary,

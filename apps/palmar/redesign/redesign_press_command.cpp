@@ -20,12 +20,14 @@ struct PressArguments {
 };
 
 Box3 box_from(const std::string& text) {
-  const std::vector<double> v = parse_list("--keep-box-mm", text);
-  if (v.size() != 6 || v[0] > v[3] || v[1] > v[4] || v[2] > v[5]) {
-    throw UsageError("--keep-box-mm is \"" + text +
-                     "\"; two corners x,y,z,x,y,z in mm are required, the lower first");
+  const std::vector<double> v = parse_list("--keep-box", text);
+  if (v.size() != 6) {
+    throw UsageError("--keep-box is \"" + text +
+                     "\"; two corners X0,Y0,Z0,X1,Y1,Z1 in mm are required");
   }
-  return {Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])};
+  Box3 box;
+  box.extend(Vec3(v[0], v[1], v[2])).extend(Vec3(v[3], v[4], v[5]));
+  return box;
 }
 
 int run_press(const PressArguments& a, const Context& context) {
@@ -51,13 +53,14 @@ int run_press(const PressArguments& a, const Context& context) {
 
 void add_redesign_press_command(CLI::App& noun, Context& context) {
   const auto a = std::make_shared<PressArguments>();
-  CLI::App* verb = add_verb(
-      noun, "press",
-      "Press the product's surface in where hands reach into it: concaves of fingers",
-      "palmar redesign press handle.step --hands 30 --share 0.5 --keep-face 4 --out pressed");
+  CLI::App* verb =
+      add_verb(noun, "press",
+               "Press the product's surface in where hands reach into it: concaves of fingers",
+               "palmar redesign press handle.step --hands 30 --overlap-share 0.5 --keep-face 4 "
+               "--out pressed");
   a->redesign.add_to(*verb);
   PressedShapeOptions& o = a->request.shape;
-  verb->add_option("--share", o.share,
+  verb->add_option("--overlap-share", o.share,
                    "Share of the overlap of undeformed skin and product that is removed, 0 to 1")
       ->capture_default_str();
   verb->add_option(
@@ -70,14 +73,15 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
                    "imprint fits those of all best")
       ->check(CLI::IsMember({"none", "axis"}))
       ->capture_default_str();
-  verb->add_option("--depth-limit-mm", o.depth_limit, "Largest depth, mm")->capture_default_str();
+  verb->add_option("--largest-depth-mm", o.depth_limit, "Largest depth, mm")->capture_default_str();
   verb->add_option("--wall-mm", o.wall, "Wall thickness that must remain, mm")
       ->capture_default_str();
   verb->add_option("--keep-face", a->request.keep_faces,
                    "CAD face that must stay as it is: its number or name; may be repeated")
       ->allow_extra_args(false);
-  verb->add_option("--keep-box-mm", a->keep_boxes,
-                   "Box that must stay as it is: x,y,z,x,y,z, lower corner first; may be repeated")
+  verb->add_option("--keep-box", a->keep_boxes,
+                   "Box that must stay as it is: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in the "
+                   "product's frame; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--keep-blend-mm", o.keep_out.blend,
                    "Width over which the depth grows beside kept faces and boxes, mm")

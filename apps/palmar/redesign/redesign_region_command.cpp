@@ -22,6 +22,7 @@ struct RegionArguments {
   std::string relief_share = words_of_share(RedesignRegionRequest{}.relief_share);
   bool no_relief = false;
   bool no_pictures = false;
+  double threshold_kpa = 1000.0 * RedesignRegionRequest{}.threshold;
   bool no_compare = false;
 };
 
@@ -38,7 +39,8 @@ double share_from(const std::string& option, const std::string& text) {
 
 int run_region(const RegionArguments& a, const Context& context) {
   RedesignRegionRequest request = a.request;
-  request.region.share = share_from("--share", a.share);
+  request.threshold = a.threshold_kpa / 1000.0;
+  request.region.share = share_from("--hands-share", a.share);
   request.relief_share = share_from("--relief-share", a.relief_share);
   request.redesign = a.redesign.read(context);
   request.relieves = !a.no_relief;
@@ -60,13 +62,14 @@ void add_redesign_region_command(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(
       noun, "region",
       "Export where hands touch for CAD: faces, outlines, simple surfaces; and round the ridges",
-      "palmar redesign region handle.step --hands 30 --share half --largest-depth-mm 4 --out "
+      "palmar redesign region handle.step --hands 30 --hands-share half --largest-depth-mm 4 --out "
       "region");
   a->redesign.add_to(*verb);
-  verb->add_option("--share", a->share, "Share of the hands that must touch: any, half, or 0 to 1")
+  verb->add_option("--hands-share", a->share,
+                   "Share of the hands that must touch: any, half, or 0 to 1")
       ->capture_default_str();
-  verb->add_option("--threshold-mpa", a->request.threshold,
-                   "Pressure above which a hand counts as touching, MPa")
+  verb->add_option("--threshold-kpa", a->threshold_kpa,
+                   "Pressure above which a hand counts as touching, kPa")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb->add_option("--smoothing-mm", a->request.region.smoothing, "Smoothing of the outlines, mm")

@@ -41,6 +41,7 @@ void StudyArguments::add_to(CLI::App& verb) {
     verb.get_option(name)->excludes(toml);
   }
   add("--hand", quick_.hand, "Hand that is scaled: template or a *.hand.glb file");
+  add("--mass-kg", quick_.mass, "Mass of every product, kg; without it nothing is carried");
   add("--grip-force-n", quick_.grip_force,
       fmt::format("Grip force, N; if not given for all hands and products {}, or what holds the "
                   "heaviest",

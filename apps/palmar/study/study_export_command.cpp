@@ -35,7 +35,7 @@ int run_export(const StudyExportRequest& request, const Context& context) {
 void add_study_export_command(CLI::App& noun, Context& context) {
   const auto options = std::make_shared<StudyExportRequest>();
   CLI::App* verb = add_verb(noun, "export", "Every table of a study as CSV, units in the headers",
-                            "palmar study export study.palmar --out tables");
+                            "palmar study export women.palmar --out tables");
   verb->add_option("STORE", options->store, "Store of the study")->required();
   verb->add_option("--out", options->folder, "Folder to write to")->required();
   verb->add_flag("--fields", options->with_fields,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/workflow/study/study_report.h"
+#include "report_arguments.h"
 #include "study/study_comparison_text.h"
 
 namespace palmar::cli {
@@ -18,14 +19,13 @@ void add_report(CLI::App& noun, Context& context) {
     std::string store, out;
     double threshold = 1000.0 * kBloodFlowStop;  // kPa
     StudyReportOptions report;
-    std::string language = "en", paper = "a4";
-    bool pdf = false;
+    ReportArguments arguments;
     bool no_pictures = false, no_figures = false;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
       add_verb(noun, "report", "One page with all figures, comparisons, 3-D views and provenance",
-               "palmar study report handles.palmar --out report");
+               "palmar study report women.palmar --out report");
   verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
   verb->add_option("--out", o->out, "Folder for report.html, tables and figures")->required();
   verb->add_option("--threshold-kpa", o->threshold,
@@ -37,12 +37,7 @@ void add_report(CLI::App& noun, Context& context) {
   verb->add_option("--most-grasps", o->report.most_grasps,
                    "Grasps in the 3-D view, chosen evenly by hand length; 0: no view")
       ->capture_default_str();
-  verb->add_option("--language", o->language, "Language of the report: en or de")
-      ->capture_default_str();
-  verb->add_flag(
-      "--pdf", o->pdf,
-      "Print the first screen (answer.pdf) and all (report.pdf) with a headless browser");
-  verb->add_option("--paper", o->paper, "Paper of --pdf: a4 or letter")->capture_default_str();
+  o->arguments.add_to(*verb);
   verb->add_flag("--no-pictures", o->no_pictures, "No pictures of the maps");
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
   verb->callback([&context, o] {
@@ -51,9 +46,9 @@ void add_report(CLI::App& noun, Context& context) {
       request.store = o->store;
       request.folder = o->out;
       request.report = o->report;
-      const Paper paper = paper_named(o->paper);
-      if (o->pdf) request.pdf = paper;
-      request.report.language = language_named(o->language);
+      request.pdf = o->arguments.pdf();
+      request.report.language = o->arguments.language();
+      request.report.extras = o->arguments.extras();
       request.report.threshold = o->threshold / 1000.0;
       request.report.pictures = !o->no_pictures;
       request.report.figure_files = !o->no_figures;
@@ -69,9 +64,8 @@ void add_compare(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<StudyCompareRequest>();
   const auto language = std::make_shared<std::string>("en");
   o->quantities.clear();
-  CLI::App* verb =
-      add_verb(noun, "compare", "Differences between products over the same hands",
-               "palmar study compare handles.palmar --quantity peak_pressure_cells_mpa");
+  CLI::App* verb = add_verb(noun, "compare", "Differences between products over the same hands",
+                            "palmar study compare women.palmar --quantity peak_pressure_cells_mpa");
   verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
   verb->add_option("--quantity", o->quantities,
                    "What is compared, one or several: peak_pressure_cells_mpa, contact_area_mm2, "

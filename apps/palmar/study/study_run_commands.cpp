@@ -134,7 +134,7 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   const auto plan_options = std::make_shared<StudyArguments>();
   const auto no_sample = std::make_shared<bool>(false);
   CLI::App* plan = add_verb(noun, "plan", "Print what would run, how long and in how much memory",
-                            "palmar study plan handles.toml");
+                            "palmar study plan examples/xie2014-chapter5/small.toml");
   plan_options->add_to(*plan);
   plan->add_flag("--no-sample", *no_sample, "Don't measure a few grasps for the estimate");
   plan->callback([&context, plan_options, no_sample] {
@@ -146,8 +146,8 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   const auto run_options = std::make_shared<RunArguments>();
   CLI::App* run = add_verb(
       noun, "run", "Run a study, or continue it if its store exists",
-      "palmar study run --product a.stl --product b.stl --unit mm --population ansur2_women "
-      "--hands 30 --out study.palmar");
+      "palmar study run --product old.step --product new.step --population ansur2_women "
+      "--hands 6 --out women.palmar");
   run_options->study.add_to(*run);
   run->add_option("--out", run_options->out,
                   "Store to write; an existing store of this study is continued");
@@ -159,7 +159,7 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
 
   const auto path = std::make_shared<std::string>();
   CLI::App* resume = add_verb(noun, "resume", "Continue a study that was stopped",
-                              "palmar study resume study.palmar");
+                              "palmar study resume women.palmar");
   resume->add_option("STORE", *path, "Store of the study")->required();
   resume->callback(
       [&context, path] { context.run = [&context, path] { return run_resume(*path, context); }; });

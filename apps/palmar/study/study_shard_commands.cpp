@@ -104,7 +104,7 @@ void add_study_shard_commands(CLI::App& noun, Context& context) {
   const auto merge_options = std::make_shared<MergeArguments>();
   CLI::App* merge =
       add_verb(noun, "merge", "Join the shards of a study to what one process would have written",
-               "palmar study merge shards/*.palmar --out study.palmar");
+               "palmar study merge shards --out whole.palmar");
   merge->add_option("SHARD", merge_options->shards, "Finished shards, or a folder with them")
       ->required();
   merge->add_option("--out", merge_options->out, "Store to write; must not exist yet")->required();
@@ -114,7 +114,7 @@ void add_study_shard_commands(CLI::App& noun, Context& context) {
 
   const auto names = std::make_shared<std::vector<std::string>>();
   CLI::App* status = add_verb(noun, "status", "How far a study is, over all its shards",
-                              "palmar study status shards");
+                              "palmar study status women.palmar");
   status->add_option("STORE", *names, "Stores, or folders with stores")->required();
   status->callback([&context, names] {
     context.run = [&context, names] { return run_status(*names, context); };

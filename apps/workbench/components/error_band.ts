@@ -5,6 +5,7 @@
 
 import { Assessment, ContactBand, ContactTotals, RegionContact, TrustedMarkup, Vocabulary } from "../types";
 import { say } from "../texts";
+import { term } from "./glossary";
 import { Markup, html } from "./markup";
 import { shortNumber, signedNumber } from "./numbers";
 import { charts, folded } from "./parts";
@@ -79,7 +80,7 @@ export function errorBandSection(assessment: Assessment, chart: TrustedMarkup | 
     })}</p>
 ${!hasBothEnds(band) && html`<p class="note fair">${say("band.unsolved")}</p>
 `}`;
-  return html`<h3>${say("band.title")}</h3>
+  return html`<h3>${say("band.title")} ${term("error_band")}</h3>
 ${words}${sensitivities(assessment, band, chart, vocabulary)}${folded(say("band.folded"), bandTable(assessment, band, vocabulary))}`;
 }
 

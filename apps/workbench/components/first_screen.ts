@@ -14,7 +14,7 @@ export interface FirstScreen {
   tone: Verdict;
   sentence: string;
   reasons: Child[];
-  cards: { title: string; badge: Child; pictures: Picture[]; facts: [string, string][] }[];
+  cards: { title: string; badge: Child; pictures: Picture[]; facts: [Child, string][] }[];
   chart: Child;
   next: string;
   command: string;

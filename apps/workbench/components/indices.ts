@@ -5,6 +5,7 @@
 
 import { GraspIndex } from "../types";
 import { say, sayName } from "../texts";
+import { term } from "./glossary";
 import { Markup, html } from "./markup";
 import { nothing, shortNumber, signedNumber } from "./numbers";
 import { folded } from "./parts";
@@ -14,9 +15,13 @@ function heading(group: string): string {
   return sayName("index.group", group, group);
 }
 
+/// The word of a group's indices that the glossary explains.
+const explained: { [group: string]: string } = { stability: "epsilon", ease: "coordination" };
+
 /// What the indices of a group are for.
-function purpose(group: string): string {
-  return sayName("index.purpose", group, "");
+function purpose(group: string): Markup {
+  const words = sayName("index.purpose", group, "");
+  return html`${words}${explained[group] && html` ${term(explained[group])}`}`;
 }
 
 const units: { [unit: string]: string } = { "": "", mm2: " mm²", mm3: " mm³", deg: "°" };
@@ -68,7 +73,7 @@ export function indexSection(indices: GraspIndex[]): Markup | null {
       remark = one.remark;
       return made;
     });
-    return html`<h4>${heading(group)}</h4>${purpose(group) && html`<p>${purpose(group)}</p>`}${table({
+    return html`<h4>${heading(group)}</h4>${sayName("index.purpose", group, "") && html`<p>${purpose(group)}</p>`}${table({
       caption: heading(group),
       className: "indices",
       columns: [words(say("index.head.index")), numbers(say("index.head.value")), words(say("index.head.range")), words(say("index.head.better"))],

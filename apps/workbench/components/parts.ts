@@ -15,7 +15,7 @@ export function badge(verdict: Verdict, words: Child): Markup {
 }
 
 /// A paragraph that stands out, begun by a word or two.
-export function note(verdict: Verdict | "", begin: string, words: Child): Markup {
+export function note(verdict: Verdict | "", begin: Child, words: Child): Markup {
   return html`<p class="note${verdict && " " + verdict}"><strong>${begin}</strong> ${words}</p>
 `;
 }
@@ -58,12 +58,12 @@ export function charts(figures: TrustedMarkup[]): Markup {
 export function pictureFigures(pictures: Picture[]): Markup | null {
   if (pictures.length === 0) return null;
   return html`<div class="pictures">${pictures.map((one) =>
-    html`<figure><img src="${one.src}" alt="${one.alt}"><figcaption>${one.title}</figcaption></figure>`)}</div>
+    html`<figure data-picture="${one.name}"><img src="${one.src}" alt="${one.alt}"><figcaption>${one.title}</figcaption></figure>`)}</div>
 `;
 }
 
 export function licence(text: string): Markup {
-  return folded(say("licence.title"), html`<pre>${text}</pre>`);
+  return html`<div class="on-screen">${folded(say("licence.title"), html`<pre>${text}</pre>`)}</div>`; // paper has no scripts
 }
 
 /// Which colour means how much. `key` and `isShown`: one of several that a view changes between.

@@ -25,7 +25,7 @@ export function table(options: {
 }): Markup {
   const heads = options.columns.map((one) =>
     html`<th scope="col"${one.isNumber && html` class="n"`}>${one.words}</th>`);
-  return html`<div class="wide"><table${options.className && html` class="${options.className}"`}><caption>${options.caption}</caption><thead><tr>${heads}</tr></thead><tbody>${options.rows}</tbody></table></div>
+  return html`<div class="wide"><table${options.className && html` class="${options.className}"`}><caption><span>${options.caption}</span></caption><thead><tr>${heads}</tr></thead><tbody>${options.rows}</tbody></table></div>
 `;
 }
 
@@ -43,7 +43,7 @@ export function groupedTable(options: {
     html`<th colspan="${options.parts.length}" scope="colgroup">${one}</th>`);
   const parts = options.groups.map(() =>
     options.parts.map((one) => html`<th class="n" scope="col">${one}</th>`));
-  return html`<div class="wide"><table id="${options.id}"><caption>${options.caption}</caption><thead><tr><th rowspan="2" scope="col">${options.first}</th>${groups}${options.last && html`<th rowspan="2" class="n" scope="col">${options.last}</th>`}</tr><tr>${parts}</tr></thead><tbody>${options.rows}</tbody></table></div>
+  return html`<div class="wide"><table id="${options.id}"><caption><span>${options.caption}</span></caption><thead><tr><th rowspan="2" scope="col">${options.first}</th>${groups}${options.last && html`<th rowspan="2" class="n" scope="col">${options.last}</th>`}</tr><tr>${parts}</tr></thead><tbody>${options.rows}</tbody></table></div>
 `;
 }
 

@@ -130,7 +130,7 @@ export function balanceVerdict(assessment: Assessment): Markup {
     return html`${note("fair", say(slipsOut ? "rest.slips_out" : "rest.not"), capitalised(balance.message) + ".")}${slipsOut && html`<p>${say("rest.as_closed")}</p>
 ${leftOver(contact)}`}`;
   }
-  return note("good", say("rest.yes"), html`${capitalised(balance.message)}. ${sayMarkup("rest.figures", {
+  return note("good", sayMarkup("rest.yes", { at_rest: term("at_rest", say("rest.yes.term")) }), html`${capitalised(balance.message)}. ${sayMarkup("rest.figures", {
     moved: shortNumber(balance.moved_mm, 2), turned: shortNumber(balance.turned_deg, 2),
     percent: percent(balance.friction_in_use || 0), friction: term("friction", say("rest.friction")),
     coefficient: shortNumber(balance.friction_coefficient, 2),

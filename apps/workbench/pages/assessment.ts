@@ -7,8 +7,9 @@ import { errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, frictionSection, placementTable, postureTable, regionTable, settingsTable, stopTable, summaryTable } from "../components/contact_tables";
 import { FirstScreen, firstScreen } from "../components/first_screen";
+import { term } from "../components/glossary";
 import { indexSection } from "../components/indices";
-import { Markup, html } from "../components/markup";
+import { Child, Markup, html } from "../components/markup";
 import { sensorSection } from "../components/sensors";
 import { capitalised, percent, shortNumber } from "../components/numbers";
 import { Section, Toggle, Verdict, badge, charts, colourBar, folded, licence, list, note, pictureFigures, turnableView } from "../components/parts";
@@ -168,10 +169,10 @@ function answer(page: AssessmentPage): FirstScreen {
   const cards = all.map((one, i) => {
     const { contact } = one;
     const isHeld = isInHand(one);
-    const facts: [string, string][] = isHeld ? [
-      [say("fact.grip_force"), shortNumber(contact.grip_force_n) + " N"],
-      [say("fact.cells"), shortNumber(contact.peak_pressure_cells_mpa) + " MPa"],
-      [say("fact.area"), shortNumber(contact.contact_area_mm2) + " mm²"],
+    const facts: [Child, string][] = isHeld ? [
+      [term("grip_force", say("fact.grip_force")), shortNumber(contact.grip_force_n) + " N"],
+      [term("peak_on_cells", say("fact.cells")), shortNumber(contact.peak_pressure_cells_mpa) + " MPa"],
+      [term("contact_area", say("fact.area")), shortNumber(contact.contact_area_mm2) + " mm²"],
     ] : [];
     if (one.verdict.hardest && isHeld) {
       const { region, face, on_product_mm } = one.verdict.hardest;
@@ -179,7 +180,7 @@ function answer(page: AssessmentPage): FirstScreen {
       const place = face || (on_product_mm && "(" + on_product_mm.map((x) => shortNumber(Math.round(x), 1)).join(", ") + ") mm");
       if (place) facts.push([say("fact.on_product"), place]);
     }
-    if (isHeld && one.verdict.strength) facts.push([say("fact.strength"), percent(one.verdict.strength.share)]);
+    if (isHeld && one.verdict.strength) facts.push([term("strength", say("fact.strength")), percent(one.verdict.strength.share)]);
     return {
       title: one.product.name,
       badge: badge(statusVerdict(one), statusWords(one, view.vocabulary)),
@@ -226,6 +227,7 @@ ${side}<p>${say("figures.small")} ${scale} ${say("figures.full")}</p>
     ],
     maker: view.maker,
     data: [{ id: "palmar-assessment", attachment: "report" }, { id: "palmar-view", attachment: "view" }],
+    desk: view.desk,
     hasViewer: true,
   });
 }

@@ -1,11 +1,16 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 
-import { Maker } from "../types";
+import { Desk, Maker } from "../types";
 import { language, say } from "../texts";
-import { Child, html, trusted } from "../components/markup";
+import { Child, Markup, html, trusted } from "../components/markup";
 import { Section, contents, sections } from "../components/parts";
 import { glossaryEntries, glossaryList } from "../components/glossary";
+
+/// What the report is made for, over its title.
+function projectLine(project: NonNullable<Desk["project"]>): Markup {
+  return html`<div class="project">${project.logo && html`<img src="${project.logo}" alt="">`}<p>${project.name && html`<strong>${project.name}</strong>`}${project.name && project.author && " · "}${project.author}${project.remarks && html`<br>${project.remarks}`}</p></div>`;
+}
 
 /// A whole page that needs no other file and no network; its content policy forbids both. `first`:
 /// its first screen; then contents and sections that unfold. `data`: JSON by id that stands in the
@@ -17,7 +22,9 @@ export function documentPage(options: {
   maker: Maker;
   data: { id: string; attachment: string }[];
   hasViewer: boolean;
+  desk?: Desk;
 }): string {
+  const project = options.desk && options.desk.project;
   const data = options.data.map((one) =>
     html`<script type="application/json" id="${one.id}">${trusted("<attachment:" + one.attachment + ">")}</script>
 `);
@@ -32,9 +39,9 @@ export function documentPage(options: {
 <title>${options.title}</title>
 <style>${trusted("<attachment:style>")}</style>
 </head>
-<body>
+<body${options.desk && options.desk.units === "us" && html` data-units="us"`}>
 <a class="skip" href="#answer">${say("page.skip")}</a>
-<header><h1>${options.title}</h1></header>
+<header>${project && projectLine(project)}<h1>${options.title}</h1><button type="button" class="units" data-metric="${say("units.metric")}" data-us="${say("units.us")}" hidden></button></header>
 <main>
 ${options.first}${contents(all)}${sections(all)}</main>
 <footer><p>${say("page.footer", { version: options.maker.version })}</p></footer>

@@ -67,10 +67,10 @@ function answer(page: StudyPage): FirstScreen {
                    say("study.fact.held") + " " + say("study.of", { count: one.hands_holding, n: one.hands })),
       pictures,
       facts: one.hands_holding === 0 ? [] : [
-        [say("study.fact.grip"), shortNumber(mean("grip_force_n")) + " N"],
-        [say("study.fact.mean_cells"), shortNumber(mean("peak_pressure_cells_mpa")) + " MPa"],
-        [say("study.fact.area"), shortNumber(mean("contact_area_mm2")) + " mm²"],
-      ] as [string, string][],
+        [term("grip_force", say("study.fact.grip")), shortNumber(mean("grip_force_n")) + " N"],
+        [term("peak_on_cells", say("study.fact.mean_cells")), shortNumber(mean("peak_pressure_cells_mpa")) + " MPa"],
+        [term("contact_area", say("study.fact.area")), shortNumber(mean("contact_area_mm2")) + " mm²"],
+      ] as [Child, string][],
     };
   });
   const populations = page.provenance.populations.map((one) => one.title || one.name).join(", ");
@@ -247,6 +247,7 @@ export function studyPage(page: StudyPage): string {
     ],
     maker: page.maker,
     data: [{ id: "palmar-study", attachment: "data" }],
+    desk: page.desk,
     hasViewer: page.scene !== null,
   });
 }

@@ -8,6 +8,7 @@ import { useLanguage } from "../texts";
 import { bandComparison, errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, placementTable, settingsTable, summaryTable } from "../components/contact_tables";
+import { terms } from "../components/glossary";
 import { indexComparison, indexSection } from "../components/indices";
 import { comfortSection, gripWords, readingAdvice, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
 import { assessmentPage } from "../pages/assessment";
@@ -213,4 +214,15 @@ test("a page is whole, forbids the network and asks for its attachments", () => 
   for (const tag of ["table", "tr", "td", "div", "details", "section", "p", "button", "article", "svg"]) {
     assert.equal(count(whole, "<" + tag + " ") + count(whole, "<" + tag + ">"), count(whole, "</" + tag + ">"), tag);
   }
+});
+
+test("every word of the glossary opens from where a report uses it", () => {
+  // What only studies have: study.test.ts.
+  const ofStudies = ["interval", "p_value", "effect_size", "t_test"];
+  const one = withBand(assessment(), 8, 16);
+  one.index_table = [index("a", "stability", 1), index("b", "ease", 1)];
+  one.balance = { status: "balanced", message: "in balance", moved_mm: 1, turned_deg: 2, friction_in_use: 0.5, friction_coefficient: 0.5 } as typeof one.balance;
+  const whole = assessmentPage(page([one]));
+  const missing = terms.filter((key) => ofStudies.indexOf(key) < 0 && key !== "hold" && whole.indexOf(`popovertarget="term-${key}"`) < 0);
+  assert.equal(String(missing), "");
 });

@@ -32,6 +32,20 @@ function browse(page, size, more) {
   ], { encoding: "utf8", maxBuffer: 1 << 28, timeout: 120000 });
 }
 
+/// How wide a page is in a frame of 390 pixels, as a phone has: headless windows are never so narrow.
+function widthOnPhone(page) {
+  const outer = join(folder, "phone.html");
+  writeFileSync(outer, `<iframe src="file://${page}" style="width:390px;height:844px;border:0"></iframe><script>
+    onload = () => setTimeout(() => {
+      const inner = document.querySelector("iframe").contentDocument;
+      for (const one of inner.querySelectorAll("details")) one.open = true;
+      setTimeout(() => { document.body.insertAdjacentHTML("beforeend", "<pre id=found>" + inner.documentElement.scrollWidth + "</pre>"); }, 500);
+    }, 500);</script>`);
+  const text = browse(outer, "800,900", ["--allow-file-access-from-files", "--dump-dom"]).stdout.match(/<pre id="found">(\d+)/);
+  assert.ok(text, `${page}: the frame said nothing`);
+  return Number(text[1]);
+}
+
 /// What `script`, the body of an async function, gives back in that page.
 function inPage(page, size, script) {
   const copy = join(folder, "copy.html");
@@ -109,6 +123,48 @@ const linked = `
   view.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
   return { canvases: view.querySelectorAll("canvas").length, follows: second.toDataURL() !== before };`;
 
+// Text that is seen, with too little contrast against what is behind it (WCAG 2.1, 1.4.3: 4.5 to 1, of
+// large text 3 to 1). Pictures and drawings aren't looked at.
+const contrasts = `
+  for (const one of document.querySelectorAll("details")) one.open = true;
+  await wait(300);
+  const channels = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const light = (c) => c.slice(0, 3).map((v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const behind = (one) => {
+    for (; one; one = one.parentElement) {
+      const c = channels(getComputedStyle(one).backgroundColor);
+      if (c.length < 4 || c[3] === 1) return c;
+    }
+    return [255, 255, 255];
+  };
+  const poor = [];
+  let seen = 0;
+  for (const one of document.querySelectorAll("body *")) {
+    if (one.closest("svg,script,style,.skip") || !one.checkVisibility()) continue;
+    if (![...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim())) continue;
+    const style = getComputedStyle(one), a = light(channels(style.color)), b = light(behind(one));
+    const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    const size = parseFloat(style.fontSize), isLarge = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
+    ++seen;
+    if (ratio < (isLarge ? 3 : 4.5)) poor.push(one.tagName + "." + one.className + " " + ratio.toFixed(2) + " " + one.textContent.slice(0, 40));
+  }
+  return { seen, poor: [...new Set(poor)].slice(0, 10) };`;
+
+const units = `
+  const sentence = () => document.querySelector(".sentence").textContent;
+  const facts = () => document.querySelector("#answer dl").textContent;
+  for (const one of document.querySelectorAll("details")) one.open = true;
+  const table = [...document.querySelectorAll("table")].find((one) => /, MPa/.test(one.tHead?.textContent ?? "") && one.tHead.rows.length === 1);
+  const column = [...table.tHead.rows[0].cells].findIndex((one) => /, MPa/.test(one.textContent));
+  const cell = () => parseFloat(table.tBodies[0].rows[0].cells[column].textContent);
+  const before = { sentence: sentence(), facts: facts(), cell: cell() };
+  const button = document.querySelector("button.units");
+  button.click();
+  const us = { sentence: sentence(), facts: facts(), cell: cell(), head: table.tHead.textContent };
+  button.click();
+  return { before, us, after: { sentence: sentence(), facts: facts(), cell: cell() }, says: button.textContent };`;
+
 const narrow = `
   for (const one of document.querySelectorAll("details")) one.open = true;
   await wait(200);
@@ -134,6 +190,18 @@ try {
     assert.ok(folds.links >= 5 && folds.opened && folds.text.length > 40, JSON.stringify(folds));
     const phone = inPage(page, "500,844", narrow); // the narrowest window of a headless browser
     assert.ok(phone.width <= phone.window, `${page}: ${phone.width} wide in a window of ${phone.window}`);
+    const onPhone = widthOnPhone(page);
+    assert.ok(onPhone <= 390, `${page}: ${onPhone} wide on a phone of 390`);
+    const contrast = inPage(page, "1280,720", contrasts);
+    assert.ok(contrast.seen > 100, JSON.stringify(contrast));
+    assert.deepEqual(contrast.poor, []);
+    const said = inPage(page, "1280,720", units);
+    assert.deepEqual(said.after, said.before);
+    assert.match(said.us.facts, /lbf.*psi/);
+    assert.ok(!/ MPa| N\b/.test(said.us.facts), said.us.facts);
+    assert.match(said.us.head, /, psi/);
+    // 1 MPa = 145.04 psi; both are rounded to three digits.
+    assert.ok(Math.abs(said.us.cell / said.before.cell / 145.04 - 1) < 0.02, JSON.stringify(said));
   }
   const pointed = inPage(two, "1280,720", pointing);
   assert.match(pointed.says, /(MPa|face).*\(-?\d+\.\d, -?\d+\.\d, -?\d+\.\d\) mm/);
@@ -149,6 +217,34 @@ try {
     const pages = Number(text.match(/\/Count (\d+)/)[1]);
     assert.ok(what === "answer" ? pages === 1 : pages > 5, `${what} on ${paper}: ${pages} pages`);
     assert.equal(Math.round(Number(text.match(/\/MediaBox \[0 0 ([\d.]+)/)[1])), width);
+  }
+  // Slides and a project.
+  writeFileSync(join(folder, "logo.svg"), '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="30"><rect width="90" height="30"/></svg>');
+  writeFileSync(join(folder, "project.toml"), 'name = "Two bars"\nauthor = "Studio"\nnotes = "First round."\nlogo = "logo.svg"\n');
+  run("assess thin.step thick.step --grip-force-n 40 --project project.toml --units us --slides --out desk");
+  for (const name of ["answer", "hold", "map"]) {
+    const png = readFileSync(join(folder, `desk/slide-${name}.png`));
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [1920, 1080], name);
+    assert.ok(png.length > 30000, `slide-${name}.png has ${png.length} bytes: it is empty`);
+  }
+  const project = inPage(join(folder, "desk/report.html"), "1280,720", `
+    const logo = document.querySelector(".project img");
+    for (let i = 0; i < 50 && !logo.complete; ++i) await wait(50);
+    return { text: document.querySelector(".project").textContent, logo: logo.naturalWidth,
+             sentence: document.querySelector(".sentence").textContent };`);
+  assert.match(project.text, /Two bars · Studio.*First round\./);
+  assert.equal(project.logo, 90);
+  assert.match(project.sentence, /same grip of 8\.99 lbf/);
+  // No English left in a German page but names of works, licences and files.
+  run("assess thin.step --mass-kg 0.3 --friction 0.6 --language de --no-pictures --out deutsch");
+  run("study report six.palmar --language de --no-figures --no-pictures --out studie");
+  for (const name of ["deutsch", "studie"]) {
+    const text = inPage(join(folder, name, "report.html"), "1280,720", `
+      for (const one of document.querySelectorAll("script,style,code,pre")) one.remove();
+      return [...document.querySelectorAll("body *")].flatMap((one) => [...one.childNodes].filter((node) => node.nodeType === 3)
+        .map((node) => node.data.trim())).filter((words) => / (the|of|and|is|are|with|not) /.test(" " + words + " "));`);
+    const english = text.filter((words) => !/Plausible 3D|Gordon|Licen[cs]e|Lizenz|Ferrari|Kerr|Crowninshield|docs\/|npm/.test(words));
+    assert.deepEqual(english, [], name);
   }
   if (pictures) {
     mkdirSync(pictures, { recursive: true });

@@ -108,6 +108,7 @@ export function page(assessments: Assessment[]): AssessmentPage {
     view: {
       maker: { version: "1.2", build: "1.2 (test)", viewer_licence: "Permission is hereby granted" },
       language: "en",
+      desk: { units: "metric", project: null },
       is_cut_short: false,
       vocabulary,
       scale: { quantity: "Pressure", unit: "MPa", upper: 0.5, is_open_ended: true, colours: ["#000000", "#ffffff"],
@@ -145,6 +146,7 @@ export function study(): StudyPage {
     vocabulary,
     products: [{ name: "old", colour: "#112233", pictures: [] }, { name: "new", colour: "#332211", pictures: [] }],
     language: "en",
+    desk: { units: "metric", project: null },
     answer: { tone: "good", sentence: "New presses 16 % less than old.", reasons: ["4 of 5 <hands>."], next: "Press it:", command: "palmar redesign press new.stl",
               better: 1, worse: 0, changes: [-0.2, -0.1, -0.15, 0.05, -0.3] },
     verdict: ["New is better."],

@@ -5,6 +5,11 @@
 declare module "node:test" {
   export function test(name: string, run: () => void): void;
 }
+declare module "node:fs" {
+  export function readFileSync(path: string, encoding: string): string;
+  export function readdirSync(path: string): string[];
+  export function statSync(path: string): { isDirectory(): boolean };
+}
 declare module "node:assert/strict" {
   const assert: {
     ok(value: unknown, message?: string): void;

@@ -3,7 +3,7 @@
 //
 // Assessments: the JSON that Palmar writes as assessment.json, and its page.
 
-import { ColourBar, Language, Maker, Picture, Placement, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
+import { ColourBar, Desk, Language, Maker, Picture, Placement, PostureAngles, TrustedMarkup, Vector3, Vocabulary } from "./common";
 
 export interface ProductResult {
   name: string;
@@ -364,6 +364,7 @@ export interface AssessmentReport {
 export interface AssessmentView {
   maker: Maker;
   language: Language;
+  desk: Desk;
   is_cut_short: boolean;
   vocabulary: Vocabulary;
   scale: ColourBar;

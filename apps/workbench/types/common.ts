@@ -50,6 +50,12 @@ export interface ColourBar {
   ticks: { value: number; text: string }[];
 }
 
+/// Whose a report is, and in which units it opens.
+export interface Desk {
+  units: "metric" | "us";
+  project: null | { name: string; author: string; remarks: string; logo: string | null };
+}
+
 /// What every page says of the program that made it.
 export interface Maker {
   version: string;

@@ -3,7 +3,7 @@
 //
 // The page of a study.
 
-import { ColourBar, Language, Maker, Picture, TrustedMarkup, Vocabulary } from "./common";
+import { ColourBar, Desk, Language, Maker, Picture, TrustedMarkup, Vocabulary } from "./common";
 
 /// A count of n with its share and the share's interval; null where n is 0.
 export interface Proportion {
@@ -208,6 +208,7 @@ export interface StudyPage {
   vocabulary: Vocabulary;
   products: { name: string; colour: string; pictures: Picture[] }[];
   language: Language;
+  desk: Desk;
   answer: StudyAnswer;
   verdict: string[];
   warnings: { is_outside: boolean; subject: string; text: string }[];

@@ -4,7 +4,7 @@
 // What a page does beside its 3-D views: opens the section that a link leads to and all sections for
 // printing, copies commands, closes an explanation. Without it everything can still be read.
 
-export {};
+import { showMetricUnits, showUsUnits } from "./units";
 
 const sections = () => document.querySelectorAll<HTMLDetailsElement>("details");
 
@@ -35,8 +35,39 @@ if (printing) {
   for (const one of sections()) one.open = true;
 }
 
+// "#slide=answer", "hold", "map": one picture of 1920 x 1080; the first screen is made for 1280 x 720.
+const slide = /^#slide=(answer|hold|map)$/.exec(location.hash);
+if (slide) {
+  document.body.classList.add("only-answer", "slide");
+  const names = slide[1] === "hold" ? ["grasp_palm", "hold"] : ["map_open_hand", "mean_hand"];
+  const shown = [...document.querySelectorAll<HTMLElement>("figure[data-picture]")]
+    .filter((one) => names.includes(one.dataset.picture ?? ""));
+  const body = document.querySelector(".answer-body");
+  if (slide[1] !== "answer" && body) {
+    body.className = "slide-pictures";
+    body.replaceChildren(...shown);
+    document.querySelector("#answer .next")?.remove();
+  }
+}
+
+// Inches and pounds, at will.
+const unitsButton = document.querySelector<HTMLButtonElement>("button.units");
+if (unitsButton) {
+  const button = unitsButton;
+  let isUs = false;
+  const show = (us: boolean): void => {
+    isUs = us;
+    if (us) showUsUnits(document.documentElement.lang === "de");
+    else showMetricUnits();
+    button.textContent = (us ? button.dataset.metric : button.dataset.us) ?? "";
+  };
+  button.hidden = false;
+  button.addEventListener("click", () => show(!isUs));
+  show(document.body.dataset.units === "us");
+}
+
 window.addEventListener("hashchange", openTarget);
-if (location.hash && !printing) openTarget();
+if (location.hash && !printing && !slide) openTarget();
 // A link to where one is already changes no hash.
 document.addEventListener("click", (event) => {
   const link = (event.target as Element).closest?.("a[href^='#']");

@@ -28,8 +28,10 @@ std::string_view name_of(PressureFamily family);  ///< "probe", "blood_flow", "f
 double pain_onset_film(Region region);
 
 /// Mean pressure under a probe at which pain begins, MPa: 0.496 finger, 0.494 palm, 0.447 thenar
-/// (Johansson et al. 1999, Ergonomics 42:1268-1282; the absolute values at second hand); the palm's
-/// for the back of the hand, where none is known.
+/// (Johansson et al. 1999, Ergonomics 42:1268-1282); the palm's
+/// for the back of the hand, where none is known. Only the ratios of discomfort to pain are checked
+/// against the paper (its abstract); the absolute values are not: they agree with the 100 to almost
+/// 200 kPa for the onset of discomfort in Harih & Tada 2015, and the paper itself was not at hand.
 double pain_onset_probe(Region region);
 
 /// The same at which discomfort begins, MPa: 0.188 finger, 0.200 palm, 0.100 thenar. That is 38, 40

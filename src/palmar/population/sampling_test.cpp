@@ -284,7 +284,7 @@ TEST(SampleHands, MiddleFingerKeepsAProximalSegment) {
 
 // A convex section is at least twice as long round as it is broad: no hand is drawn flatter.
 TEST(SampleHands, HandsAreNotBroaderThanTheirGirthAllows) {
-  for (const char* name : {"ansur2", "japanese", "delhi_men"}) {
+  for (const char* name : {"ansur2", "japanese", "delhi_men", "nigerian"}) {
     for (const int hands : {4, 30, 10000}) {
       for (const HandSample& hand :
            draw(population_named(name), SamplingDesign::kLatinHypercube, hands, 2)) {

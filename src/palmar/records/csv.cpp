@@ -193,4 +193,18 @@ CsvTable face_table(const AssessmentSet& set) {
   return table;
 }
 
+CsvTable index_table(const AssessmentSet& set) {
+  CsvTable table;
+  table.header = {"product", "hand", "group", "key", "name", "value", "unit", "better", "source"};
+  for (const AssessedProduct& one : set.assessments) {
+    for (const GraspIndex& index : one.assessment.indices) {
+      if (!index.value) continue;
+      table.rows.push_back({one.product.name, one.assessment.hand_name, index.group, index.key,
+                            index.name, shortest(*index.value), index.unit, name_of(index.better),
+                            one.product.source});
+    }
+  }
+  return table;
+}
+
 }  // namespace palmar

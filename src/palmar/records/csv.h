@@ -33,4 +33,8 @@ CsvTable face_table(const AssessmentSet& set);
 /// was measured, that beside it.
 CsvTable sensor_table(const AssessmentSet& set);
 
+/// One row per product and index that could be computed: its key, name, group, value, unit and
+/// which direction is better.
+CsvTable index_table(const AssessmentSet& set);
+
 }  // namespace palmar

@@ -163,12 +163,17 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   // What is done is written even when the user has cancelled, but for pictures.
   outcome.folder = request.out;
   try {
-    write_report(request.out, outcome.set,
-                 {.language = request.language, .pictures = request.pictures},
-                 part_of(progress, kAssessed, request.pdf ? kWritten : 1.0));
+    write_report(
+        request.out, outcome.set,
+        {.language = request.language, .pictures = request.pictures, .extras = request.extras},
+        part_of(progress, kAssessed, request.pdf || request.extras.slides ? kWritten : 1.0));
     if (request.pdf) {
       progress.update(kWritten, "PDF");
       print_pdf(std::filesystem::path(request.out) / "report.html", *request.pdf, progress);
+    }
+    if (request.extras.slides) {
+      progress.update(kWritten, "slides");
+      take_slides(std::filesystem::path(request.out) / "report.html", progress);
     }
   } catch (const Cancelled&) {
     outcome.is_cancelled = true;

@@ -17,6 +17,7 @@
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/records/verdict_text.h"
 #include "palmar/report/page/print_pdf.h"
+#include "palmar/report/page/report_extras.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/contact_with_band.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -46,6 +47,7 @@ struct AssessRequest {
   std::string out;                          ///< folder of the report; "": none is written
   bool pictures = true;                     ///< PNG pictures in it
   std::optional<Paper> pdf = std::nullopt;  ///< answer.pdf and report.pdf on this paper
+  ReportExtras extras = {};                 ///< whose it is, units, files for other programs
   std::uint64_t seed = 0;                   ///< written into the results
   std::string command_line;                 ///< for provenance
   NoteSink note = {};  ///< early notes: what was found in a product, why one has no solution

@@ -14,6 +14,7 @@
 #include "palmar/core/version.h"
 #include "palmar/formats/file.h"
 #include "palmar/population/hand_profile.h"
+#include "palmar/records/study/people_range.h"
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_progress.h"
 #include "palmar/records/study/study_store.h"
@@ -141,6 +142,9 @@ void QuickStudy::check() const {
         fmt::format("setting \"hands\" is {}; 1 to {} is allowed, 0 for the population's own",
                     hands, kMostHands));
   }
+  if (!(mass >= 0.0 && mass <= 100.0)) {
+    throw UsageError(fmt::format("setting \"mass\" is {:g}; 0 to 100 kg is allowed", mass));
+  }
   if (int(grip_force.has_value()) + int(strength_share.has_value()) + int(limit_depths) > 1) {
     throw UsageError(
         "more than one of setting \"grip force\", setting \"strength share\" and setting \"limit "
@@ -165,10 +169,16 @@ StudyRequest study_of(const QuickStudy& quick) {
     product.file = name;
     product.unit = quick.unit;
     product.held.holding = quick.holding;
+    product.held.mass = quick.mass;
     request.products.push_back(std::move(product));
   }
   for (const std::string& name : quick.populations) {
-    request.populations.push_back(population_request(name));
+    if (quick.hands > 0 && is_people_range(name)) {
+      throw UsageError("setting \"hands\" has no meaning with the given people \"" + name + "\"");
+    }
+    for (PopulationRequest& one : population_requests(name)) {
+      request.populations.push_back(std::move(one));
+    }
   }
   for (PopulationRequest& one : request.populations) {
     if (quick.hands > 0 && !one.table.empty()) {

@@ -93,4 +93,11 @@ void Figure::add(const Figure& other, double x, double y) {
   }
 }
 
+void Figure::say(const std::function<std::string(const std::string&)>& said) {
+  title_ = said(title_);
+  for (Shape& shape : shapes_) {
+    if (auto* text = std::get_if<Text>(&shape)) text->text = said(text->text);
+  }
+}
+
 }  // namespace palmar

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ class Figure {
   void image(double x, double y, double width, double height, Image picture);
   /// Everything of another figure, its origin at (x, y).
   void add(const Figure& other, double x, double y);
+
+  /// Every text and the title as `said` gives them back.
+  void say(const std::function<std::string(const std::string&)>& said);
 
   struct Path {  ///< polyline, polygon, rect
     std::vector<Eigen::Vector2d> points;

@@ -53,7 +53,7 @@ BarChart sensitivity_chart(const ContactBand& band) {
   return chart;
 }
 
-PageJson charts_json(const ContactResult& contact, const std::string& name,
+PageJson charts_json(const ContactResult& contact, const std::string& name, const Phrases& phrases,
                      Attachments& attachments) {
   PageJson list = PageJson::array();
   for (const BarChart& chart :
@@ -61,7 +61,9 @@ PageJson charts_json(const ContactResult& contact, const std::string& name,
                      &ContactBandRow::force_high),
         region_chart(contact, "Peak pressure, MPa", &RegionContact::peak_pressure,
                      &ContactBandRow::peak_pressure_low, &ContactBandRow::peak_pressure_high)}) {
-    const std::string svg = to_svg(bar_figure(chart));
+    Figure figure = bar_figure(chart);
+    figure.say(phrases);
+    const std::string svg = to_svg(figure);
     list.push_back(
         {{"title", chart.title},
          {"svg", attached(attachments, name + "-chart-" + std::to_string(list.size()), svg)}});
@@ -87,17 +89,19 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
                       const std::vector<EncodedPicture>& pictures, const std::string& name,
                       Language language, Attachments& attachments) {
   const ContactResult& contact = one.assessment.contact;
+  const Phrases phrases(language);
   PageJson sensitivity = nullptr;
   if (contact.band && !contact.band->regions.empty()) {
-    sensitivity = attached(attachments, name + "-sensitivity",
-                           to_svg(bar_figure(sensitivity_chart(*contact.band))));
+    Figure figure = bar_figure(sensitivity_chart(*contact.band));
+    figure.say(phrases);
+    sensitivity = attached(attachments, name + "-sensitivity", to_svg(figure));
   }
   PageJson sensors = nullptr;
   if (one.assessment.sensors) {
     sensors = attached(attachments, name + "-sensors",
                        to_svg(sensor_figure(*one.assessment.sensors, one.assessment.measured)));
   }
-  return {{"charts", charts_json(contact, name, attachments)},
+  return {{"charts", charts_json(contact, name, phrases, attachments)},
           {"sensor_map", std::move(sensors)},
           {"sensitivity_chart", std::move(sensitivity)},
           {"friction_words", friction_verdict(hand, one.assessment)},
@@ -128,6 +132,7 @@ std::string assessment_page(const AssessmentSet& set,
   }
   const PageJson view = {{"maker", maker_json()},
                          {"language", name_of(options.language)},
+                         {"desk", desk_json(options.extras, attachments)},
                          {"is_cut_short", options.is_cut_short},
                          {"vocabulary", vocabulary_json(*set.hand)},
                          {"scale", colour_bar_json(scale)},

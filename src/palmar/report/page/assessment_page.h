@@ -7,6 +7,7 @@
 
 #include "palmar/core/language.h"
 #include "palmar/report/page/page_json.h"
+#include "palmar/report/page/report_extras.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/assessment/assessment.h"
 
@@ -15,6 +16,7 @@ namespace palmar {
 struct AssessmentPageOptions {
   Language language = Language::kEnglish;
   bool is_cut_short = false;  ///< pictures are missing as the user cancelled; the report says so
+  ReportExtras extras = {};
 };
 
 /// The whole report as one HTML document that needs no other file and no network (its content

@@ -16,6 +16,7 @@
 #include "palmar/report/page/assessment_page.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/holds_picture.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/report/words/verdict_words.h"
 
 namespace palmar {
@@ -123,16 +124,24 @@ std::string small_png(const Image& image, int width) {
   return encode_png(narrowed(image, width), PngEffort::kSmall);
 }
 
+/// Those that slides show keep their size.
+int embedded_width(const Picture& picture, const ReportOptions& options) {
+  if (picture.name == "holds") return kSheetWidth;
+  const bool is_on_slide = picture.name == "map_open_hand" || picture.name == "grasp_palm";
+  return options.extras.slides && is_on_slide ? options.picture_width : kEmbeddedWidth;
+}
+
 bool has_thumbnail(const Picture& picture, bool are_compared) {
   return are_compared && (picture.name == "map_open_hand" || picture.name == "grasp_palm" ||
                           picture.name == "grasp_back");
 }
 
 /// Other ways to hold the product, if they are known.
-void add_sheet_of_holds(const AssessedProduct& one, const Progress& progress,
+void add_sheet_of_holds(const AssessedProduct& one, Language language, const Progress& progress,
                         std::vector<Picture>& pictures) {
   if (one.ways == nullptr || one.ways->holds.size() < 2 || progress.is_cancelled()) return;
   HoldsPictureOptions drawing;
+  drawing.language = language;
   drawing.tile_width = kSheetTile;
   drawing.up = one.assessment.options.grasp.holds.up;
   try {
@@ -149,23 +158,25 @@ std::vector<EncodedPicture> write_pictures(const std::filesystem::path& folder, 
                                            const AssessedProduct& one, const ColourScale& scale,
                                            const ReportOptions& options, bool are_compared,
                                            const Progress& progress) {
-  std::vector<Picture> pictures = assessment_pictures(
-      hand, one, scale, {.width = options.picture_width, .height = options.picture_height},
-      progress);
-  add_sheet_of_holds(one, progress, pictures);
+  std::vector<Picture> pictures = assessment_pictures(hand, one, scale,
+                                                      {.width = options.picture_width,
+                                                       .height = options.picture_height,
+                                                       .language = options.language},
+                                                      progress);
+  add_sheet_of_holds(one, options.language, progress, pictures);
   std::vector<EncodedPicture> embedded(pictures.size());
   std::vector<std::string> full(pictures.size());
   parallel_for(static_cast<int>(pictures.size()), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     const Picture& picture = pictures[i];
     full[i] = encode_png(picture.image);
-    embedded[i] = {
-        .name = picture.name,
-        .title = picture.title,
-        .alt = picture.alt,
-        .png = small_png(picture.image, picture.name == "holds" ? kSheetWidth : kEmbeddedWidth),
-        .thumbnail =
-            has_thumbnail(picture, are_compared) ? small_png(picture.image, kThumbnailWidth) : ""};
+    embedded[i] = {.name = picture.name,
+                   .title = picture.title,
+                   .alt = picture.alt,
+                   .png = small_png(picture.image, embedded_width(picture, options)),
+                   .thumbnail = has_thumbnail(picture, are_compared)
+                                    ? small_png(picture.image, kThumbnailWidth)
+                                    : ""};
   });
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     write_file(folder / (pictures[i].name + ".png"), full[i]);
@@ -227,8 +238,16 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   const std::string json =
       assessment_json(set, verdict_words(set, verdict_of(set), options.language));
   write_file(root / "assessment.json", json);
-  write_file(root / "regions.csv", format_csv(region_table(set)));
+  const CsvTable regions = region_table(set);
   const CsvTable faces = face_table(set);
+  std::string title = "Palmar:";
+  for (const AssessedProduct& one : set.assessments) title += " " + one.product.name;
+  write_desk_tables(root, title,
+                    {{"regions", "One region of the hand on one product, or the total.", regions},
+                     {"faces", "One face of a product under pressure.", faces},
+                     {"indices", "One index of one product.", index_table(set)}},
+                    options.extras);
+  write_file(root / "regions.csv", format_csv(regions));
   // One of an earlier run must not stand beside results that it isn't of.
   if (!faces.rows.empty() || std::filesystem::exists(root / "faces.csv")) {
     write_file(root / "faces.csv", format_csv(faces));
@@ -239,7 +258,10 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
     write_file(root / "sensors.csv", format_csv(sensors));
   }
 
-  const ColourScale scale = pressure_scale(set);
+  ColourScale scale = pressure_scale(set);
+  const Phrases phrases(options.language);
+  scale.quantity = phrases(scale.quantity);
+  scale.none = phrases(scale.none);
   std::vector<std::vector<EncodedPicture>> embedded(set.assessments.size());
   std::set<std::string> used;
   for (std::size_t i = 0; i < set.assessments.size() && !progress.is_cancelled(); ++i) {
@@ -259,7 +281,8 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
   const bool is_cut_short = progress.is_cancelled();
   if (progress.report) progress.report(0.98, "report.html");
   write_file(root / "report.html",
-             assessment_page(set, embedded, scale, json, {options.language, is_cut_short}));
+             assessment_page(set, embedded, scale, json,
+                             {options.language, is_cut_short, options.extras}));
   if (is_cut_short)
     throw Cancelled("cancelled; " + folder + "/report.html holds what was finished");
 }

@@ -6,6 +6,7 @@
 
 #include "palmar/core/language.h"
 #include "palmar/core/progress.h"
+#include "palmar/report/page/report_extras.h"
 #include "palmar/study/assessment/assessment.h"
 
 namespace palmar {
@@ -15,6 +16,7 @@ struct ReportOptions {
   bool pictures = true;      ///< PNG pictures from four views
   int picture_width = 1000;  ///< pixels
   int picture_height = 700;  ///< pixels
+  ReportExtras extras = {};  ///< whose it is, units, files for other programs
   void check() const;        ///< throws UsageError outside 64..8192 pixels
 };
 

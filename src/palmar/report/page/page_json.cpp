@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/page/page_json.h"
 
+#include <set>
+
 #include "palmar/core/version.h"
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/geometry/degrees.h"
@@ -141,14 +143,63 @@ PageJson pictures_json(const std::vector<Picture>& pictures, Attachments& attach
   return pictures_json(encoded, "shown", attachments);
 }
 
+void put_in_language(PageJson& json, const Phrases& phrases) {
+  if (phrases.language() == Language::kEnglish) return;
+  static const std::set<std::string> sentences = {"against",
+                                                  "alt",
+                                                  "definition",
+                                                  "description",
+                                                  "friction_words",
+                                                  "grip_force_from",
+                                                  "message",
+                                                  "part_name",
+                                                  "provenance",
+                                                  "quantity",
+                                                  "grip_force_words",
+                                                  "left_out_words",
+                                                  "region",
+                                                  "remark",
+                                                  "source",
+                                                  "subject",
+                                                  "text",
+                                                  "title",
+                                                  "words"};
+  static const std::set<std::string> lists = {"cautions", "hands", "limits", "notes", "verdict"};
+  if (json.is_array()) {
+    for (PageJson& one : json) put_in_language(one, phrases);
+    return;
+  }
+  if (!json.is_object()) return;
+  const bool has_key = json.contains("key");
+  for (auto& [key, value] : json.items()) {
+    if (value.is_string() && (sentences.contains(key) || (key == "name" && has_key))) {
+      value = phrases(value.get<std::string>());
+    } else if (value.is_array() && lists.contains(key)) {
+      for (PageJson& one : value) {
+        if (one.is_string()) one = phrases(one.get<std::string>());
+      }
+    }
+    put_in_language(value, phrases);
+  }
+}
+
 std::string render_page(const std::string& kind, const std::string& report, const PageJson& view,
                         Attachments attachments) {
-  const std::string view_text = page_text(view);
+  // What scripts read stays as it is in the files; what people read is in their language.
   attachments["report"] = script_escaped(report);
-  attachments["view"] = script_escaped(view_text);
-  return render_page(
-      R"({"kind":")" + kind + R"(","report":)" + report + R"(,"view":)" + view_text + "}",
-      std::move(attachments));
+  attachments["view"] = script_escaped(page_text(view));
+  const Phrases phrases(language_named(view.value("language", "en")));
+  std::string shown_report = report;
+  PageJson shown_view = view;
+  if (phrases.language() != Language::kEnglish) {
+    PageJson said = PageJson::parse(report);
+    put_in_language(said, phrases);
+    shown_report = page_text(said);
+    put_in_language(shown_view, phrases);
+  }
+  return render_page(R"({"kind":")" + kind + R"(","report":)" + shown_report + R"(,"view":)" +
+                         page_text(shown_view) + "}",
+                     std::move(attachments));
 }
 
 }  // namespace palmar

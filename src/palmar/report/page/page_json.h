@@ -9,6 +9,7 @@
 #include "palmar/report/page/page_engine.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/colour_bar.h"
+#include "palmar/report/words/phrases.h"
 
 namespace palmar {
 
@@ -43,8 +44,12 @@ PageJson pictures_json(const std::vector<EncodedPicture>& pictures, const std::s
 /// The same of pictures as they are.
 PageJson pictures_json(const std::vector<Picture>& pictures, Attachments& attachments);
 
+/// The same JSON with the texts for people in the language: values of keys such as "message",
+/// "words" and "notes", and names of what also has a key. Names, files and keys stay.
+void put_in_language(PageJson& json, const Phrases& phrases);
+
 /// A page of a result and of what it shows beside it. Both stand in the page, too (attachments
-/// "report" and "view").
+/// "report" and "view"), there as the files have them; what is shown is in view["language"].
 std::string render_page(const std::string& kind, const std::string& report, const PageJson& view,
                         Attachments attachments);
 

@@ -29,7 +29,8 @@ fs::path browser() {
     if (const auto found = find_program(name)) return *found;
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
-  throw ProgramMissing("PDF: no browser is there to print with; install one of " + names +
+  throw ProgramMissing("PDF and slides: no browser is there to print with; install one of " +
+                       names +
                        " (Debian: apt install chromium), or print report.html from your own");
 }
 
@@ -48,17 +49,15 @@ std::string address_of(const fs::path& file) {
   return address;
 }
 
-void print(const fs::path& program, const fs::path& page, const std::string& what, Paper paper,
-           const fs::path& out, const Progress& progress) {
+/// Runs the browser on a page for one file.
+void browse(const fs::path& program, const fs::path& page, const std::string& hash,
+            const std::vector<std::string>& how, const fs::path& out, const Progress& progress) {
   const fs::path profile = fs::temp_directory_path() / ("palmar-print-" + std::to_string(getpid()));
-  std::vector<std::string> arguments = {"--headless=new",
-                                        "--disable-gpu",
-                                        "--no-first-run",
-                                        "--no-pdf-header-footer",
+  std::vector<std::string> arguments = {"--headless=new", "--disable-gpu", "--no-first-run",
                                         "--user-data-dir=" + profile.string(),
-                                        "--virtual-time-budget=5000",
-                                        "--print-to-pdf=" + fs::absolute(out).string(),
-                                        address_of(page) + "#print=" + what + "," + name_of(paper)};
+                                        "--virtual-time-budget=5000"};
+  arguments.insert(arguments.end(), how.begin(), how.end());
+  arguments.push_back(address_of(page) + "#" + hash);
   // A browser's sandbox doesn't work for root.
   if (geteuid() == 0) arguments.insert(arguments.begin(), "--no-sandbox");
   fs::remove(out);
@@ -72,8 +71,14 @@ void print(const fs::path& program, const fs::path& page, const std::string& wha
   progress.throw_if_cancelled();
   if (result.end != ChildResult::End::kExited || result.code != 0 || !fs::exists(out)) {
     throw OutputError(out.string() + ": " + program.filename().string() +
-                      " printed nothing; report.html can be printed from any browser");
+                      " wrote nothing; report.html can be printed from any browser");
   }
+}
+
+void print(const fs::path& program, const fs::path& page, const std::string& what, Paper paper,
+           const fs::path& out, const Progress& progress) {
+  browse(program, page, "print=" + what + "," + name_of(paper),
+         {"--no-pdf-header-footer", "--print-to-pdf=" + fs::absolute(out).string()}, out, progress);
 }
 
 }  // namespace
@@ -92,6 +97,19 @@ void print_pdf(const fs::path& report_html, Paper paper, const Progress& progres
   const fs::path folder = report_html.parent_path();
   print(program, report_html, "answer", paper, folder / "answer.pdf", progress);
   print(program, report_html, "all", paper, folder / "report.pdf", progress);
+}
+
+void take_slides(const fs::path& report_html, const Progress& progress) {
+  const fs::path program = browser();
+  const bool has_pictures = read_file(report_html).find("data-picture=\"") != std::string::npos;
+  for (const std::string slide : {"answer", "hold", "map"}) {
+    if (slide != "answer" && !has_pictures) break;
+    const fs::path out = report_html.parent_path() / ("slide-" + slide + ".png");
+    browse(program, report_html, "slide=" + slide,
+           {"--hide-scrollbars", "--window-size=1920,1080",
+            "--screenshot=" + fs::absolute(out).string()},
+           out, progress);
+  }
 }
 
 }  // namespace palmar

@@ -22,4 +22,9 @@ Paper paper_named(const std::string& name);
 void print_pdf(const std::filesystem::path& report_html, Paper paper,
                const Progress& progress = {});
 
+/// Pictures of 1920 x 1080 for slides beside a report's page, by the same browser:
+/// slide-answer.png, its first screen; slide-hold.png and slide-map.png, how each product is held
+/// and where it presses. A page without pictures gets the first alone. Throws as print_pdf().
+void take_slides(const std::filesystem::path& report_html, const Progress& progress = {});
+
 }  // namespace palmar

@@ -10,6 +10,7 @@
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 #include "palmar/report/picture/thumb_inset.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/study/assessment/verdict.h"
 
 namespace palmar {
@@ -112,17 +113,19 @@ void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& sc
     picture.title = kind.title + ", " + views[i].words;
     picture.alt = product_name + ": " + kind.alt + ", seen from the " + views[i].words + ".";
     picture.image = std::move(images[i]);
-    decorate(picture.image, product_name, picture.title, kind.has_bar ? &scale : nullptr);
+    decorate(picture.image, product_name, Phrases(options.language)(picture.title),
+             kind.has_bar ? &scale : nullptr);
     pictures.push_back(std::move(picture));
   }
 }
 
 /// The pad of the thumb in the last picture, which shows the opened hand; cancelled: without it.
 void add_thumb(std::vector<Picture>& pictures, const Hand& hand, const Scene& open_hand,
-               const Progress& progress) {
+               const PictureOptions& options, const Progress& progress) {
   if (pictures.empty() || progress.is_cancelled()) return;
   try {
-    add_thumb_inset(pictures.back().image, hand, open_hand, progress);
+    add_thumb_inset(pictures.back().image, hand, open_hand,
+                    Phrases(options.language)("the thumb's pad"), progress);
   } catch (const Cancelled&) {
     pictures.pop_back();
   }
@@ -258,7 +261,7 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
   };
   add({"map", "Pressure on the opened hand", "pressure drawn on the opened hand"},
       {coloured(hand.skin, pressure)}, {{"open_hand", "palm side", {0.0, 0.0, -1.0}}});
-  add_thumb(pictures, hand, {coloured(hand.skin, pressure)}, progress);
+  add_thumb(pictures, hand, {coloured(hand.skin, pressure)}, options, progress);
   add({"pressure", "Pressure on the skin", "hand with the product hidden, coloured by pressure"},
       {coloured(deformed_skin(hand, assessment), pressure)}, all);
   add({"grasp", "Hand and product", "hand holding the product", false},
@@ -272,7 +275,7 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
               friction_scene(hand.skin, assessment, used),
               {{"open_hand", "palm side", {0.0, 0.0, -1.0}}}, assessed.product.name, used, options,
               progress);
-    add_thumb(pictures, hand, friction_scene(hand.skin, assessment, used), progress);
+    add_thumb(pictures, hand, friction_scene(hand.skin, assessment, used), options, progress);
     add_views(pictures,
               {"friction", "Friction in use on the skin", "hand with the product hidden, " + shows},
               friction_scene(deformed_skin(hand, assessment), assessment, used), all,

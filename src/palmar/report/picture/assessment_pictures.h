@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/language.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/assessment/assessment.h"
 
@@ -19,8 +20,9 @@ struct Picture {
 };
 
 struct PictureOptions {
-  int width = 1000;  ///< pixels
-  int height = 700;  ///< pixels
+  int width = 1000;                        ///< pixels
+  int height = 700;                        ///< pixels
+  Language language = Language::kEnglish;  ///< of what is written in them
 };
 
 /// Colour scale for pressure [MPa] common to all products of a set: from 0 to the largest peak on

@@ -95,7 +95,7 @@ void draw_colour_bar(Image& image, const ColourScale& scale) {
   const int swatch = bottom + px(24);
   fill_rectangle(image, left - 1, swatch - 1, width + 2, px(14) + 2, frame);
   fill_rectangle(image, left, swatch, width, px(14), scale.neutral);
-  draw_text(image, left + width + px(8), swatch + px(12), "none", label);
+  draw_text(image, left + width + px(8), swatch + px(12), scale.none, label);
 }
 
 }  // namespace palmar

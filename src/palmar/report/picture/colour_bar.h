@@ -17,6 +17,7 @@ struct ColourScale {
   std::string unit;              ///< "MPa"
   Rgb neutral = kNeutralColour;  ///< nothing there
   bool is_open_ended = false;    ///< some values are above `upper` and shown in its colour
+  std::string none = "none";     ///< what the swatch of the neutral colour is called
 };
 
 /// A number above 0 rounded up to 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 x 10^n: end of a readable scale.

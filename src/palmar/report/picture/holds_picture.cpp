@@ -14,6 +14,7 @@
 #include "palmar/report/picture/hold_camera.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
+#include "palmar/report/words/phrases.h"
 
 namespace palmar {
 namespace {
@@ -74,7 +75,8 @@ std::string doubt_of(const RankedHold& hold) {
   return hold.against.empty() ? "" : "against it: " + hold.against;
 }
 
-void write_under(Image& sheet, const Tile& tile, int number, const RankedHold& hold) {
+void write_under(Image& sheet, const Tile& tile, int number, const RankedHold& hold,
+                 const Phrases& phrases) {
   const double s = tile.width / 480.0;
   const double x = tile.left + 16 * s, width = tile.width - 32 * s;
   double y = tile.top + tile.height * (1.0 - kTextShare) + 20 * s;
@@ -84,9 +86,9 @@ void write_under(Image& sheet, const Tile& tile, int number, const RankedHold& h
       y += 1.75 * cap;
     }
   };
-  write(hold.words, 11.5 * s, kSheetInk, 2);
-  write(fmt::format("score {:.1f}", hold.score), 10 * s, kSheetGrey, 1);
-  write(doubt_of(hold), 10 * s, kSheetAmber, 2);
+  write(phrases(hold.words), 11.5 * s, kSheetInk, 2);
+  write(phrases(fmt::format("score {:.1f}", hold.score)), 10 * s, kSheetGrey, 1);
+  write(phrases(doubt_of(hold)), 10 * s, kSheetAmber, 2);
   const double disc = 19 * s;
   const double cx = tile.left + 16 * s + disc, cy = tile.top + 14 * s + disc;
   fill_disc(sheet, cx, cy, disc, kSheetInk);
@@ -146,11 +148,12 @@ Image holds_picture(const Hand& hand, const Product& product, const RankedHolds&
   const double s = options.tile_width / 480.0;
   const int head = static_cast<int>(64 * s), side = options.tile_width;
   Image sheet(columns * side, head + rows * side);
-  const std::string title = "Ways to hold " + product.name;
+  const Phrases phrases(options.language);
+  const std::string title = phrases("Ways to hold " + product.name);
   draw_text(sheet, 16 * s, 40 * s, wrapped(title, columns * side - 32 * s, 16 * s, 1).front(),
             {.cap_height = 16 * s, .weight = 0.15});
   if (count == 0) {
-    draw_text(sheet, 16 * s, head + 40 * s, "no way of holding it was found",
+    draw_text(sheet, 16 * s, head + 40 * s, phrases("no way of holding it was found"),
               {.cap_height = 12 * s, .colour = kSheetAmber});
     return sheet;
   }
@@ -174,7 +177,7 @@ Image holds_picture(const Hand& hand, const Product& product, const RankedHolds&
         render_views(scene_of_hold(held), {camera},
                      {.width = side - 2, .height = picture_height - 2, .samples = 2}, part);
     paste(sheet, images.front(), tile.left + 1, tile.top + 1);
-    write_under(sheet, tile, k + 1, hold);
+    write_under(sheet, tile, k + 1, hold, phrases);
   }
   const int line = std::max(1, static_cast<int>(std::lround(s)));
   for (int r = 0; r < rows; ++r) {

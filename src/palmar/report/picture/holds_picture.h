@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/report/picture/image.h"
@@ -16,7 +17,8 @@ struct HoldsPictureOptions {
   int columns = 4;         ///< 1 to 8
   int most = 8;            ///< holds that are shown, from 1
   std::optional<Vec3> up;  ///< upwards in the picture, product frame; unset: +z
-  void check() const;      ///< throws UsageError: field, value, allowed range
+  Language language = Language::kEnglish;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 /// Ways to hold a product as one sheet, best first: hand and product of each, seen from where one

@@ -11,6 +11,7 @@
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/display_mesh.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/report/words/texts.h"
 
 namespace palmar {
@@ -93,11 +94,12 @@ std::string regions(const Hand& hand, Language language) {
 
 // {"names": of faces, "ofTriangle": uint16 per triangle of the mesh that is shown}, or null.
 std::string faces(const Product& product, const ProductFootprint& footprint,
-                  const TriangleMesh& shown) {
+                  const TriangleMesh& shown, Language language) {
   const bool is_whole = shown.triangles.size() == footprint.parent.size();
   if (product.faces == nullptr || !is_whole) return "null";
   std::vector<std::string> names;
-  for (const ProductFace& face : product.faces->face) names.push_back(title_of(face));
+  const Phrases phrases(language);
+  for (const ProductFace& face : product.faces->face) names.push_back(phrases(title_of(face)));
   std::string bytes;
   for (const int parent : footprint.parent) {
     append_16(bytes, static_cast<std::uint32_t>(product.faces->face_of_triangle[parent]));
@@ -129,7 +131,7 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
          ",\"undeformed\":" + positions(undeformed_skin(hand, assessment)) +
          ",\"product\":" + mesh_object(product.mesh, product.value, scale.upper) +
          ",\"upper\":" + exact_number(scale.upper) + ",\"regions\":" + regions(hand, language) +
-         ",\"faces\":" + faces(assessed.product, footprint, product.mesh) + "}";
+         ",\"faces\":" + faces(assessed.product, footprint, product.mesh, language) + "}";
 }
 
 }  // namespace palmar

@@ -10,6 +10,7 @@
 #include "palmar/report/picture/stroke_text.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/report/picture/thumb_inset.h"
+#include "palmar/report/words/phrases.h"
 
 namespace palmar {
 namespace {
@@ -80,7 +81,7 @@ Picture picture_of(const Scene& scene, const View& view, const std::string& prod
           .front());
   const double s = options.height / 700.0;
   draw_text(picture.image, 24 * s, 40 * s, product, {.cap_height = 14 * s, .weight = 0.15});
-  draw_text(picture.image, 24 * s, 64 * s, subtitle,
+  draw_text(picture.image, 24 * s, 64 * s, Phrases(options.language)(subtitle),
             {.cap_height = 10.5 * s, .colour = Rgb{96, 102, 110}});
   draw_colour_bar(picture.image, scale);
   return picture;
@@ -101,8 +102,10 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
   const Quat& turn = product_from_hand.rotation;
   // The bar has room for short words only; titles say which pressure.
   ColourScale mean = scales.mean, percent = scales.above;
-  mean.quantity = "Pressure";
-  percent.quantity = "Hands";
+  const Phrases phrases(options.language);
+  mean.quantity = phrases("Pressure");
+  percent.quantity = phrases("Hands");
+  const std::string pad = phrases("the thumb's pad");
   ColourScale share = scales.above;
   share.upper = 1.0;  // the field counts from 0 to 1, the bar in per cent
   std::vector<Picture> pictures;
@@ -114,7 +117,7 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
                     palm, Vec3::UnitY()},
                    name, "Mean pressure over " + hands, mean, options, progress));
     add_thumb_inset(pictures.back().image, base,
-                    {painted(base.skin, maps.skin.mean, scales.mean, kSkinColour)}, progress);
+                    {painted(base.skin, maps.skin.mean, scales.mean, kSkinColour)}, pad, progress);
     pictures.push_back(picture_of(
         {painted(base.skin, maps.skin.above, share, kSkinColour)},
         {"above_hand", "Share of " + hands + " above " + limit + ", on the open hand",
@@ -122,7 +125,7 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
          Vec3::UnitY()},
         name, "Share of " + hands + " above " + limit, percent, options, progress));
     add_thumb_inset(pictures.back().image, base,
-                    {painted(base.skin, maps.skin.above, share, kSkinColour)}, progress);
+                    {painted(base.skin, maps.skin.above, share, kSkinColour)}, pad, progress);
     Scene held = {painted(surface, maps.on_product.mean, scales.mean, kProductColour)};
     for (SceneObject& threads : threads_on_borders(product)) held.push_back(std::move(threads));
     pictures.push_back(picture_of(
@@ -164,7 +167,7 @@ Picture study_hold_picture(const Hand& hand, const StudyRecord& record, const Pr
           .front());
   const double s = options.height / 700.0;
   draw_text(picture.image, 24 * s, 40 * s, name, {.cap_height = 14 * s, .weight = 0.15});
-  draw_text(picture.image, 24 * s, 64 * s, whose,
+  draw_text(picture.image, 24 * s, 64 * s, Phrases(options.language)(whose),
             {.cap_height = 10.5 * s, .colour = Rgb{96, 102, 110}});
   return picture;
 }

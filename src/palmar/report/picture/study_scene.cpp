@@ -16,6 +16,7 @@
 #include "palmar/report/picture/packed_field.h"
 #include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_words.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/study/statistics/study_statistics.h"
 
 namespace palmar {
@@ -77,11 +78,12 @@ ShownProduct shown_product(const Product& product) {
 
 /// A grasp of the view; with `skin` if the product was in the hand.
 std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, const Hand& hand,
-                       const std::vector<ShownProduct>& products, int shown_hand) {
+                       const std::vector<ShownProduct>& products, int shown_hand,
+                       const Phrases& phrases) {
   const StudyTask task = task_at(input.results.plan, record.number);
   std::string json = "{\"hand\":" + std::to_string(shown_hand) +
                      ",\"product\":" + std::to_string(task.product) +
-                     ",\"says\":" + quoted(grasp_words(record));
+                     ",\"says\":" + quoted(phrases(grasp_words(record)));
   if (is_in_hand(record)) {
     const Product& product = input.inputs.products[place(task.product)];
     const ShownProduct& shown = products[place(task.product)];
@@ -99,7 +101,8 @@ std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, 
 }
 
 /// What the view says and draws of a product's faces; "null" if it has none.
-std::string faces_json(const StudySceneInput& input, int product, const ShownProduct& shown) {
+std::string faces_json(const StudySceneInput& input, int product, const ShownProduct& shown,
+                       const Phrases& phrases) {
   const Product& given = input.inputs.products[place(product)];
   if (given.faces == nullptr) return "null";
   std::vector<const FaceSummary*> summary(given.faces->face.size(), nullptr);
@@ -113,7 +116,7 @@ std::string faces_json(const StudySceneInput& input, int product, const ShownPro
   }
   std::string says;
   for (std::size_t f = 0; f < summary.size(); ++f) {
-    says += (f > 0 ? "," : "") + quoted(face_words(given.faces->face[f], summary[f]));
+    says += (f > 0 ? "," : "") + quoted(phrases(face_words(given.faces->face[f], summary[f])));
   }
   // A coarser mesh has other triangles than the map.
   const bool is_whole = shown.shown.mesh.triangles.size() == shown.face_of_triangle.size();
@@ -237,6 +240,7 @@ std::string study_scene_json(const StudySceneInput& input) {
                      std::to_string(plan.products.size()) + " products");
   }
   const Hand& base = *input.inputs.base;
+  const Phrases phrases(input.language);
   std::vector<ShownProduct> products(plan.products.size());
   parallel_for(static_cast<int>(products.size()),
                [&](int p) { products[place(p)] = shown_product(input.inputs.products[place(p)]); });
@@ -262,7 +266,7 @@ std::string study_scene_json(const StudySceneInput& input) {
     std::optional<Hand> hand;
     for (const StudyRecord* record : part.records) {
       if (!hand && is_in_hand(*record)) hand = input.hand_of(task_at(plan, record->number));
-      part.grasps.push_back(grasp_json(input, *record, hand ? *hand : base, products, i));
+      part.grasps.push_back(grasp_json(input, *record, hand ? *hand : base, products, i, phrases));
     }
   });
 
@@ -282,7 +286,7 @@ std::string study_scene_json(const StudySceneInput& input) {
                      ",\"triangles\":\"" + packed_triangles(base.skin.triangles) +
                      "\",\"open\":" + packed_positions(base.skin.vertices) + ",\"hands\":[";
   for (std::size_t i = 0; i < hands.size(); ++i) {
-    json += (i > 0 ? "," : "") + quoted(hand_words(plan, input.condition, hands[i]));
+    json += (i > 0 ? "," : "") + quoted(phrases(hand_words(plan, input.condition, hands[i])));
   }
   json += "],\"products\":[";
   const double radial = base.side == Side::kLeft ? -1.0 : 1.0;
@@ -312,7 +316,7 @@ std::string study_scene_json(const StudySceneInput& input) {
             ",\"radial\":" + triple(rotation * (radial * Vec3::UnitX())) +
             ",\"typical\":" + std::to_string(typical) +
             ",\"held\":" + std::to_string(input.maps[p].hands) +
-            ",\"faces\":" + faces_json(input, static_cast<int>(p), one) + ",\"maps\":" +
+            ",\"faces\":" + faces_json(input, static_cast<int>(p), one, phrases) + ",\"maps\":" +
             map_json(input.maps[p].skin, input.maps[p].on_product, one, input.scales) + "}";
   }
   json += "],\"grasps\":[";

@@ -49,6 +49,7 @@ struct StudySceneInput {
   const StudyScales& scales;
   const std::vector<FaceStatistics>& faces;  ///< of `condition` at least, of products that have any
   int most_grasps = 200;                     ///< some 35 kB each in the page
+  Language language = Language::kEnglish;
 };
 
 /// Data of the report's 3-D view (StudySceneData in apps/workbench/viewer/study_view.ts) as JSON:

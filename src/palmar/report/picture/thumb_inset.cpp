@@ -58,7 +58,7 @@ Camera thumb_pad_camera(const Hand& hand, double aspect) {
 }
 
 void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
-                     const Progress& progress) {
+                     const std::string& title, const Progress& progress) {
   const double s = picture.height / 700.0;
   const int width = static_cast<int>(kInsetWidth * picture.width);
   const int height = static_cast<int>(kInsetHeight * picture.height);
@@ -74,7 +74,7 @@ void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) picture.at(left + x, top + y) = view.at(x, y);
   }
-  draw_text(picture, left, top - 10 * s, "the thumb's pad",
+  draw_text(picture, left, top - 10 * s, title,
             {.cap_height = 10.5 * s, .colour = Rgb{96, 102, 110}});
 }
 

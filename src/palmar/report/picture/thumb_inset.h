@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
 #include "palmar/report/picture/image.h"
@@ -15,8 +17,8 @@ namespace palmar {
 Camera thumb_pad_camera(const Hand& hand, double aspect);
 
 /// Draws that view of `open_hand` (the skin of `hand` as in its reference posture, coloured) into
-/// the lower left of a picture of the opened hand. Throws Cancelled.
+/// the lower left of a picture of the opened hand, under `title`. Throws Cancelled.
 void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
-                     const Progress& progress = {});
+                     const std::string& title, const Progress& progress = {});
 
 }  // namespace palmar

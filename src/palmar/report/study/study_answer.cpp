@@ -9,6 +9,7 @@
 #include "palmar/core/text.h"
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/report/study/study_words.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/report/words/texts.h"
 #include "palmar/report/words/verdict_words.h"
 #include "palmar/study/statistics/study_statistics.h"
@@ -20,6 +21,7 @@ constexpr const char* kPeak = "peak_pressure_cells_mpa";
 constexpr const char* kArea = "contact_area_mm2";
 constexpr double kReachedByMost = 0.9;  // of the mean grip force of the weaker hold: our choice
 constexpr int kHandsOfRedesign = 12;
+constexpr int kFewHands = 3;    // that are named one by one: our choice
 constexpr int kManyHands = 30;  // of a study that is to decide; as in Xie 2014, chapter 5
 
 StudyQuantity hand_quantity(const std::string& key) {
@@ -35,6 +37,7 @@ class StudySpeaker {
       : results_(results),
         options_(options),
         texts_(options.language),
+        phrases_(options.language),
         condition_(conditions_of(results.plan).front()) {}
 
   StudyAnswer speak() {
@@ -102,8 +105,16 @@ class StudySpeaker {
       look_at_report();
       return;
     }
-    next(key, "palmar study run " + line + population() + " --hands " + std::to_string(hands) +
-                  added + " --out again.palmar");
+    next(key, "palmar study run " + line + mass() + population() + " --hands " +
+                  std::to_string(hands) + added + " --out again.palmar");
+  }
+  /// " --mass-kg 0.4" if all products have the same.
+  std::string mass() const {
+    const double first = results_.plan.products.front().mass;
+    for (const StudyProduct& one : results_.plan.products) {
+      if (one.mass != first) return "";
+    }
+    return first > 0.0 ? " --mass-kg " + significant(first, 4) : "";
   }
   std::string population() const {
     const std::string& name = results_.plan.populations.front().population.name;
@@ -138,11 +149,27 @@ class StudySpeaker {
                                 {"pressure", texts_.number(worst->peak_pressure_cells, 2)}}));
   }
 
+  /// "Hand 1, P5 woman, doesn't hold mug: slips out." for the few that don't.
+  void add_who_does_not(int p) {
+    for (const int hand : hands_of(results_.plan, condition_)) {
+      const StudyRecord* record = record_of(results_, condition_, p, hand);
+      if (record == nullptr || is_in_hand(*record)) continue;
+      answer_.reasons.push_back(texts_(
+          "study.not_held_by", {{"hand", phrases_(hand_words(results_.plan, condition_, hand))},
+                                {"product", name(p)},
+                                {"why", phrases_(plain_words(record->outcome))}}));
+    }
+  }
+
   /// Products that not every hand holds.
   void add_missing() {
     for (int p = 0; p < static_cast<int>(statistics_.size()); ++p) {
       const OutcomeCounts& outcomes = statistics_[as_index(p)].outcomes;
       if (outcomes.in_hand() == outcomes.hands()) continue;
+      if (outcomes.hands() - outcomes.in_hand() <= kFewHands) {
+        add_who_does_not(p);
+        continue;
+      }
       answer_.reasons.push_back(
           texts_("study.suits", {{"product", name(p)},
                                  {"count", std::to_string(outcomes.in_hand())},
@@ -168,7 +195,9 @@ class StudySpeaker {
                              {"mean", texts_.number(peak->summary.mean, 2)},
                              {"low", texts_.number(has_ends ? peak->p5 : peak->summary.min, 2)},
                              {"high", texts_.number(has_ends ? peak->p95 : peak->summary.max, 2)}});
+    if (one.outcomes.hands() - one.outcomes.in_hand() <= kFewHands) add_who_does_not(0);
     add_hardest_region(0);
+    if (!is_drawn_by_chance(results_.plan)) answer_.reasons.push_back(texts_("study.chosen"));
     redesign(0);
   }
 
@@ -286,8 +315,9 @@ class StudySpeaker {
     const std::string same = " --grip-force-n " + significant(force, 4);
     if (is_redesign) {
       next("equal_redesign",
-           changed_command(options_.command, {"--posture", "--grip-force-n", "--out"},
-                           "--posture new" + same + " --out equal"));
+           changed_command(options_.command,
+                           {"--posture", "--hold-posture", "--grip-force-n", "--out"},
+                           "--hold-posture new" + same + " --out equal"));
     } else {
       run_again("equal_force", statistics_.front().outcomes.hands(), same);
     }
@@ -296,6 +326,7 @@ class StudySpeaker {
   const StudyResults& results_;
   const StudyAnswerOptions& options_;
   Texts texts_;
+  Phrases phrases_;
   StudyCondition condition_;
   std::vector<ProductStatistics> statistics_;
   StudyAnswer answer_;

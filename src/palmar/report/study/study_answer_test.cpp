@@ -123,9 +123,10 @@ TEST(StudyAnswer, AKeptPostureSaysThatItIsHeldLessFirmly) {
                 .store = "",
                 .command = "palmar redesign press a.stl --unit mm --hands 6 --out pressed"});
   EXPECT_THAT(answer.sentence, HasSubstr("held less firmly: with 74 N instead of 107 N"));
-  EXPECT_EQ(answer.command,
-            "palmar redesign press a.stl --unit mm --hands 6 --posture new --grip-force-n 96 --out "
-            "equal");
+  EXPECT_EQ(
+      answer.command,
+      "palmar redesign press a.stl --unit mm --hands 6 --hold-posture new --grip-force-n 96 --out "
+      "equal");
 }
 
 TEST(StudyAnswer, NamesProductsThatNotEveryHandHolds) {

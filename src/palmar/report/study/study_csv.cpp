@@ -261,14 +261,20 @@ CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analys
 }
 
 std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis) {
-  return {{"statistics.csv", statistics_table(results, analysis)},
-          {"comparison.csv", comparison_csv(results, analysis)},
-          {"accommodation.csv", accommodation_table(results, analysis)},
-          {"outcomes.csv", outcome_table(results, analysis)},
-          {"holds.csv", holds_table(results, analysis)},
-          {"regions.csv", region_table_of(results, analysis)},
-          {"size_dependence.csv", dependence_table(results, analysis)},
-          {"sizes.csv", size_table(results, analysis)}};
+  return {{"statistics.csv", statistics_table(results, analysis),
+           "One quantity of one product under one condition, over the hands that hold it."},
+          {"comparison.csv", comparison_csv(results, analysis),
+           "One quantity of two products over the same hands."},
+          {"accommodation.csv", accommodation_table(results, analysis),
+           "How many hands a product suits, and whom it leaves out."},
+          {"outcomes.csv", outcome_table(results, analysis), "How the grasps of a product ended."},
+          {"holds.csv", holds_table(results, analysis), "By which part and how a product is held."},
+          {"regions.csv", region_table_of(results, analysis),
+           "One region of the hand, mean over the hands that hold the product."},
+          {"size_dependence.csv", dependence_table(results, analysis),
+           "How a quantity depends on the size of the hand."},
+          {"sizes.csv", size_table(results, analysis),
+           "Which sizes of a product serve how many hands."}};
 }
 
 }  // namespace palmar

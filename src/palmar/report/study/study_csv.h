@@ -14,6 +14,7 @@ namespace palmar {
 struct NamedTable {
   std::string name;  ///< "comparison.csv"
   CsvTable table;
+  std::string about;  ///< what a row is, a sentence
 };
 
 /// The statistics of a study in full digits: statistics.csv (per condition, product and quantity),

@@ -426,28 +426,30 @@ std::string study_page(const StudyPage& page) {
   for (std::size_t c = 0; c < page.analysis.conditions.size(); ++c) {
     conditions.push_back(condition_json(page, c, attachments));
   }
-  const PageJson json = {{"kind", "study"},
-                         {"maker", maker_json()},
-                         {"title", plan.title.empty() ? plan.name : plan.title},
-                         {"hands", plan.hands.size()},
-                         {"grasps", page.results.records.size()},
-                         {"grasps_planned", task_count(plan)},
-                         {"vocabulary", vocabulary_json(page.base)},
-                         {"products", std::move(products)},
-                         {"language", name_of(page.language)},
-                         {"answer", answer_json(page.answer)},
-                         {"verdict", verdict_json(page)},
-                         {"warnings", warnings_json(page.warnings)},
-                         {"limits", std::move(limits)},
-                         {"threshold_mpa", page.threshold},
-                         {"main_quantities", main_quantities()},
-                         {"quantities", std::move(quantities)},
-                         {"conditions", std::move(conditions)},
-                         {"scene", scene_json(page, attachments)},
-                         {"provenance", provenance_json(page)}};
-  const std::string text = page_text(json);
-  attachments["data"] = script_escaped(text);
-  return render_page(text, std::move(attachments));
+  PageJson json = {{"kind", "study"},
+                   {"maker", maker_json()},
+                   {"title", plan.title.empty() ? plan.name : plan.title},
+                   {"hands", plan.hands.size()},
+                   {"grasps", page.results.records.size()},
+                   {"grasps_planned", task_count(plan)},
+                   {"vocabulary", vocabulary_json(page.base)},
+                   {"products", std::move(products)},
+                   {"language", name_of(page.language)},
+                   {"desk", desk_json(page.extras, attachments)},
+                   {"answer", answer_json(page.answer)},
+                   {"verdict", verdict_json(page)},
+                   {"warnings", warnings_json(page.warnings)},
+                   {"limits", std::move(limits)},
+                   {"threshold_mpa", page.threshold},
+                   {"main_quantities", main_quantities()},
+                   {"quantities", std::move(quantities)},
+                   {"conditions", std::move(conditions)},
+                   {"scene", scene_json(page, attachments)},
+                   {"provenance", provenance_json(page)}};
+  // What scripts read stays as it is; what people read is in their language.
+  attachments["data"] = script_escaped(page_text(json));
+  put_in_language(json, Phrases(page.language));
+  return render_page(page_text(json), std::move(attachments));
 }
 
 }  // namespace palmar

@@ -7,6 +7,7 @@
 
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/page_json.h"
+#include "palmar/report/page/report_extras.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/report/study/study_answer.h"
 #include "palmar/study/statistics/face_statistics.h"
@@ -32,6 +33,7 @@ struct StudyPage {
   std::string digest;                        ///< of the store; "": not finished
   Language language = Language::kEnglish;
   StudyAnswer answer;
+  ReportExtras extras = {};
 };
 
 /// The study as one HTML document that needs no other file and no network (its content policy

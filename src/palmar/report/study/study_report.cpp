@@ -79,7 +79,9 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
     const std::string name = file_name(plan.products[p].name, used);
     if (maps[p].hands == 0) continue;
     const StudyRecord* grasp = typical_grasp(input.results, condition, static_cast<int>(p));
-    const PictureOptions drawing{.width = options.picture_width, .height = options.picture_height};
+    const PictureOptions drawing{.width = options.picture_width,
+                                 .height = options.picture_height,
+                                 .language = options.language};
     std::vector<Picture> pictures =
         study_pictures(*input.inputs.base, input.inputs.products[p], plan.products[p].name, maps[p],
                        grasp != nullptr ? grasp->product_from_hand : Rigid3{}, scales,
@@ -100,7 +102,9 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
           .name = picture.name,
           .title = picture.title,
           .alt = picture.alt,
-          .png = encode_png(narrowed(picture.image, kEmbeddedWidth), PngEffort::kSmall),
+          .png = encode_png(
+              narrowed(picture.image, options.extras.slides ? picture.image.width : kEmbeddedWidth),
+              PngEffort::kSmall),
           .thumbnail = ""};
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) {
@@ -163,11 +167,16 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
 
   progress.update(0.0, "statistics");
   const StudyAnalysis analysis = analyse_study(results, options.comparison);
+  std::vector<DeskTable> desk;
   for (const NamedTable& one : study_csv(results, analysis)) {
     write_file(root / one.name, format_csv(one.table));
+    desk.push_back({std::filesystem::path(one.name).stem().string(), one.about, one.table});
   }
+  write_desk_tables(root, plan.title.empty() ? plan.name : plan.title, desk, options.extras);
   progress.update(0.1, "figures");
-  const std::vector<StudyFigure> figures = study_figures(results, analysis);
+  const Phrases phrases(options.language);
+  std::vector<StudyFigure> figures = study_figures(results, analysis);
+  for (StudyFigure& one : figures) one.figure.say(phrases);
   if (options.figure_files) write_figures(root / "figures", figures);
 
   progress.update(0.2, "maps");
@@ -180,7 +189,11 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
       mean_maps(plan, input.records, input.inputs.base->skin.vertex_count(), vertices,
                 {.threshold = options.threshold});
   maps.resize(plan.products.size());  // the first condition's
-  const StudyScales scales = study_scales(results, maps);
+  StudyScales scales = study_scales(results, maps);
+  for (ColourScale* one : {&scales.grasp, &scales.mean, &scales.sd, &scales.above}) {
+    one->quantity = phrases(one->quantity);
+    one->none = phrases(one->none);
+  }
 
   const std::vector<FaceStatistics> faces =
       face_statistics(plan, input.inputs.products, input.records, {.threshold = options.threshold});
@@ -193,7 +206,7 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   std::string scene;
   if (options.most_grasps > 0) {
     scene = study_scene_json({results, input.inputs, maps, condition, input.records, hand_of,
-                              scales, faces, options.most_grasps});
+                              scales, faces, options.most_grasps, options.language});
   }
   std::vector<std::vector<EncodedPicture>> pictures(plan.products.size());
   if (options.pictures) {
@@ -221,7 +234,8 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
                        study_answer(results, {.language = options.language,
                                               .comparison = options.comparison,
                                               .store = "",
-                                              .command = options.command})};
+                                              .command = options.command}),
+                       options.extras};
   write_file(root / "report.html", study_page(page));
 }
 

@@ -6,6 +6,7 @@
 
 #include "palmar/core/language.h"
 #include "palmar/core/progress.h"
+#include "palmar/report/page/report_extras.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/study/statistics/study_comparison.h"
 
@@ -21,6 +22,7 @@ struct StudyReportOptions {
   bool figure_files = true;           ///< figures/*.svg, .png, .pdf
   int picture_width = 1000;           ///< pixels
   int picture_height = 700;           ///< pixels
+  ReportExtras extras = {};           ///< whose it is, units, files for other programs
   void check() const;                 ///< throws UsageError: field, value, allowed range
 };
 

@@ -68,15 +68,15 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
   }
   words += ".";
   // Who doesn't get hold of it stands above; here whom it asks too much of.
-  std::string asked;
   for (const auto& [cause, people] : exclusion.causes) {
-    const bool is_asked = cause == ExclusionCause::kRange || cause == ExclusionCause::kStrength ||
-                          cause == ExclusionCause::kNails;
-    if (!is_asked || people.count == 0) continue;
-    asked += (asked.empty() ? "" : ", ") + words_of(cause) + " " + std::to_string(people.count);
-  }
-  if (!asked.empty()) {
-    words += " It asks too much of " + asked + " of " + std::to_string(exclusion.excluded.n) + ".";
+    if (people.count == 0) continue;
+    const std::string hands =
+        std::to_string(people.count) + " of " + std::to_string(exclusion.excluded.n) + " hands";
+    if (cause == ExclusionCause::kRange || cause == ExclusionCause::kStrength) {
+      words += " It asks for more " + words_of(cause) + " than " + hands + " have.";
+    } else if (cause == ExclusionCause::kNails) {
+      words += " Nails are in the way of " + hands + ".";
+    }
   }
   return words;
 }

@@ -8,6 +8,7 @@
 #include "palmar/core/text.h"
 #include "palmar/grasp/rest/task_force.h"
 #include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/phrases.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {
@@ -27,7 +28,8 @@ std::string with_capital(std::string text) { return capitalised(std::move(text))
 std::string why_not_held(const Assessment& assessment, const Texts& texts) {
   std::vector<std::string> clauses;
   for (const HoldDoubt& doubt : doubts_of(assessment)) {
-    clauses.push_back(texts("doubt." + doubt.key, {{"words", doubt.words}}));
+    clauses.push_back(
+        texts("doubt." + doubt.key, {{"words", Phrases(texts.language())(doubt.words)}}));
   }
   if (clauses.empty()) {
     clauses.push_back(texts("status." + std::string(name_of(assessment.grasp.status))));
@@ -41,7 +43,7 @@ std::string hardest_words(const AssessedProduct& product, const HardestPlace& pl
                                                  {"pressure", texts.number(place.pressure, 2)}});
   if (place.face && product.product.faces != nullptr) {
     const ProductFace& face = product.product.faces->face[*place.face];
-    words += " " + texts("hardest.face", {{"face", title_of(face)}});
+    words += " " + texts("hardest.face", {{"face", Phrases(texts.language())(title_of(face))}});
   } else if (place.on_product) {
     const Vec3& p = *place.on_product;
     words += " " + texts("hardest.place", {{"x", texts.number(std::round(p.x()), 1)},

@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/records/study/people_range.h"
 #include "palmar/records/study/study_store.h"
 #include "palmar/report/study/study_report.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -31,9 +32,10 @@ StudyRequest study_of(const RedesignRequest& asked) {
   request.hand = asked.hand;
   if (asked.seed != 0) request.seed = asked.seed;
   for (const std::string& name : asked.populations) {
-    request.populations.push_back(population_request(name));
-    PopulationRequest& one = request.populations.back();
-    if (one.table.empty()) one.sampling.hands = asked.hands;  // else given hands
+    for (PopulationRequest& one : population_requests(name)) {
+      if (one.table.empty()) one.sampling.hands = asked.hands;  // else given hands
+      request.populations.push_back(std::move(one));
+    }
   }
   request.grips = asked.grips;
   ProductRequest product;

@@ -59,6 +59,7 @@ std::filesystem::path report_study(const StudyReportRequest& request, const Prog
   write_study_report(request.folder, input, request.report, progress);
   const std::filesystem::path page = std::filesystem::path(request.folder) / "report.html";
   if (request.pdf) print_pdf(page, *request.pdf, progress);
+  if (request.report.extras.slides) take_slides(page, progress);
   return page;
 }
 

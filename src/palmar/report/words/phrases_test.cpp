@@ -1,0 +1,93 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/report/words/phrases.h"
+
+#include <gtest/gtest.h>
+
+#include "palmar/report/page/page_json.h"
+
+namespace palmar {
+namespace {
+
+const Phrases& german() {
+  static const Phrases phrases(Language::kGerman);
+  return phrases;
+}
+
+TEST(Phrases, EnglishStaysAsItIs) {
+  const Phrases english(Language::kEnglish);
+  EXPECT_EQ(english("held by five fingers"), "held by five fingers");
+}
+
+TEST(Phrases, ValuesAreLookedUpInTheirTurnAndNumbersGetCommas) {
+  EXPECT_EQ(german()("held by five fingers; the thumb's tip and the tip of the ring finger do not "
+                     "touch"),
+            "von fünf Fingern gehalten; die Kuppe des Daumens und die Kuppe des Ringfingers "
+            "berühren es nicht");
+  EXPECT_EQ(german()("not in balance after 71 steps: 1.2 N are left over at a grip force of 107 N"),
+            "nach 71 Schritten nicht im Gleichgewicht: bei einer Greifkraft von 107 N bleiben "
+            "1,2 N übrig");
+  EXPECT_EQ(german()("in little_proximal: 0.0957 of 0.496 MPa"),
+            "little_proximal: 0,0957 von 0,496 MPa");
+}
+
+TEST(Phrases, SentencesInARowAreLookedUpOneByOne) {
+  EXPECT_EQ(german()("With a friction coefficient of 0.60 the load of 3.43 N is held; friction "
+                     "could hold 37.4 times as much. The pressures' own sum, 42.1 N, is not part "
+                     "of this balance: it is taken as held by the grip."),
+            "Mit der Reibungszahl 0,60 wird die Last von 3,43 N gehalten; die Reibung könnte das "
+            "37,4-Fache halten. Die Summe der Drücke selbst, 42,1 N, gehört nicht zu dieser "
+            "Bilanz: sie gilt als vom Griff gehalten.");
+}
+
+TEST(Phrases, AShortSentenceDoesNotSwallowALongOne) {
+  // "{grip} of the {part}" would fit these, too.
+  EXPECT_EQ(german()("friction could hold it. Until the skin has taken it up, the product moves by "
+                     "0.050 mm and turns by 0.011°, and 1.5 % of the loaded skin slips a little."),
+            "friction could hold it. Bis die Haut sie aufgenommen hat, bewegt sich das Produkt um "
+            "0,050 mm und dreht sich um 0,011°, und 1,5 % der belasteten Haut rutschen ein wenig.");
+  EXPECT_EQ(german()("fixed hook of the loop handle, fingers through it, 50 % along it"),
+            "Hakengriff: Henkel, Finger hindurch, bei 50 % der Länge");
+}
+
+TEST(Phrases, NamesStayEvenIfTheyAreWords) {
+  // A product whose name is a word of the table, and whose name has a point.
+  EXPECT_EQ(german()("handle: how it is held, palm side."),
+            "handle: wie es gehalten wird, Handtellerseite.");
+  EXPECT_EQ(german()("v1.5: how it is held, palm side."),
+            "v1.5: wie es gehalten wird, Handtellerseite.");
+}
+
+TEST(Phrases, WhatIsNotKnownStays) {
+  EXPECT_EQ(german()("a sentence of nobody, by nobody"), "a sentence of nobody, by nobody");
+  EXPECT_EQ(german()(""), "");
+  EXPECT_EQ(german()("0.25"), "0.25");  // a number alone may be a name or a file
+  // A list is looked up as a whole or not at all.
+  EXPECT_EQ(german()("palm side, unknown side"), "palm side, unknown side");
+}
+
+TEST(Phrases, APlaceForNumbersTakesNumbersOnly) {
+  EXPECT_EQ(german()("3 of 6"), "3 von 6");
+  EXPECT_EQ(german()("queen of hearts"), "queen of hearts");
+}
+
+TEST(Phrases, JsonIsPutIntoTheLanguageButNotItsKeysAndNames) {
+  PageJson json = {{"name", "palm side"},
+                   {"status", "none"},
+                   {"message", "held by five fingers"},
+                   {"notes", {"2 pairs of triangles go through each other"}},
+                   {"indices", {{{"key", "grip_force_n"}, {"name", "grip force"}}}},
+                   {"source", "grip force.stl"},
+                   {"pictures", {{{"title", "Hand and product, palm side"}}}}};
+  put_in_language(json, german());
+  EXPECT_EQ(json["name"], "palm side");
+  EXPECT_EQ(json["status"], "none");
+  EXPECT_EQ(json["message"], "von fünf Fingern gehalten");
+  EXPECT_EQ(json["notes"][0], "2 Paare von Dreiecken durchdringen einander");
+  EXPECT_EQ(json["indices"][0]["name"], "Greifkraft");
+  EXPECT_EQ(json["source"], "grip force.stl");
+  EXPECT_EQ(json["pictures"][0]["title"], "Hand und Produkt, Handtellerseite");
+}
+
+}  // namespace
+}  // namespace palmar
