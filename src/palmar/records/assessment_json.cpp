@@ -128,6 +128,14 @@ Json band_or_null(const ContactResult& contact, const RegionContact* region) {
   return nullptr;
 }
 
+Json fallback_object(const ContactFallbacks& fallbacks) {
+  Json json = Json::object();
+  for (const FallbackCount& one : kFallbackCounts) {
+    json[std::string(one.name)] = fallbacks.*one.count;
+  }
+  return json;
+}
+
 /// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
 Json contact_object(const ContactResult& contact, double grip_force) {
   Json json = {{"status", name_of_status(contact.status)},
@@ -139,11 +147,7 @@ Json contact_object(const ContactResult& contact, double grip_force) {
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
   json["iterations"] = contact.iterations;
-  Json fallbacks = Json::object();
-  for (const FallbackCount& one : kFallbackCounts) {
-    fallbacks[std::string(one.name)] = contact.fallbacks.*one.count;
-  }
-  json["fallbacks"] = std::move(fallbacks);
+  json["fallbacks"] = fallback_object(contact.fallbacks);
   Json regions = Json::array();
   for (const RegionContact& region : contact.regions) {
     Json one = {{"region", name_of(region.region)}};
@@ -238,7 +242,8 @@ Json balance_object(const Balance& balance) {
           {"moved_mm", balance.moved},
           {"turned_deg", balance.turned * kDegreesPerRadian},
           {"slip_direction_in_hand", balance.slip ? vector3(*balance.slip) : Json(nullptr)},
-          {"iterations", balance.iterations}};
+          {"iterations", balance.iterations},
+          {"fallbacks", fallback_object(balance.fallbacks)}};
 }
 
 Json product_object(const Product& product) {

@@ -118,6 +118,7 @@ AssessmentSet example() {
   ContactResult& contact = assessment.contact;
   contact.status = ContactStatus::kSolved;
   contact.complementarity_error = 1e-12;
+  contact.fallbacks.dense_solutions = 2;
   RegionContact region;
   region.region = Region::kIndexDistal;
   region.force = 0.1 + 0.2;  // 0.30000000000000004
@@ -159,6 +160,8 @@ TEST(AssessmentJson, HasTheShapeThatOtherProgramsRelyOn) {
 TEST(AssessmentJson, NumbersReadBackExactlyInTheirUnits) {
   const PlainJson one = PlainJson::parse(assessment_json(example()))["assessments"][0];
   EXPECT_EQ(one["contact"]["force_n"].get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(one["contact"]["fallbacks"]["dense_solutions"], 2);
+  EXPECT_EQ(one["contact"]["fallbacks"]["unsolved_regions"], 0);
   EXPECT_EQ(one["contact"]["centre_mm"], PlainJson({1.0, 2.0, 3.0}));
   EXPECT_DOUBLE_EQ(one["grasp"]["posture"]["index_pip_flexion_deg"].get<double>(), 45.0);
   EXPECT_EQ(one["grasp"]["posture"].size(), 23u);

@@ -79,6 +79,7 @@ struct StudyRecord {
   std::vector<IndexRecord> indices;   ///< those with a value
   Posture posture;
   Rigid3 product_from_hand;
+  ContactFallbacks fallbacks;    ///< on the way to rest and of the contact in the end
   SparseField skin_pressure;     ///< MPa, per vertex of the hand's skin
   SparseField product_pressure;  ///< MPa, per vertex of the product's map (product_map())
   double seconds = 0.0;          ///< spent; not a result

@@ -267,6 +267,8 @@ class StudySubject {
       throw Failure{"contact: " + contact.message};
     }
     take_contact(contact, record);
+    record.fallbacks = held.balance.fallbacks;
+    record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
       record.grip_force = grip_force(contact, *product.distance).force;
       record.product_pressure =

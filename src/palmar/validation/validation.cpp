@@ -28,6 +28,8 @@ struct CaseEntry {
 constexpr CaseEntry kCases[] = {
     {"G1", "closed forms of the half-space: sphere, flat punch, ellipse, two punches", false, 2,
      validate_half_space},
+    {"skin", "closed forms on flat skins of 2.5, 1.25 and 0.6 mm, by the solver of assess", true,
+     10, validate_skin_meshes},
     {"layer", "incompressible layer bonded to bone under sphere and punch", false, 4,
      validate_layer},
     {"G2", "template's middle fingertip on a plate at 30 degrees", false, 4, validate_fingertip},
@@ -37,6 +39,8 @@ constexpr CaseEntry kCases[] = {
     {"G5", "shares of hand regions on cylinders of 32, 48 and 64 mm", false, 4, validate_shares},
     {"G6", "prism 30 x 40 mm with fillets of 3 and 10 mm in the same posture", false, 3,
      validate_fillets},
+    {"predictions", "published figures that nothing was chosen on: finger shares, fingertip area",
+     true, 10, validate_predictions},
     {"coupling", "regions in one problem or one by one", false, 6, validate_coupling},
     {"motion", "force along a closing motion in steps of 0.05 mm, 51 mm cylinder", true, 15,
      validate_motion},

@@ -76,6 +76,10 @@ ValidationRows validate_grip_force(ValidationBench& bench);
 ValidationRows validate_shares(ValidationBench& bench);
 ValidationRows validate_fillets(ValidationBench& bench);
 ValidationRows validate_coupling(ValidationBench& bench);
+// validation_skin.cpp
+ValidationRows validate_skin_meshes(ValidationBench& bench);
+// validation_predictions.cpp
+ValidationRows validate_predictions(ValidationBench& bench);
 // validation_motion.cpp
 ValidationRows validate_motion(ValidationBench& bench);
 ValidationRows validate_structure(ValidationBench& bench);

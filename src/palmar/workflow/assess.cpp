@@ -124,6 +124,10 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
                                         options.balance.share_of_strength->force(grip),
                                         options.balance.asked_words(grip)));
     }
+    const std::string fallbacks = fallbacks_in_words(done.assessment.contact.fallbacks);
+    if (!fallbacks.empty()) {
+      note_to(request.note, done.product.name + ": contact solver: " + fallbacks);
+    }
     if (done.assessment.contact.status == ContactStatus::kNotConverged) {
       note_to(request.note, done.product.name + ": " + done.assessment.contact.message);
       outcome.has_converged = false;

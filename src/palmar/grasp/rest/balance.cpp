@@ -404,6 +404,7 @@ void Settling::finish(Balance& balance) const {
   balance.friction = options_->friction;
   balance.friction_use = mechanics_.friction_use();
   balance.friction_force = mechanics_.friction_force();
+  balance.fallbacks = mechanics_.fallbacks();
   if (is_by_muscles_) balance.strength_use = muscles_ / options_->strength;
   judge_way(balance);
 }

@@ -85,6 +85,7 @@ struct Balance {
   std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
                                      ///< frame, N
   int iterations = 0;
+  ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
 };
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,

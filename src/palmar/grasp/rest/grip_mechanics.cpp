@@ -71,6 +71,7 @@ bool GripMechanics::look(const GripState& state) {
   const Hand& hand = hand_->hand();
   posed_ = pose_skin(hand, state.posture);
   solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, contact_);
+  fallbacks_ += contact_.fallbacks;
   force_.setZero();
   squeeze_.setZero();
   stiffness_.setZero();

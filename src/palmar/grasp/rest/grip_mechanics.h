@@ -54,6 +54,8 @@ class GripMechanics {
   Closing closing(const Posture& posture, const Posture& rate) const;
 
   const ContactResult& contact() const { return contact_; }
+  /// Of all contacts solved so far.
+  const ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< of the contact on the coordinates
   const GripMatrix& stiffness() const { return stiffness_; }
   /// Change of the sum of normal forces with the coordinates, N per mm and rad.
@@ -83,6 +85,7 @@ class GripMechanics {
   double friction_ = 0.0;
   ContactSolver::Impl solver_;
   ContactResult contact_;
+  ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
   std::array<std::vector<char>, kSqueezeJoints> is_moved_;  ///< per joint and skin vertex
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm

@@ -52,6 +52,7 @@ Balance press_down(const PreparedHand& hand, const Product& product, Grasp& gras
     balance.moved = std::abs(moved);
     balance.grip_force = pressed;
     balance.sum_of_normals = normals;
+    balance.fallbacks = mechanics.fallbacks();
     return balance;
   };
   if (!look(0.0)) {

@@ -196,6 +196,7 @@ std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& rec
         record.demand.grip_strength, record.demand.nail_room}) {
     row.push_back(shortest(value));
   }
+  row.push_back(fallbacks_in_words(record.fallbacks));
   if (!record.hold) {
     row.resize(row.size() + 7);
     return row;
@@ -244,6 +245,7 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
                                            "demand_range_share",
                                            "demand_grip_strength_n",
                                            "demand_nail_room_mm",
+                                           "solver_fallbacks",
                                            "part",
                                            "part_name",
                                            "part_kind",

@@ -152,6 +152,10 @@ StudyRecord record_for(std::int64_t number) {
     record.skin_pressure.vertex.push_back(300 * v + 1);
     record.skin_pressure.value.push_back(static_cast<float>(0.01 * v + x));
   }
+  if (number % 5 == 3) {
+    record.fallbacks.lemke_solutions = static_cast<int>(number);
+    record.fallbacks.band_levels = 1;
+  }
   record.seconds = 0.5 + x;
   return record;
 }
@@ -194,6 +198,7 @@ void expect_same(const StudyRecord& a, const StudyRecord& b) {
   EXPECT_EQ(a.skin_pressure.vertex, b.skin_pressure.vertex);
   EXPECT_EQ(a.skin_pressure.value, b.skin_pressure.value);
   EXPECT_EQ(a.product_pressure.vertex, b.product_pressure.vertex);
+  EXPECT_EQ(a.fallbacks, b.fallbacks);
 }
 
 void fill(const fs::path& path, const std::vector<std::int64_t>& numbers) {
@@ -550,8 +555,10 @@ TEST(StudyStore, ExportsEveryTableWithUnits) {
   EXPECT_EQ(std::count(grasps.begin(), grasps.end(), '\n'), 21);
   EXPECT_THAT(grasps, HasSubstr("\n5,1,given,person 1,none,default,cylinder,tripod,failed,\"no, "
                                 "\"\"reason\"\"\",medium_wrap,0,0,"));
-  EXPECT_THAT(grasps, HasSubstr("demand_nail_room_mm,part,part_name,part_kind,along,toward,"
-                                "turn_deg,hold\n"));
+  EXPECT_THAT(
+      grasps,
+      HasSubstr("demand_nail_room_mm,solver_fallbacks,part,part_name,part_kind,along,toward,"
+                "turn_deg,hold\n"));
   EXPECT_THAT(grasps, HasSubstr(",2,handle,loop,"));
   EXPECT_THAT(grasps, HasSubstr("\"medium wrap of the \"\"handle\"\"\"\n"));
   EXPECT_THAT(read_file(folder / "tables/hands.csv"),

@@ -54,6 +54,8 @@ CREATE TABLE grasp_index(number INTEGER NOT NULL, quantity INTEGER NOT NULL, val
 CREATE TABLE hold(number INTEGER PRIMARY KEY, part INTEGER NOT NULL, part_name TEXT NOT NULL,
   part_kind TEXT NOT NULL, grip TEXT NOT NULL, along REAL NOT NULL, edge REAL NOT NULL,
   toward INTEGER NOT NULL, turn_rad REAL NOT NULL, over_end INTEGER NOT NULL, words TEXT NOT NULL);
+CREATE TABLE fallback(number INTEGER NOT NULL, name TEXT NOT NULL, count INTEGER NOT NULL,
+  PRIMARY KEY(number, name)) WITHOUT ROWID;
 CREATE TABLE field(number INTEGER PRIMARY KEY, skin_pressure BLOB NOT NULL,
   product_pressure BLOB NOT NULL);
 )sql";
@@ -189,6 +191,7 @@ StudyTableWriter::StudyTableWriter(SqliteFile& file, const StudyPlan& plan)
   // A study that an older program began goes on without.
   if (has_table(file, "hold"))
     hold_.emplace(file, "INSERT INTO hold VALUES(?,?,?,?,?,?,?,?,?,?,?)");
+  if (has_table(file, "fallback")) fallback_.emplace(file, "INSERT INTO fallback VALUES(?,?,?)");
   SqliteStatement rows(file, "SELECT quantity, key FROM quantity");
   while (rows.next()) quantity_[rows.text(1)] = rows.integer(0);
 }
@@ -261,6 +264,17 @@ void StudyTableWriter::write(const StudyRecord& record) {
   }
   field_.bind(1, record.number).bind_blob(2, pack(skin)).bind_blob(3, pack(product)).run();
   if (record.hold && hold_) write_hold(record.number, *record.hold);
+  if (fallback_) write_fallbacks(record.number, record.fallbacks);
+}
+
+/// Only what there is: most grasps have none.
+void StudyTableWriter::write_fallbacks(std::int64_t number, const ContactFallbacks& fallbacks) {
+  for (const FallbackCount& one : kFallbackCounts) {
+    const int count = fallbacks.*one.count;
+    if (count == 0) continue;
+    digest_.add(std::string(one.name) + " " + std::to_string(count));
+    fallback_->bind(1, number).bind(2, one.name).bind(3, count).run();
+  }
 }
 
 void StudyTableWriter::write_hold(std::int64_t number, const StudyHold& held) {
@@ -332,7 +346,12 @@ StudyTableReader::StudyTableReader(SqliteFile& file, bool with_fields,
   while (rows.next()) quantity_[rows.integer(0)] = rows.text(1);
   has_region_ = region_.next();
   has_index_ = index_.next();
-  // Studies of older programs have no such table.
+  // Studies of older programs have no such tables.
+  if (has_table(file, "fallback")) {
+    fallback_.emplace(file, "SELECT number, name, count FROM fallback" +
+                                only_number("number", only) + " ORDER BY number");
+    has_fallback_ = fallback_->next();
+  }
   if (!has_table(file, "hold")) return;
   hold_.emplace(file,
                 "SELECT number, part, part_name, part_kind, grip, along, edge, toward, turn_rad, "
@@ -374,6 +393,7 @@ bool StudyTableReader::next(StudyRecord& record) {
   read_regions(record);
   read_indices(record);
   read_hold(record);
+  read_fallbacks(record);
   if (checksum(record_bytes(record)) != static_cast<std::uint32_t>(grasp_.integer(16))) {
     throw InputError(what + " is damaged: its values don't have the checksum they were kept with");
   }
@@ -428,6 +448,17 @@ void StudyTableReader::read_hold(StudyRecord& record) {
   held.words = hold_->text(10);
   record.hold = std::move(held);
   has_hold_ = hold_->next();
+}
+
+void StudyTableReader::read_fallbacks(StudyRecord& record) {
+  while (has_fallback_ && fallback_->integer(0) <= record.number) {
+    const std::string name = fallback_->text(1);
+    for (const FallbackCount& one : kFallbackCounts) {
+      if (name != one.name || fallback_->integer(0) < record.number) continue;
+      record.fallbacks.*one.count = static_cast<int>(fallback_->integer(2));
+    }
+    has_fallback_ = fallback_->next();
+  }
 }
 
 void build_store(const std::filesystem::path& path, const StudyHead& head, bool is_finished,

@@ -39,13 +39,14 @@ class StudyTableWriter {
  private:
   std::int64_t quantity_id(const std::string& key);
   void write_hold(std::int64_t number, const StudyHold& hold);
+  void write_fallbacks(std::int64_t number, const ContactFallbacks& fallbacks);
 
   SqliteFile& file_;
   const StudyPlan& plan_;
   std::map<std::string, std::int64_t> quantity_;
   Sha256 digest_;
   SqliteStatement grasp_, region_, index_, field_;
-  std::optional<SqliteStatement> hold_;
+  std::optional<SqliteStatement> hold_, fallback_;
 };
 
 /// Reads records one by one, ascending by number. Throws InputError: a record is damaged.
@@ -59,12 +60,14 @@ class StudyTableReader {
   void read_regions(StudyRecord& record);
   void read_indices(StudyRecord& record);
   void read_hold(StudyRecord& record);
+  void read_fallbacks(StudyRecord& record);
 
   bool with_fields_, has_times_;
   std::map<std::int64_t, std::string> quantity_;
   SqliteStatement grasp_, region_, index_;
-  std::optional<SqliteStatement> hold_;
-  bool has_region_ = false, has_index_ = false, has_hold_ = false;  ///< a row that isn't taken yet
+  std::optional<SqliteStatement> hold_, fallback_;
+  // A row that isn't taken yet.
+  bool has_region_ = false, has_index_ = false, has_hold_ = false, has_fallback_ = false;
 };
 
 /// Text of a key of table `study`, or "".

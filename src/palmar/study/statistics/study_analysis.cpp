@@ -187,6 +187,21 @@ void warn_of_products(const StudyPlan& plan, const std::vector<Product>& product
   }
 }
 
+void warn_of_fallbacks(const StudyResults& results, std::vector<StudyWarning>& warnings) {
+  for (const FallbackCount& one : kFallbackCounts) {
+    int count = 0;
+    int grasps = 0;
+    for (const StudyRecord& record : results.records) {
+      count += record.fallbacks.*one.count;
+      grasps += record.fallbacks.*one.count > 0;
+    }
+    if (grasps == 0) continue;
+    add(warnings, false, "Contact solver",
+        fmt::format("{} {}, in {} of {} grasps; their figures count.", count, one.words, grasps,
+                    results.records.size()));
+  }
+}
+
 void warn_of_outcomes(const StudyResults& results, std::vector<StudyWarning>& warnings) {
   const StudyPlan& plan = results.plan;
   std::vector<OutcomeCounts> counts(plan.products.size());
@@ -273,6 +288,7 @@ std::vector<StudyWarning> study_warnings(const StudyResults& results,
   warn_of_settings(results.plan, warnings);
   warn_of_products(results.plan, products, warnings);
   warn_of_outcomes(results, warnings);
+  warn_of_fallbacks(results, warnings);
   warn_of_holds(results, warnings);
   warn_of_grip_forces(results, warnings);
   warn_of_design(results.plan, warnings);

@@ -155,6 +155,8 @@ TEST(StudyWarnings, NameWhatIsOutsideTheChecks) {
   results.plan.populations[0].population.cautions = {"Mixes the sexes."};
   results.records.pop_back();
   results.records[0] = not_held(0, StudyOutcome::kSlipsOut);
+  results.records[2].fallbacks.by_region = 1;
+  results.records[3].fallbacks.by_region = 2;
   HandDimensions base;
   base.hand_length = 190.0;
   const std::vector<StudyWarning> warnings = study_warnings(results, {}, base);
@@ -168,6 +170,9 @@ TEST(StudyWarnings, NameWhatIsOutsideTheChecks) {
   EXPECT_TRUE(has("a", "1 of 6 grasps slip out", true));
   EXPECT_TRUE(has("c", "1 of 6 grasps were not run yet", true));
   EXPECT_TRUE(has("Population people1", "Mixes the sexes.", false));
+  EXPECT_TRUE(
+      has("Contact solver", "3 problems were solved region by region, in 2 of 17 grasps", false));
+  EXPECT_FALSE(has("Contact solver", "Lemke", false));
   EXPECT_TRUE(has("Population people1", "6 hands are few", false));
 }
 
