@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/text.h"
@@ -176,20 +177,18 @@ ContactModel layered_model() {
   return model;
 }
 
-ContactModel bone_model() {
-  ContactModel model;
-  model.tissue = TissueModel::kBone;
-  return model;
-}
-
-ValidationBench::ValidationBench(std::shared_ptr<const Hand> hand, Progress progress)
-    : hand_(std::move(hand)), progress_(std::move(progress)) {
+ValidationBench::ValidationBench(std::shared_ptr<const Hand> hand,
+                                 std::shared_ptr<const SkinCompliance> compliance,
+                                 Progress progress)
+    : hand_(std::move(hand)), compliance_(std::move(compliance)), progress_(std::move(progress)) {
   if (!hand_) throw UsageError("validate: no hand was given");
 }
 
 const PreparedHand& ValidationBench::prepared(const ContactModel& model) {
   std::unique_ptr<PreparedHand>& slot = prepared_[name_of(model)];
-  if (!slot) slot = std::make_unique<PreparedHand>(hand_, model);
+  if (slot) return *slot;
+  const bool is_on_bone = model.tissue == TissueModel::kBone;
+  slot = std::make_unique<PreparedHand>(hand_, model, is_on_bone ? compliance() : nullptr);
   return *slot;
 }
 
@@ -202,11 +201,19 @@ const HeldCylinder& ValidationBench::cylinder(double diameter) {
     auto held = std::make_unique<HeldCylinder>();
     held->product = make_cylinder_product(options);
     held->grasp = close_power_grasp(*hand_, held->product);
-    held->balance = balance_grasp(prepared({}), held->product, held->grasp);
+    held->balance = balance_grasp(prepared(palmar_model()), held->product, held->grasp);
     held->posed_skin = pose_skin(*hand_, held->grasp.posture);
     slot = std::move(held);
   }
   return *slot;
+}
+
+std::shared_ptr<const SkinCompliance> ValidationBench::compliance() {
+  if (!compliance_) {
+    compliance_ =
+        std::make_shared<const SkinCompliance>(skin_compliance(*hand_, skin_geometry(hand_->skin)));
+  }
+  return compliance_;
 }
 
 ContactResult ValidationBench::contact(const HeldCylinder& held, const ContactModel& model) {
@@ -221,7 +228,7 @@ void ValidationBench::update(double share, const std::string& activity) const {
 ValidationReport validate(std::shared_ptr<const Hand> hand, const ValidationOptions& options,
                           const Progress& progress) {
   options.check();
-  ValidationBench bench(std::move(hand), progress);
+  ValidationBench bench(std::move(hand), options.compliance, progress);
   ValidationReport report;
   report.hand_name = bench.hand().name;
   std::vector<const CaseEntry*> chosen;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/contact/contact.h"
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
 
@@ -74,6 +75,8 @@ struct ValidationReport {
 };
 
 struct ValidationOptions {
+  /// Of the hand (skin_compliance.h); none: made when first needed.
+  std::shared_ptr<const SkinCompliance> compliance = nullptr;
   std::vector<std::string> cases;  ///< ids; empty: all
   bool quick = false;              ///< without those that take longer than some seconds
   void check() const;              ///< throws UsageError: an id that is not known

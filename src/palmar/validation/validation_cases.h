@@ -27,10 +27,13 @@ struct HeldCylinder {
 /// What cases share: the hand, prepared once per set of equations, and grasps already closed.
 class ValidationBench {
  public:
-  ValidationBench(std::shared_ptr<const Hand> hand, Progress progress);
+  /// `compliance` of the hand's skin; none: made when first needed.
+  ValidationBench(std::shared_ptr<const Hand> hand,
+                  std::shared_ptr<const SkinCompliance> compliance, Progress progress);
 
   const Hand& hand() const { return *hand_; }
   const PreparedHand& prepared(const ContactModel& model);
+  std::shared_ptr<const SkinCompliance> compliance();
   const HeldCylinder& cylinder(double diameter);
   ContactResult contact(const HeldCylinder& held, const ContactModel& model);
 
@@ -43,6 +46,7 @@ class ValidationBench {
 
  private:
   std::shared_ptr<const Hand> hand_;
+  std::shared_ptr<const SkinCompliance> compliance_;
   Progress progress_;
   std::map<std::string, std::unique_ptr<PreparedHand>> prepared_;
   std::map<double, std::unique_ptr<HeldCylinder>> cylinders_;
@@ -54,11 +58,10 @@ using ValidationRows = std::vector<ValidationRow>;
 void set_history(ValidationRows& rows, const std::string& added_in,
                  const std::string& chosen_in = "");
 
-/// `palmar` with one region at a time.
+/// The half-space with one region at a time.
 ContactModel independent_model();
-/// `palmar` with bone under the skin.
+/// The half-space with bone under the skin.
 ContactModel layered_model();
-ContactModel bone_model();
 
 // validation_press.cpp
 ValidationRows validate_half_space(ValidationBench& bench);

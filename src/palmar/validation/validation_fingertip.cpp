@@ -71,7 +71,7 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   const HandDimensions size = measure_hand(bench.hand());
   const double radius = 0.5 * size.segment[index_of(Segment::kMiddleDistal)].width;
   const double scale = std::sqrt(radius / 7.0);
-  const PreparedHand& half_space = bench.prepared({});
+  const PreparedHand& half_space = bench.prepared(ContactModel{});
   const auto steps = press(plate({kDepth.begin(), kDepth.end()}), &half_space);
   add_force(rows, steps, scale);
 
@@ -92,7 +92,7 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   const PreparedHand& layer = bench.prepared(layered_model());
   const auto layered = press(plate({kDepth.begin(), kDepth.end()}), &layer);
   bench.update(0.7, "case G2, tissue on bone");
-  const PreparedHand& bone = bench.prepared(bone_model());
+  const PreparedHand& bone = bench.prepared(palmar_model());
   const auto on_bone = press(plate({kDepth.begin(), kDepth.end()}), &bone);
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
   const auto near_paraboloid = [&](double depth) {

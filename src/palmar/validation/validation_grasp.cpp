@@ -97,7 +97,7 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
   rows.push_back(judge("palmar, forces out of balance / grip force", "",
                        held.balance.residual_share, at_most(0.01, "at rest below 1 %")));
   set_history(rows, "fb81418");
-  const double ours = normal_over_grip(held, bench.contact(held, {}));
+  const double ours = normal_over_grip(held, bench.contact(held, palmar_model()));
   rows.push_back(judge("palmar, sum of normal forces / grip force", "", ours,
                        between(2.0, std::numbers::pi, exact)));
   rows.push_back(judge("palmar, the same, wanted", "", ours, between(2.1, 2.9, measured)));
@@ -113,7 +113,7 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
 
 ValidationRows validate_shares(ValidationBench& bench) {
   ValidationRows rows;
-  add_shares(rows, bench, {}, "palmar", true);
+  add_shares(rows, bench, palmar_model(), "palmar", true);
   set_history(rows, "dc20bd8", "4669e26");
   add_shares(rows, bench, xie2014_model(), "xie2014", false);
   set_history(rows, "10fca44", "4669e26");
@@ -126,7 +126,7 @@ ValidationRows validate_fillets(ValidationBench& bench) {
   const Grasp grasp = close_power_grasp(bench.hand(), round);
   const std::vector<Vec3> skin = pose_skin(bench.hand(), grasp.posture);
   for (const auto& [model, name] :
-       {std::pair{ContactModel{}, "palmar"}, {xie2014_model(), "xie2014"}}) {
+       {std::pair{palmar_model(), "palmar"}, {xie2014_model(), "xie2014"}}) {
     const PreparedHand& prepared = bench.prepared(model);
     const auto total = [&](const Product& product) {
       return solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance).total;
@@ -155,7 +155,7 @@ ValidationRows validate_coupling(ValidationBench& bench) {
   const std::string source = "two equal contacts three radii apart: 1.22";
   for (const double diameter : {35.0, 48.0, 60.0}) {
     const HeldCylinder& held = bench.cylinder(diameter);
-    const RegionContact together = bench.contact(held, {}).total;
+    const RegionContact together = bench.contact(held, ContactModel{}).total;
     const RegionContact alone = bench.contact(held, independent_model()).total;
     const std::string start = std::to_string(static_cast<int>(diameter)) + " mm, ";
     rows.push_back(

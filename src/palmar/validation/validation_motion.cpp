@@ -90,7 +90,7 @@ std::vector<double> closing_everywhere(ValidationBench& bench, const HeldCylinde
 
 /// Fingers close from some degrees further open; the fingertips move 0.05 mm per step.
 std::vector<double> closing_fingers(ValidationBench& bench, const HeldCylinder& held) {
-  ContactSolver solver(bench.prepared({}));
+  ContactSolver solver(bench.prepared(palmar_model()));
   ContactResult contact;
   std::vector<double> force;
   constexpr double path = 4.0;    // mm of the fingertips
@@ -112,8 +112,8 @@ std::vector<double> closing_fingers(ValidationBench& bench, const HeldCylinder& 
 
 /// The product moves into the palm, against the force with which the palm holds it off.
 std::vector<double> closing_palm(ValidationBench& bench, const HeldCylinder& held) {
-  ContactSolver solver(bench.prepared({}));
-  ContactResult contact = bench.contact(held, {});
+  ContactSolver solver(bench.prepared(palmar_model()));
+  ContactResult contact = bench.contact(held, palmar_model());
   Vec3 push = Vec3::Zero();
   for (const RegionContact& region : contact.regions) {
     if (segment_of(region.region) == Segment::kPalm) push += region.force_vector;
@@ -161,7 +161,7 @@ void add_threads(ValidationRows& rows, ValidationBench& bench, const HeldCylinde
   const ThreadCountGuard guard;
   const auto solved = [&](int threads) {
     set_thread_count(threads);
-    const PreparedHand prepared(bench.shared_hand());
+    const PreparedHand prepared(bench.shared_hand(), palmar_model(), bench.compliance());
     return solve_hand_contact(prepared, held.posed_skin, held.grasp.product_from_hand,
                               *held.product.distance);
   };
@@ -171,14 +171,14 @@ void add_threads(ValidationRows& rows, ValidationBench& bench, const HeldCylinde
 }
 
 void add_rigid_motion(ValidationRows& rows, ValidationBench& bench, const HeldCylinder& held) {
-  const ContactResult here = bench.contact(held, {});
+  const ContactResult here = bench.contact(held, palmar_model());
   const Rigid3 motion{Quat(Eigen::AngleAxisd(0.8, Vec3(0.3, -0.5, 0.7).normalized())),
                       Vec3(120.0, -40.0, 75.0)};
   std::vector<Vec3> skin = held.posed_skin;
   for (Vec3& v : skin) v = motion * v;
   const ContactResult there =
-      solve_hand_contact(bench.prepared({}), skin, held.grasp.product_from_hand * motion.inverse(),
-                         *held.product.distance);
+      solve_hand_contact(bench.prepared(palmar_model()), skin,
+                         held.grasp.product_from_hand * motion.inverse(), *held.product.distance);
   double difference = 0.0, largest = 0.0, depth = 0.0;
   for (std::size_t v = 0; v < here.force.size(); ++v) {
     difference = std::max(difference, std::abs(here.force[v] - there.force[v]));
@@ -203,7 +203,7 @@ void add_scaled_hand(ValidationRows& rows, ValidationBench& bench) {
     return press(options, &hand).front();
   };
   const PreparedHand larger(std::make_shared<const Hand>(scaled(bench.hand(), factor)));
-  const PressStep one = pressed(bench.prepared({}), 2.0);
+  const PressStep one = pressed(bench.prepared(ContactModel{}), 2.0);
   const PressStep two = pressed(larger, factor * 2.0);
   const std::string law = "square of the scale at the same G";
   rows.push_back(judge("hand and depth scaled by 1.2, force of a fingertip", "",

@@ -163,7 +163,7 @@ ValidationRows validate_contact_area(ValidationBench& bench) {
   // The thesis' hands are as they were closed; ours come to rest.
   plan.settings[1].model = xie2014_model();
   plan.settings[1].is_balanced = false;
-  StudyInputs inputs{.base = bench.shared_hand(), .products = {}};
+  StudyInputs inputs{.base = bench.shared_hand(), .products = {}, .compliance = bench.compliance()};
   const HeldCylinder& template_grasp = bench.cylinder(35.0);
   add_product(plan, inputs, template_grasp.product, "cylinder 35 mm");
   const StudyResults results = run(plan, inputs, bench, "case G3");
@@ -172,7 +172,7 @@ ValidationRows validate_contact_area(ValidationBench& bench) {
   add_areas(rows, results, 0);
   add_areas(rows, results, 1);
   rows.push_back(judge("palmar, the template as it is", "mm2",
-                       bench.contact(template_grasp, {}).total.area,
+                       bench.contact(template_grasp, palmar_model()).total.area,
                        information(3875.0, "mode of 30 sampled hands, computed, Xie 2014, 5.5.2")));
   set_history(rows, "fd5df47");
   return rows;
@@ -182,7 +182,7 @@ ValidationRows validate_designs_over_hands(ValidationBench& bench, const Product
                                            const Product& round) {
   StudyPlan plan = thesis_plan();
   plan.settings = {setting("palmar")};
-  StudyInputs inputs{.base = bench.shared_hand(), .products = {}};
+  StudyInputs inputs{.base = bench.shared_hand(), .products = {}, .compliance = bench.compliance()};
   add_product(plan, inputs, sharp, "r3");
   const StudyResults held = run(plan, inputs, bench, "case G6, the sharp prism");
   Product redesign_1 = pressed(plan, inputs, held), redesign_2 = relieved(plan, inputs, held);

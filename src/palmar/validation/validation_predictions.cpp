@@ -30,7 +30,7 @@ std::optional<std::array<double, kFingerCount>> digit_shares(ValidationBench& be
   if (grasp.status != GraspStatus::kHeld) return std::nullopt;
   BalanceOptions balance;
   balance.load.weight = kWeight;
-  const PreparedHand& prepared = bench.prepared({});
+  const PreparedHand& prepared = bench.prepared(palmar_model());
   const Balance rest = balance_grasp(prepared, product, grasp, balance);
   if (rest.status != BalanceStatus::kBalanced) return std::nullopt;
   const ContactResult contact = solve_hand_contact(prepared, pose_skin(bench.hand(), grasp.posture),
@@ -136,9 +136,9 @@ void add_fingertip(ValidationRows& rows, ValidationBench& bench) {
   const std::string power = "radius as force to the power of 0 to 1/3 (Xydas and Kao 1999)";
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
   constexpr std::array<const char*, 4> at = {"0.5 N", "1 N", "2 N", "4 N"};
-  for (const auto& [model, name] : {std::pair{ContactModel{}, std::string("palmar")},
+  for (const auto& [model, name] : {std::pair{palmar_model(), std::string("palmar")},
                                     {layered_model(), "layered"},
-                                    {bone_model(), "bone"}}) {
+                                    {ContactModel{}, "half-space"}}) {
     bench.update(0.5, "case predictions, fingertip, " + name);
     const auto steps = press(tip_on_plate(), &bench.prepared(model));
     rows.push_back(judge(name + ", index fingertip on a plate, area at 0.5 N", "mm2", steps[0].area,

@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kCircle = std::numbers::pi;
 constexpr double kModulus = 0.05;    // MPa
 constexpr double kHalfWidth = 17.0;  // mm; of the flat skin
 constexpr double kDeep = 20.0;       // mm; the skin's far side
@@ -179,7 +179,7 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
   {
     constexpr double radius = 20.0, depth = 1.5;
     const double force = 16.0 / 3.0 * kModulus * std::sqrt(radius) * std::pow(depth, 1.5);
-    const double area = kPi * radius * depth;
+    const double area = kCircle * radius * depth;
     add_form(
         rows, skins, sphere(radius, depth),
         {"sphere of 20 mm, 1.5 mm deep", "Hertz; G = 50 kPa", force, area, 1.5 * force / area});
@@ -192,8 +192,8 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
     const double along = e2 * a * a / (2.0 * ratio * b * (K - E));
     const double across = e2 * a * a / (2.0 * ratio * b * (a * a / (b * b) * E - K));
     add_form(rows, skins, ring(across, along, ratio * b * K),
-             {"ellipse of semi-axes 5 and 3 mm", "Hertz; G = 50 kPa", 2.0 / 3.0 * kPi * a * b * p0,
-              kPi * a * b, p0});
+             {"ellipse of semi-axes 5 and 3 mm", "Hertz; G = 50 kPa",
+              2.0 / 3.0 * kCircle * a * b * p0, kCircle * a * b, p0});
   }
   {
     // Each sphere meets skin that the other has lowered by its own field outside the contact
@@ -204,20 +204,20 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
     for (int i = 0; i < 50; ++i) {
       const double w = ((2.0 * a2 - apart * apart) * std::asin(std::sqrt(a2) / apart) +
                         std::sqrt(a2) * std::sqrt(apart * apart - a2)) /
-                       (kPi * radius);
+                       (kCircle * radius);
       a2 = radius * (depth - w);
     }
     const double one = 16.0 / 3.0 * kModulus * a2 * std::sqrt(a2) / radius;
     add_form(rows, skins, two_spheres(radius, depth, apart),
              {"two spheres of 12.5 mm, 8 mm apart, 0.5 mm deep",
-              "Hertz, each in the other's field; G = 50 kPa", 2.0 * one, 2.0 * kPi * a2,
-              1.5 * one / (kPi * a2)});
+              "Hertz, each in the other's field; G = 50 kPa", 2.0 * one, 2.0 * kCircle * a2,
+              1.5 * one / (kCircle * a2)});
   }
   {
     constexpr double radius = 5.0, depth = 0.3;
     add_form(rows, skins, punch(radius, depth),
              {"sharp edge of a flat punch of 5 mm, 0.3 mm deep", "F = 8 G a depth; G = 50 kPa",
-              8.0 * kModulus * radius * depth, kPi * radius * radius});
+              8.0 * kModulus * radius * depth, kCircle * radius * radius});
   }
   return rows;
 }

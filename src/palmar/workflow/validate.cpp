@@ -5,6 +5,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/validation_json.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar {
 
@@ -18,7 +19,10 @@ void ValidateRequest::check() const {
 
 ValidationReport run_validation(const ValidateRequest& request, const Progress& progress) {
   request.check();
-  const ValidationReport report = validate(load_hand(request.hand), request.options, progress);
+  const auto hand = load_hand(request.hand);
+  ValidationOptions options = request.options;
+  options.compliance = tissue_on_bone(*hand, palmar_model());
+  const ValidationReport report = validate(hand, options, progress);
   if (request.out.empty()) return report;
   write_file(request.out, request.out.ends_with(".md") ? validation_markdown(report)
                                                        : validation_json(report) + "\n");
