@@ -101,7 +101,8 @@ void ContactArguments::add_to(CLI::App& verb) {
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
   verb.add_option("--coupling", regions_,
-                  "Regions of the hand: coupled (one problem over the whole hand) or independent (each region alone); "
+                  "Regions of the hand: coupled (one problem over the whole hand) or independent "
+                  "(each region alone); "
                   "default: as in the preset");
   verb.add_option(
       "--tissue-model", tissue_model_,
