@@ -219,9 +219,11 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
       {"product make sphere --out ball.pdf", "palmar: --out is ball.pdf; .step"},
       {"product make sphere --format pdf --out balls/", "palmar: --format is \"pdf\"; step"},
       {"redesign press" + prism + "--grip-force-n 20",
-       "palmar: --grip-force-n: in a kept posture the shape decides the force; --hold-posture new goes"},
+       "palmar: --grip-force-n: in a kept posture the shape decides the force; --hold-posture new "
+       "goes"},
       {"redesign press" + prism + "--over most", "palmar: --over is \"most\"; mean"},
-      {"redesign press" + prism + "--largest-depth-mm 99", "--largest-depth-mm is 99 mm; 0.1 to 50"},
+      {"redesign press" + prism + "--largest-depth-mm 99",
+       "--largest-depth-mm is 99 mm; 0.1 to 50"},
       {"redesign press" + prism + "--rim-mm 99", "--rim-mm is 99 mm; 0.5 to 50"},
       {"redesign press" + prism + "--edge-mm 99", "--edge-mm is 99 mm; 0.3 to 10"},
       {"redesign press" + prism + "--keep-blend-mm 999", "--keep-blend-mm is 999 mm; 0 to 100"},

@@ -197,10 +197,10 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
 
 void add_contact_fit_verb(CLI::App& contact, Context& context) {
   const auto o = std::make_shared<FitArguments>();
-  CLI::App* verb =
-      add_verb(contact, "fit", "Tissue parameters from measured depths and forces",
-               "palmar contact fit examples/fingertip-xie2014.csv --specimen template:middle_distal --indenter plane "
-               "--tilt-deg 30 --out tissue.toml");
+  CLI::App* verb = add_verb(contact, "fit", "Tissue parameters from measured depths and forces",
+                            "palmar contact fit examples/fingertip-xie2014.csv --specimen "
+                            "template:middle_distal --indenter plane "
+                            "--tilt-deg 30 --out tissue.toml");
   verb->add_option("CSV", o->curves,
                    "Readings: columns depth_mm, force_n or force_mn; optional area_mm2, subject, "
                    "weight or force_sd_n")

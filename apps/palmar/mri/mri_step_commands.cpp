@@ -76,8 +76,9 @@ int run_surfaces(const SurfacesArguments& a, const Context& context) {
 
 void add_surfaces(CLI::App& mri, Context& context) {
   const auto a = std::make_shared<SurfacesArguments>();
-  CLI::App* verb = add_verb(mri, "surfaces", "Skin, bones and markers of one MR image as meshes",
-                            "palmar mri surfaces subject3/mri --description reference --out reference");
+  CLI::App* verb =
+      add_verb(mri, "surfaces", "Skin, bones and markers of one MR image as meshes",
+               "palmar mri surfaces subject3/mri --description reference --out reference");
   verb->add_option("IMAGE", a->request.image,
                    "Folder of DICOM files, DICOM file of several frames, NIfTI file")
       ->required();
@@ -89,7 +90,8 @@ void add_surfaces(CLI::App& mri, Context& context) {
                    "Part of the series' description, instead of the number");
   verb->add_option("--labels", a->request.labels,
                    "Names for bones: CSV with name, x_mm, y_mm, z_mm");
-  verb->add_option("--start-hand", a->request.model, "Hand that names the bones")->capture_default_str();
+  verb->add_option("--start-hand", a->request.model, "Hand that names the bones")
+      ->capture_default_str();
   a->surfaces.add_to(*verb);
   verb->add_flag("--accept-odd-slices", a->request.accepts_odd_slices,
                  "Continue although a slice doesn't fit between its neighbours");

@@ -111,8 +111,7 @@ int inspect(const FileArguments& o, const Context& context, bool fails_on_error)
 void add_inspection(CLI::App& noun, Context& context, const std::string& name,
                     const std::string& description, bool fails_on_error) {
   const auto o = std::make_shared<FileArguments>();
-  CLI::App* verb =
-      add_verb(noun, name, description, "palmar product " + name + " handle.step");
+  CLI::App* verb = add_verb(noun, name, description, "palmar product " + name + " handle.step");
   verb->add_option("PRODUCT", o->product, kProductHelp)->required();
   verb->add_option("--unit", o->unit, "Unit of a file that carries none: mm, cm, m, inch");
   o->cad.add_to(*verb);

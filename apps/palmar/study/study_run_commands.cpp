@@ -144,10 +144,10 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   });
 
   const auto run_options = std::make_shared<RunArguments>();
-  CLI::App* run = add_verb(
-      noun, "run", "Run a study, or continue it if its store exists",
-      "palmar study run --product old.step --product new.step --population ansur2_women "
-      "--hands 6 --out women.palmar");
+  CLI::App* run =
+      add_verb(noun, "run", "Run a study, or continue it if its store exists",
+               "palmar study run --product old.step --product new.step --population ansur2_women "
+               "--hands 6 --out women.palmar");
   run_options->study.add_to(*run);
   run->add_option("--out", run_options->out,
                   "Store to write; an existing store of this study is continued");

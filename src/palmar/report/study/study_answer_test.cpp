@@ -132,7 +132,14 @@ TEST(StudyAnswer, AKeptPostureSaysThatItIsHeldLessFirmly) {
 TEST(StudyAnswer, NamesProductsThatNotEveryHandHolds) {
   StudyResults results = pair_study({0.4, 0.4, 0.4}, {0.3, 0.3, 0.3});
   results.records[5] = failed_grasp(5, StudyOutcome::kTooSmall);
-  EXPECT_THAT(study_answer(results).reasons, Contains("b is held by 2 of 3 hands."));
+  // Few are named one by one, many are counted.
+  EXPECT_THAT(study_answer(results).reasons,
+              Contains(HasSubstr("b isn’t held by this hand (too small for the hand): Hand 3")));
+  StudyResults many = pair_study({0.4, 0.4, 0.4, 0.4, 0.4, 0.4}, {0.3, 0.3, 0.3, 0.3, 0.3, 0.3});
+  for (const int k : {1, 3, 5, 7}) {
+    many.records[static_cast<std::size_t>(k)] = failed_grasp(k, StudyOutcome::kTooSmall);
+  }
+  EXPECT_THAT(study_answer(many).reasons, Contains("b is held by 2 of 6 hands."));
   results.records[1] = failed_grasp(1, StudyOutcome::kTooSmall);
   EXPECT_THAT(study_answer(results).sentence, HasSubstr("No verdict: too few hands hold both"));
 }

@@ -15,8 +15,8 @@ namespace palmar {
 /// What lower layers and files say in English ("held by five fingers; the thumb's tip does not
 /// touch"), in the language of a report. The sentences stand in the texts of both languages under
 /// the same keys "said.*", with places for values; a place whose name begins with n_ takes numbers
-/// only, what {grip} and {part} hold must be known. What a place holds is looked up in its turn. Of several sentences that fit, the one with
-/// the most letters of its own is taken.
+/// only, what {grip} and {part} hold must be known. What a place holds is looked up in its turn. Of
+/// several sentences that fit, the one with the most letters of its own is taken.
 ///
 /// Text that isn't found is cut at ends of sentences, semicolons and commas, and its parts are
 /// looked up; what isn't known stays English.
