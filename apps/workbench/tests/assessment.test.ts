@@ -8,6 +8,8 @@ import { useLanguage } from "../texts";
 import { bandComparison, errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, placementTable, settingsTable, summaryTable } from "../components/contact_tables";
+import { resolutionNote } from "../components/resolution";
+import { sensorSection } from "../components/sensors";
 import { indexComparison, indexSection } from "../components/indices";
 import { comfortSection, gripWords, readingAdvice, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
 import { assessmentPage } from "../pages/assessment";
@@ -213,4 +215,36 @@ test("a page is whole, forbids the network and asks for its attachments", () => 
   for (const tag of ["table", "tr", "td", "div", "details", "section", "p", "button", "article", "svg"]) {
     assert.equal(count(whole, "<" + tag + " ") + count(whole, "<" + tag + ">"), count(whole, "</" + tag + ">"), tag);
   }
+});
+
+test("a sensor's map and a measurement beside it are told in numbers", () => {
+  const one = assessment();
+  assert.equal(sensorSection(one, null, vocabulary), null);
+  one.sensors = {
+    layout: { name: "grip mat", kind: "mat", pitch_mm: 5, source: "" }, rows: 1, columns: 3, force_n: 10, force_beside_n: 1e-15,
+    peak_pressure_mpa: 0.16, pressed_area_mm2: 75, cells: [], measured: null,
+  };
+  const alone = text(sensorSection(one, "<svg>map</svg>" as never, vocabulary));
+  assert.match(alone, /“grip mat” is wrapped[^]*cells of 5 mm[^]*beside them 0 N[^]*160 kPa[^]*<svg>map/);
+  assert.doesNotMatch(alone, /Pearson/);
+  one.sensors.measured = {
+    source: "grip.csv", force_measured_n: 20, force_simulated_n: 10, peak_measured_mpa: 0.32, peak_simulated_mpa: 0.16, compared: 3,
+    pearson: { r: 0.5, n: 3, p_value: 0.6 }, spearman: { r: 0.25, n: 3, p_value: 0.8 }, rms_mpa: 0.05, mean_difference_mpa: -0.02,
+    parts: [{ name: "thenar", cells: 2, measured_n: 14, simulated_n: 7 }, { name: "beside the hand", cells: 1, measured_n: 6, simulated_n: 0 }],
+    cell_force_n: [],
+  };
+  const beside = text(sensorSection(one, null, vocabulary));
+  assert.match(beside, /Over the 3 cells[^]*r 0.50, Spearman’s 0.25[^]*50.0 kPa/);
+  assert.match(beside, /grip.csv[^]*no skin in the simulation/);
+});
+
+test("pressures on sharp edges are said not to be resolved", () => {
+  const one = assessment();
+  assert.equal(resolutionNote(one.contact, vocabulary), null);
+  const region = one.contact.regions[0];
+  region.unresolved_force_n = 0.2 * region.force_n;
+  assert.equal(resolutionNote(one.contact, vocabulary), null);
+  region.unresolved_force_n = 0.5 * region.force_n;
+  one.contact.unresolved_force_n = region.unresolved_force_n;
+  assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*of the force is on edges/);
 });

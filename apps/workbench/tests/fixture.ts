@@ -28,7 +28,7 @@ export function range(low: number | null, nominal: number, high: number | null):
 
 function totals(force: number, area: number, peak: number, cells: number): ContactTotals {
   return {
-    force_n: force, contact_area_mm2: area, peak_pressure_mpa: peak, peak_pressure_cells_mpa: cells,
+    force_n: force, contact_area_mm2: area, peak_pressure_mpa: peak, peak_pressure_cells_mpa: cells, unresolved_force_n: 0,
     mean_pressure_mpa: 0.0123456789, force_vector_n: [0, 3, 4], centre_mm: [0, 0, 0], max_penetration_mm: 1.5, band: null,
   };
 }
@@ -113,7 +113,7 @@ export function page(assessments: Assessment[]): AssessmentPage {
       scale: { quantity: "Pressure", unit: "MPa", upper: 0.5, is_open_ended: true, colours: ["#000000", "#ffffff"],
                neutral: "#888888", ticks: [{ value: 0, text: "0.0" }, { value: 0.5, text: "≥ 0.5" }] },
       products: assessments.map(() => ({
-        charts: [{ title: "Force, N", svg: "<svg>force</svg>" }], sensitivity_chart: "<svg>stiffer</svg>",
+        charts: [{ title: "Force, N", svg: "<svg>force</svg>" }], sensor_map: null, sensitivity_chart: "<svg>stiffer</svg>",
         friction_words: "It slips.", scene: "{}", ways: [], way_taken: null,
         pictures: [{ name: "grasp_palm", title: "Grasp", alt: "A hand", src: "attachment:p", thumbnail: "attachment:t" }],
       })),
