@@ -8,6 +8,7 @@
 #include "assess/friction_arguments.h"
 #include "cli.h"
 #include "grasp/grasp_options.h"
+#include "palmar/contact/resolution.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
@@ -66,6 +67,8 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
   for (const HoldDoubt& doubt : doubts_of(assessment)) {
     if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
+  const std::string unresolved = unresolved_words(assessment.contact);
+  if (!unresolved.empty()) text += "not resolved: " + unresolved + "\n";
   text += sensor_text(assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,

@@ -6,10 +6,11 @@ import { say } from "../texts";
 import { Markup, html } from "./markup";
 import { shortNumber } from "./numbers";
 import { charts } from "./parts";
-import { numberCell, numbers, rowHead, table, words } from "./tables";
+import { numberCell, numbers, rowHead, table, valueCell, words } from "./tables";
 import { regionWords } from "./verdicts";
 
 const fewDigits = 2;
+const smallForce = 0.05; // N; rounding
 
 function partWords(name: string, vocabulary: Vocabulary): string {
   if (name === "beside the hand") return say("sensors.beside_hand");
@@ -20,7 +21,7 @@ function partWords(name: string, vocabulary: Vocabulary): string {
 function comparison(one: MeasuredPressure, vocabulary: Vocabulary): Markup {
   const interval = one.pearson.low !== undefined && one.pearson.high !== undefined &&
     say("sensors.interval", { low: shortNumber(one.pearson.low, fewDigits), high: shortNumber(one.pearson.high, fewDigits) });
-  const rows = one.parts.map((part) => html`<tr>${rowHead(partWords(part.name, vocabulary))}${numberCell(part.cells)}${numberCell(part.measured_n)}${numberCell(part.simulated_n)}${numberCell(part.simulated_n - part.measured_n)}</tr>
+  const rows = one.parts.map((part) => html`<tr>${rowHead(partWords(part.name, vocabulary))}${valueCell(part.cells, String(part.cells))}${numberCell(part.measured_n)}${numberCell(part.simulated_n)}${numberCell(part.simulated_n - part.measured_n)}</tr>
 `);
   return html`<p>${say("sensors.agreement", {
     pearson: shortNumber(one.pearson.r, fewDigits), spearman: shortNumber(one.spearman.r, fewDigits), cells: one.pearson.n,
@@ -40,9 +41,9 @@ export function sensorSection(assessment: Assessment, map: TrustedMarkup | null,
   const sensors = assessment.sensors;
   if (!sensors) return null;
   return html`<h3>${say("sensors.title")}</h3><p>${say("sensors." + sensors.layout.kind, {
-    name: sensors.layout.name, pitch: shortNumber(sensors.layout.pitch_mm), cells: sensors.cells.length,
+    name: sensors.layout.name, pitch: String(sensors.layout.pitch_mm), cells: sensors.cells.length,
   })} ${say("sensors.totals", {
-    force: shortNumber(sensors.force_n), beside: shortNumber(sensors.force_beside_n), peak: shortNumber(1000 * sensors.peak_pressure_mpa),
+    force: shortNumber(sensors.force_n), beside: sensors.force_beside_n < smallForce ? "0" : shortNumber(sensors.force_beside_n), peak: shortNumber(1000 * sensors.peak_pressure_mpa),
   })}</p>
 ${map && charts([map])}${sensors.measured && comparison(sensors.measured, vocabulary)}`;
 }

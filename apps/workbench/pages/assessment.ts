@@ -10,6 +10,7 @@ import { FirstScreen, firstScreen } from "../components/first_screen";
 import { term } from "../components/glossary";
 import { indexSection } from "../components/indices";
 import { Child, Markup, html } from "../components/markup";
+import { resolutionNote } from "../components/resolution";
 import { sensorSection } from "../components/sensors";
 import { capitalised, percent, shortNumber } from "../components/numbers";
 import { Section, Toggle, Verdict, badge, charts, colourBar, folded, licence, list, note, pictureFigures, turnableView } from "../components/parts";
@@ -55,7 +56,7 @@ function productSection(one: Assessment, view: AssessmentView, index: number): S
   const shown = view.products[index];
   const isJudged = isInHand(one);
   const contact = isJudged
-    ? html`<h3>${say("section.where")}</h3>${charts(shown.charts.map((chart) => chart.svg))}${regionTable(one.contact, vocabulary)}${faceSection(one)}${sensorSection(one, shown.sensor_map, vocabulary)}${errorBandSection(one, shown.sensitivity_chart, vocabulary)}`
+    ? html`<h3>${say("section.where")}</h3>${charts(shown.charts.map((chart) => chart.svg))}${regionTable(one.contact, vocabulary)}${resolutionNote(one.contact, vocabulary)}${faceSection(one)}${sensorSection(one, shown.sensor_map, vocabulary)}${errorBandSection(one, shown.sensitivity_chart, vocabulary)}`
     : one.contact.regions.length > 0 && folded(say("section.touches"), regionTable(one.contact, vocabulary));
   const pictures = pictureFigures(shown.pictures.filter((picture) => picture.name !== "holds"));
   return {

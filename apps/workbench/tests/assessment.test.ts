@@ -9,6 +9,8 @@ import { bandComparison, errorBandSection } from "../components/error_band";
 import { comparison } from "../components/comparison";
 import { faceSection, placementTable, settingsTable, summaryTable } from "../components/contact_tables";
 import { terms } from "../components/glossary";
+import { resolutionNote } from "../components/resolution";
+import { sensorSection } from "../components/sensors";
 import { indexComparison, indexSection } from "../components/indices";
 import { comfortSection, gripWords, readingAdvice, statusVerdict, statusWords, graspNotes } from "../components/verdicts";
 import { assessmentPage } from "../pages/assessment";
@@ -225,4 +227,36 @@ test("every word of the glossary opens from where a report uses it", () => {
   const whole = assessmentPage(page([one]));
   const missing = terms.filter((key) => ofStudies.indexOf(key) < 0 && key !== "hold" && whole.indexOf(`popovertarget="term-${key}"`) < 0);
   assert.equal(String(missing), "");
+});
+
+test("a sensor's map and a measurement beside it are told in numbers", () => {
+  const one = assessment();
+  assert.equal(sensorSection(one, null, vocabulary), null);
+  one.sensors = {
+    layout: { name: "grip mat", kind: "mat", pitch_mm: 5, source: "" }, rows: 1, columns: 3, force_n: 10, force_beside_n: 1e-15,
+    peak_pressure_mpa: 0.16, pressed_area_mm2: 75, cells: [], measured: null,
+  };
+  const alone = text(sensorSection(one, "<svg>map</svg>" as never, vocabulary));
+  assert.match(alone, /“grip mat” is wrapped[^]*cells of 5 mm[^]*beside them 0 N[^]*160 kPa[^]*<svg>map/);
+  assert.doesNotMatch(alone, /Pearson/);
+  one.sensors.measured = {
+    source: "grip.csv", force_measured_n: 20, force_simulated_n: 10, peak_measured_mpa: 0.32, peak_simulated_mpa: 0.16, compared: 3,
+    pearson: { r: 0.5, n: 3, p_value: 0.6 }, spearman: { r: 0.25, n: 3, p_value: 0.8 }, rms_mpa: 0.05, mean_difference_mpa: -0.02,
+    parts: [{ name: "thenar", cells: 2, measured_n: 14, simulated_n: 7 }, { name: "beside the hand", cells: 1, measured_n: 6, simulated_n: 0 }],
+    cell_force_n: [],
+  };
+  const beside = text(sensorSection(one, null, vocabulary));
+  assert.match(beside, /Over the 3 cells[^]*r 0.50, Spearman’s 0.25[^]*50.0 kPa/);
+  assert.match(beside, /grip.csv[^]*no skin in the simulation/);
+});
+
+test("pressures on sharp edges are said not to be resolved", () => {
+  const one = assessment();
+  assert.equal(resolutionNote(one.contact, vocabulary), null);
+  const region = one.contact.regions[0];
+  region.unresolved_force_n = 0.04 * region.force_n;
+  assert.equal(resolutionNote(one.contact, vocabulary), null);
+  region.unresolved_force_n = 0.3 * region.force_n;
+  one.contact.unresolved_force_n = region.unresolved_force_n;
+  assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*of the force is on edges/);
 });

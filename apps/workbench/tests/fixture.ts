@@ -28,7 +28,7 @@ export function range(low: number | null, nominal: number, high: number | null):
 
 function totals(force: number, area: number, peak: number, cells: number): ContactTotals {
   return {
-    force_n: force, contact_area_mm2: area, peak_pressure_mpa: peak, peak_pressure_cells_mpa: cells,
+    force_n: force, contact_area_mm2: area, peak_pressure_mpa: peak, peak_pressure_cells_mpa: cells, unresolved_force_n: 0,
     mean_pressure_mpa: 0.0123456789, force_vector_n: [0, 3, 4], centre_mm: [0, 0, 0], max_penetration_mm: 1.5, band: null,
   };
 }

@@ -90,6 +90,7 @@ export interface ContactTotals {
   contact_area_mm2: number;
   peak_pressure_mpa: number;
   peak_pressure_cells_mpa: number;
+  unresolved_force_n: number; // on edges that are sharper than the skin's mesh
   mean_pressure_mpa: number;
   force_vector_n: Vector3;
   centre_mm: Vector3;

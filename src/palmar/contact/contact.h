@@ -151,6 +151,9 @@ struct RegionContact {
   Vec3 centre = Vec3::Zero();        ///< centre of pressure, product frame, mm
   double max_penetration = 0.0;      ///< d_max before deformation, mm
   double shear_modulus = 0.0;        ///< G(d_max), MPa
+  /// Of the force, N: on edges of the product that are sharper than the skin's mesh (resolution.h);
+  /// pressures there are not resolved.
+  double unresolved_force = 0.0;
 };
 
 /// Results of low, nominal and high tissue side by side, for one region or the whole hand.

@@ -8,6 +8,10 @@
 namespace palmar {
 namespace {
 
+/// Discs overlap and leave gaps, so that a cell on smooth skin is covered within 10 % of its area.
+/// More or less than that is skin that lies in folds or crowds on an edge, and no area of the cell.
+constexpr double kLeastCover = 0.9, kMostCover = 1.1;
+
 /// Share x / l of an edge that is in contact; see contact_area(). With k = 1 / K the two laws add
 /// up to p^2 k^2 + (3 E* g / 4)^(2/3) k^(2/3) = l. In y = 1 - x / l, which is proportional to
 /// k^(2/3), that is c y^3 + y = 1 with c = (p l / (3 G g))^2.
@@ -83,6 +87,7 @@ CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres
       area += cells.shared[k];
     }
     if (!(area > 0.0)) continue;
+    area = std::clamp(area, kLeastCover * cell_area, kMostCover * cell_area);
     peaks.own = std::max(peaks.own, own / area);
     peaks.all = std::max(peaks.all, all / area);
   }

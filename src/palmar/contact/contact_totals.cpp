@@ -7,6 +7,7 @@
 #include "palmar/contact/contact_patch.h"
 #include "palmar/contact/pressed_skin.h"
 #include "palmar/contact/printed/sub_active_region.h"
+#include "palmar/contact/resolution.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {
@@ -64,6 +65,7 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
         area[v] = std::max(area[v], result.force[v] / part.peak_pressure);
       }
       part.force += result.force[v];
+      if (is_unresolved(pressed, skin, v)) part.unresolved_force += result.force[v];
       // The skin pushes the product inwards, against the product's outward normal.
       part.force_vector -= result.force[v] * skin.sample[v].normal;
       part.area += area[v];
@@ -77,6 +79,7 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.peak_pressure_cells = peaks.own;
     total.peak_pressure_cells = std::max(total.peak_pressure_cells, peaks.all);
     total.force += part.force;
+    total.unresolved_force += part.unresolved_force;
     total.force_vector += part.force_vector;
     total.area += part.area;
     total.peak_pressure = std::max(total.peak_pressure, part.peak_pressure);

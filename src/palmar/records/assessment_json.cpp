@@ -78,6 +78,7 @@ void add_totals(Json& json, const RegionContact& contact) {
   json["contact_area_mm2"] = contact.area;
   json["peak_pressure_mpa"] = contact.peak_pressure;
   json["peak_pressure_cells_mpa"] = contact.peak_pressure_cells;
+  json["unresolved_force_n"] = contact.unresolved_force;
   json["mean_pressure_mpa"] = contact.mean_pressure;
   json["force_vector_n"] = vector3(contact.force_vector);
   json["centre_mm"] = vector3(contact.centre);

@@ -1,0 +1,21 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+
+import { ContactResult, Vocabulary } from "../types";
+import { say, sayList } from "../texts";
+import { Markup } from "./markup";
+import { percent } from "./numbers";
+import { note } from "./parts";
+import { regionWords } from "./verdicts";
+
+const toldShare = 0.05; // of a region's force, as in contact/resolution.h
+
+/// That pressures on sharp edges are not resolved, where that is so.
+export function resolutionNote(contact: ContactResult, vocabulary: Vocabulary): Markup | null {
+  const told = contact.regions.filter((one) => one.unresolved_force_n > toldShare * one.force_n);
+  if (told.length === 0) return null;
+  return note("fair", say("resolution.begin"), say("resolution.words", {
+    share: percent(contact.unresolved_force_n / contact.force_n),
+    regions: sayList(told.map((one) => regionWords(one.region, vocabulary))),
+  }));
+}
