@@ -8,7 +8,7 @@ import { percent } from "./numbers";
 import { note } from "./parts";
 import { regionWords } from "./verdicts";
 
-const toldShare = 0.05; // of a region's force, as in contact/resolution.h
+const toldShare = 0.3; // of a region's force, as in contact/resolution.h
 
 /// That pressures on sharp edges are not resolved, where that is so.
 export function resolutionNote(contact: ContactResult, vocabulary: Vocabulary): Markup | null {

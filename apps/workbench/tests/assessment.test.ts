@@ -254,9 +254,9 @@ test("pressures on sharp edges are said not to be resolved", () => {
   const one = assessment();
   assert.equal(resolutionNote(one.contact, vocabulary), null);
   const region = one.contact.regions[0];
-  region.unresolved_force_n = 0.04 * region.force_n;
+  region.unresolved_force_n = 0.2 * region.force_n;
   assert.equal(resolutionNote(one.contact, vocabulary), null);
-  region.unresolved_force_n = 0.3 * region.force_n;
+  region.unresolved_force_n = 0.5 * region.force_n;
   one.contact.unresolved_force_n = region.unresolved_force_n;
   assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*of the force is on edges/);
 });

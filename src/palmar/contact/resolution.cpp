@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/resolution.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace palmar {
 namespace {
@@ -28,16 +30,28 @@ bool is_unresolved(const SkinGeometry& skin, const SkinOnProduct& on_product, in
 }
 
 std::string unresolved_words(const ContactResult& contact) {
-  std::string where;
+  constexpr std::size_t kMostNamed = 3;
+  std::vector<RegionContact> told;
   for (const RegionContact& region : contact.regions) {
-    if (!is_told(region)) continue;
-    where += (where.empty() ? "" : ", ") + std::string(name_of(region.region)) + " " +
-             percent_of(region);
+    if (is_told(region)) told.push_back(region);
   }
-  if (where.empty()) return "";
+  if (told.empty()) return "";
+  std::stable_sort(told.begin(), told.end(), [](const RegionContact& a, const RegionContact& b) {
+    return a.peak_pressure_cells > b.peak_pressure_cells;
+  });
+  std::string where;
+  for (std::size_t i = 0; i < std::min(told.size(), kMostNamed); ++i) {
+    where += (where.empty() ? "" : ", ") + std::string(name_of(told[i].region)) + " " +
+             percent_of(told[i]);
+  }
+  if (told.size() > kMostNamed) {
+    const std::size_t more = told.size() - kMostNamed;
+    where += " and " + std::to_string(more) + (more == 1 ? " other region" : " other regions");
+  }
   return percent_of(contact.total) +
-         " of the force is on edges of the product that are sharper than the skin's mesh (" + where +
-         "); force and area hold, pressures there don't";
+         " of the force is on edges of the product that are sharper than the skin's mesh (" +
+         where +
+         "); the highest pressures there may be off by 40 %, the hand's force and area hold";
 }
 
 }  // namespace palmar
