@@ -37,6 +37,7 @@ struct AssessRequest {
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
   /// ease; "": the built-in one.
   std::string natural_postures;
+  bool error_budget = false;                ///< hold each product again with one thing changed
   Language language = Language::kEnglish;   ///< of the report and the verdict
   std::string out;                          ///< folder of the report; "": none is written
   bool pictures = true;                     ///< PNG pictures in it
