@@ -14,6 +14,7 @@
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
 #include "palmar/records/study/people_range.h"
+#include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/study.h"
@@ -37,7 +38,7 @@ struct AssessArguments {
   std::string sensors, measured;
   ReportArguments report;
   std::string out;
-  bool left = false;
+  bool left = false, error_budget = false;
   std::vector<std::string> populations;
   int hands = 0;
   bool no_pictures = false;
@@ -74,6 +75,24 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
                         coating.where.isEmpty() ? "" : ", inside its box");
+  }
+  return text;
+}
+
+/// One line for each thing changed: what becomes of the figures, against those as they are.
+std::string error_budget_text(const ErrorBudget& budget) {
+  const auto line = [](const std::string& name, const ErrorCase& one) {
+    return fmt::format("{:<42}{:>6.0f}{:>8.0f}{:>9.0f}{:>9.3f}{:>9.3f}\n", name, one.grip_force,
+                       one.force, one.area, one.peak_pressure_cells, one.mean_pressure);
+  };
+  std::string text =
+      fmt::format("{:<42}{:>6}{:>8}{:>9}{:>9}{:>9}\n{:<42}{:>6}{:>8}{:>9}{:>9}{:>9}\n",
+                  "error budget", "grip", "force", "area", "cells", "mean", "", "N", "N", "mm2",
+                  "MPa", "MPa") +
+      line("as it is", budget.nominal);
+  for (const ErrorCase& one : budget.cases) {
+    const std::string name = fmt::format("{}: {}", name_of(one.source), one.changed);
+    text += one.failure.empty() ? line(name, one) : name + ": no figures: " + one.failure + "\n";
   }
   return text;
 }
@@ -115,6 +134,7 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.natural_postures = arguments.natural_postures;
   request.sensors = arguments.sensors;
   request.measured = arguments.measured;
+  request.error_budget = arguments.error_budget;
   request.out = arguments.out;
   if (request.out.empty() && !context.common.json) request.out = free_report_folder();
   request.language = arguments.report.language();
@@ -192,7 +212,8 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   } else {
     print(verdict_text(outcome.words));
     for (const AssessedProduct& one : outcome.set.assessments) {
-      print(summary(*outcome.set.hand, one.product, one.assessment) + "\n");
+      print(summary(*outcome.set.hand, one.product, one.assessment) +
+            (one.errors ? error_budget_text(*one.errors) : "") + "\n");
     }
     if (!outcome.folder.empty()) print("Report: " + outcome.folder + "/report.html\n");
   }
@@ -223,6 +244,9 @@ void add_assess_command(CLI::App& app, Context& context) {
       "--measured", arguments->measured,
       "CSV of what such sensors measured (row, column, patch; force_n, pressure_kpa or "
       "pressure_mpa), to lay beside the simulation; one product");
+  verb->add_flag("--error-budget", arguments->error_budget,
+                 "Hold each product again with one thing changed at a time: tissue, bone, mesh, "
+                 "friction, posture; some 15 s each");
   verb->add_flag("--left", arguments->left, "A left hand");
   verb->add_option("--population", arguments->populations,
                    "Many hands in place of one, as a small study: a built-in population (`palmar "

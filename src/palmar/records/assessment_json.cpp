@@ -13,6 +13,7 @@
 #include "palmar/records/posture/placement_json.h"
 #include "palmar/records/sensors/sensor_json.h"
 #include "palmar/records/verdict_json.h"
+#include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {
@@ -160,6 +161,28 @@ Json contact_object(const ContactResult& contact, double grip_force) {
   }
   json["regions"] = std::move(regions);
   return json;
+}
+
+Json error_budget_object(const ErrorBudget& budget) {
+  const auto figures = [](const ErrorCase& one) {
+    return Json{{"grip_force_n", one.grip_force},
+                {"force_n", one.force},
+                {"contact_area_mm2", one.area},
+                {"peak_pressure_mpa", one.peak_pressure},
+                {"peak_pressure_cells_mpa", one.peak_pressure_cells},
+                {"mean_pressure_mpa", one.mean_pressure}};
+  };
+  Json cases = Json::array();
+  for (const ErrorCase& one : budget.cases) {
+    Json entry = {{"source", name_of(one.source)}, {"changed", one.changed}};
+    if (one.failure.empty()) {
+      entry.update(figures(one));
+    } else {
+      entry["failure"] = one.failure;
+    }
+    cases.push_back(std::move(entry));
+  }
+  return {{"nominal", figures(budget.nominal)}, {"cases", std::move(cases)}};
 }
 
 Json face_array(const Product& product, const std::vector<FaceContact>& contacts) {
@@ -385,6 +408,7 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
                   {"index_table", index_rows(assessment.indices)},
                   {"settings", settings_object(assessment)}};
     if (assessment.sensors) entry["sensors"] = sensor_object(assessment);
+    if (one.errors) entry["error_budget"] = error_budget_object(*one.errors);
     if (one.product.faces != nullptr) entry["faces"] = face_array(one.product, assessment.faces);
     Json times = {{"grasp", assessment.times.grasp},
                   {"balance", assessment.times.balance},

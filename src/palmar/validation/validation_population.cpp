@@ -104,7 +104,8 @@ void add_areas(ValidationRows& rows, const StudyResults& results, int setting) {
       judge(preset + ", median", "mm2", quantile(sorted, 0.5), between(3300.0, 4400.0, source)));
   rows.push_back(judge(preset + ", quartile range", "mm2",
                        quantile(sorted, 0.75) - quantile(sorted, 0.25), at_most(500.0, source)));
-  set_history(rows, "fd5df47");
+  // Which triangles count as printed was read with the template's area in view (xie2014.md).
+  set_history(rows, "fd5df47", preset == "xie2014" ? "e3a72be" : "");
   rows.push_back(judge(preset + ", rank correlation with hand length", "",
                        spearman(areas, lengths).r, at_least(0.5, source)));
   // The order of the Latin hypercube was chosen with thirty hands of such a population in view.

@@ -14,6 +14,7 @@
 #include "palmar/records/sensors/sensor_layout_file.h"
 #include "palmar/report/page/assessment_report.h"
 #include "palmar/report/words/verdict_words.h"
+#include "palmar/study/assessment/error_budget.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
@@ -135,8 +136,18 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
                    return held.grasp;
                  });
       if (measured) add_measured(task.product, *measured, assessment);
-      outcome.set.assessments.push_back(
-          {std::move(task.product), std::move(assessment), held.ways, held.ways_hand});
+      std::shared_ptr<const ErrorBudget> errors;
+      if (request.error_budget) {
+        ErrorBudgetOptions budget;
+        budget.compliance = [](const Hand& own) {
+          return tissue_on_bone(own, {.tissue = TissueModel::kBone});
+        };
+        errors = std::make_shared<const ErrorBudget>(
+            error_budget(hand, prepared, task.product, held.grasp, assessment, budget,
+                         part_of(progress, start, start + step, task.product.name)));
+      }
+      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment), held.ways,
+                                         held.ways_hand, std::move(errors)});
     } catch (const Cancelled&) {
       outcome.is_cancelled = true;
       break;

@@ -43,6 +43,7 @@ struct AssessRequest {
   std::string sensors;
   /// CSV of what such sensors measured on the one product (read_measured_pressure()); "": nothing.
   std::string measured;
+  bool error_budget = false;                ///< hold each product again with one thing changed
   Language language = Language::kEnglish;   ///< of the report and the verdict
   std::string out;                          ///< folder of the report; "": none is written
   bool pictures = true;                     ///< PNG pictures in it

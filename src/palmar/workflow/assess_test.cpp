@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <atomic>
 #include <numbers>
+#include <set>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/study/assessment/error_budget.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
 namespace palmar {
@@ -40,6 +42,34 @@ std::string refusal(const AssessRequest& request) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(AssessProducts, ErrorBudgetHoldsTheProductAgainAtTheSameGripForce) {
+  AssessRequest request = request_for({handle(44.0)});
+  request.rest.grip_force = 40.0;
+  request.error_budget = true;
+  const AssessOutcome outcome = assess_products(request);
+  const std::shared_ptr<const ErrorBudget> budget = outcome.set.assessments.front().errors;
+  ASSERT_NE(budget, nullptr);
+  const auto area_of = [&](const std::string& changed) {
+    for (const ErrorCase& one : budget->cases) {
+      if (one.changed == changed) return one.area;
+    }
+    ADD_FAILURE() << changed << " is missing";
+    return 0.0;
+  };
+  // Softer skin meets the same force with more of itself.
+  EXPECT_GT(area_of("soft tissue"), budget->nominal.area);
+  EXPECT_LT(area_of("stiff tissue"), budget->nominal.area);
+  std::set<ErrorSource> sources;
+  for (const ErrorCase& one : budget->cases) {
+    sources.insert(one.source);
+    // The hand of this test has no bones.
+    if (one.source == ErrorSource::kBone) continue;
+    EXPECT_EQ(one.failure, "") << one.changed;
+    EXPECT_NEAR(one.grip_force, 40.0, one.source == ErrorSource::kMesh ? 6.0 : 0.8) << one.changed;
+  }
+  EXPECT_EQ(sources.size(), 5U);
 }
 
 TEST(AssessProducts, ForcesOnAHeldProductAddUpToNothing) {

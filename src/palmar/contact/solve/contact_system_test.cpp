@@ -206,8 +206,31 @@ TEST(ContactSystem, SaysWhenAMatrixHasNoAnswer) {
   const std::vector<double> b(s.all.size(), -0.1);
   std::vector<char> in_contact(b.size(), 1);
   std::vector<double> force, gap;
-  EXPECT_FALSE(system.solve(b, in_contact, force, gap).is_solved);
+  const ContactSystem::Outcome outcome = system.solve(b, in_contact, force, gap);
+  EXPECT_FALSE(outcome.is_solved);
+  EXPECT_EQ(outcome.fallbacks, ContactFallbacks{.refused_matrices = 1});
   for (const double p : force) EXPECT_EQ(p, 0.0);
+}
+
+TEST(ContactSystem, CountsWhatTheDenseMethodsSolve) {
+  // One vertex' response to its neighbour is so large that the matrix is indefinite, but both
+  // penetrate alike and R p = -d has the positive solution p = 0.1 / 4.
+  Square s;
+  const std::vector<int> two = {0, 1};
+  Eigen::MatrixXf R(2, 2);
+  R << 1.0F, 3.0F, 3.0F, 1.0F;
+  ContactSystem system(s.patches);
+  system.assemble(R, two);
+  std::vector<char> in_contact(2, 1);
+  std::vector<double> force, gap;
+  const ContactSystem::Outcome outcome = system.solve({-0.1, -0.1}, in_contact, force, gap);
+  EXPECT_TRUE(outcome.is_solved);
+  EXPECT_EQ(outcome.fallbacks, (ContactFallbacks{.refused_matrices = 1, .dense_solutions = 1}));
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_GE(force[i], 0.0);
+    EXPECT_GE(gap[i], -1e-9);
+    EXPECT_NEAR(force[i] * gap[i], 0.0, 1e-9);
+  }
 }
 
 }  // namespace

@@ -61,6 +61,8 @@ struct Assessment {
   AssessTimes times;
 };
 
+struct ErrorBudget;
+
 /// A product with what came of it.
 struct AssessedProduct {
   Product product;
@@ -69,6 +71,7 @@ struct AssessedProduct {
   /// null where nothing was ranked.
   std::shared_ptr<const RankedHolds> ways = nullptr;
   std::shared_ptr<const Hand> ways_hand = nullptr;
+  std::shared_ptr<const ErrorBudget> errors = nullptr;  ///< if it was asked for
 };
 
 /// Grip force of its contact [N]; of a grasp that slips out that of the hand as it was closed.

@@ -1,0 +1,204 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/study/assessment/error_budget.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "palmar/contact/bone/skin_compliance.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/core/error.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/hand/skin/skinning.h"
+
+namespace palmar {
+namespace {
+
+ErrorCase figures_of(ErrorSource source, std::string changed, const ContactResult& contact,
+                     const Product& product) {
+  ErrorCase one{.source = source, .changed = std::move(changed), .failure = {}};
+  if (contact.status == ContactStatus::kNotConverged) {
+    one.failure = contact.message;
+  } else if (!(contact.total.force > 0.0)) {
+    one.failure = "nothing is touched";
+  }
+  if (!one.failure.empty()) return one;
+  one.grip_force = grip_force(contact, *product.distance).force;
+  one.force = contact.total.force;
+  one.area = contact.total.area;
+  one.peak_pressure = contact.total.peak_pressure;
+  one.peak_pressure_cells = contact.total.peak_pressure_cells;
+  one.mean_pressure = contact.total.mean_pressure;
+  return one;
+}
+
+std::shared_ptr<const Hand> with_tissue(const Hand& hand, TissueLevel level) {
+  auto other = std::make_shared<Hand>(hand);
+  for (RegionTissue& tissue : other->tissue.region) {
+    tissue.half_space.nominal = law_at(tissue.half_space, level);
+    tissue.layered.nominal = law_at(tissue.layered, level);
+    tissue.on_bone.nominal = law_at(tissue.on_bone, level);
+  }
+  return other;
+}
+
+/// MCP flexion of the fingers by `angle` more and PIP flexion by as much less, within their range.
+Posture bent(const Skeleton& skeleton, Posture posture, double angle) {
+  constexpr std::array kMcp = {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion, Dof::kRingMcpFlexion,
+                               Dof::kLittleMcpFlexion};
+  constexpr std::array kPip = {Dof::kIndexPipFlexion, Dof::kMiddlePipFlexion, Dof::kRingPipFlexion,
+                               Dof::kLittlePipFlexion};
+  for (std::size_t f = 0; f < kMcp.size(); ++f) {
+    posture[kMcp[f]] += angle;
+    posture[kPip[f]] -= angle;
+  }
+  return clamp_to_range(skeleton, posture).posture;
+}
+
+}  // namespace
+
+std::string_view name_of(ErrorSource source) {
+  constexpr std::array<std::string_view, 5> kNames = {"tissue", "bone", "mesh", "friction",
+                                                      "posture"};
+  return kNames[index_of(source)];
+}
+
+Hand split_skin(const Hand& hand, std::vector<Vec3>& points) {
+  Hand fine;
+  fine.name = hand.name;
+  fine.side = hand.side;
+  fine.region = hand.region;
+  fine.segment = hand.segment;
+  fine.skeleton = hand.skeleton;
+  fine.bones = hand.bones;
+  fine.dimensions = hand.dimensions;
+  fine.tissue = hand.tissue;
+  fine.skin.vertices = hand.skin.vertices;
+  std::map<std::pair<int, int>, int> middle;
+  const auto between = [&](int a, int b) {
+    const auto [at, is_new] = middle.try_emplace({std::min(a, b), std::max(a, b)},
+                                                 static_cast<int>(fine.skin.vertices.size()));
+    if (is_new) {
+      const int first = std::min(a, b);
+      fine.skin.vertices.emplace_back(0.5 * (hand.skin.vertices[a] + hand.skin.vertices[b]));
+      points.emplace_back(0.5 * (points[a] + points[b]));
+      fine.region.push_back(hand.region[first]);
+      fine.segment.push_back(hand.segment[first]);
+    }
+    return at->second;
+  };
+  for (const auto& [a, b, c] : hand.skin.triangles) {
+    const int ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    for (const Triangle& t : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+      fine.skin.triangles.push_back(t);
+    }
+  }
+  return fine;
+}
+
+ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const PreparedHand& prepared,
+                         const Product& product, const Grasp& closed, const Assessment& nominal,
+                         const ErrorBudgetOptions& options, const Progress& progress) {
+  ErrorBudget budget;
+  budget.nominal = figures_of({}, "", nominal.contact, product);
+  if (!budget.nominal.failure.empty()) return budget;
+  AssessOptions usual = nominal.options;
+  usual.contact.error_band = false;
+  constexpr int kSteps = 8;
+  const auto step = [&](int done, const std::string& what) {
+    progress.update(static_cast<double>(done) / kSteps, "error budget: " + what);
+  };
+  Progress quiet = progress;
+  quiet.report = nullptr;
+  const auto hold_again = [&](ErrorSource source, std::string changed, const PreparedHand& with,
+                              const Grasp& grasp, const AssessOptions& how) {
+    Grasp at_rest = grasp;
+    const Balance balance = balance_grasp(with, product, at_rest, how.balance, how.contact, quiet);
+    if (balance.status == BalanceStatus::kSlipsOut || balance.status == BalanceStatus::kFailed) {
+      budget.cases.push_back(
+          {.source = source, .changed = std::move(changed), .failure = balance.message});
+      return;
+    }
+    const ContactResult contact =
+        solve_hand_contact(with, pose_skin(with.hand(), at_rest.posture), at_rest.product_from_hand,
+                           *product.distance, how.contact);
+    budget.cases.push_back(figures_of(source, std::move(changed), contact, product));
+  };
+
+  int done = 0;
+  const ContactModel& model = prepared.model();
+  const auto compliance = [&]() -> std::shared_ptr<const SkinCompliance> {
+    return options.compliance ? options.compliance(*hand) : nullptr;
+  };
+  const std::shared_ptr<const SkinCompliance> own =
+      model.tissue == TissueModel::kBone ? compliance() : nullptr;
+  for (const auto& [level, name] :
+       {std::pair{TissueLevel::kLow, "soft tissue"}, {TissueLevel::kHigh, "stiff tissue"}}) {
+    step(done++, name);
+    if (usual.contact.shear_modulus) {
+      budget.cases.push_back({.source = ErrorSource::kTissue,
+                              .changed = name,
+                              .failure = "one shear modulus was given"});
+      continue;
+    }
+    hold_again(ErrorSource::kTissue, name, PreparedHand(with_tissue(*hand, level), model, own),
+               closed, usual);
+  }
+
+  const bool is_on_bone = model.tissue == TissueModel::kBone;
+  ContactModel other;
+  other.tissue = is_on_bone ? TissueModel::kHalfSpace : TissueModel::kBone;
+  const std::string under = is_on_bone ? "endless tissue" : "tissue on the hand's own bones";
+  step(done++, under);
+  try {
+    hold_again(ErrorSource::kBone, under,
+               PreparedHand(hand, other, is_on_bone ? nullptr : compliance()), closed, usual);
+  } catch (const UsageError& error) {
+    budget.cases.push_back(
+        {.source = ErrorSource::kBone, .changed = under, .failure = error.what()});
+  }
+
+  const std::string split = "triangles split into four";
+  step(done++, split);
+  try {
+    std::vector<Vec3> posed = nominal.posed_skin;
+    const auto fine = std::make_shared<const Hand>(split_skin(*hand, posed));
+    const ContactResult contact =
+        solve_hand_contact(PreparedHand(fine, model), posed, nominal.grasp.product_from_hand,
+                           *product.distance, usual.contact);
+    budget.cases.push_back(figures_of(ErrorSource::kMesh, split, contact, product));
+  } catch (const UsageError& error) {
+    budget.cases.push_back(
+        {.source = ErrorSource::kMesh, .changed = split, .failure = error.what()});
+  }
+
+  for (const double change : {-options.friction_change, options.friction_change}) {
+    AssessOptions how = usual;
+    how.balance.friction = std::max(0.0, usual.balance.friction + change);
+    const std::string name = fmt::format("friction {:.2g}", how.balance.friction);
+    step(done++, name);
+    if (!how.balance.is_on) {
+      budget.cases.push_back({.source = ErrorSource::kFriction,
+                              .changed = name,
+                              .failure = "the hand was left as it was closed"});
+      continue;
+    }
+    hold_again(ErrorSource::kFriction, name, prepared, closed, how);
+  }
+  for (const double angle : {options.bend, -options.bend}) {
+    const std::string name =
+        angle > 0.0 ? "knuckles bent more, fingers less" : "knuckles bent less, fingers more";
+    step(done++, name);
+    Grasp grasp = closed;
+    grasp.posture = bent(hand->skeleton, closed.posture, angle);
+    hold_again(ErrorSource::kPosture, name, prepared, grasp, usual);
+  }
+  if (progress.report) progress.report(1.0, "error budget done");
+  return budget;
+}
+
+}  // namespace palmar
