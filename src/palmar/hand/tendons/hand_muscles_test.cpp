@@ -31,7 +31,8 @@ double flexors(const Hand& hand, const Posture& posture, std::size_t k) {
 }
 
 TEST(HandMuscles, GiveCrossSectionTimesTensionInThePositionOfFunction) {
-  const DigitMuscles digit = HandMuscles(plain_hand()).in(kTried, posture_of(kTried, 45, 45, 25));
+  const Hand hand = plain_hand();
+  const DigitMuscles digit = HandMuscles(hand).in(kTried, posture_of(kTried, 45, 45, 25));
   for (const Tendon tendon : tendons_of(kTried)) {
     EXPECT_NEAR(strength_of(digit, tendon), kSpecificTension * cross_section_of(kTried, tendon),
                 1e-9);
@@ -39,7 +40,8 @@ TEST(HandMuscles, GiveCrossSectionTimesTensionInThePositionOfFunction) {
 }
 
 TEST(HandMuscles, AreWeakerAwayFromThereByWhatTheirFibresLengthen) {
-  const HandMuscles muscles(plain_hand());
+  const Hand hand = plain_hand();
+  const HandMuscles muscles(hand);
   const double best = kSpecificTension * cross_section_of(kTried, Tendon::kFdp);
   for (const Posture& posture : {posture_of(kTried, 85, 100, 60), posture_of(kTried, 0, 5, 0)}) {
     const double here = strength_of(muscles.in(kTried, posture), Tendon::kFdp);
