@@ -190,17 +190,21 @@ void add_fingertip(CLI::App& effort, Context& context) {
 std::string capacity_json(const Capacity& capacity) {
   const auto number = [](double value) { return std::round(1e6 * value) / 1e6; };
   nlohmann::ordered_json json;
-  json["capacity"] = {{"grip_force_n", number(capacity.grip_force)},
-                      {"torque_n_mm", number(capacity.torque)},
-                      {"push_n", number(capacity.force_along)},
-                      {"limited_by", capacity.limited_by},
-                      {"activation", number(capacity.activation)},
-                      {"strength", number(capacity.strength)},
-                      {"friction", capacity.friction},
-                      {"axis", {capacity.axis.x(), capacity.axis.y(), capacity.axis.z()}},
-                      {"grip", capacity.grip},
-                      {"hold", capacity.hold},
-                      {"message", capacity.message}};
+  json["capacity"] = {
+      {"grip_force_n", number(capacity.grip_force)},
+      {"torque_n_mm", number(capacity.torque)},
+      {"push_n", number(capacity.push)},
+      {"pull_n", number(capacity.pull)},
+      {"torque_axis",
+       {capacity.torque_axis.x(), capacity.torque_axis.y(), capacity.torque_axis.z()}},
+      {"limited_by", capacity.limited_by},
+      {"activation", number(capacity.activation)},
+      {"strength", number(capacity.strength)},
+      {"friction", capacity.friction},
+      {"axis", {capacity.axis.x(), capacity.axis.y(), capacity.axis.z()}},
+      {"grip", capacity.grip},
+      {"hold", capacity.hold},
+      {"message", capacity.message}};
   return json.dump(2);
 }
 
@@ -288,9 +292,17 @@ std::string capacity_text(const Capacity& capacity) {
       fmt::format("held: {}\n", capacity.hold.empty() ? capacity.grip : capacity.hold);
   text += fmt::format("largest grip force   {:.0f} N: {}\n", capacity.grip_force, capacity.message);
   if (capacity.grip_force <= 0.0) return text;
-  text += fmt::format("largest torque       {:.2f} N m about the grip axis (friction {:g})\n",
-                      1e-3 * capacity.torque, capacity.friction);
-  text += fmt::format("largest push or pull {:.0f} N along the grip axis\n", capacity.force_along);
+  const Vec3& about = capacity.torque_axis;
+  text += fmt::format("largest torque       {:.2f} N m about {} (friction {:g})\n",
+                      1e-3 * capacity.torque,
+                      about.isApprox(capacity.axis)
+                          ? "the grip axis"
+                          : fmt::format("{:.3g},{:.3g},{:.3g}", about.x(), about.y(), about.z()),
+                      capacity.friction);
+  text += fmt::format("largest push         {:.0f} N along the grip axis, to the thumb's side\n",
+                      capacity.push);
+  text +=
+      fmt::format("largest pull         {:.0f} N, to the little finger's side\n", capacity.pull);
   return text;
 }
 
@@ -300,17 +312,21 @@ void add_capacity(CLI::App& effort, Context& context) {
     GraspArguments grasp;
     ContactArguments contact;
     std::optional<double> friction, strength_n;
-    std::string person;
+    std::string person, about;
   };
   const auto o = std::make_shared<Options>();
-  CLI::App* verb = add_verb(effort, "capacity",
-                            "Largest grip force, torque and push that a hand reaches on a product",
-                            "palmar effort capacity handle.step");
+  CLI::App* verb =
+      add_verb(effort, "capacity",
+               "Largest grip force, torque, push and pull that a hand reaches on a product",
+               "palmar effort capacity handle.step");
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   o->grasp.add_to(*verb);
   o->contact.add_to(*verb);
   verb->add_option("--friction", o->friction,
                    "Coefficient of friction of skin on the product; default 0.5");
+  verb->add_option("--about", o->about,
+                   "Direction of the axis of the torque, x,y,z in the product's frame; default the "
+                   "grip axis");
   verb->add_option("--strength-n", o->strength_n,
                    "How strong the person is: largest force on a grip dynamometer, N; default the "
                    "mean of adults, 427 N");
@@ -326,6 +342,7 @@ void add_capacity(CLI::App& effort, Context& context) {
       request.friction.friction = o->friction;
       request.strength = o->strength_n;
       if (!o->person.empty()) request.person = parse_person(o->person);
+      if (!o->about.empty()) request.torque_axis = parse_vector("--about", o->about);
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
       request.note = [&context](const std::string& text) { note(context.common, text); };

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "palmar/core/error.h"
-#include "palmar/effort/muscle_balance.h"
 
 namespace palmar {
 namespace {
@@ -19,72 +18,46 @@ void check_range(const char* name, double value, double least, double most, cons
                    " is allowed");
 }
 
-/// How the joint's ligaments can push the angle, see MuscleProblem::stop.
-int stop_at(const Skeleton& skeleton, Dof which, const Posture& posture,
-            const EffortOptions& options) {
-  if (!options.joint_stops) return 0;
-  for (const Joint& joint : skeleton.joints) {
-    if (joint.dofs.size() != 2 || joint.id == JointId::kThumbCmc) continue;
-    // A finger's MCP: flexion and abduction.
-    const bool flexes_first = name_of(joint.dofs[0].dof).ends_with("flexion");
-    const Dof flexion = joint.dofs[flexes_first ? 0 : 1].dof;
-    const Dof abduction = joint.dofs[flexes_first ? 1 : 0].dof;
-    if (which == abduction && posture[flexion] >= options.tight_mcp_flexion) return 2;
-  }
-  const JointDof& dof = skeleton.dof(which);
-  if (posture[which] >= dof.upper - options.stop_margin) return -1;
-  if (posture[which] <= dof.lower + options.stop_margin) return 1;
-  return 0;
-}
-
 EffortStatus status_of(MuscleStatus status) {
   if (status == MuscleStatus::kBalanced) return EffortStatus::kHeld;
   return status == MuscleStatus::kOverloaded ? EffortStatus::kOverloaded
                                              : EffortStatus::kNotConverged;
 }
 
-DigitEffort effort_of_digit(const Hand& hand, Finger finger, const Posture& posture,
-                            std::span<const SkinLoad> loads, const EffortOptions& options) {
-  const PosedDigit digit = pose_digit(hand.skeleton, finger, posture);
-  const DigitMoments external = digit_moments(hand, digit, loads);
+DigitEffort effort_of_digit(const HandMuscles& hand_muscles, Finger finger, const Posture& posture,
+                            const DigitMoments& external, double negligible,
+                            const EffortOptions& options) {
   const std::span<const Tendon> own = tendons_of(finger);
+  const DigitMuscles digit = hand_muscles.in(finger, posture);
+  const std::array<Dof, kDigitDofs> dofs = digit_dofs(finger);
 
   DigitEffort effort;
   effort.finger = finger;
   effort.contact_force = external.force;
-  const auto arms = moment_arms(route_tendons(hand, finger, options.tendons), digit);
   for (std::size_t t = 0; t < own.size(); ++t) {
-    effort.tendons.push_back(
-        {.tendon = own[t],
-         .strength = options.strength * options.specific_tension * cross_section_of(finger, own[t]),
-         .moment_arm = arms[t]});
+    effort.tendons.push_back({.tendon = own[t],
+                              .strength = options.strength * digit.strength[t],
+                              .moment_arm = digit.arm[t]});
   }
-  const auto count = static_cast<Eigen::Index>(own.size());
-  MuscleProblem problem{.moment_at_strength = Eigen::MatrixXd(kDigitDofs, count),
-                        .required = Eigen::VectorXd(kDigitDofs),
-                        .stop = Eigen::VectorXi(kDigitDofs),
-                        .exponent = options.exponent};
-  for (int k = 0; k < kDigitDofs; ++k) {
-    effort.joints[k].dof = digit.dof[k];
+  for (std::size_t k = 0; k < kDigitDofs; ++k) {
+    effort.joints[k].dof = dofs[k];
     effort.joints[k].external = external.moment[k];
-    problem.required[k] = -external.moment[k];
-    problem.stop[k] = stop_at(hand.skeleton, digit.dof[k], posture, options);
-    for (std::size_t t = 0; t < own.size(); ++t) {
-      problem.moment_at_strength(k, static_cast<Eigen::Index>(t)) =
-          effort.tendons[t].strength * arms[t][k];
-    }
   }
   if (external.force <= 0.0) return effort;
 
+  const MuscleProblem problem =
+      problem_of(digit, external.moment, options.strength, options.exponent);
   const MuscleSolution solution = balance_muscles(problem);
-  effort.status = status_of(solution.status);
+  const bool is_held = is_enough(solution, negligible);
+  effort.status = is_held ? EffortStatus::kHeld : status_of(solution.status);
   effort.kkt_residual = solution.kkt_residual;
   effort.iterations = solution.iterations;
+  effort.strength_share = least_strength_share(problem, negligible);
   const Eigen::VectorXd muscles = problem.moment_at_strength * solution.activation;
-  for (int k = 0; k < kDigitDofs; ++k) {
-    JointEffort& joint = effort.joints[k];
+  for (Eigen::Index k = 0; k < kDigitDofs; ++k) {
+    JointEffort& joint = effort.joints[static_cast<std::size_t>(k)];
     joint.muscles = muscles[k];
-    joint.stop = solution.stop[k];
+    joint.stop = solution.stop[k] + digit.passive.moment[k];
     joint.missing = solution.missing[k];
   }
   for (std::size_t t = 0; t < own.size(); ++t) {
@@ -106,12 +79,9 @@ void add_message(const DigitEffort& digit, std::string& message) {
         " found no balance (residual " + std::to_string(digit.kkt_residual) + ")");
   }
   if (digit.status != EffortStatus::kOverloaded) return;
-  const std::string unjudged =
-      digit.finger == Finger::kThumb ? " (one specimen's tendons, no verdict)" : "";
   for (const JointEffort& joint : digit.joints) {
     if (joint.missing == 0.0) continue;
-    add(plain_name_of(joint.dof) + ": " + rounded(std::abs(joint.missing)) + " N mm missing" +
-        unjudged);
+    add(plain_name_of(joint.dof) + ": " + rounded(std::abs(joint.missing)) + " N mm missing");
   }
 }
 
@@ -156,16 +126,31 @@ std::string plain_name_of(Dof dof) {
 }
 
 EffortResult assess_effort(const Hand& hand, const Posture& posture,
-                           std::span<const SkinLoad> loads, const EffortOptions& options) {
+                           std::span<const SkinLoad> loads, const EffortOptions& options,
+                           const HandLoad* at_rest) {
   options.check();
+  const HandMuscles muscles(hand, {.tendons = options.tendons,
+                                   .specific_tension = options.specific_tension,
+                                   .stops = {.is_on = options.joint_stops,
+                                             .tight_mcp_flexion = options.tight_mcp_flexion,
+                                             .margin = options.stop_margin},
+                                   .has_passive = at_rest != nullptr});
+  std::array<DigitMoments, kFingerCount> external;
+  double largest = 0.0;
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    external[f] = digit_moments(hand, pose_digit(hand.skeleton, finger, posture), loads);
+    if (at_rest != nullptr) external[f].moment = (*at_rest)[f];
+    for (const double moment : external[f].moment) largest = std::max(largest, std::abs(moment));
+  }
   EffortResult result;
   for (int f = 0; f < kFingerCount; ++f) {
     DigitEffort& digit = result.digits[f];
-    digit = effort_of_digit(hand, static_cast<Finger>(f), posture, loads, options);
-    // The thumb's tendons are those of one specimen: good for their order, not for a verdict.
-    const bool is_judged = f > 0 || digit.status != EffortStatus::kOverloaded;
-    result.status = std::max(result.status, is_judged ? digit.status : EffortStatus::kHeld);
+    digit = effort_of_digit(muscles, static_cast<Finger>(f), posture, external[f],
+                            kNegligibleMoment * largest, options);
+    result.status = std::max(result.status, digit.status);
     result.contact_force += digit.contact_force;
+    result.strength_share = std::max(result.strength_share, digit.strength_share);
     for (const TendonLoad& load : digit.tendons) result.tendon_force += load.force;
     add_message(digit, result.message);
   }
@@ -174,9 +159,10 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture,
 
 EffortResult assess_effort(const Hand& hand, const Posture& posture, const ContactResult& contact,
                            const Rigid3& product_from_hand, const DistanceField& product,
-                           const EffortOptions& options, const FrictionResult* friction) {
+                           const EffortOptions& options, const FrictionResult* friction,
+                           const HandLoad* at_rest) {
   const std::vector<SkinLoad> loads = skin_loads(contact, product_from_hand, product, friction);
-  EffortResult result = assess_effort(hand, posture, loads, options);
+  EffortResult result = assess_effort(hand, posture, loads, options, at_rest);
   result.with_friction = friction != nullptr && !friction->force.empty();
   return result;
 }

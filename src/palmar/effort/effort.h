@@ -11,7 +11,7 @@
 #include "palmar/contact/friction/friction.h"
 #include "palmar/effort/joint_moments.h"
 #include "palmar/grasp/indices/grasp_index.h"
-#include "palmar/hand/tendons/digit_tendons.h"
+#include "palmar/hand/tendons/hand_muscles.h"
 
 namespace palmar {
 
@@ -53,7 +53,7 @@ struct JointEffort {
   Dof dof{};
   double external = 0.0;  ///< of the contact forces
   double muscles = 0.0;
-  double stop = 0.0;     ///< of the joint's ligaments at the end of its range
+  double stop = 0.0;     ///< of ligaments and slack muscles (joint_limits.h)
   double missing = 0.0;  ///< what the muscles would have to give beyond what they can
 };
 
@@ -63,34 +63,37 @@ struct DigitEffort {
   double contact_force = 0.0;                  ///< sum of |force| on the digit, N
   std::array<JointEffort, kDigitDofs> joints;  ///< from the palm outwards
   std::vector<TendonLoad> tendons;             ///< in the order of tendons_of(finger)
+  double strength_share = 0.0;                 ///< least_strength_share(); above 1: can't be held
   double kkt_residual = 0.0;                   ///< see MuscleSolution
   int iterations = 0;
 };
 
 /// What muscles do while a hand holds a product.
 struct EffortResult {
-  /// The worst of the digits; an overloaded thumb counts as held: its tendons are those of one
-  /// specimen, good for their order only.
-  EffortStatus status = EffortStatus::kNoLoad;
-  std::string message;         ///< which moments are missing where: "index DIP flexion: 120 N mm"
-  bool with_friction = false;  ///< friction forces are in the loads
-  double contact_force = 0.0;  ///< sum of |force| on the five digits, N
-  double tendon_force = 0.0;   ///< sum over all muscles, N
+  EffortStatus status = EffortStatus::kNoLoad;  ///< the worst of the digits
+  std::string message;          ///< which moments are missing where: "index DIP flexion: 120 N mm"
+  bool with_friction = false;   ///< friction forces are in the loads
+  double contact_force = 0.0;   ///< sum of |force| on the five digits, N
+  double tendon_force = 0.0;    ///< sum over all muscles, N
+  double strength_share = 0.0;  ///< the largest of the digits: what the hold takes of a person
   std::array<DigitEffort, kFingerCount> digits;  ///< indexed by Finger
 };
 
 /// Tendon forces of every digit by static optimisation: contact forces (joint_moments.h) against
-/// the muscles' moments (digit_tendons.h), muscle_balance.h. Not modelled: the weight of the hand,
-/// the wrist, muscles shared between fingers, passive stiffness within the range of motion.
-/// Deterministic; throws UsageError on bad options.
+/// the muscles and passive moments of HandMuscles, muscle_balance.h. `at_rest`: moments of the
+/// contact forces as the grasp at rest has them (Balance::joint_load), in place of those of rigid
+/// phalanges; with them passive moments count. Not modelled: the weight of the hand, the wrist,
+/// muscles shared between fingers. Deterministic; throws UsageError on bad options.
 EffortResult assess_effort(const Hand& hand, const Posture& posture, const ContactResult& contact,
                            const Rigid3& product_from_hand, const DistanceField& product,
                            const EffortOptions& options = {},
-                           const FrictionResult* friction = nullptr);
+                           const FrictionResult* friction = nullptr,
+                           const HandLoad* at_rest = nullptr);
 
 /// The same for given forces on the skin.
 EffortResult assess_effort(const Hand& hand, const Posture& posture,
-                           std::span<const SkinLoad> loads, const EffortOptions& options = {});
+                           std::span<const SkinLoad> loads, const EffortOptions& options = {},
+                           const HandLoad* at_rest = nullptr);
 
 /// The indices of group "effort".
 GraspIndices effort_indices(const EffortResult& effort);

@@ -33,6 +33,9 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   if (request.rest.is_usual()) load.add(product, options.friction.load);
   options.balance = request.rest.options(request.friction.friction, load);
   options.balance.load = options.friction.load;
+  EffortOptions effort = request.effort;
+  effort.strength *= options.balance.strength;
+  options.balance.strength = effort.strength;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
   const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
@@ -50,13 +53,15 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
                                       options.balance.asked_words(held.grasp.grip)));
   }
   // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
+  const HandLoad* at_rest = nullptr;
   if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
     held.friction.force = held.balance.friction_force;
+    if (held.balance.joint_load) at_rest = &*held.balance.joint_load;
   }
   const bool has_friction =
       !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
   return assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
-                       *product.distance, request.effort, has_friction ? &held.friction : nullptr);
+                       *product.distance, effort, has_friction ? &held.friction : nullptr, at_rest);
 }
 
 }  // namespace palmar

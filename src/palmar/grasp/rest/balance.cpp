@@ -18,11 +18,11 @@
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/finger_cones.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
+#include "palmar/grasp/rest/grip_effort.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/grasp/rest/press_down.h"
 #include "palmar/grasp/rest/way_words.h"
 #include "palmar/hand/skeleton.h"
-#include "palmar/hand/tendons/grip_muscles.h"
 
 namespace palmar {
 namespace {
@@ -43,26 +43,29 @@ constexpr double kNothing = 0.1;       // N; less left over is nothing to a hand
 constexpr double kReach = 40.0;        // mm; arm by which turns are counted as way
 constexpr double kOut = 25.0;          // mm; a product that went farther has left the hand
 constexpr double kOutTurn = 0.8;       // rad
-constexpr double kLostShare = 0.05;    // of the grip force at the start; less is a lost grip
-// Passive coupling of DIP and PIP (Rijkpema & Girard 1991; tolerance: joint_coupling table of
-// modelling rules, 15 deg): beyond it a moment of kCouplingStiffness per radian.
-constexpr double kDipPerPip = 2.0 / 3.0;
-constexpr double kCouplingFree = 10.0 * kDegree;  // rad
-constexpr double kCouplingStiffness = 1500.0;     // N mm/rad; our choice
+constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
+constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // mm; pulp of thumb and finger pressed together, 2 mm each; our choice
 constexpr double kPulpGive = 4.0;
-// that muscles and product bend a joint beyond its active range; our choice
-constexpr double kPassiveMore = 10.0 * kDegree;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
+
+/// How a grasp is brought to rest.
+enum class Way {
+  kLeastEffort,  ///< by the muscles, wherever the product comes to rest
+  kInPlace,      ///< by the muscles, so that the product stays where it was taken hold of
+  kStiff         ///< joints held as they were closed
+};
 
 /// One run of the search for rest.
 class Settling {
  public:
   Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-           const BalanceOptions& options, const ContactOptions& contact, bool is_by_muscles)
+           const BalanceOptions& options, const ContactOptions& contact, Way way)
       : hand_(&hand.hand()),
         options_(&options),
-        is_by_muscles_(is_by_muscles),
+        way_(way),
+        is_by_muscles_(way != Way::kStiff),
+        squeezes_(is_power(grasp.grip) && grasp.grip != Grip::kFixedHook),
         asked_(options.asked_grip_force(grasp.grip)),
         has_level_(is_power(grasp.grip) || asked_),
         start_{grasp.posture, grasp.product_from_hand},
@@ -71,8 +74,7 @@ class Settling {
         start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
         closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_),
-        grip_muscles_(hand.hand()) {
-    is_held_[index_of(Finger::kThumb)] = is_by_muscles_;
+        effort_(hand.hand(), options.activation.value_or(options.strength)) {
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =
@@ -87,7 +89,8 @@ class Settling {
 
  private:
   struct Misfit {
-    GripVector residual = GripVector::Zero();  ///< N, N mm
+    GripVector outside = GripVector::Zero();   ///< without muscles; N, N mm
+    GripVector residual = GripVector::Zero();  ///< with them
     GripMatrix stiffness = GripMatrix::Zero();
     double force = 0.0, moment = 0.0;  ///< on the product, N and N mm
     double of_product = 0.0;           ///< those over the grip force
@@ -96,28 +99,28 @@ class Settling {
     double sum() const { return of_product + of_joints + of_level; }
   };
 
-  /// Skin beyond the joint is loaded, and no other digit holds it.
-  bool is_loaded(std::size_t joint) const {
-    return mechanics_.is_loaded()[joint] && !is_held_[joint / 3];
-  }
-  bool is_stuck(std::size_t joint, double residual) const;
-  void add_coupling(GripVector& residual, GripMatrix& stiffness) const;
+  bool is_held(int joint) const { return is_held_[index_of(grip_finger(joint))]; }
+  bool is_stuck(int joint, double residual) const;
   void add_load(GripVector& residual) const;
-  void find_full_moments();
-  double first_level() const;
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
+  GripVector step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
+                             const Eigen::MatrixXd& k, double missing);
+  GripVector step_stiff(const Misfit& misfit, const std::vector<int>& free,
+                        const Eigen::MatrixXd& k, double missing) const;
   void step_fingertips(const Misfit& misfit, double missing);
   double share_of(const GripVector& way, double longest);
   void move_product(const Vec3& shift, const Vec3& turn);
-  void finish(Balance& balance) const;
+  void finish(Balance& balance);
   bool judge_way(Balance& balance) const;
   Posture without_crossing(const Posture& next);
 
   const Hand* hand_;
   const BalanceOptions* options_;
+  Way way_;
   bool is_by_muscles_;
+  bool squeezes_;            // fingers against the palm or the thumb: a power grip, but for a hook
   double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
   std::optional<double> asked_;  // grip force, N
   bool has_level_;               // the squeeze is brought to the grip force asked for
@@ -125,64 +128,25 @@ class Settling {
   FingerCones cones_;
   std::vector<RoundCone> start_cones_;
   FingertipClosing closing_;                  // how a precision grip presses
-  std::array<bool, kFingerCount> is_held_{};  // stays as it is: the thumb, a finger that met it
+  std::array<bool, kFingerCount> is_held_{};  // a finger that met the thumb stays as it is
   GripMechanics mechanics_;
   Wrench load_;  // product frame
   bool has_load_ = false;
   double target_ = 0.0;  // grip force, N
-  GripMuscles grip_muscles_;
-  std::array<double, kSqueezeJoints> full_{};  // moments of muscles at full activation, N mm
-  double muscles_ = 0.0;                       // activation of the muscles, 0 to 1
-  double relaxation_ = 1.0;                    // share of a step that is taken
+  GripEffort effort_;
+  bool is_at_limit_ = false;  // the muscles can't give the squeeze asked for
+  double relaxation_ = 1.0;   // share of a step that is taken
   GripVector last_way_ = GripVector::Zero();
   Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
 };
-
-void Settling::add_coupling(GripVector& residual, GripMatrix& stiffness) const {
-  for (int finger = 0; finger < 4; ++finger) {
-    const int pip = 4 + 3 * finger, dip = pip + 1;
-    const double off =
-        state_.posture[kSqueezeDofs[dip]] - kDipPerPip * state_.posture[kSqueezeDofs[pip]];
-    const double excess = off - std::clamp(off, -kCouplingFree, kCouplingFree);
-    if (excess == 0.0) continue;
-    residual[dip] -= kCouplingStiffness * excess;
-    residual[pip] += kDipPerPip * kCouplingStiffness * excess;
-    stiffness(dip, dip) += kCouplingStiffness;
-    stiffness(pip, pip) += kDipPerPip * kDipPerPip * kCouplingStiffness;
-    stiffness(dip, pip) -= kDipPerPip * kCouplingStiffness;
-    stiffness(pip, dip) -= kDipPerPip * kCouplingStiffness;
-  }
-}
 
 void Settling::add_load(GripVector& residual) const {
   // From the origin of the product frame to the centre of contact in the hand frame.
   const Rigid3 hand_from_product = state_.product_from_hand.inverse();
   const Vec3 centre = state_.product_from_hand * mechanics_.centre();
-  residual.segment<3>(kSqueezeJoints) += load_share_ * (hand_from_product.rotation * load_.force);
+  residual.segment<3>(kGripJoints) += load_share_ * (hand_from_product.rotation * load_.force);
   residual.tail<3>() +=
       load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
-}
-
-void Settling::find_full_moments() {
-  for (int f = 1; f < kFingerCount; ++f) {
-    const std::array<double, 3> moments =
-        grip_muscles_.flexion_moments(static_cast<Finger>(f), state_.posture);
-    for (std::size_t level = 0; level < 3; ++level) {
-      full_[3 * static_cast<std::size_t>(f) + level] = moments[level];
-    }
-  }
-}
-
-/// The common level of muscle moments that suits the moments of the contact best.
-double Settling::first_level() const {
-  double along = 0.0, size = 0.0;
-  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-    if (!is_loaded(j)) continue;
-    const double muscles = full_[j];
-    along -= muscles * mechanics_.force()[static_cast<Eigen::Index>(j)];
-    size += muscles * muscles;
-  }
-  return size > 0.0 ? std::max(1e-4, along / size) : 1e-4;
 }
 
 /// People press the harder the heavier a thing is: by what two opposed contacts need to hold the
@@ -191,12 +155,12 @@ double Settling::extra_grip() const {
   return options_->friction > 0.0 ? 0.5 * load_.force.norm() / options_->friction : 0.0;
 }
 
-/// At the end of its range and pushed against it.
-bool Settling::is_stuck(std::size_t joint, double residual) const {
-  const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[joint]);
+/// As far as the joint goes and pushed against it.
+bool Settling::is_stuck(int joint, double residual) const {
+  const JointDof& dof = hand_->skeleton.dof(grip_dof(joint));
   const double angle = state_.posture[dof.dof];
-  return (angle >= dof.upper + kPassiveMore - 1e-9 && residual > 0.0) ||
-         (angle <= dof.lower + 1e-9 && residual < 0.0);
+  const double upper = dof.upper + (GripEffort::is_free(joint) ? kPassiveRange : 0.0);
+  return (angle >= upper - 1e-9 && residual > 0.0) || (angle <= dof.lower + 1e-9 && residual < 0.0);
 }
 
 /// What is missing to rest in the state that mechanics_ looks at.
@@ -206,21 +170,17 @@ Settling::Misfit Settling::misfit(double grip) const {
   result.stiffness = mechanics_.stiffness();
   add_load(result.residual);
   if (is_by_muscles_) {
-    double strongest = 1e-9;
-    for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-      const double moment = muscles_ * full_[j];
-      result.residual[static_cast<Eigen::Index>(j)] += moment;
-      if (is_loaded(j)) strongest = std::max(strongest, moment);
-    }
-    add_coupling(result.residual, result.stiffness);
-    for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-      const double residual = result.residual[static_cast<Eigen::Index>(j)];
-      if (!is_loaded(j) || is_stuck(j, residual)) continue;
-      result.of_joints = std::max(result.of_joints, std::abs(residual) / strongest);
+    effort_.add_passive(result.residual, result.stiffness);
+    result.outside = result.residual;
+    result.residual += effort_.moments();
+    const double strongest = effort_.strongest();
+    for (int j = 0; j < kGripJoints; ++j) {
+      if (!effort_.is_judged(j) || is_stuck(j, result.residual[j])) continue;
+      result.of_joints = std::max(result.of_joints, std::abs(result.residual[j]) / strongest);
     }
   }
   if (has_level_) result.of_level = std::abs(grip / target_ - 1.0);
-  result.force = result.residual.segment<3>(kSqueezeJoints).norm();
+  result.force = result.residual.segment<3>(kGripJoints).norm();
   result.moment = result.residual.tail<3>().norm();
   result.of_product = std::max(result.force, result.moment / mechanics_.arm()) / grip;
   return result;
@@ -242,25 +202,27 @@ Posture Settling::without_crossing(const Posture& next) {
       }
     }
   }
-  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-    if (is_held_[j / 3]) result[kSqueezeDofs[j]] = state_.posture[kSqueezeDofs[j]];
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (is_held(j)) result[grip_dof(j)] = state_.posture[grip_dof(j)];
   }
   return result;
 }
 
-/// One Newton step towards rest and the grip force asked for. The level of the muscles (of the
-/// common closing, where joints are held) is an unknown beside the coordinates:
+/// One Newton step towards rest and the grip force asked for, with the activations of the muscles
+/// (GripEffort) or, where joints are stiff, the level of a common closing as unknowns beside the
+/// coordinates:
 ///
-///     stiffness dx = residual + muscles d_level,    squeeze . dx = missing sum of normal forces.
+///     stiffness dx = residual + muscles,    squeeze . dx = missing sum of normal forces.
 void Settling::step(const Misfit& misfit, double missing) {
   std::vector<int> free;
-  for (int j = 0; j < kSqueezeJoints; ++j) {
-    if (is_by_muscles_ && is_loaded(j) && !is_stuck(j, misfit.residual[j])) {
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (is_by_muscles_ && GripEffort::is_free(j) && effort_.is_judged(j) &&
+        !is_stuck(j, misfit.residual[j])) {
       free.push_back(j);
     }
   }
   const auto joints = static_cast<Eigen::Index>(free.size());
-  for (int j = kSqueezeJoints; j < kGripCoordinates; ++j) free.push_back(j);
+  for (int j = kGripJoints; j < kGripCoordinates; ++j) free.push_back(j);
   Eigen::MatrixXd k = misfit.stiffness(free, free);
   const auto stiffen = [&](Eigen::Index begin, Eigen::Index count) {
     if (count == 0) return;
@@ -270,19 +232,41 @@ void Settling::step(const Misfit& misfit, double missing) {
   stiffen(0, joints);
   stiffen(joints, 3);
   stiffen(joints + 3, 3);
-  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
-  // What one unit of level does: to the forces on the coordinates, and to held joints themselves.
-  GripVector per_level = GripVector::Zero(), closing = GripVector::Zero();
-  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-    if (!is_loaded(j)) continue;
-    const auto row = static_cast<Eigen::Index>(j);
-    if (is_by_muscles_) {
-      per_level[row] = full_[j];
-    } else {
-      closing[row] = 1.0;
-    }
+  GripVector way = is_by_muscles_ ? step_by_muscles(misfit, free, k, missing)
+                                  : step_stiff(misfit, free, k, missing);
+  double longest = std::max(way.segment<3>(kGripJoints).norm(), kReach * way.tail<3>().norm());
+  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
+  way *= share_of(way, longest);
+
+  Posture turned = state_.posture;
+  for (int j = 0; j < kGripJoints; ++j) {
+    const JointDof& dof = hand_->skeleton.dof(grip_dof(j));
+    const double angle = state_.posture[dof.dof];
+    const double upper = dof.upper + (GripEffort::is_free(j) ? kPassiveRange : 0.0);
+    turned[dof.dof] =
+        std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(upper, angle));
   }
-  if (!is_by_muscles_) per_level = -(misfit.stiffness * closing);
+  state_.posture = without_crossing(turned);
+  move_product(way.segment<3>(kGripJoints), way.tail<3>());
+}
+
+GripVector Settling::step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
+                                     const Eigen::MatrixXd& k, double missing) {
+  std::optional<double> asked;
+  if (!options_->activation) {
+    const double sum = mechanics_.grip().sum_of_normals;
+    asked = has_level_ ? std::clamp(missing, -kMostLooser * sum, kMostFirmer * sum) : 0.0;
+  }
+  const GripEffort::Step step =
+      effort_.solve(free, k, misfit.outside, misfit.stiffness, mechanics_.squeeze(), asked,
+                    way_ == Way::kInPlace ? &moved_ : nullptr);
+  is_at_limit_ = step.is_short;
+  return step.way;
+}
+
+GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& free,
+                                const Eigen::MatrixXd& k, double missing) const {
+  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
   const auto solved = [&](const GripVector& right) {
     const Eigen::VectorXd part = factor.solve(Eigen::VectorXd(right(free)));
     GripVector whole = GripVector::Zero();
@@ -292,41 +276,23 @@ void Settling::step(const Misfit& misfit, double missing) {
     return whole;
   };
   GripVector way = solved(misfit.residual);
-  double level = 0.0;
-  if (has_level_) {
-    const GripVector gain = solved(per_level) + closing;
-    const double rate = mechanics_.squeeze().dot(gain);
-    if (rate > 1e-12) {
-      level = (missing - mechanics_.squeeze().dot(way)) / rate;
-      if (is_by_muscles_) level = std::clamp(level, -0.4 * muscles_, 0.6 * muscles_);
-      way += level * gain;
-    }
+  if (!has_level_) return way;
+  GripVector closing = GripVector::Zero();
+  for (int j = 0; j < kGripJoints; ++j) {
+    const bool closes = is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
+    if (closes && !is_held(j)) closing[j] = 1.0;
   }
-
-  double longest = std::max(way.segment<3>(kSqueezeJoints).norm(), kReach * way.tail<3>().norm());
-  for (int j = 0; j < kSqueezeJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
-  const double share = share_of(way, longest);
-  way *= share;
-  level *= share;
-  if (is_by_muscles_) muscles_ = std::min(muscles_ + level, options_->strength);
-
-  Posture turned = state_.posture;
-  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
-    const JointDof& dof = hand_->skeleton.dof(kSqueezeDofs[j]);
-    const double angle = state_.posture[dof.dof];
-    turned[dof.dof] =
-        std::clamp(angle + way[static_cast<Eigen::Index>(j)], std::min(dof.lower, angle),
-                   std::max(dof.upper + kPassiveMore, angle));
-  }
-  state_.posture = without_crossing(turned);
-  move_product(way.segment<3>(kSqueezeJoints), way.tail<3>());
+  const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
+  const double rate = mechanics_.squeeze().dot(gain);
+  if (rate > 1e-12) way += (missing - mechanics_.squeeze().dot(way)) / rate * gain;
+  return way;
 }
 
 /// How much of a step is taken; `longest` is the longest way that something goes in it, mm.
 double Settling::share_of(const GripVector& way, double longest) {
   // Going to and fro says that forces change faster than the stiffness says: shorter steps.
   GripVector scaled = way;
-  scaled.head<kSqueezeJoints>() *= kReach;
+  scaled.head<kGripJoints>() *= kReach;
   scaled.tail<3>() *= kReach;
   const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
   relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
@@ -397,7 +363,7 @@ bool Settling::judge_way(Balance& balance) const {
   return balance.moved > kOut || balance.turned > kOutTurn;
 }
 
-void Settling::finish(Balance& balance) const {
+void Settling::finish(Balance& balance) {
   const Squeeze grip = mechanics_.grip();
   balance.grip_force = grip.force;
   balance.sum_of_normals = grip.sum_of_normals;
@@ -405,7 +371,17 @@ void Settling::finish(Balance& balance) const {
   balance.friction_use = mechanics_.friction_use();
   balance.friction_force = mechanics_.friction_force();
   balance.fallbacks = mechanics_.fallbacks();
-  if (is_by_muscles_) balance.strength_use = muscles_ / options_->strength;
+  if (squeezes_) {
+    const double limit = options_->activation.value_or(options_->strength);
+    if (!is_by_muscles_) effort_.look(state_.posture, mechanics_, {});
+    const double share = effort_.strength_share(mechanics_.force()) * limit / options_->strength;
+    if (std::isfinite(share)) balance.strength_use = share;
+    balance.is_overloaded = !is_by_muscles_ && !(share <= 1.0);
+  }
+  HandLoad& load = balance.joint_load.emplace();
+  for (int j = 0; j < kGripJoints; ++j) {
+    load[j / kDigitDofs][j % kDigitDofs] = mechanics_.force()[j];
+  }
   judge_way(balance);
 }
 
@@ -416,7 +392,7 @@ Balance Settling::run(const Progress& progress) {
   struct {
     GripState state;
     Misfit misfit;
-    double muscles = 0.0;
+    GripEffort::Activations muscles;
     Vec3 moved = Vec3::Zero();
     int step = 0;
   } best;
@@ -430,7 +406,7 @@ Balance Settling::run(const Progress& progress) {
       balance.message = "the contact could not be solved while the grasp came to rest";
       break;
     }
-    find_full_moments();
+    if (is_by_muscles_) effort_.look(state_.posture, mechanics_, is_held_);
     const double grip = mechanics_.grip().force;
     if (i == 0) {
       start_grip = grip;
@@ -455,23 +431,19 @@ Balance Settling::run(const Progress& progress) {
     // People take hold before they lift.
     load_share_ =
         has_load_ && has_level_ ? std::clamp((grip / target_ - 0.5) / 0.45, 0.0, 1.0) : 1.0;
-    if (i == 0) {
-      muscles_ = options_->activation.value_or(
-          std::min(first_level() * target_ / grip, options_->strength));
-    }
     now = misfit(grip);
     balance.residual_force = now.force;
     balance.residual_moment = now.moment;
     balance.residual_share = now.of_product;
-    const bool is_there =
-        now.of_product < options_->aim && now.of_joints < kJointAim && now.of_level < kLevelAim;
+    const bool is_there = now.of_product < options_->aim && now.of_joints < kJointAim &&
+                          (now.of_level < kLevelAim || is_at_limit_);
     if (is_there || gives_up) {
       balance.status = now.of_product < kBalanced || now.of_product * grip < kNothing
                            ? BalanceStatus::kBalanced
                            : BalanceStatus::kNotConverged;
       break;
     }
-    if (now.sum() < best.misfit.sum()) best = {state_, now, muscles_, moved_, i};
+    if (now.sum() < best.misfit.sum()) best = {state_, now, effort_.activations(), moved_, i};
     progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
                     "letting the grasp come to rest");
     gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps);
@@ -480,7 +452,7 @@ Balance Settling::run(const Progress& progress) {
       is_by_muscles_ || closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);
     } else {
       state_ = best.state;
-      muscles_ = best.muscles;
+      effort_.set(best.muscles);
       moved_ = best.moved;
     }
   }
@@ -527,7 +499,7 @@ Balance settle_precision(const PreparedHand& hand, const Product& product, Grasp
     Grasp there = grasp;
     if (i > 0) take_runner_up(hand.hand(), product, i - 1, there);
     if (i > 0 && there.status != GraspStatus::kHeld) continue;
-    Settling settling(hand, product, there, options, contact, false);
+    Settling settling(hand, product, there, options, contact, Way::kStiff);
     Balance balance = settling.run(progress);
     const bool is_at_rest = balance.status == BalanceStatus::kBalanced;
     const bool is_near = balance.status == BalanceStatus::kNotConverged;
@@ -566,25 +538,33 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   if (!is_power(grasp.grip)) {
     return settle_precision(hand, product, grasp, options, plain, progress);
   }
-  // A large body slips past fingers that all give the same share of their strength. Then the hand
-  // is tried stiff: all joints held as they were closed. Hooked fingers meet no palm that would
-  // hold against them: stiff from the start.
-  const bool has_muscles = is_power(grasp.grip) && grasp.grip != Grip::kFixedHook;
+  // A large body slips past muscles of least effort. Then they are tried so that it stays where it
+  // is, and last the hand stiff: all joints held as they were closed. Hooked fingers meet no palm
+  // that would hold against them: stiff from the start.
+  const bool has_muscles = grasp.grip != Grip::kFixedHook;
   Balance balance;
-  for (const bool is_by_muscles : {true, false}) {
-    if (is_by_muscles && !has_muscles) continue;
-    Settling settling(hand, product, grasp, options, plain, is_by_muscles);
+  for (const Way way : {Way::kLeastEffort, Way::kInPlace, Way::kStiff}) {
+    if (way != Way::kStiff && !has_muscles) continue;
+    Settling settling(hand, product, grasp, options, plain, way);
     Balance attempt = settling.run(progress);
-    const bool is_second = !is_by_muscles && has_muscles;
+    const bool is_first = way == Way::kLeastEffort || !has_muscles;
     const bool is_at_rest = attempt.status == BalanceStatus::kBalanced;
     const bool slips = attempt.status == BalanceStatus::kSlipsOut;
-    if (is_at_rest || (!is_second && attempt.status == BalanceStatus::kNotConverged)) {
+    if (is_at_rest || (is_first && attempt.status == BalanceStatus::kNotConverged)) {
       grasp.posture = settling.state().posture;
       grasp.product_from_hand = settling.state().product_from_hand;
     }
-    if (is_at_rest || !is_second) balance = std::move(attempt);
-    if (is_at_rest && is_second) balance.message += ", by fingers that are held stiff";
-    if (!slips) break;
+    if (is_at_rest || is_first) balance = std::move(attempt);
+    if (is_at_rest && way == Way::kStiff && has_muscles) {
+      balance.message += ", by fingers that are held stiff";
+      if (balance.is_overloaded) {
+        balance.message += balance.strength_use
+                               ? fmt::format(", which takes {:.1f} times the muscles' strength",
+                                             *balance.strength_use)
+                               : ", which no muscles could";
+      }
+    }
+    if (is_at_rest || (is_first && !slips)) break;
   }
   return balance;
 }

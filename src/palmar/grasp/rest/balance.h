@@ -12,6 +12,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/rest/task_force.h"
+#include "palmar/hand/tendons/hand_muscles.h"
 #include "palmar/product/product.h"
 
 namespace palmar {
@@ -36,10 +37,10 @@ struct BalanceOptions {
   // How firmly; at most one of the two. None: as firm as it was closed.
   std::optional<double> grip_force;  ///< N, as grip_force()
   std::optional<ShareOfStrength> share_of_strength;
-  /// Instead of a grip force: the activation that the muscles of a power grip are held at, 0 to
-  /// `strength`. 1 with `strength` 1: as hard as the hand can.
+  /// Instead of a grip force: as hard as a power grip can with no muscle above this activation, 0
+  /// to `strength`. 1 with `strength` 1: as hard as the hand can.
   std::optional<double> activation;
-  /// Largest activation: the person's muscles over those of GripMuscles.
+  /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
   /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
   /// as balanced.
@@ -76,9 +77,14 @@ struct Balance {
   double residual_moment = 0.0;  ///< N mm, about the centre of contact
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
-  /// Activation of the fingers' long flexors over `strength` (GripMuscles); nothing for a
-  /// grip held by stiff joints.
+  /// Least share of the person's strength with which the muscles of all digits hold these contact
+  /// forces (least_strength_share()); nothing where no strength could, and for grips other than
+  /// power grips.
   std::optional<double> strength_use;
+  /// A power grip that came to rest only with joints stiffer than its muscles can make them.
+  bool is_overloaded = false;
+  /// Moments of contact forces and friction about the angles of the digits, of the grasp at rest.
+  std::optional<HandLoad> joint_load;
   double moved = 0.0;                ///< of the product in the hand since it was closed, mm
   double turned = 0.0;               ///< rad
   std::optional<Vec3> slip;          ///< kSlipsOut: unit direction, hand frame
@@ -89,9 +95,9 @@ struct Balance {
 };
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
-/// friction and load add up to nothing on the product; in a power grip also at every flexion joint
-/// of a finger in contact, with the moments that GripMuscles give at one activation; palm and
-/// thumb hold against them. `grasp` gets the new posture and placement. Precision grips: joints are
+/// friction and load add up to nothing on the product; in a power grip also about every angle of a
+/// digit in contact, with the moments that its muscles give at least effort (GripEffort). The palm
+/// holds against them. `grasp` gets the new posture and placement. Precision grips: joints are
 /// held stiff and fingertips press straight into the product, all alike, to reach a grip force
 /// (fingertip_closing.h). One that doesn't come to rest where fingertips were first put is tried at
 /// its runners-up; `grasp` is then the first of those that does, and its message says so.

@@ -17,32 +17,35 @@ constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mi
 constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
 constexpr double kTurn = 1e-3;           // rad; of the differences
 
-constexpr std::array<JointId, kSqueezeJoints> kSqueezeJointIds = {
-    JointId::kThumbCmc,  JointId::kThumbMp,   JointId::kThumbIp,   JointId::kIndexMcp,
-    JointId::kIndexPip,  JointId::kIndexDip,  JointId::kMiddleMcp, JointId::kMiddlePip,
-    JointId::kMiddleDip, JointId::kRingMcp,   JointId::kRingPip,   JointId::kRingDip,
-    JointId::kLittleMcp, JointId::kLittlePip, JointId::kLittleDip};
+JointId grip_joint_id(int joint) {
+  const auto segments = segments_of(grip_finger(joint));
+  if (grip_finger(joint) == Finger::kThumb) {
+    return std::array{JointId::kThumbCmc, JointId::kThumbCmc, JointId::kThumbMp,
+                      JointId::kThumbIp}[static_cast<std::size_t>(joint)];
+  }
+  // MCP has the first two angles.
+  return joint_of(*segments[static_cast<std::size_t>(std::max(0, joint % kDigitDofs - 1))]);
+}
 
 }  // namespace
 
-const std::array<Dof, kSqueezeJoints> kSqueezeDofs = {
-    Dof::kThumbCmcFlexion,  Dof::kThumbMpFlexion,   Dof::kThumbIpFlexion,   Dof::kIndexMcpFlexion,
-    Dof::kIndexPipFlexion,  Dof::kIndexDipFlexion,  Dof::kMiddleMcpFlexion, Dof::kMiddlePipFlexion,
-    Dof::kMiddleDipFlexion, Dof::kRingMcpFlexion,   Dof::kRingPipFlexion,   Dof::kRingDipFlexion,
-    Dof::kLittleMcpFlexion, Dof::kLittlePipFlexion, Dof::kLittleDipFlexion};
+Dof grip_dof(int joint) {
+  return digit_dofs(grip_finger(joint))[static_cast<std::size_t>(joint % kDigitDofs)];
+}
 
 GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
                              const ContactOptions& options, double friction, const GripState& start)
     : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
   const Hand& h = hand.hand();
-  for (std::size_t j = 0; j < kSqueezeJoints; ++j) {
+  for (int j = 0; j < kGripJoints; ++j) {
     is_moved_[j].assign(h.skin.vertices.size(), 0);
+    const JointId id = grip_joint_id(j);
     for (const JointWeights& weights : h.weights) {
-      if (weights.joint != kSqueezeJointIds[j]) continue;
+      if (weights.joint != id) continue;
       for (const int v : weights.vertex) is_moved_[j][v] = 1;
     }
     // The correction of the thumb's ball goes with the CMC joint.
-    if (kSqueezeJointIds[j] != JointId::kThumbCmc) continue;
+    if (id != JointId::kThumbCmc) continue;
     for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
   }
   anchor_ = pose_skin(h, start.posture);
@@ -59,7 +62,7 @@ GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) c
   }
   if (vertices.empty()) return result;
   Posture turned = posture;
-  turned[kSqueezeDofs[joint]] += kTurn;
+  turned[grip_dof(joint)] += kTurn;
   result.speed = pose_skin_vertices(hand_->hand(), turned, vertices);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     result.speed[i] = (result.speed[i] - posed_[vertices[i]]) / kTurn;
@@ -106,7 +109,7 @@ bool GripMechanics::look(const GripState& state) {
 
   // Motions of each loaded vertex: over the product, per coordinate.
   std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
-  for (int j = 0; j < kSqueezeJoints; ++j) {
+  for (int j = 0; j < kGripJoints; ++j) {
     const Column one = column(state.posture, j);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       motion[one.row[i]].emplace_back(j, one.speed[i]);
@@ -122,8 +125,8 @@ bool GripMechanics::look(const GripState& state) {
     spread += contact_.force[v] * x.squaredNorm();
     auto& moves = motion[k];
     for (int c = 0; c < 3; ++c) {
-      moves.emplace_back(kSqueezeJoints + c, -Vec3::Unit(c));
-      moves.emplace_back(kSqueezeJoints + 3 + c, -Vec3::Unit(c).cross(x));
+      moves.emplace_back(kGripJoints + c, -Vec3::Unit(c));
+      moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     const double p = contact_.force[v];
     const double stiff = kPower * p / depth[index_of(hand.region[v])];

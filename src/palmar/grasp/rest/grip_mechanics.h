@@ -9,16 +9,18 @@
 #include "palmar/contact/solve/contact_solver.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/posture/posture.h"
+#include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
 
 namespace palmar {
 
-/// Flexion joints that squeeze, finger by finger (thumb CMC, MP, IP; MCP, PIP, DIP).
-inline constexpr int kSqueezeJoints = 15;
-extern const std::array<Dof, kSqueezeJoints> kSqueezeDofs;
-/// Generalised coordinates of a grasp: the flexion joints [rad], then the product's motion in the
-/// hand frame: translation of the centre of contact [mm] and rotation about it [rad].
-inline constexpr int kGripCoordinates = kSqueezeJoints + 6;
+/// Angles of the digits, digit by digit in the order of digit_dofs().
+inline constexpr int kGripJoints = kFingerCount * kDigitDofs;
+Dof grip_dof(int joint);
+inline Finger grip_finger(int joint) { return static_cast<Finger>(joint / kDigitDofs); }
+/// Generalised coordinates of a grasp: the angles [rad], then the product's motion in the hand
+/// frame: translation of the centre of contact [mm] and rotation about it [rad].
+inline constexpr int kGripCoordinates = kGripJoints + 6;
 using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
 using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
 
@@ -60,7 +62,8 @@ class GripMechanics {
   const GripMatrix& stiffness() const { return stiffness_; }
   /// Change of the sum of normal forces with the coordinates, N per mm and rad.
   const GripVector& squeeze() const { return squeeze_; }
-  const std::array<bool, kSqueezeJoints>& is_loaded() const { return is_loaded_; }
+  /// Whether skin that the angle moves is loaded.
+  const std::array<bool, kGripJoints>& is_loaded() const { return is_loaded_; }
   const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
   double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
   double friction_use() const { return friction_use_; }
@@ -87,7 +90,7 @@ class GripMechanics {
   ContactResult contact_;
   ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
-  std::array<std::vector<char>, kSqueezeJoints> is_moved_;  ///< per joint and skin vertex
+  std::array<std::vector<char>, kGripJoints> is_moved_;  ///< per joint and skin vertex
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
   std::vector<int> loaded_;
   std::vector<Vec3> normal_, tangential_;  ///< per loaded vertex, hand frame; on the skin, N
@@ -95,7 +98,7 @@ class GripMechanics {
   Quat hand_from_product_;
   GripVector force_, squeeze_;
   GripMatrix stiffness_;
-  std::array<bool, kSqueezeJoints> is_loaded_{};
+  std::array<bool, kGripJoints> is_loaded_{};
   Vec3 centre_ = Vec3::Zero();
   double arm_ = 1.0, friction_use_ = 0.0;
   Squeeze grip_;

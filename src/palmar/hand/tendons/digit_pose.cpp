@@ -77,6 +77,22 @@ int body_of(Segment segment) {
   return 0;
 }
 
+namespace {
+constexpr int kFirstDof = static_cast<int>(Dof::kThumbCmcFlexion);
+}
+
+std::array<Dof, kDigitDofs> digit_dofs(Finger finger) {
+  std::array<Dof, kDigitDofs> dofs{};
+  for (int k = 0; k < kDigitDofs; ++k) {
+    dofs[k] = static_cast<Dof>(kFirstDof + kDigitDofs * static_cast<int>(finger) + k);
+  }
+  return dofs;
+}
+
+Finger finger_of(Dof dof) {
+  return static_cast<Finger>((static_cast<int>(dof) - kFirstDof) / kDigitDofs);
+}
+
 bool is_flexion(Dof dof) { return name_of(dof).ends_with("flexion"); }
 
 }  // namespace palmar

@@ -51,6 +51,12 @@ PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& po
 /// Whether the angle flexes a joint (and doesn't abduct or turn it).
 bool is_flexion(Dof dof);
 
+/// The angles of a digit from the palm outwards: flexion and abduction of CMC or MCP, then MP and
+/// IP or PIP and DIP. The order of PosedDigit::dof.
+std::array<Dof, kDigitDofs> digit_dofs(Finger finger);
+/// The digit that an angle moves; not of the wrist's.
+Finger finger_of(Dof dof);
+
 /// The digit's body on which a segment's skin lies; the palm: 0.
 int body_of(Segment segment);
 

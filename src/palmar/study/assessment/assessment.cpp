@@ -68,6 +68,7 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   progress.update(0.85, "judging the grasp");
   const Stopwatch index_watch;
   IndexOptions indices = options.indices;
+  indices.effort.strength = options.balance.strength;  // one person in one run
   // One coefficient in one run.
   indices.stability.reduction.friction =
       options.friction.is_on() ? options.friction.coefficient : options.balance.friction;

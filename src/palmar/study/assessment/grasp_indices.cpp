@@ -60,15 +60,15 @@ GraspIndices grip_indices(const Balance& balance) {
   friction.source = "Mindlin 1949; docs/method/balance.md";
   rows.push_back(friction);
 
-  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the fingers' strength", "",
+  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the muscles' strength", "",
                                  slips ? std::nullopt : balance.strength_use);
   strength.better = Better::kDown;
   strength.highest = 1.0;
   strength.definition =
-      "activation of the muscles that close the fingers (the long flexors, all alike) over the "
-      "most that the person's can give; 1: as hard as the hand can";
+      "least share of the person's strength with which the muscles of fingers and thumb hold these "
+      "forces; 1: as hard as the hand can";
   strength.source =
-      "Long et al. 1970; tendons: An et al. 1979, Synek et al. 2019; docs/method/balance.md";
+      "tendons: An et al. 1979, Synek et al. 2019, Mirakhorlo et al. 2016; docs/method/balance.md";
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
   rows.push_back(strength);
   if (!is_known) {
@@ -107,13 +107,15 @@ GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldP
                                          *product.distance)));
   append(rows, to_indices(assess_comfort(hand, held.contact)));
   FrictionResult friction;
+  const HandLoad* at_rest = nullptr;
   if (held.balance.status != BalanceStatus::kSlipsOut) {
     friction.force = held.balance.friction_force;
+    if (held.balance.joint_load) at_rest = &*held.balance.joint_load;
   }
-  append(rows,
-         effort_indices(assess_effort(
-             hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
-             *product.distance, options.effort, friction.force.empty() ? nullptr : &friction)));
+  append(rows, effort_indices(
+                   assess_effort(hand, held.grasp.posture, held.contact,
+                                 held.grasp.product_from_hand, *product.distance, options.effort,
+                                 friction.force.empty() ? nullptr : &friction, at_rest)));
   return rows;
 }
 

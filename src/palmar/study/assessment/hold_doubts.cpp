@@ -17,6 +17,9 @@ std::vector<HoldDoubt> doubts_of(const Assessment& assessment) {
              rest != BalanceStatus::kSupported) {
     doubts.push_back({"not_at_rest", assessment.balance.message});
   }
+  if (assessment.balance.is_overloaded) {
+    doubts.push_back({"overloaded", "the muscles can't hold it so: " + assessment.balance.message});
+  }
   std::vector<Region> touching;
   for (const RegionContact& region : assessment.contact.regions) touching.push_back(region.region);
   const std::string lacking = lacking_contact(assessment.grasp.grip, touching);

@@ -18,9 +18,11 @@
 namespace palmar {
 namespace {
 
-// Shares of the person's strength that are tried, and how often the last step is halved.
-constexpr std::array<double, 7> kShares = {1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.08};
+// Where the product leaves a hand that grips as hard as it can: grip forces that are tried, over
+// the person's strength, and how often the last step is halved.
+constexpr std::array<double, 7> kShares = {0.4, 0.3, 0.22, 0.15, 0.1, 0.06, 0.03};
 constexpr int kHalvings = 3;
+constexpr double kReached = 0.98;  // of the force asked for; less isn't held with it
 
 double strength_of(const CapacityRequest& request) {
   const double grip = request.strength ? *request.strength
@@ -57,6 +59,9 @@ void CapacityRequest::check() const {
         "setting \"strength\" is {:g} N; 10 to 2000 N is allowed (a grip dynamometer's reading)",
         *strength));
   }
+  if (torque_axis && !(torque_axis->norm() > 0.0)) {
+    throw UsageError("setting \"torque axis\" is 0,0,0; a direction is required");
+  }
   if (person && !grip_strength(person->sex, person->age)) {
     throw UsageError(
         fmt::format("setting \"person\": no grip strength is known for {:g} years; 17 to 90 is "
@@ -87,6 +92,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   result.hold = grasp.hold_words;
   result.grip = std::string(name_of(grasp.grip));
   result.axis = grasp.grip_axis.normalized();
+  result.torque_axis = request.torque_axis.value_or(result.axis).normalized();
   BalanceOptions& rest = options.balance;
   rest.friction = request.friction.friction.value_or(kUsualFriction);
   rest.strength = result.strength;
@@ -96,14 +102,17 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     bool is_held = false;
     Assessment assessment;
   };
-  const auto at_share = [&](double share) {
+  // `asked`: N; nothing: as hard as the muscles can.
+  const auto gripped = [&](std::optional<double> asked) {
     progress.throw_if_cancelled();
-    rest.activation = share * result.strength;
+    rest.activation = asked ? std::nullopt : std::optional(result.strength);
+    rest.grip_force = asked;
     Tried tried;
     tried.assessment =
         assess(prepared, product, options, progress, [&](const Progress&) { return grasp; });
-    tried.is_held = tried.assessment.balance.status == BalanceStatus::kBalanced &&
-                    tried.assessment.balance.strength_use.has_value();
+    const Balance& balance = tried.assessment.balance;
+    tried.is_held = balance.status == BalanceStatus::kBalanced && balance.strength_use &&
+                    !balance.is_overloaded && balance.grip_force >= kReached * asked.value_or(0.0);
     return tried;
   };
   if (grasp.status == GraspStatus::kNotGraspable || grasp.status == GraspStatus::kTooLarge ||
@@ -112,38 +121,38 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     result.message = grasp.message;
     return result;
   }
-  Tried best;
-  double held = 0.0, lost = 0.0;
-  for (const double share : kShares) {
-    best = at_share(share);
-    if (best.is_held) {
-      held = share;
-      break;
-    }
-    lost = share;
+  Tried best = gripped(std::nullopt);
+  const bool is_at_full_strength = best.is_held;
+  double lost = 0.0;
+  for (std::size_t i = 0; i < kShares.size() && !best.is_held; ++i) {
+    const double asked = kShares[i] * usual_grip_strength() * result.strength;
+    best = gripped(asked);
+    if (!best.is_held) lost = asked;
   }
-  for (int i = 0; i < kHalvings && held > 0.0 && lost > 0.0; ++i) {
-    const double middle = 0.5 * (held + lost);
-    Tried tried = at_share(middle);
-    (tried.is_held ? held : lost) = middle;
-    if (tried.is_held) best = std::move(tried);
-  }
-  if (held == 0.0) {
+  if (!best.is_held) {
     result.limited_by = "reach";
     result.message =
         "the fingers can't press the product into the palm: " + best.assessment.balance.message;
     return result;
   }
+  for (int i = 0; i < kHalvings && lost > 0.0; ++i) {
+    const double middle = 0.5 * (best.assessment.balance.grip_force + lost);
+    Tried tried = gripped(middle);
+    if (tried.is_held) {
+      best = std::move(tried);
+    } else {
+      lost = middle;
+    }
+  }
   const Assessment& firmest = best.assessment;
-  result.activation = held;
+  result.activation = *firmest.balance.strength_use;
   result.grip_force = firmest.balance.grip_force;
-  result.limited_by = held == 1.0 ? "muscles" : "slips";
+  result.limited_by = is_at_full_strength ? "muscles" : "slips";
   result.message =
-      held == 1.0 ? "all muscles that close the fingers are at their full strength"
-                  : fmt::format(
-                        "gripped harder than with {:.0f} % of the muscles' strength, the product "
-                        "leaves the hand",
-                        100.0 * held);
+      is_at_full_strength
+          ? "no muscle could add to it"
+          : fmt::format("gripped harder than with {:.0f} N, the product leaves the hand",
+                        result.grip_force);
   if (rest.friction <= 0.0) return result;
   const auto held_load = [&](const ProductLoad& load) {
     progress.throw_if_cancelled();
@@ -154,19 +163,23 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
         solve_friction(prepared, firmest.contact, *product.distance, grasp.grip_point, friction);
     return solved.load_factor.value_or(0.0);
   };
-  std::array<double, 2> torque{}, along{};
-  for (const int sense : {0, 1}) {
-    const Vec3 axis = sense == 0 ? result.axis : Vec3(-result.axis);
+  const auto held_torque = [&](const Vec3& axis) {
+    constexpr double kUnit = 1000.0;  // N mm; factors of about one
     ProductLoad load;
-    load.torque = 1000.0 * axis;  // N mm
-    torque[static_cast<std::size_t>(sense)] = 1000.0 * held_load(load);
-    load.torque = Vec3::Zero();
-    load.force = 10.0 * axis;  // N
+    load.torque = kUnit * axis;
+    return kUnit * held_load(load);
+  };
+  const auto held_force = [&](const Vec3& along) {
+    constexpr double kUnit = 10.0;  // N
+    ProductLoad load;
+    load.force = kUnit * along;
     load.force_at = grasp.grip_point;
-    along[static_cast<std::size_t>(sense)] = 10.0 * held_load(load);
-  }
-  result.torque = std::min(torque[0], torque[1]);
-  result.force_along = std::min(along[0], along[1]);
+    return kUnit * held_load(load);
+  };
+  result.torque = std::min(held_torque(result.torque_axis), held_torque(-result.torque_axis));
+  // What the product bears against the hand's push comes from the thumb's side.
+  result.push = held_force(-result.axis);
+  result.pull = held_force(result.axis);
   return result;
 }
 

@@ -30,7 +30,9 @@ TEST(CapacityOfGrip, FrictionCarriesNoMoreThanItsShareOfTheNormalForces) {
   // All normal forces are at most pi times the grip force round a bar (a uniform pressure has
   // pi / 2 on either side); friction pulls with mu times each of them at the radius.
   const double most = 0.5 * 3.15 * 1.2 * capacity.grip_force;
-  EXPECT_LT(capacity.force_along, most);
+  EXPECT_LT(capacity.push, most);
+  EXPECT_LT(capacity.pull, most);
+  EXPECT_GT(capacity.pull, 0.1 * most);
   EXPECT_LT(capacity.torque, kRadius * most);
   EXPECT_GT(capacity.torque, 0.1 * kRadius * most);
 }
@@ -46,6 +48,20 @@ TEST(CapacityOfGrip, WeakerPeopleReachLessForceAndSlipperyProductsLessTorque) {
   request.friction.friction = 0.25;
   const Capacity slippery = capacity_of_grip(request);
   EXPECT_LT(slippery.torque, weak.torque);
+}
+
+TEST(CapacityOfGrip, TorqueIsAboutTheAxisAskedFor) {
+  // Turning a bar end over end takes friction at the ends of the hand's breadth, not at the bar's
+  // radius: another torque, of the same grip force.
+  CapacityRequest request = request_for(handle(30.0));
+  const Capacity about_bar = capacity_of_grip(request);
+  request.torque_axis = about_bar.axis.unitOrthogonal();
+  const Capacity across = capacity_of_grip(request);
+  EXPECT_NEAR(across.grip_force, about_bar.grip_force, 1e-9);
+  EXPECT_NEAR(across.torque_axis.dot(about_bar.axis), 0.0, 1e-12);
+  EXPECT_GT(across.torque, 1.2 * about_bar.torque);
+  request.torque_axis = Vec3::Zero();
+  EXPECT_THROW(capacity_of_grip(request), UsageError);
 }
 
 TEST(CapacityOfGrip, SaysWhatItCannotTake) {

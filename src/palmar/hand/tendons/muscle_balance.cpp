@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/muscle_balance.h"
+#include "palmar/hand/tendons/muscle_balance.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -31,12 +31,14 @@ struct Program {
   MatrixXd a;
   VectorXd b;
   VectorXd upper;
+  VectorXd price;  // of what is missing, up and down
   int muscles = 0, stops = 0, axes = 0;
   int exponent = 3;
 
   Eigen::Index size() const { return a.cols(); }
   VectorXd gradient(const VectorXd& x) const {
-    VectorXd g = VectorXd::Constant(size(), kMissingPrice);
+    VectorXd g = VectorXd::Zero(size());
+    g.tail(2 * axes) = price;
     for (int i = 0; i < muscles; ++i) g[i] = exponent * std::pow(x[i], exponent - 1);
     for (int i = muscles; i < muscles + stops; ++i) g[i] = kStopCost * x[i];
     return g;
@@ -194,10 +196,12 @@ void check(const MuscleProblem& problem) {
     throw UsageError("muscle balance: exponent is " + std::to_string(problem.exponent) +
                      "; 2 or 3 is allowed");
   }
-  if (problem.required.size() != axes || problem.stop.size() != axes) {
-    throw UsageError("muscle balance: " + std::to_string(problem.required.size()) +
-                     " moments and " + std::to_string(problem.stop.size()) + " stops for " +
-                     std::to_string(axes) + " axes");
+  if (problem.required.size() != axes || problem.stop.size() != axes ||
+      (problem.price.size() != 0 && problem.price.size() != axes)) {
+    throw UsageError("muscle balance: " + std::to_string(problem.required.size()) + " moments, " +
+                     std::to_string(problem.stop.size()) + " stops and " +
+                     std::to_string(problem.price.size()) + " prices for " + std::to_string(axes) +
+                     " axes");
   }
   if (!problem.moment_at_strength.allFinite() || !problem.required.allFinite()) {
     throw UsageError("muscle balance: a moment is not finite");
@@ -246,6 +250,11 @@ MuscleSolution balance_muscles(const MuscleProblem& problem) {
   program.b = scaled / load;
   program.upper = VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   program.upper.head(muscles).setConstant(1.0 / load);
+  program.price = VectorXd::Constant(2 * axes, kMissingPrice);
+  if (problem.price.size() == axes) {
+    program.price.head(axes).array() *= problem.price.array();
+    program.price.tail(axes).array() *= problem.price.array();
+  }
 
   InteriorPoint method(program);
   solution.iterations = method.run();
@@ -276,6 +285,38 @@ MuscleSolution balance_muscles(const MuscleProblem& problem) {
   solution.status = is_missing ? MuscleStatus::kOverloaded : MuscleStatus::kBalanced;
   if (!(solution.kkt_residual < kLargestResidual)) solution.status = MuscleStatus::kNotConverged;
   return solution;
+}
+
+bool is_enough(const MuscleSolution& solution, double negligible) {
+  return solution.status != MuscleStatus::kNotConverged &&
+         solution.missing.lpNorm<Eigen::Infinity>() <= negligible;
+}
+
+double least_strength_share(const MuscleProblem& problem, double negligible) {
+  constexpr double kStrongest = 64.0;
+  constexpr int kHalvings = 7;
+  const auto with = [&](double share) {
+    MuscleProblem scaled = problem;
+    scaled.moment_at_strength *= share;
+    const MuscleSolution solution = balance_muscles(scaled);
+    return std::pair(is_enough(solution, negligible), solution.activation.maxCoeff() * share);
+  };
+  double low = 0.0, high = 1.0;
+  for (;;) {
+    const auto [can, used] = with(high);
+    if (can) {
+      high = std::min(high, used);
+      break;
+    }
+    if (high >= kStrongest) return std::numeric_limits<double>::infinity();
+    low = high;
+    high *= 2.0;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle > 0.0 && with(middle).first ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace palmar

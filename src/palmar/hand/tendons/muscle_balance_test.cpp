@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/effort/muscle_balance.h"
+#include "palmar/hand/tendons/muscle_balance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -185,6 +185,34 @@ TEST(BalanceMuscles, BadInputIsNamed) {
   problem = one_axis({std::nan("")}, 1, 2);
   EXPECT_THAT([&] { balance_muscles(problem); },
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("not finite")));
+}
+
+TEST(LeastStrengthShare, IsThatOfEqualActivation) {
+  // 300 a + 100 a = 100: a quarter of both, whatever effort would prefer; a load of 1000 takes 2.5
+  // times their strength.
+  EXPECT_NEAR(least_strength_share(one_axis({300, 100}, 100, 3), 0.0), 0.25, 0.01);
+  EXPECT_NEAR(least_strength_share(one_axis({300, 100}, 1000, 3), 0.0), 2.5, 0.03);
+  EXPECT_NEAR(least_strength_share(one_axis({300, 100}, 1000, 3), 200.0), 2.0, 0.03);
+}
+
+TEST(LeastStrengthShare, IsInfiniteWhereNoStrengthCould) {
+  EXPECT_TRUE(std::isinf(least_strength_share(one_axis({300, 100}, -50, 3), 1.0)));
+}
+
+TEST(BalanceMuscles, LeavesTheCheaperAxisShort) {
+  // One muscle for two axes that ask for more and less than it gives: the dear axis is met.
+  MuscleProblem problem = one_axis({1.0}, 0.0, 3);
+  problem.moment_at_strength = MatrixXd::Constant(2, 1, 100.0);
+  problem.required = (VectorXd(2) << 80.0, 20.0).finished();
+  problem.stop = VectorXi::Zero(2);
+  problem.price = (VectorXd(2) << 1.0, 0.01).finished();
+  MuscleSolution solution = balance_muscles(problem);
+  EXPECT_NEAR(solution.activation[0], 0.8, 1e-6);
+  EXPECT_NEAR(solution.missing[1], -60.0, 1e-3);
+  problem.price = (VectorXd(2) << 0.01, 1.0).finished();
+  solution = balance_muscles(problem);
+  EXPECT_NEAR(solution.activation[0], 0.2, 1e-6);
+  EXPECT_NEAR(solution.missing[0], 60.0, 1e-3);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ struct MuscleProblem {
   /// Per axis: +1 the joint's stop can push the angle up, -1 down, 2 both ways, 0 not there.
   Eigen::VectorXi stop;
   int exponent = 3;  ///< n, 2 or 3
+  /// Per axis: price of what is missing there, relative to that of the others; empty: all alike.
+  Eigen::VectorXd price = {};
 };
 
 enum class MuscleStatus {
@@ -46,5 +48,21 @@ struct MuscleSolution {
 /// these are 0 wherever the load can be held. Throws UsageError for an exponent other than 2 or 3,
 /// sizes that don't agree, or numbers that aren't finite.
 MuscleSolution balance_muscles(const MuscleProblem& problem);
+
+/// What may be missing, of the largest moment about any angle of the hand, and still counts as
+/// nothing: a grasp at rest is in balance to 1 %, at the edge of what muscles can do (our choice).
+inline constexpr double kNegligibleMoment = 0.02;
+
+/// Whether the muscles give the required moments, each but for `negligible` [N mm].
+bool is_enough(const MuscleSolution& solution, double negligible);
+
+/// Least share s of their strength with which the muscles can give the required moments,
+///
+///     B a + c = m,   0 <= a <= s,
+///
+/// each but for `negligible` [N mm]; to 1 % of the largest activation of least effort. Above 1:
+/// they can't; infinite: nor could muscles 64 times as strong. Throws UsageError as
+/// balance_muscles().
+double least_strength_share(const MuscleProblem& problem, double negligible);
 
 }  // namespace palmar

@@ -1,0 +1,178 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/rest/grip_effort.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/core/enum_index.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kHeldPrice = 0.01;      // of what is missing, against that of the squeeze
+constexpr double kPlacePrice = 0.001;    // of the product's way
+constexpr double kMostGivingWay = 0.05;  // rad in one step
+constexpr double kWayBeyondReach = 1.1;  // of what all muscles together could add, to ask for all
+
+int muscle_count() {
+  int count = 0;
+  for (int f = 0; f < kFingerCount; ++f) {
+    count += static_cast<int>(tendons_of(static_cast<Finger>(f)).size());
+  }
+  return count;
+}
+
+}  // namespace
+
+GripEffort::GripEffort(const Hand& hand, double limit)
+    : hand_(&hand),
+      muscles_(hand),
+      limit_(limit),
+      at_limit_(Eigen::MatrixXd::Zero(kGripJoints, muscle_count())),
+      now_{.activation = Eigen::VectorXd::Zero(muscle_count())} {}
+
+void GripEffort::look(const Posture& posture, const GripMechanics& mechanics,
+                      const std::array<bool, kFingerCount>& is_out) {
+  is_loaded_ = mechanics.is_loaded();
+  at_limit_.setZero();
+  Eigen::Index column = 0;
+  for (int f = 0; f < kFingerCount; ++f) {
+    const auto finger = static_cast<Finger>(f);
+    const auto count = static_cast<Eigen::Index>(tendons_of(finger).size());
+    const auto first = is_loaded_.begin() + kDigitDofs * f;
+    const bool takes_part =
+        !is_out[f] && std::any_of(first, first + kDigitDofs, [](bool is) { return is; });
+    digits_[f].reset();
+    if (takes_part) {
+      digits_[f] = muscles_.in(finger, posture);
+      for (Eigen::Index t = 0; t < count; ++t) {
+        for (int k = 0; k < kDigitDofs; ++k) {
+          const auto tendon = static_cast<std::size_t>(t);
+          at_limit_(kDigitDofs * f + k, column + t) =
+              limit_ * digits_[f]->strength[tendon] * digits_[f]->arm[tendon][k];
+        }
+      }
+    }
+    column += count;
+  }
+}
+
+bool GripEffort::is_judged(int joint) const {
+  const auto& digit = digits_[index_of(grip_finger(joint))];
+  return digit && is_loaded_[joint] && std::abs(digit->stop[joint % kDigitDofs]) < 2;
+}
+
+void GripEffort::add_passive(GripVector& force, GripMatrix& stiffness) const {
+  for (int f = 0; f < kFingerCount; ++f) {
+    if (!digits_[f]) continue;
+    force.segment<kDigitDofs>(kDigitDofs * f) += digits_[f]->passive.moment;
+    stiffness.block<kDigitDofs, kDigitDofs>(kDigitDofs * f, kDigitDofs * f) +=
+        digits_[f]->passive.stiffness;
+  }
+}
+
+GripVector GripEffort::moments() const {
+  GripVector result = now_.stops;
+  result.head<kGripJoints>() += at_limit_ * now_.activation;
+  return result;
+}
+
+double GripEffort::strongest() const {
+  const Eigen::VectorXd moments = at_limit_ * now_.activation;
+  double largest = 1e-9;
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (is_judged(j)) largest = std::max(largest, std::abs(moments[j]));
+  }
+  return largest;
+}
+
+GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::MatrixXd& k,
+                                   const GripVector& force, const GripMatrix& stiffness,
+                                   const GripVector& squeeze, std::optional<double> missing,
+                                   const Vec3* moved_before) {
+  std::vector<int> held;
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (!is_free(j) && is_judged(j)) held.push_back(j);
+  }
+  const auto free_count = static_cast<Eigen::Index>(free.size());
+  const auto held_count = static_cast<Eigen::Index>(held.size());
+  const Eigen::Index muscles = at_limit_.cols();
+  // What a full activation of each muscle, and the forces as they are, move the free coordinates.
+  Eigen::MatrixXd by_muscle = Eigen::MatrixXd::Zero(free_count, muscles);
+  for (Eigen::Index i = 0; i < free_count; ++i) {
+    const int j = free[static_cast<std::size_t>(i)];
+    if (j < kGripJoints) by_muscle.row(i) = at_limit_.row(j);
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
+  by_muscle = factor.solve(by_muscle).eval();
+  const Eigen::VectorXd by_force = factor.solve(Eigen::VectorXd(force(free)));
+  const Eigen::MatrixXd between = stiffness(held, free);
+
+  const Eigen::Index kept = moved_before != nullptr ? 3 : 0;
+  const Eigen::Index rows = held_count + 1 + kept;
+  MuscleProblem problem{.moment_at_strength = Eigen::MatrixXd(rows, muscles),
+                        .required = Eigen::VectorXd(rows),
+                        .stop = Eigen::VectorXi::Zero(rows),
+                        .exponent = 3,
+                        .price = Eigen::VectorXd::Constant(rows, kHeldPrice)};
+  problem.moment_at_strength.topRows(held_count) =
+      at_limit_(held, Eigen::all) - between * by_muscle;
+  problem.required.head(held_count) = between * by_force - Eigen::VectorXd(force(held));
+  for (Eigen::Index i = 0; i < held_count; ++i) {
+    const int j = held[static_cast<std::size_t>(i)];
+    problem.stop[i] = digits_[index_of(grip_finger(j))]->stop[j % kDigitDofs];
+  }
+  const Eigen::VectorXd along = squeeze(free);
+  const Eigen::RowVectorXd gain = along.transpose() * by_muscle;
+  problem.moment_at_strength.row(held_count) = gain;
+  problem.required[held_count] =
+      missing ? *missing - along.dot(by_force) : kWayBeyondReach * gain.cwiseMax(0.0).sum();
+  problem.price[held_count] = 1.0;
+  if (kept > 0) {
+    // The product's translation is the first of its six coordinates, which come last.
+    problem.moment_at_strength.bottomRows(3) = by_muscle.middleRows(free_count - 6, 3);
+    problem.required.tail<3>() = -*moved_before - by_force.segment<3>(free_count - 6);
+    problem.price.tail<3>().setConstant(kPlacePrice);
+  }
+  const MuscleSolution solution = balance_muscles(problem);
+
+  now_.activation = solution.activation;
+  now_.stops.setZero();
+  Eigen::VectorXd moved = by_muscle * now_.activation + by_force;
+  Step step;
+  step.is_short = solution.missing[held_count] > 0.0;
+  Eigen::VectorXd giving = Eigen::VectorXd::Zero(held_count);
+  for (Eigen::Index i = 0; i < held_count; ++i) {
+    const int j = held[static_cast<std::size_t>(i)];
+    now_.stops[j] = solution.stop[i];
+    if (solution.missing[i] == 0.0) continue;
+    const double schur =
+        stiffness(j, j) - between.row(i).dot(factor.solve(Eigen::VectorXd(between.row(i))));
+    giving[i] = std::clamp(-solution.missing[i] / std::max(schur, 0.1 * stiffness(j, j) + 1.0),
+                           -kMostGivingWay, kMostGivingWay);
+    step.way[j] = giving[i];
+  }
+  moved -= factor.solve(Eigen::VectorXd(between.transpose() * giving));
+  for (Eigen::Index i = 0; i < free_count; ++i) {
+    step.way[free[static_cast<std::size_t>(i)]] = moved[i];
+  }
+  return step;
+}
+
+double GripEffort::strength_share(const GripVector& contact_force) const {
+  const double negligible =
+      kNegligibleMoment * contact_force.head<kGripJoints>().lpNorm<Eigen::Infinity>();
+  double share = 0.0;
+  for (int f = 0; f < kFingerCount; ++f) {
+    if (!digits_[f]) continue;
+    DigitLoad load{};
+    for (int k = 0; k < kDigitDofs; ++k) load[k] = contact_force[kDigitDofs * f + k];
+    share =
+        std::max(share, least_strength_share(problem_of(*digits_[f], load, limit_), negligible));
+  }
+  return share;
+}
+
+}  // namespace palmar

@@ -1,0 +1,82 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/hand/tendons/hand_muscles.h"
+
+namespace palmar {
+
+/// The activations of all muscles of a hand that holds a product, one problem in every step of the
+/// search for rest:
+///
+///     min sum a_i^3   so that the joints and the product come to rest and the squeeze is the one
+///                     asked for,   0 <= a_i <= the largest allowed,
+///
+/// with contact forces linear in the coordinates about the state last looked at. Joints that flex
+/// fingers go where muscles and product bring them. The thumb's joints and all abduction are held
+/// where they are, by whatever moments their muscles can give; where these are too weak they give
+/// way. Squeeze that the muscles can't give is what is missed first.
+class GripEffort {
+ public:
+  /// Keeps a reference to the hand. `limit`: largest activation, times the muscles of HandMuscles.
+  GripEffort(const Hand& hand, double limit);
+
+  /// Muscles and passive moments of the loaded digits in a posture; `is_out`: fingers that the
+  /// thumb carries, whose muscles have no part.
+  void look(const Posture& posture, const GripMechanics& mechanics,
+            const std::array<bool, kFingerCount>& is_out);
+
+  /// Moments of ligaments and slack muscles, onto forces and stiffness of the coordinates.
+  void add_passive(GripVector& force, GripMatrix& stiffness) const;
+  /// Moments of the muscles as last solved for and of the stops about the angles.
+  GripVector moments() const;
+  /// Largest moment of the muscles among the angles, N mm.
+  double strongest() const;
+  /// Whether the angle has an equation: skin beyond it is loaded, its muscles take part, and no
+  /// ligament holds it both ways.
+  bool is_judged(int joint) const;
+  /// An angle that muscles and product turn; else it is held.
+  static bool is_free(int joint) {
+    return grip_finger(joint) != Finger::kThumb && joint % kDigitDofs != 1;
+  }
+
+  struct Step {
+    GripVector way = GripVector::Zero();  ///< of the coordinates
+    bool is_short = false;                ///< the squeeze asked for can't be reached
+  };
+  /// Solves for the activations. `free`: coordinates that move, ascending; `k`: their stiffness,
+  /// made definite; `force` and `stiffness` with passive moments, without muscles. `missing`:
+  /// change of the sum of normal forces that is asked for, N; nothing: as much as the muscles can
+  /// give. `moved`: how far the product has gone, hand frame, mm; given, it is kept where it was
+  /// taken hold of, as far as the muscles can at the squeeze asked for.
+  Step solve(const std::vector<int>& free, const Eigen::MatrixXd& k, const GripVector& force,
+             const GripMatrix& stiffness, const GripVector& squeeze, std::optional<double> missing,
+             const Vec3* moved);
+
+  /// Least share of `limit` with which the muscles hold the contact forces of the state last looked
+  /// at (least_strength_share()); infinite if no strength could.
+  double strength_share(const GripVector& contact_force) const;
+
+  /// As last solved for: activations, of `limit`, and moments of stops.
+  struct Activations {
+    Eigen::VectorXd activation;
+    GripVector stops = GripVector::Zero();
+  };
+  const Activations& activations() const { return now_; }
+  void set(const Activations& activations) { now_ = activations; }
+
+ private:
+  const Hand* hand_;
+  HandMuscles muscles_;
+  double limit_;
+  std::array<std::optional<DigitMuscles>, kFingerCount> digits_;  ///< those that take part
+  std::array<bool, kGripJoints> is_loaded_{};
+  Eigen::MatrixXd at_limit_;  ///< moments at the limit, angles x muscles, N mm
+  Activations now_;
+};
+
+}  // namespace palmar

@@ -1,0 +1,72 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "palmar/hand/tendons/digit_tendons.h"
+#include "palmar/hand/tendons/joint_limits.h"
+#include "palmar/hand/tendons/muscle_balance.h"
+
+namespace palmar {
+
+struct MuscleModel {
+  TendonModel tendons{};
+  double specific_tension = kSpecificTension;  ///< MPa
+  JointStops stops{};
+  /// passive_moments() count. Not for a posture that was measured: a few degrees off the coupling
+  /// of DIP and PIP would outweigh what the hand holds.
+  bool has_passive = true;
+};
+
+/// Moments of outside forces about the angles of a digit, in their positive sense, N mm.
+using DigitLoad = std::array<double, kDigitDofs>;
+/// Of all digits, indexed by Finger.
+using HandLoad = std::array<DigitLoad, kFingerCount>;
+
+/// What the muscles of one digit can do in a posture.
+struct DigitMuscles {
+  Finger finger{};
+  std::vector<std::array<double, kDigitDofs>> arm;  ///< mm, in the order of tendons_of(finger)
+  std::vector<double> strength;                     ///< at full activation, N
+  PassiveMoments passive;
+  std::array<int, kDigitDofs> stop{};  ///< as MuscleProblem::stop
+};
+
+/// The muscles of all digits, for every question about strength: what a grip costs, whether it can
+/// be held, how hard a hand grips at most.
+///
+/// Force at full activation: cross-section x specific tension (tendon.h) x active force-length
+/// factor exp(-(l - 1)^2 / 0.45) (Thelen 2003), l the fibre length over its best one. Fibre
+/// lengths: of muscles of the forearm the model of Lee et al. 2015 (PLoS ONE 10:e0121712), of those
+/// of the hand Jacobson et al. 1992 (J Hand Surg 17A:804-809, at second hand). They are taken to be
+/// best in the position of function (MCP 45, PIP 45, DIP 25 degrees; the thumb's CMC as in the
+/// reference posture, MP and IP in the middle of their ranges; our choice), from which fibres
+/// lengthen and shorten as the tendon's path does.
+class HandMuscles {
+ public:
+  explicit HandMuscles(const Hand& hand, const MuscleModel& model = {});
+
+  DigitMuscles in(Finger finger, const Posture& posture) const;
+
+ private:
+  struct Muscle {
+    TendonPath path;
+    double force = 0.0;        ///< at full activation and best length, N
+    double best_length = 0.0;  ///< of its fibres, mm
+    double best_path = 0.0;    ///< path_length() there, mm
+  };
+  const Hand* hand_;
+  JointStops stops_;
+  bool has_passive_;
+  std::array<std::vector<Muscle>, kFingerCount> muscles_;
+};
+
+/// The muscles of one digit against a load on it; `strength`: the person's muscles over those of
+/// HandMuscles. An angle without load is left out: nothing outside presses there, and the joint
+/// lies against its ligaments.
+MuscleProblem problem_of(const DigitMuscles& muscles, const DigitLoad& load, double strength,
+                         int exponent = 3);
+
+}  // namespace palmar
