@@ -217,8 +217,7 @@ TEST(ContactSystem, CountsWhatTheDenseMethodsSolve) {
   // penetrate alike and R p = -d has the positive solution p = 0.1 / 4.
   Square s;
   const std::vector<int> two = {0, 1};
-  Eigen::MatrixXf R(2, 2);
-  R << 1.0F, 3.0F, 3.0F, 1.0F;
+  const SparseRows R{{0, 2, 4}, {0, 1, 0, 1}, {1.0F, 3.0F, 3.0F, 1.0F}};
   ContactSystem system(s.patches);
   system.assemble(R, two);
   std::vector<char> in_contact(2, 1);
