@@ -36,6 +36,15 @@ ErrorCase figures_of(ErrorSource source, std::string changed, const ContactResul
   return one;
 }
 
+/// Figures times what `nominal` has over `usual`: a change that was found on another model.
+void scale_by(const ErrorCase& nominal, const ErrorCase& usual, ErrorCase& one) {
+  for (double ErrorCase::*figure :
+       {&ErrorCase::grip_force, &ErrorCase::force, &ErrorCase::area, &ErrorCase::peak_pressure,
+        &ErrorCase::peak_pressure_cells, &ErrorCase::mean_pressure}) {
+    if (usual.*figure > 0.0) one.*figure *= nominal.*figure / usual.*figure;
+  }
+}
+
 std::shared_ptr<const Hand> with_tissue(const Hand& hand, TissueLevel level) {
   auto other = std::make_shared<Hand>(hand);
   for (RegionTissue& tissue : other->tissue.region) {
@@ -162,15 +171,27 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
         {.source = ErrorSource::kBone, .changed = under, .failure = error.what()});
   }
 
-  const std::string split = "triangles split into four";
+  const std::string split =
+      is_on_bone ? "triangles split into four, of endless tissue" : "triangles split into four";
   step(done++, split);
   try {
     std::vector<Vec3> posed = nominal.posed_skin;
     const auto fine = std::make_shared<const Hand>(split_skin(*hand, posed));
-    const ContactResult contact =
-        solve_hand_contact(PreparedHand(fine, model), posed, nominal.grasp.product_from_hand,
-                           *product.distance, usual.contact);
-    budget.cases.push_back(figures_of(ErrorSource::kMesh, split, contact, product));
+    ContactModel solved = model;
+    if (is_on_bone) solved.tissue = TissueModel::kHalfSpace;
+    const auto figures = [&](const std::shared_ptr<const Hand>& with,
+                             const std::vector<Vec3>& skin) {
+      return figures_of(
+          ErrorSource::kMesh, split,
+          solve_hand_contact(PreparedHand(with, solved), skin, nominal.grasp.product_from_hand,
+                             *product.distance, usual.contact),
+          product);
+    };
+    ErrorCase one = figures(fine, posed);
+    if (is_on_bone) {
+      scale_by(budget.nominal, figures(hand, nominal.posed_skin), one);
+    }
+    budget.cases.push_back(std::move(one));
   } catch (const UsageError& error) {
     budget.cases.push_back(
         {.source = ErrorSource::kMesh, .changed = split, .failure = error.what()});

@@ -54,7 +54,8 @@ struct ErrorBudgetOptions {
 /// friction and posture: the closed grasp comes to rest again under the same options, so at the
 /// same grip force if one was asked for. Mesh: the contact is solved again in the posture at rest,
 /// as no hand can be posed on the finer skin; its vertices lie on the facets of the given one, so
-/// that this is the error of the solution and not that of the shape.
+/// that this is the error of the solution and not that of the shape. (Tissue on bone takes no skin
+/// as fine as that: there the change of the half-space's figures is shown.)
 ///
 /// `closed`: the grasp before it came to rest. Cost: about eight contacts and six settlings.
 /// Cases without figures say why. Throws UsageError, Cancelled.
