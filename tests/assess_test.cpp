@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -317,6 +318,13 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
   EXPECT_EQ(settings.at("kernel"), "point");
   EXPECT_EQ(settings.at("tissue_model"), "halfspace");
   EXPECT_EQ(settings.at("regions"), "independent");
+  for (const auto& [name, count] : one.at("contact").at("fallbacks").items()) {
+    EXPECT_EQ(count, 0) << name;
+  }
+  // Section 5.5.2: 3700 to 4000 mm2 on 35 mm; more on 48 mm, and less than all skin that
+  // penetrates.
+  EXPECT_GT(one.at("contact").at("contact_area_mm2"), 3700.0);
+  EXPECT_LT(one.at("contact").at("contact_area_mm2"), 5400.0);
   const ProgramRun text = run_palmar(
       "assess c48.stl --unit mm --preset xie2014 --no-pictures --out xie", cylinder().folder);
   EXPECT_THAT(text.out,
@@ -324,6 +332,27 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
   EXPECT_THAT(text.out, HasSubstr("low .. nominal .. high tissue: force "));
   EXPECT_THAT(read_text(cylinder().folder + "/xie/report.html"),
               HasSubstr("Regions are solved one by one"));
+}
+
+TEST(Assess, ErrorBudgetChangesOneThingAtATime) {
+  const Json one = assessed("--error-budget --no-error-band --grip-force-n 60");
+  const Json& budget = one.at("error_budget");
+  EXPECT_EQ(budget.at("nominal").at("force_n"), one.at("contact").at("force_n"));
+  std::map<std::string, int> cases;
+  for (const Json& changed : budget.at("cases")) {
+    ++cases[changed.at("source").get<std::string>()];
+    ASSERT_FALSE(changed.contains("failure")) << changed;
+    EXPECT_NEAR(changed.at("grip_force_n").get<double>(), 60.0, 1.5) << changed;
+    EXPECT_NE(changed.at("peak_pressure_mpa"), budget.at("nominal").at("peak_pressure_mpa"));
+  }
+  EXPECT_EQ(cases, (std::map<std::string, int>{
+                       {"bone", 1}, {"friction", 2}, {"mesh", 1}, {"posture", 2}, {"tissue", 2}}));
+  // The mesh decides least: its area stays within 5 %.
+  for (const Json& changed : budget.at("cases")) {
+    if (changed.at("source") != "mesh") continue;
+    const double area = budget.at("nominal").at("contact_area_mm2").get<double>();
+    EXPECT_NEAR(changed.at("contact_area_mm2").get<double>(), area, 0.05 * area);
+  }
 }
 
 TEST(Assess, OptionsReplaceThoseOfThePreset) {
