@@ -27,10 +27,10 @@
 namespace palmar {
 namespace {
 
-constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
-constexpr double kJointAim = 0.01;   // residual moment over the strongest muscle moment
-constexpr double kJointSaid = 0.05;  // the same; more is reported
-constexpr double kLevelAim = 0.005;  // of the grip force asked for
+constexpr double kBalanced = 0.01;  // residual over grip force; what counts as balanced
+constexpr double kJointAim = kNegligibleMoment;  // residual moment over the strongest muscle moment
+constexpr double kJointSaid = 0.05;              // the same; more is reported
+constexpr double kLevelAim = 0.005;              // of the grip force asked for
 constexpr int kMostSteps = 120;
 constexpr int kUsualSteps = 60;  // not there by then, the search goes on only while it gets nearer
 constexpr int kVainSteps = 25;   // without getting nearer: it goes round in circles
@@ -42,7 +42,9 @@ constexpr double kLongestTurn = 0.06;  // rad, of what they hold
 constexpr double kNothing = 0.1;       // N; less left over is nothing to a hand: the weight of 10 g
 constexpr double kReach = 40.0;        // mm; arm by which turns are counted as way
 constexpr double kOut = 25.0;          // mm; a product that went farther has left the hand
-constexpr double kOutTurn = 0.8;       // rad
+// the same, with muscles of least effort: then others are tried that keep it in place; our choice
+constexpr double kWandered = 12.0;
+constexpr double kOutTurn = 0.8;                        // rad
 constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // mm; pulp of thumb and finger pressed together, 2 mm each; our choice
@@ -360,7 +362,8 @@ bool Settling::judge_way(Balance& balance) const {
   const Rigid3 motion = state_.product_from_hand.inverse() * start_.product_from_hand;
   balance.turned = Eigen::AngleAxisd(motion.rotation).angle();
   balance.moved = moved_.norm();
-  return balance.moved > kOut || balance.turned > kOutTurn;
+  const double out = way_ == Way::kLeastEffort ? kWandered : kOut;
+  return balance.moved > out || balance.turned > kOutTurn;
 }
 
 void Settling::finish(Balance& balance) {

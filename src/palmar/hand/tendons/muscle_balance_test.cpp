@@ -181,7 +181,7 @@ TEST(BalanceMuscles, BadInputIsNamed) {
   MuscleProblem problem = one_axis({1}, 1, 2);
   problem.stop = VectorXi::Zero(3);
   EXPECT_THAT([&] { balance_muscles(problem); },
-              testing::ThrowsMessage<UsageError>(testing::HasSubstr("3 stops for 1 axes")));
+              testing::ThrowsMessage<UsageError>(testing::HasSubstr("3 stops and 0 prices for 1 axes")));
   problem = one_axis({std::nan("")}, 1, 2);
   EXPECT_THAT([&] { balance_muscles(problem); },
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("not finite")));
