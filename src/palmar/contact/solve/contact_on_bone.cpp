@@ -15,10 +15,11 @@ namespace palmar {
 namespace {
 
 constexpr int kMostRounds = 60;
-constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus
-constexpr double kCoarse = 1e-6;            // accuracy while moduli and skin in question change
-constexpr double kNearlySteady = 0.02;      // change below which bulging skin is looked for
-constexpr double kMostAhead = 0.5;          // share of a step by which the next is foreseen
+// Relative change of a block's modulus, for results and for who wants forces only.
+constexpr double kSteadyStiffening = 1e-5, kSteadyForForces = 1e-3;
+// Accuracy while moduli and skin in question change, and of forces only in the end.
+constexpr double kCoarse = 1e-6, kForcesOnly = 1e-9;
+constexpr double kMostAhead = 0.5;  // share of a step by which the next is foreseen
 
 /// Logarithms of the moduli that follow on `last`, once the steps towards them shrink evenly:
 /// Aitken's extrapolation along the last step (Irons, Tuck 1969).
@@ -125,8 +126,11 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       // Tissue of another modulus, moved alike, has forces in proportion.
       load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
     }
-    const ContactSystem::Outcome outcome = system.solve(
-        b, load.in_contact, load.force, load.gap, is_last ? ContactSystem::kBestAccuracy : kCoarse);
+    const ContactSystem::Outcome outcome =
+        system.solve(b, load.in_contact, load.force, load.gap,
+                     !is_last       ? kCoarse
+                     : forces_only_ ? kForcesOnly
+                                    : ContactSystem::kBestAccuracy);
     result.iterations += outcome.pivots;
     result.fallbacks += outcome.fallbacks;
     if (!outcome.is_solved) return false;
@@ -160,8 +164,8 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     if (getenv("DBG"))
       fprintf(stderr, "round %d change %g m %zu pivots %d cg %d new %d\n", round, change, b.size(),
               outcome.pivots, outcome.iterations, 0);
-    const bool is_steady = change < kSteadyStiffening;
-    if (may_extend && (is_steady || (!is_whole && change < kNearlySteady))) {
+    const bool is_steady = change < (forces_only_ ? kSteadyForForces : kSteadyStiffening);
+    if (may_extend && is_steady) {
       const std::vector<int> more = pressed_in_on_bone(skin, load);
       is_whole = more.empty();
       if (!is_whole) {

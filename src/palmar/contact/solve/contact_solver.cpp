@@ -272,6 +272,15 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
   // A half-space is moved inwards everywhere; a layer bulges beside the contact, and skin that
   // comes to touch that way joins the problem.
   load.vertex = skin.collision;
+  if (prepared->is_on_bone() && !was_in_contact.empty()) {
+    // What bulged into the product last time is likely to do so again.
+    for (const int v : skin.near) {
+      const double d = skin.sample[v].distance;
+      if (was_in_contact[v] && d >= 0.0 && d < kBulgeRange) load.vertex.push_back(v);
+    }
+    std::sort(load.vertex.begin(), load.vertex.end());
+    load.vertex.erase(std::unique(load.vertex.begin(), load.vertex.end()), load.vertex.end());
+  }
   std::vector<char> start(skin.sample.size(), 0);
   for (int round = 0;; ++round) {
     set_depth(skin, load);
@@ -375,6 +384,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
 void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
                                        const Rigid3& product_from_hand,
                                        const DistanceField& product, ContactResult& result) {
+  forces_only_ = true;
   const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {},
                                     may_bulge() ? kNearRange : 0.0, result);
   const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);
@@ -404,6 +414,7 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
 void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
                                 const Rigid3& product_from_hand, const DistanceField& product,
                                 std::optional<Region> only, ContactResult& result) {
+  forces_only_ = false;
   const SkinLoad load =
       find_forces(posed_skin, product_from_hand, product, only, kNearRange, result);
   const SkinOnProduct& skin = skin_;

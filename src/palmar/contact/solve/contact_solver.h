@@ -98,6 +98,7 @@ struct ContactSolver::Impl {
   std::optional<LoadedSkin> loaded_;               ///< of tissue on bone
   const std::vector<Vec3>* undeformed_ = nullptr;  ///< of the call under way
   BlockStiffening stiffening_ = no_stiffening();   ///< of the last solution on bone
+  bool forces_only_ = false;                       ///< the call under way is solve_forces()
   SkinSampler sampler_;
   SkinOnProduct skin_;
 };

@@ -20,6 +20,9 @@ constexpr double kFingerFibres[4][6] = {{74.9, 83.5, 70.0, 55.4, 31.7, 25.0},
 // FPL, EPL, EPB, APL: Lee et al. 2015; FPB, APB, OPP, ADP: Jacobson et al. 1992.
 constexpr double kThumbFibres[8] = {55.2, 41.5, 41.6, 35.5, 34.0, 54.0, 67.5, 71.3};
 constexpr double kForceLengthWidth = 0.45;  // Thelen 2003
+// People's thumbs over what the tendons of the one specimen give at the cross-sections of others:
+// 104 N flexing the proximal phalanx (Li, Harkness 2004) over 37 N. See docs/method/strength.md.
+constexpr double kThumbScale = 2.8;
 constexpr std::array<double, kDigitDofs> kFingerFunction = {45.0 * kDegree, 0.0, 45.0 * kDegree,
                                                             25.0 * kDegree};
 
@@ -56,7 +59,8 @@ HandMuscles::HandMuscles(const Hand& hand, const MuscleModel& model)
     for (std::size_t t = 0; t < names.size(); ++t) {
       Muscle muscle;
       muscle.best_length = fibres_of(finger, t);
-      muscle.force = model.specific_tension * cross_section_of(finger, names[t]);
+      muscle.force = model.specific_tension * cross_section_of(finger, names[t]) *
+                     (finger == Finger::kThumb ? kThumbScale : 1.0);
       muscle.best_path = path_length(tendons.path[t], digit);
       muscle.path = std::move(tendons.path[t]);
       muscles_[f].push_back(std::move(muscle));
