@@ -373,7 +373,7 @@ TEST(Assess, LayeredSkinRunsAndSaysSo) {
 TEST(Assess, RegionsAloneMissTheLiftOfTheirNeighbours) {
   // A neighbour's load moves the skin away from the product, so together less force is needed in
   // the same posture. (At rest both are held with the same grip force.)
-  const std::string closed = "--no-balance --no-error-band";
+  const std::string closed = "--no-balance --no-error-band --tissue-model halfspace";
   const Json together = assessed(closed).at("contact");
   const Json alone = assessed(closed + " --coupling independent").at("contact");
   EXPECT_GT(alone.at("force_n").get<double>(), 1.02 * together.at("force_n").get<double>());

@@ -53,9 +53,13 @@ export interface GraspResult {
 }
 
 /// What is there whatever the status; the rest unless it is "off".
+/// How often the contact solver had to fall back, by kind.
+export type Fallbacks = Record<string, number>;
+
 export interface BalanceResult {
   status: "off" | "balanced" | "supported" | "slips_out" | "no_contact" | "not_converged" | "failed";
   message: string;
+  fallbacks?: Fallbacks;
   friction_coefficient?: number;
   grip_force_n?: number;
   sum_of_normal_forces_n?: number;
@@ -111,6 +115,7 @@ export interface ContactResult extends ContactTotals {
   residual_penetration_contact_mm: number;
   residual_penetration_other_mm: number;
   iterations: number;
+  fallbacks?: Fallbacks;
   regions: RegionContact[];
 }
 
@@ -148,7 +153,7 @@ export interface AssessmentSettings {
   grip_force_from: string; // where it comes from, or why nothing is asked for, for people
   contact_model: string;
   kernel: "patch" | "point";
-  tissue_model: "halfspace" | "layered";
+  tissue_model: "halfspace" | "layered" | "bone";
   regions: "coupled" | "independent";
   swelling: boolean;
   coatings: Coating[];

@@ -231,6 +231,7 @@ Hand hand_at_tissue_level(Hand hand, TissueLevel level) {
     for (TissueStiffness* stiffness : {&tissue.half_space, &tissue.layered}) {
       stiffness->nominal = law_at(*stiffness, level);
     }
+    tissue.on_bone.nominal = law_at(tissue.on_bone, level);
   }
   return hand;
 }

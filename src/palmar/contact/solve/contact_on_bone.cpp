@@ -261,6 +261,21 @@ std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_m
     result[index_of(prepared->hand->region[v])] +=
         0.5 * (load.force[k] - (*y)[k] * root[k] * skin.sample[v].distance);
   }
+  // A cover's own compliance stands in A times the roots of both moduli.
+  const auto region_of = [&](std::size_t k) {
+    return index_of(prepared->hand->region[load.vertex[k]]);
+  };
+  for (std::size_t k = 0; k < coating_.diagonal.size(); ++k) {
+    result[region_of(k)] -= (*y)[k] * coating_.diagonal[k] * load.force[k] / root[k];
+  }
+  for (const ContactSystem::Entry& entry : coating_.entries) {
+    const auto i = static_cast<std::size_t>(entry.row);
+    const auto j = static_cast<std::size_t>(entry.column);
+    const double both =
+        0.5 * entry.value * ((*y)[i] * load.force[j] / root[j] + (*y)[j] * load.force[i] / root[i]);
+    result[region_of(i)] -= both;
+    result[region_of(j)] -= both;
+  }
   return result;
 }
 

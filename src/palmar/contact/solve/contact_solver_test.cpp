@@ -368,9 +368,11 @@ TEST(ThesisModel, RunsEveryEquationAndSaysSo) {
   EXPECT_EQ(contact.status, ContactStatus::kSolved);
   EXPECT_EQ(name_of(contact.model), "xie2014");
   EXPECT_EQ(contact_model_named("xie2014"), xie2014_model());
-  EXPECT_EQ(contact_model_named("palmar"), ContactModel{});
+  EXPECT_EQ(contact_model_named("palmar"), palmar_model());
+  EXPECT_EQ(palmar_model().tissue, TissueModel::kBone);
   EXPECT_FALSE(contact_model_named("newton"));
-  EXPECT_EQ(name_of(ContactModel{.coupling = RegionCoupling::kIndependent}), "palmar, independent");
+  EXPECT_EQ(name_of(ContactModel{.coupling = RegionCoupling::kIndependent}),
+            "palmar, halfspace, independent");
 }
 
 TEST(ThesisModel, RunsOnIndependentHalfSpacesOnly) {
@@ -378,7 +380,7 @@ TEST(ThesisModel, RunsOnIndependentHalfSpacesOnly) {
   ContactModel coupled = xie2014_model();
   coupled.coupling = RegionCoupling::kCoupled;
   const PreparedHand hand(split_ball(), coupled);
-  EXPECT_EQ(name_of(hand.model()), "palmar, point");
+  EXPECT_EQ(name_of(hand.model()), "palmar, point, halfspace");
 }
 
 TEST(PointKernel, BreakdownIsNamedAndLeavesAValidState) {

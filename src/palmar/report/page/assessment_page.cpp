@@ -8,6 +8,7 @@
 #include "palmar/records/json_values.h"
 #include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/chart/sensor_chart.h"
+#include "palmar/report/page/desk_json.h"
 #include "palmar/report/page/friction_words.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"

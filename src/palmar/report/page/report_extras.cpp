@@ -6,6 +6,7 @@
 #include "palmar/core/version.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/vtk.h"
+#include "palmar/report/page/desk_json.h"
 
 namespace palmar {
 

@@ -9,7 +9,6 @@
 #include "palmar/records/csv.h"
 #include "palmar/records/project_file.h"
 #include "palmar/records/workbook.h"
-#include "palmar/report/page/page_json.h"
 
 namespace palmar {
 
@@ -27,9 +26,6 @@ struct ReportExtras {
   bool rounded_csv = false;  ///< beside every table X.csv X-rounded.csv with three digits
   bool slides = false;       ///< pictures of hold and map are kept sharp for slides (print_pdf.h)
 };
-
-/// Units and project for a page (Desk in apps/workbench/types/common.ts).
-PageJson desk_json(const ReportExtras& extras, Attachments& attachments);
 
 /// A table with the name of its file without ending, and what a row of it is.
 struct DeskTable {

@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/records/json_values.h"
 #include "palmar/report/chart/study_charts.h"
+#include "palmar/report/page/desk_json.h"
 #include "palmar/report/page/html_text.h"
 #include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/face_words.h"
