@@ -62,10 +62,7 @@ class Keeper {
 
 /// Runs what is missing, finishes the store and says what came of it.
 StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const Progress& progress) {
-  for (const StudySetting& setting : store.plan().settings) {
-    if (inputs.base == nullptr || inputs.compliance != nullptr) break;
-    inputs.compliance = tissue_on_bone(*inputs.base, setting.model);
-  }
+  if (inputs.base != nullptr) inputs.compliance = tissue_on_bone(*inputs.base, store.plan());
   const std::vector<std::int64_t> rest = store.missing();
   if (store.is_finished() && !rest.empty()) {
     throw InputError(store.path().string() + ": is damaged: " + missing_grasps(rest) +

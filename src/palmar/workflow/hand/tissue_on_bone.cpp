@@ -59,6 +59,13 @@ std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const Con
   return made;
 }
 
+std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& base, const StudyPlan& plan) {
+  for (const StudySetting& setting : plan.settings) {
+    if (auto compliance = tissue_on_bone(base, setting.model)) return compliance;
+  }
+  return nullptr;
+}
+
 PreparedHand prepared_hand(const HandChoice& choice, const std::shared_ptr<const Hand>& hand,
                            const ContactModel& model) {
   if (model.tissue != TissueModel::kBone) return PreparedHand(hand, model);

@@ -6,6 +6,7 @@
 
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/contact.h"
+#include "palmar/study/study_plan.h"
 #include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {
@@ -16,6 +17,9 @@ namespace palmar {
 /// they depend on; a cache that can't be used is as if it weren't there. A left hand's is the
 /// mirror image of the right one's.
 std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const ContactModel& model);
+
+/// The same for the hand that a study's hands are scaled from, if any of its settings needs it.
+std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& base, const StudyPlan& plan);
 
 /// A hand ready for contact. One that is scaled to a person takes the compliance of the hand that
 /// it was scaled from. Throws as PreparedHand.

@@ -13,6 +13,7 @@
 #include "palmar/records/study/study_store.h"
 #include "palmar/report/study/study_report.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar {
 namespace {
@@ -99,6 +100,8 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
   progress.throw_if_cancelled();
   const StudyRequest asked = study_of(request);
   HeldOriginal original{.study = load_study(asked, load_hand(asked.hand)), .records = {}};
+  StudyInputs& inputs = original.study.inputs;
+  inputs.compliance = tissue_on_bone(*inputs.base, original.study.plan);
   if (request.on_note) {
     for (const std::string& text : original.study.notes) request.on_note(text);
   }

@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/workflow/study/study_estimate.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -59,7 +60,9 @@ StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress)
 
   const auto start = Clock::now();
   progress.update(0.1, "measuring a few grasps");
-  StudyBench bench(plan, study.inputs);
+  StudyInputs inputs = study.inputs;
+  inputs.compliance = tissue_on_bone(*inputs.base, plan);
+  StudyBench bench(plan, inputs);
   bench.prepare(tasks, progress);
   estimate.seconds_once = seconds_since(start);
   estimate.memory_once = resident_memory();
