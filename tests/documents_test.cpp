@@ -97,7 +97,8 @@ std::string shortened(std::string command) {
 const std::string& stand_ins() {
   static const std::string folder = [] {
     const std::string made = temporary_folder();
-    fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(made) / "examples");
+    fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(made) / "examples",
+             fs::copy_options::recursive);
     const ProgramRun prism = run_palmar(
         "product make prism --width-mm 35 --depth-mm 35 --length-mm 130 --fillet-mm 3 "
         "--out handle.step --out scan.stl",

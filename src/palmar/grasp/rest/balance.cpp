@@ -376,8 +376,7 @@ void Settling::finish(Balance& balance) {
   balance.fallbacks = mechanics_.fallbacks();
   if (squeezes_) {
     const double limit = options_->activation.value_or(options_->strength);
-    // A finger that stays as it met the thumb carries its load all the same.
-    effort_.look(state_.posture, mechanics_, {});
+    if (!is_by_muscles_) effort_.look(state_.posture, mechanics_, {});
     const double share = effort_.strength_share(mechanics_.force()) * limit / options_->strength;
     if (std::isfinite(share)) balance.strength_use = share;
     balance.is_overloaded = !is_by_muscles_ && !(share <= 1.0);
