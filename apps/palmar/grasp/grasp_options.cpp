@@ -100,9 +100,10 @@ void ContactArguments::add_to(CLI::App& verb) {
   verb.add_option("--preset", preset,
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
-  verb.add_option("--coupling", regions_,
-                  "Regions of the hand: coupled (one problem over the whole hand) or independent "
-                  "(each region alone, with the tissue model halfspace); default: as in the preset");
+  verb.add_option(
+      "--coupling", regions_,
+      "Regions of the hand: coupled (one problem over the whole hand) or independent "
+      "(each region alone, with the tissue model halfspace); default: as in the preset");
   verb.add_option(
       "--tissue-model", tissue_model_,
       "bone (the tissue between skin and bones), layered (a flat layer over bone) or halfspace "

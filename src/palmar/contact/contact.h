@@ -59,8 +59,8 @@ struct ContactModel {
   bool operator==(const ContactModel&) const = default;
 };
 
-/// What Palmar computes with unless told otherwise: ContactModel{} with the tissue on the hand's own
-/// bones. (ContactModel{} itself, a half-space, serves skins that have no bones.)
+/// What Palmar computes with unless told otherwise: ContactModel{} with the tissue on the hand's
+/// own bones. (ContactModel{} itself, a half-space, serves skins that have no bones.)
 ContactModel palmar_model();
 /// Tissue on bone is one body: with the point kernel or independent regions the half-space stands
 /// in its place.

@@ -22,8 +22,8 @@ struct EffortRequest {
   HandChoice hand;
   GraspSettings grasp;
   std::string grasp_file;  ///< JSON of a grasp that is taken as it is; "": one is searched
-  ContactModel model = palmar_model();      ///< the equations of the skin
-  ContactOptions contact;  ///< without the error band
+  ContactModel model = palmar_model();  ///< the equations of the skin
+  ContactOptions contact;               ///< without the error band
   FrictionSettings friction;
   RestSettings rest;  ///< of a grasp that is searched
   EffortOptions effort;

@@ -13,8 +13,8 @@ namespace palmar {
 
 /// An indentation test on a plane, an ellipsoid or one region of a hand.
 struct PressRequest {
-  PressOptions test;   ///< its kernel and, with a tissue file, its tissue are set here
-  HandChoice hand;     ///< whose region is pressed; its tissue file also serves plane and ellipsoid
+  PressOptions test;  ///< its kernel and, with a tissue file, its tissue are set here
+  HandChoice hand;    ///< whose region is pressed; its tissue file also serves plane and ellipsoid
   ContactModel model = palmar_model();  ///< the equations; a plane or ellipsoid takes the kernel
   std::string out;     ///< file to write, .json, .csv or .svg (the curve); "": none
   void check() const;  ///< throws UsageError: setting, value, what is allowed

@@ -180,8 +180,9 @@ TEST(BalanceMuscles, BadInputIsNamed) {
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("exponent is 4; 2 or 3")));
   MuscleProblem problem = one_axis({1}, 1, 2);
   problem.stop = VectorXi::Zero(3);
-  EXPECT_THAT([&] { balance_muscles(problem); },
-              testing::ThrowsMessage<UsageError>(testing::HasSubstr("3 stops and 0 prices for 1 axes")));
+  EXPECT_THAT(
+      [&] { balance_muscles(problem); },
+      testing::ThrowsMessage<UsageError>(testing::HasSubstr("3 stops and 0 prices for 1 axes")));
   problem = one_axis({std::nan("")}, 1, 2);
   EXPECT_THAT([&] { balance_muscles(problem); },
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("not finite")));

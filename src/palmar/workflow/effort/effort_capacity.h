@@ -16,8 +16,8 @@ struct CapacityRequest {
   ProductChoice product;
   HandChoice hand;
   GraspSettings grasp;
-  ContactModel model = palmar_model();      ///< the equations of the skin
-  ContactOptions contact;  ///< without the error band
+  ContactModel model = palmar_model();  ///< the equations of the skin
+  ContactOptions contact;               ///< without the error band
   FrictionSettings friction;
   // How strong the person is; at most one of the two. None: usual_grip_strength().
   std::optional<double> strength;                    ///< N, on a dynamometer
