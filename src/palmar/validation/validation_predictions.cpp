@@ -58,8 +58,8 @@ void add_circular_grip(ValidationRows& rows, ValidationBench& bench, bool is_at_
   GraspOptions options;
   options.grip = Grip::kPrecisionDisk;
   if (is_at_measured_places) {
-    constexpr double height = 15.0;  // mm above the middle; our choice
-    constexpr std::array<double, kFingerCount> angle = {0.0, 98.0, 145.0, 181.0, 236.0};
+    const double height = 15.0;  // mm above the middle; our choice
+    const std::array<double, kFingerCount> angle = {0.0, 98.0, 145.0, 181.0, 236.0};
     for (int f = 0; f < kFingerCount; ++f) {
       // From above, a right hand's digits follow each other clockwise.
       const double turn = -angle[f] / 180.0 * std::numbers::pi;
@@ -88,7 +88,7 @@ void add_circular_grip(ValidationRows& rows, ValidationBench& bench, bool is_at_
 /// Radwin, Oh, Jensen, Webster 1992, Ergonomics 35:275-288: submaximal five-finger pinch of flat
 /// sides 45 to 65 mm apart.
 void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
-  constexpr double span = 55.0,
+  const double span = 55.0,
                    pitch = 20.0;  // mm; the pitch of fingertips side by side: our choice
   PrismProductOptions prism;
   prism.width = span;
@@ -104,10 +104,10 @@ void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
                                {Finger::kRing, {side, 0.0, -0.5 * pitch}},
                                {Finger::kLittle, {side, 0.0, -1.5 * pitch}}};
   const auto share = digit_shares(bench, make_prism_product(prism), options);
-  constexpr std::array<double, 4> measured = {33.0, 33.0, 17.0, 15.0};  // percent of the four
-  constexpr std::array<Finger, 4> finger = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
+  const std::array<double, 4> measured = {33.0, 33.0, 17.0, 15.0};  // percent of the four
+  const std::array<Finger, 4> finger = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
-  constexpr std::array<const char*, 4> name = {"index", "middle", "ring", "little"};
+  const std::array<const char*, 4> name = {"index", "middle", "ring", "little"};
   double four = 0.0;
   for (const Finger f : finger) four += share ? (*share)[index_of(f)] : 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -143,7 +143,7 @@ void add_fingertip(ValidationRows& rows, ValidationBench& bench) {
       "outside";
   const std::string power = "radius as force to the power of 0 to 1/3 (Xydas and Kao 1999)";
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
-  constexpr std::array<const char*, 4> at = {"0.5 N", "1 N", "2 N", "4 N"};
+  const std::array<const char*, 4> at = {"0.5 N", "1 N", "2 N", "4 N"};
   for (const auto& [model, name] : {std::pair{palmar_model(), std::string("palmar")},
                                     {layered_model(), "layered"},
                                     {ContactModel{}, "half-space"}}) {

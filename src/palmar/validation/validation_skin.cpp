@@ -163,7 +163,7 @@ void add_form(ValidationRows& rows, const Skins& skins, const Body& body, const 
     }
   }
   // A mesh four times as fine leaves no more of the error, unless it was nothing to begin with.
-  constexpr double kNoError = 0.005;
+  const double kNoError = 0.005;
   rows.push_back(
       judge(form.name + ", error of the force at 0.6 mm over that at 2.5 mm, at least 0.5 %", "",
             error[2] / std::max(error[0], kNoError), at_most(1.0, "convergence with the mesh")));
@@ -181,7 +181,7 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
   {
     // Shallow, as all shapes here: the solver's gaps are distances to the nearest point, Hertz' run
     // along the press. A first version, 20 mm and 1.5 mm deep, came out 3 % softer on every mesh.
-    constexpr double radius = 80.0, depth = 0.4;
+    const double radius = 80.0, depth = 0.4;
     const double force = 16.0 / 3.0 * kModulus * std::sqrt(radius) * std::pow(depth, 1.5);
     const double area = kCircle * radius * depth;
     add_form(
@@ -190,7 +190,7 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
   }
   {
     // Johnson 1985, section 4.2, from a chosen ellipse.
-    constexpr double a = 5.0, b = 3.0, p0 = 0.01, ratio = p0 / (4.0 * kModulus);
+    const double a = 5.0, b = 3.0, p0 = 0.01, ratio = p0 / (4.0 * kModulus);
     const double e2 = 1.0 - b * b / (a * a);
     const double K = std::comp_ellint_1(std::sqrt(e2)), E = std::comp_ellint_2(std::sqrt(e2));
     const double along = e2 * a * a / (2.0 * ratio * b * (K - E));
@@ -203,7 +203,7 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
     // Each sphere meets skin that the other has lowered by its own field outside the contact
     // (Johnson 1985, eq. 3.42a), taken at its centre: w = p0 / (8 G a) ((2 a^2 - r^2) asin(a / r) +
     // a sqrt(r^2 - a^2)), p0 = 8 G a / (pi R), and a^2 = R (depth - w).
-    constexpr double radius = 62.5, depth = 0.1, apart = 8.0;
+    const double radius = 62.5, depth = 0.1, apart = 8.0;
     double a2 = radius * depth;
     for (int i = 0; i < 50; ++i) {
       const double w = ((2.0 * a2 - apart * apart) * std::asin(std::sqrt(a2) / apart) +
@@ -218,7 +218,7 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
               1.5 * one / (kCircle * a2)});
   }
   for (const double depth : {0.05, 0.3}) {
-    constexpr double radius = 5.0;
+    const double radius = 5.0;
     add_form(rows, skins, punch(radius, depth),
              {"sharp edge of a flat punch of 5 mm, " + std::string(depth < 0.1 ? "0.05" : "0.3") +
                   " mm deep",
