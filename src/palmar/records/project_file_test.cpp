@@ -17,11 +17,11 @@ using ::testing::HasSubstr;
 
 class ProjectFile : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { fs::create_directories(test_folder); }
+  void TearDown() override { fs::remove_all(test_folder); }
   fs::path written(const std::string& text) const {
-    write_file(folder_ / "project.toml", text);
-    return folder_ / "project.toml";
+    write_file(test_folder / "project.toml", text);
+    return test_folder / "project.toml";
   }
   std::string message(const std::string& text) const {
     try {
@@ -31,11 +31,11 @@ class ProjectFile : public ::testing::Test {
     }
     return "no error";
   }
-  fs::path folder_ = fs::temp_directory_path() / "palmar-project-file-test";
+  fs::path test_folder = fs::temp_directory_path() / "palmar-project-file-test";
 };
 
 TEST_F(ProjectFile, HasNameAuthorNotesAndLogo) {
-  write_file(folder_ / "logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+  write_file(test_folder / "logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
   const Project project = read_project(written(
       "name = \"Knife\"\nauthor = \"Studio\"\nnotes = \"Second round.\"\nlogo = \"logo.svg\"\n"));
   EXPECT_EQ(project.name, "Knife");
@@ -50,9 +50,9 @@ TEST_F(ProjectFile, SaysWhatIsWrongWithLineAndKey) {
   EXPECT_THAT(message("nmae = \"x\"\n"), AllOf(HasSubstr("project.toml:1"), HasSubstr("name")));
   EXPECT_THAT(message("name = \"x\"\nlogo = \"nothing.png\"\n"),
               AllOf(HasSubstr("project.toml:2"), HasSubstr("nothing.png"), HasSubstr("read")));
-  write_file(folder_ / "text.png", "no picture");
+  write_file(test_folder / "text.png", "no picture");
   EXPECT_THAT(message("logo = \"text.png\"\n"), HasSubstr("no PNG, JPEG or SVG"));
-  write_file(folder_ / "large.png", "\x89PNG\r\n\x1a\n" + std::string(1'000'001, 'x'));
+  write_file(test_folder / "large.png", "\x89PNG\r\n\x1a\n" + std::string(1'000'001, 'x'));
   EXPECT_THAT(message("logo = \"large.png\"\n"), HasSubstr("at most 1000000"));
   EXPECT_THAT(message("notes = \"" + std::string(401, 'x') + "\"\n"), HasSubstr("401 letters"));
   EXPECT_THAT(message("name = 3\n"), HasSubstr("name"));

@@ -19,38 +19,38 @@ namespace {
 class PressedBall : public testing::Test {
  protected:
   void SetUp() override {
-    hand_.skin = make_icosphere(12.0, 3);
-    hand_.tissue = default_tissue();
-    for (Vec3& x : hand_.skin.vertices) x.y() += 20.0;
-    for (const Vec3& x : hand_.skin.vertices) {
-      hand_.region.push_back(x.x() > 0.0 ? Region::kIndexDistal : Region::kThenar);
+    ball.skin = make_icosphere(12.0, 3);
+    ball.tissue = default_tissue();
+    for (Vec3& x : ball.skin.vertices) x.y() += 20.0;
+    for (const Vec3& x : ball.skin.vertices) {
+      ball.region.push_back(x.x() > 0.0 ? Region::kIndexDistal : Region::kThenar);
     }
-    hand_.segment.assign(hand_.region.size(), Segment::kIndexDistal);
-    Bone& bone = hand_.bones.emplace_back();
+    ball.segment.assign(ball.region.size(), Segment::kIndexDistal);
+    Bone& bone = ball.bones.emplace_back();
     bone.mesh = make_icosphere(6.0, 3);
     for (Vec3& x : bone.mesh.vertices) x.y() += 20.0;
-    for (RegionTissue& tissue : hand_.tissue.region) {
+    for (RegionTissue& tissue : ball.tissue.region) {
       for (BoneTissueLaw* law :
            {&tissue.on_bone.low, &tissue.on_bone.nominal, &tissue.on_bone.high}) {
         law->stiffening = 8.0;
       }
     }
-    skin_ = skin_geometry(hand_.skin);
-    compliance_ = skin_compliance(hand_, skin_);
-    blocks_ = bone_tissue_blocks(hand_, skin_, compliance_.volume);
-    for (const int v : compliance_.vertex) {
-      if (skin_.position[v].z() > 8.0) vertex_.push_back(v);
+    ball_skin = skin_geometry(ball.skin);
+    ball_compliance = skin_compliance(ball, ball_skin);
+    ball_blocks = bone_tissue_blocks(ball, ball_skin, ball_compliance.volume);
+    for (const int v : ball_compliance.vertex) {
+      if (ball_skin.position[v].z() > 8.0) pressed.push_back(v);
     }
-    LoadedSkin loaded(skin_, compliance_, nullptr, {});
-    loaded.set(vertex_, std::vector<Vec3>(vertex_.size(), Vec3(0.0, 0.0, -1.0)));
+    LoadedSkin loaded(ball_skin, ball_compliance, nullptr, {});
+    loaded.set(pressed, std::vector<Vec3>(pressed.size(), Vec3(0.0, 0.0, -1.0)));
     const SparseRows& rows = loaded.responses();
-    C_ = Eigen::MatrixXd::Zero(static_cast<int>(rows.size()), static_cast<int>(rows.size()));
-    for (int i = 0; i < C_.rows(); ++i) {
+    responses = Eigen::MatrixXd::Zero(static_cast<int>(rows.size()), static_cast<int>(rows.size()));
+    for (int i = 0; i < responses.rows(); ++i) {
       for (std::size_t k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
-        C_(i, rows.column[k]) = static_cast<double>(rows.value[k]);
+        responses(i, rows.column[k]) = static_cast<double>(rows.value[k]);
       }
     }
-    ASSERT_GT(vertex_.size(), 40U);
+    ASSERT_GT(pressed.size(), 40U);
   }
 
   struct Solution {
@@ -58,15 +58,15 @@ class PressedBall : public testing::Test {
     BlockStiffening lambda;
   };
   Eigen::VectorXd roots(const BlockStiffening& lambda) const {
-    Eigen::VectorXd root(C_.rows());
+    Eigen::VectorXd root(responses.rows());
     for (int i = 0; i < root.size(); ++i) {
-      root[i] = root_modulus(blocks_, TissueLevel::kNominal, lambda, vertex_[i]);
+      root[i] = root_modulus(ball_blocks, TissueLevel::kNominal, lambda, pressed[i]);
     }
     return root;
   }
   BlockStiffening next(const BlockStiffening& lambda, const Eigen::VectorXd& force,
                        const Eigen::VectorXd& displacement) const {
-    return stiffening_of(blocks_, TissueLevel::kNominal, lambda, vertex_,
+    return stiffening_of(ball_blocks, TissueLevel::kNominal, lambda, pressed,
                          {force.begin(), force.end()}, {displacement.begin(), displacement.end()});
   }
   /// Contact with gaps d before deformation.
@@ -75,7 +75,8 @@ class PressedBall : public testing::Test {
     for (int round = 0; round < 200; ++round) {
       const Eigen::VectorXd root = roots(result.lambda);
       ContactProblem problem;
-      problem.response = root.cwiseInverse().asDiagonal() * C_ * root.cwiseInverse().asDiagonal();
+      problem.response =
+          root.cwiseInverse().asDiagonal() * responses * root.cwiseInverse().asDiagonal();
       problem.distance = d;
       const ContactSolution solution = solve_contact(problem);
       EXPECT_EQ(solution.status, LcpStatus::kSolved);
@@ -94,25 +95,25 @@ class PressedBall : public testing::Test {
   /// Stored energy, p . u - U*(p).
   double energy(const Solution& s) const {
     return 0.5 * s.force.dot(s.displacement) -
-           stiffening_energy(blocks_, TissueLevel::kNominal, s.lambda);
+           stiffening_energy(ball_blocks, TissueLevel::kNominal, s.lambda);
   }
   /// Gaps of a ball of 30 mm whose lowest point is at (x, 20 + y) and `depth` under the skin's top.
   Eigen::VectorXd gaps(double x, double y, double depth) const {
-    Eigen::VectorXd d(C_.rows());
+    Eigen::VectorXd d(responses.rows());
     for (int i = 0; i < d.size(); ++i) {
-      const Vec3& at = skin_.position[vertex_[i]];
+      const Vec3& at = ball_skin.position[pressed[i]];
       const double across = (at.head<2>() - Eigen::Vector2d(x, 20.0 + y)).squaredNorm();
       d[i] = 12.0 - depth + across / 60.0 - at.z();
     }
     return d;
   }
 
-  Hand hand_;
-  SkinGeometry skin_;
-  SkinCompliance compliance_;
-  BoneTissueBlocks blocks_;
-  std::vector<int> vertex_;
-  Eigen::MatrixXd C_;
+  Hand ball;
+  SkinGeometry ball_skin;
+  SkinCompliance ball_compliance;
+  BoneTissueBlocks ball_blocks;
+  std::vector<int> pressed;
+  Eigen::MatrixXd responses;
 };
 
 TEST_F(PressedBall, StiffensInBothBlocks) {

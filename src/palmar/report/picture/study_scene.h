@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/core/language.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/study/statistics/mean_maps.h"
