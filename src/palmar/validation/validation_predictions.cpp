@@ -89,7 +89,7 @@ void add_circular_grip(ValidationRows& rows, ValidationBench& bench, bool is_at_
 /// sides 45 to 65 mm apart.
 void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
   const double span = 55.0,
-                   pitch = 20.0;  // mm; the pitch of fingertips side by side: our choice
+               pitch = 20.0;  // mm; the pitch of fingertips side by side: our choice
   PrismProductOptions prism;
   prism.width = span;
   prism.depth = 40.0;
@@ -106,7 +106,7 @@ void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
   const auto share = digit_shares(bench, make_prism_product(prism), options);
   const std::array<double, 4> measured = {33.0, 33.0, 17.0, 15.0};  // percent of the four
   const std::array<Finger, 4> finger = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
-                                            Finger::kLittle};
+                                        Finger::kLittle};
   const std::array<const char*, 4> name = {"index", "middle", "ring", "little"};
   double four = 0.0;
   for (const Finger f : finger) four += share ? (*share)[index_of(f)] : 0.0;
