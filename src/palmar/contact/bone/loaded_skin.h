@@ -13,14 +13,13 @@ namespace palmar {
 /// The compliance of a skin on bone among some vertices, each with the direction in which it is
 /// pressed: entries m_i . C_ij m_j. Skin without tissue elements (the back of the hand) has, along
 /// its normals, the response of a half-space among itself and none with the rest. Keeps its memory.
-/// What is pointed to, skin and compliance must outlive
-/// it.
+/// What is pointed to, skin and compliance must outlive it.
 class LoadedSkin {
  public:
   /// `scale`: `compliance` is that of a hand 1 / scale as large, per skin vertex: entries are
-  /// divided by sqrt(s_i s_j). Exact for a hand scaled as a whole; symmetric and positive definite
-  /// in any case. Empty: of the hand itself. `half_space` is needed where skin without tissue
-  /// elements is loaded.
+  /// divided by sqrt(s_i s_j). Exact for a hand scaled as a whole; symmetric, and as definite as
+  /// the compliance itself. Empty: of the hand itself. `half_space` is needed where skin without
+  /// tissue elements is loaded.
   LoadedSkin(const SkinGeometry& skin, const SkinCompliance& compliance,
              const SkinResponse* half_space, const std::vector<double>& scale);
 
