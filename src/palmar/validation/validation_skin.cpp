@@ -163,10 +163,10 @@ void add_form(ValidationRows& rows, const Skins& skins, const Body& body, const 
     }
   }
   // A mesh four times as fine leaves no more of the error, unless it was nothing to begin with.
-  const double kNoError = 0.005;
+  const double no_error = 0.005;
   rows.push_back(
       judge(form.name + ", error of the force at 0.6 mm over that at 2.5 mm, at least 0.5 %", "",
-            error[2] / std::max(error[0], kNoError), at_most(1.0, "convergence with the mesh")));
+            error[2] / std::max(error[0], no_error), at_most(1.0, "convergence with the mesh")));
 }
 
 }  // namespace
