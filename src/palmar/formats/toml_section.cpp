@@ -3,6 +3,7 @@
 #include "palmar/formats/toml_section.h"
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -16,6 +17,32 @@ namespace {
 
 std::string with_unit(double value, std::string_view unit) {
   return shortest(value) + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
+/// Parts of one dotted key; toml++ limits nested values, but a table nested deeper than this by its
+/// key would end the program when it is freed.
+constexpr int kMostKeyParts = 100;
+
+/// Throws InputError at a key of more than kMostKeyParts parts. Counts dots between parts of bare
+/// or quoted keys; numbers and texts have fewer.
+void check_key_depth(const std::string& text, const std::string& path) {
+  int line = 1, dots = 0;
+  char before = ' ';
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    const bool part_of_key = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+                             c == '-' || c == '"' || c == '\'' || c == ' ' || c == '\t';
+    if (c == '.' && before != '.')
+      ++dots;
+    else if (!part_of_key)
+      dots = 0;
+    before = c;
+    if (dots >= kMostKeyParts) {
+      throw InputError(path + ":" + std::to_string(line) + ": no TOML: a key has more than " +
+                       std::to_string(kMostKeyParts) + " parts; " + std::to_string(kMostKeyParts) +
+                       " are allowed");
+    }
+  }
 }
 
 }  // namespace
@@ -165,6 +192,7 @@ std::string TomlSection::need_text(std::string_view key) const {
 }
 
 toml::table parse_toml(const std::string& text, const std::string& path) {
+  check_key_depth(text, path);
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/tissue_file.h"
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/formats/toml_section.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
@@ -306,13 +306,7 @@ std::string region_toml(const std::string& section, const RegionTissue& region) 
 }  // namespace
 
 Tissue read_tissue(const std::string& path, const Tissue& base) {
-  const std::string text = read_file(path, kMostTissueBytes);
-  try {
-    return TissueReader(path, base).read(toml::parse(text, path));
-  } catch (const toml::parse_error& error) {
-    throw InputError(path + ":" + std::to_string(error.source().begin.line) +
-                     ": no TOML: " + std::string(error.description()));
-  }
+  return TissueReader(path, base).read(parse_toml(read_file(path, kMostTissueBytes), path));
 }
 
 std::string tissue_toml(const Tissue& tissue) {
