@@ -80,7 +80,6 @@ export function assessment(): Assessment {
       balance_friction: 0.5, grip_force_asked_n: null, grip_force_from: "", contact_model: "palmar", kernel: "patch", tissue_model: "halfspace",
       regions: "coupled", swelling: true, coatings: [], error_band: true, cell_area_mm2: 24, shear_modulus_mpa: null, seed: 0,
     },
-    times_s: { grasp: 0, balance: 0, contact: 0, indices: 0 },
   };
 }
 

@@ -355,7 +355,6 @@ export interface Assessment {
   faces?: FaceContact[]; // of products from CAD
   sensors?: SensorResult; // if they were asked for
   friction?: FrictionResult;
-  times_s: { grasp: number; balance: number; contact: number; indices: number; friction?: number };
 }
 
 /// assessment.json

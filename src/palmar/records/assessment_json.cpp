@@ -410,15 +410,9 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
     if (assessment.sensors) entry["sensors"] = sensor_object(assessment);
     if (one.errors) entry["error_budget"] = error_budget_object(*one.errors);
     if (one.product.faces != nullptr) entry["faces"] = face_array(one.product, assessment.faces);
-    Json times = {{"grasp", assessment.times.grasp},
-                  {"balance", assessment.times.balance},
-                  {"contact", assessment.times.contact},
-                  {"indices", assessment.times.indices}};
     if (assessment.options.friction.is_on()) {
       entry["friction"] = friction_object(assessment.friction, assessment.options.friction);
-      times["friction"] = assessment.times.friction;
     }
-    entry["times_s"] = std::move(times);
     assessments.push_back(std::move(entry));
   }
   const Json json = {{"assessments", std::move(assessments)},

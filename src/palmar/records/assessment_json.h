@@ -10,12 +10,11 @@
 namespace palmar {
 
 /// assessment.json: one object {"assessments": [{"product", "hand", "hold", "doubts", "grasp",
-/// "contact", "verdict", "indices", "settings", "friction" (if it is on), "times_s"}], "verdict",
-/// "versions", ...}. Keys
-/// carry units (force_n, contact_area_mm2, peak_pressure_mpa, ..._mm, ..._deg); doubles are printed
-/// shortest so that they read back exactly. Without times_s the text depends on input and seed
-/// alone.
-/// `words`: verdict_words() of the set; without them verdicts have figures only.
+/// "contact", "verdict", "indices", "settings", "friction" (if it is on)}], "verdict",
+/// "versions", ...}. Keys carry units (force_n, contact_area_mm2, peak_pressure_mpa, ..._mm,
+/// ..._deg); doubles are printed shortest so that they read back exactly. The text depends on
+/// command line, input and seed alone. `words`: verdict_words() of the set; without them verdicts
+/// have figures only.
 std::string assessment_json(const AssessmentSet& set, const VerdictWords& words = {});
 
 /// Whether a file's content is an assessment.json that Palmar wrote.

@@ -129,7 +129,6 @@ AssessmentSet example() {
   contact.total = region;
   assessment.options.seed = 18446744073709551615u;
   assessment.options.grasp.power.placement.turn = std::numbers::pi;
-  assessment.times = {0.25, 0.5};
   Product product;
   product.name = "handle \xff";  // no UTF-8
   product.mesh = box_mesh({120, 30, 20});
@@ -142,8 +141,7 @@ TEST(AssessmentJson, HasTheShapeThatOtherProgramsRelyOn) {
   const PlainJson json = PlainJson::parse(assessment_json(example()));
   ASSERT_EQ(json.at("assessments").size(), 1u);
   const PlainJson& one = json["assessments"][0];
-  for (const char* key :
-       {"product", "hand", "grasp", "contact", "indices", "settings", "times_s"}) {
+  for (const char* key : {"product", "hand", "grasp", "contact", "indices", "settings"}) {
     EXPECT_TRUE(one.contains(key)) << key;
   }
   EXPECT_TRUE(one["contact"].contains("grip_force_n"));
@@ -175,7 +173,6 @@ TEST(AssessmentJson, NumbersReadBackExactlyInTheirUnits) {
   EXPECT_EQ(one["product"]["size_mm"], PlainJson({120.0, 30.0, 20.0}));
   EXPECT_EQ(one["product"]["unit"], "inch");
   EXPECT_EQ(one["product"]["unit_from"], "user");
-  EXPECT_EQ(one["times_s"]["contact"], 0.5);
   EXPECT_EQ(one["indices"]["fingers_in_contact"], PlainJson({"index"}));
 }
 
