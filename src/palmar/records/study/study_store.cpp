@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "palmar/core/error.h"
@@ -43,8 +45,14 @@ namespace fs = std::filesystem;
     case SQLITE_FULL:
       throw OutputError(name + ": the disk is full; what was finished before is kept");
     case SQLITE_READONLY:
-    case SQLITE_PERM:
+    case SQLITE_PERM: {
+      std::error_code none;
+      if (!fs::exists(path, none)) {
+        throw OutputError(name +
+                          ": was moved or deleted while it was in use; what came after is lost");
+      }
       throw OutputError(name + ": can't be written: no permission to write to it or to its folder");
+    }
     case SQLITE_CANTOPEN:
       throw OutputError(name + ": can't be opened (" + failure.what() +
                         "); it and its folder must be writable");
@@ -123,15 +131,49 @@ bool has_log(const fs::path& path) {
   return !error && size > 0;
 }
 
+/// Whether another process holds the store for writing: SQLite then has a write lock on the 510
+/// bytes from 2^30 + 2, where readers have read locks (SQLite, "File Locking And Concurrency",
+/// constants of os.h).
+bool has_writer(const fs::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  struct flock lock = {};
+  lock.l_type = F_RDLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = (1L << 30) + 2;
+  lock.l_len = 510;
+  const bool is_known = ::fcntl(fd, F_GETLK, &lock) == 0;
+  ::close(fd);
+  return is_known && lock.l_type == F_WRLCK;
+}
+
+/// The store for this process alone. Waits for readers, which are soon done (`study status` in a
+/// loop), up to ten seconds; a writer ends it at once.
+std::unique_ptr<SqliteFile> open_alone(const fs::path& path) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (true) {
+    try {
+      auto file = std::make_unique<SqliteFile>(path.string(), SQLITE_OPEN_READWRITE);
+      // Exclusive before the first look: no shared memory, which network folders don't have.
+      file->run(
+          "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE; COMMIT");
+      return file;
+    } catch (const SqliteFailure& failure) {
+      const bool is_busy = failure.code == SQLITE_BUSY || failure.code == SQLITE_LOCKED;
+      if (!is_busy || has_writer(path) || std::chrono::steady_clock::now() > end) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 std::unique_ptr<SqliteFile> open_store(const fs::path& path, StudyAccess access) {
   check_header(path);
-  // For writing even to read: what a killed process left in its log is then taken in.
-  auto file = std::make_unique<SqliteFile>(path.string(), SQLITE_OPEN_READWRITE);
+  std::unique_ptr<SqliteFile> file;
   if (access == StudyAccess::kWrite) {
-    // Exclusive before the first look: no shared memory, which network folders don't have.
-    file->run(
-        "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE; COMMIT");
+    file = open_alone(path);
   } else {
+    // For writing even to read: what a killed process left in its log is then taken in.
+    file = std::make_unique<SqliteFile>(path.string(), SQLITE_OPEN_READWRITE);
     try {
       file->run("PRAGMA busy_timeout = 500");
       file->integer("SELECT count(*) FROM sqlite_schema");
