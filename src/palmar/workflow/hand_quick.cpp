@@ -135,7 +135,14 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress
     outcome.side = side_of(photo, request);
     note_photograph(photo, on_note);
     progress.update(0.4, "measuring");
-    person = person_of_outline(*load_hand("template"), population, own, photo.outline, photo.scene);
+    try {
+      person =
+          person_of_outline(*load_hand("template"), population, own, photo.outline, photo.scene);
+    } catch (const UsageError& error) {
+      if (!own.empty()) throw;  // a size that was given may be what is wrong
+      throw InputError(
+          fmt::format("{}: what is measured on it is no hand's: {}", request.photo, error.what()));
+    }
     for (const std::string& text : person.notes) on_note(text);
     if (!request.picture.empty()) {
       write_file(request.picture, outline_picture(photo.image, photo.scene.sheet, photo.outline,
