@@ -25,6 +25,15 @@ std::string cause_of_absence(const StudyRecord* record, const std::string& key) 
   return quantity_of(*record, key) ? "" : "no_value";
 }
 
+/// The second of two values, or the first if they are equal but for rounding: an iteration ends at
+/// a cap to 1e-14 or so, and signs of such differences aren't data.
+double unless_rounding(double first, double second) {
+  constexpr double kRounding =
+      1e-9;  // of the larger; our choice, far below what a model or a mesh decides
+  const double larger = std::max(std::abs(first), std::abs(second));
+  return std::abs(first - second) <= kRounding * larger ? first : second;
+}
+
 void test(const ComparisonOptions& options, const std::vector<double>& first,
           const std::vector<double>& second, ProductPair& pair) {
   if (pair.pairs == 0) return;
@@ -53,7 +62,7 @@ ProductPair compare_pair(const StudyResults& results, const StudyCondition& cond
     const std::string cause_other = cause_of_absence(other, key);
     if (cause_one.empty() && cause_other.empty()) {
       a.push_back(*quantity_of(*one, key));
-      b.push_back(*quantity_of(*other, key));
+      b.push_back(unless_rounding(a.back(), *quantity_of(*other, key)));
       continue;
     }
     if (!cause_one.empty()) ++left_out[{first, cause_one}];

@@ -87,6 +87,19 @@ TEST(CompareProducts, AProductDoesNotDifferFromItself) {
   EXPECT_EQ(pair.t_test.difference, 0.0);
 }
 
+// Six activations at the cap, to which an iteration came within 1e-14.
+TEST(CompareProducts, RoundingIsNoDifference) {
+  StudyResults results = study_of(6, {"a", "b"});
+  for (int h = 0; h < 6; ++h) {
+    results.records.push_back(held(2 * h, 1.0));
+    results.records.push_back(held(2 * h + 1, 1.0 - 1e-14 * (h + 1)));
+  }
+  const QuantityComparison found = compare_products(results, {}, kPeak);
+  EXPECT_EQ(found.pairs[0].verdict, DifferenceVerdict::kNone);
+  EXPECT_TRUE(found.pairs[0].t_test.is_constant);
+  EXPECT_EQ(found.pairs[0].wilcoxon.n_used, 0);
+}
+
 TEST(CompareProducts, SwappingProductsTurnsTheSignAlone) {
   StudyResults swapped = three_products();
   for (StudyRecord& record : swapped.records) {
