@@ -3,6 +3,7 @@
 #include "palmar/records/region_json.h"
 
 #include "palmar/core/error.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/geometry/degrees.h"
 
 namespace palmar {
@@ -43,7 +44,7 @@ void for_each(const Json& request, const char* key, const Read& read) {
   try {
     for (const Json& one : request.at(key)) read(one);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(std::string("region: ") + key + ": " + error.what());
+    throw InputError(std::string("region: ") + key + ": " + json_reason(error));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 
 namespace palmar {
 namespace {
@@ -114,7 +115,7 @@ ByteRange view_range(const Glb& glb, int view, const std::string& name) {
     }
     return range;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(what + ": " + e.what());
+    throw InputError(what + ": " + json_reason(e));
   }
 }
 
@@ -170,7 +171,7 @@ Glb parse_glb(const std::vector<std::uint8_t>& bytes, const std::string& name) {
       try {
         glb.json = nlohmann::json::parse(first, last);
       } catch (const nlohmann::json::exception& e) {
-        throw InputError(name + ": broken JSON in the glTF file: " + e.what());
+        throw InputError(name + ": broken JSON in the glTF file: " + json_reason(e));
       }
       has_json = true;
     } else if (type == kBinChunk && glb.buffer.empty()) {
@@ -266,7 +267,7 @@ AccessorData read_accessor(const Glb& glb, int index, const std::string& name) {
     }
     return data;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(what + ": " + e.what());
+    throw InputError(what + ": " + json_reason(e));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/formats/mesh/mesh_build.h"
 #include "palmar/formats/mesh/texture_file.h"
@@ -492,7 +493,7 @@ MeshFile parse(std::string_view bytes, const std::filesystem::path& path, Surfac
     file.format = bytes.starts_with("glTF") ? "binary glTF" : "glTF";
     return file;
   } catch (const Json::exception& error) {
-    throw InputError(name + ": is no valid glTF: " + error.what());
+    throw InputError(name + ": is no valid glTF: " + json_reason(error));
   }
 }
 

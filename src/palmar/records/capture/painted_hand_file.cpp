@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/records/json_values.h"
@@ -104,7 +105,8 @@ ScanTruth read_scan_truth(const std::string& path) {
       }
     }
   } catch (const PlainJson::exception& error) {
-    throw InputError(path + ": isn't the truth of a synthetic person's scans: " + error.what());
+    throw InputError(path +
+                     ": isn't the truth of a synthetic person's scans: " + json_reason(error));
   }
   const auto skin = std::filesystem::path(path).parent_path() / "reference.ply";
   if (std::filesystem::exists(skin)) truth.skin = read_mesh(skin).mesh;

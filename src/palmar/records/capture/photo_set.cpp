@@ -14,6 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 
 namespace palmar {
 namespace {
@@ -111,7 +112,7 @@ void read_description(const fs::path& path, const fs::path& folder, PhotoSet& se
     }
     set.is_described = !set.photographs.empty();
   } catch (const Json::exception& error) {
-    throw InputError(name + ": " + error.what());
+    throw InputError(name + ": " + json_reason(error));
   }
   try {
     set.board.check();
@@ -197,7 +198,7 @@ PhotoLenses read_lenses(const fs::path& path) {
       lenses[camera] = std::move(calibration);
     }
   } catch (const Json::exception& error) {
-    throw InputError(name + ": " + error.what());
+    throw InputError(name + ": " + json_reason(error));
   }
   return lenses;
 }

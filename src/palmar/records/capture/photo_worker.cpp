@@ -7,6 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/process/program_missing.h"
 #include "palmar/formats/process/worker.h"
 
@@ -41,7 +42,8 @@ auto taken(const Take& take) {
   try {
     return take();
   } catch (const Json::exception& error) {
-    throw InputError(std::string("the photograph program's answer is damaged: ") + error.what());
+    throw InputError(std::string("the photograph program's answer is damaged: ") +
+                     json_reason(error));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/mesh/ply.h"
 #include "palmar/records/json_values.h"
 
@@ -40,7 +41,7 @@ Json parsed_index(const fs::path& path) {
   try {
     return Json::parse(read_file(path));
   } catch (const Json::exception& error) {
-    throw InputError(path.string() + ": is no JSON: " + error.what());
+    throw InputError(path.string() + ": is no JSON: " + json_reason(error));
   }
 }
 
@@ -126,7 +127,7 @@ ScanSurfaces read_scan_surfaces(const std::string& folder) {
     surfaces.notes = json.at("notes").get<std::vector<std::string>>();
     return surfaces;
   } catch (const Json::exception& error) {
-    throw InputError(path.string() + ": isn't as Palmar writes it: " + error.what());
+    throw InputError(path.string() + ": isn't as Palmar writes it: " + json_reason(error));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/mesh/glb.h"
 
 namespace palmar {
@@ -129,7 +130,7 @@ HandAsset read_hand_asset(const std::string& path) {
   try {
     return read_checked(glb, path);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(path + ": not the generic hand: " + e.what());
+    throw InputError(path + ": not the generic hand: " + json_reason(e));
   } catch (const std::out_of_range&) {
     throw InputError(path + ": not the generic hand: a node refers to a child that does not exist");
   }

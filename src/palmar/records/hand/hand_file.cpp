@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/records/hand/hand_scene.h"
 #include "palmar/records/hand/skeleton_json.h"
@@ -292,7 +293,7 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
   try {
     return read(reader, extras->at("palmar_hand"));
   } catch (const PlainJson::exception& e) {
-    reader.fail(e.what());
+    reader.fail(json_reason(e));
   } catch (const InputError& e) {
     if (std::string(e.what()).rfind(path, 0) == 0) throw;
     reader.fail(e.what());

@@ -17,6 +17,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/hand/skin/landmarks.h"
 
@@ -150,7 +151,7 @@ MarkerSet from_json(const std::string& text, const std::string& path, const Hand
   try {
     json = PlainJson::parse(text);
   } catch (const PlainJson::exception& error) {
-    throw InputError(path + ": no valid JSON: " + error.what());
+    throw InputError(path + ": no valid JSON: " + json_reason(error));
   }
   if (!json.is_object() || !json.contains("markers") || !json["markers"].is_array()) {
     throw InputError(path + ": \"markers\", a list, is needed");

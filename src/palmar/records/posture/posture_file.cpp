@@ -12,6 +12,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/placement_json.h"
@@ -112,7 +113,7 @@ class JsonPostures {
     try {
       json = PlainJson::parse(text);
     } catch (const PlainJson::exception& error) {
-      throw InputError(path_ + ": no valid JSON: " + error.what());
+      throw InputError(path_ + ": no valid JSON: " + json_reason(error));
     }
     if (json.is_array()) {
       read_list(json, "entry");

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/records/product/cad_format.h"
 
 namespace palmar {
@@ -102,7 +103,7 @@ ChangedCad change_features(const CadFeatureRequest& request, const CadLimits& li
     if (request.mesh) changed.mesh = read_face_mesh(folder.path() / "mesh.bin");
     if (request.step) changed.step = read_file(folder.path() / "product.step");
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + error.what());
+    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
   } catch (const InputError& error) {
     throw InputError(object + ": the CAD program's answer can't be used: " + error.what());
   }
@@ -119,7 +120,7 @@ std::vector<ChosenEdges> describe_features(const CadFeatureRequest& request,
   try {
     return fillets_in(Json::parse(reply));
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + error.what());
+    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/records/product/cad_format.h"
 
 namespace palmar {
@@ -22,7 +23,7 @@ auto take_reply(const std::string& reply, const std::string& object, const Take&
   try {
     return take(Json::parse(reply));
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + error.what());
+    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
   }
 }
 

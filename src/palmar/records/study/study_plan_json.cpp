@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/json_reason.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/population/sex_names.h"
 #include "palmar/records/population/population_file.h"
@@ -416,7 +417,7 @@ StudyPlan parse_plan(const std::string& text, const std::string& name) {
     for (const Json& one : json.at("hands")) plan.hands.push_back(hand_from(one, name));
     return plan;
   } catch (const Json::exception& error) {
-    throw InputError(name + ": its plan can't be read: " + error.what());
+    throw InputError(name + ": its plan can't be read: " + json_reason(error));
   }
 }
 
