@@ -40,7 +40,7 @@ std::string full_name(const CLI::App* app) {
   return parent.empty() ? app->get_name() : parent + " " + app->get_name();
 }
 
-/// "pram is no kind; did you mean prism? Known are cylinder, ..."
+/// "pram is no kind of product; did you mean prism? There are cylinder, ..."
 std::string explain_verb(const CLI::App& where, const std::string& wrong) {
   std::vector<std::string> names;
   for (const CLI::App* verb : where.get_subcommands(nullptr)) names.push_back(verb->get_name());
@@ -48,9 +48,10 @@ std::string explain_verb(const CLI::App& where, const std::string& wrong) {
   for (std::size_t i = 0; i < names.size() && nearest.empty(); ++i) {
     if (wrong.size() > 2 && names[i].starts_with(wrong.substr(0, 2))) nearest = names[i];
   }
-  const char* const what = full_name(&where) == "palmar product make" ? "kind" : "command";
+  const char* const what =
+      full_name(&where) == "palmar product make" ? "kind of product" : "command";
   return wrong + " is no " + what + (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") +
-         "Known are " + joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
+         "There are " + joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
 }
 
 /// What was wrong with the command line, and the nearest thing that would have been right.

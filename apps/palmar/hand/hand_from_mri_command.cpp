@@ -19,6 +19,7 @@ struct FromMriArguments {
   std::vector<std::string> series, skip;
   std::string unit;
   SurfaceArguments surfaces;
+  std::string language = "en";
   bool no_report = false;
 };
 
@@ -98,6 +99,7 @@ int run(const FromMriArguments& arguments, const Context& context) {
     request.skip.push_back(posture_called(name, "--skip"));
   }
   request.writes_report = !arguments.no_report;
+  request.language = language_named(arguments.language);
   request.setting_names = option_named;
   request.note = [&context](const std::string& text) { note(context.common, text); };
   const HandFromMriOutcome made = make_hand_from_mri(request, make_progress(context.common));
@@ -145,6 +147,8 @@ void add_from_mri(CLI::App& hand, Context& context) {
   a->surfaces.add_to(*verb);
   verb->add_flag("--accept-odd-slices", a->request.accepts_odd_slices,
                  "Continue although a slice doesn't fit between its neighbours");
+  verb->add_option("--language", a->language, "Language of the report: en or de")
+      ->capture_default_str();
   verb->add_flag("--no-report", a->no_report, "Write only the hand, no report");
   verb->callback([&context, a] { context.run = [&context, a] { return run(*a, context); }; });
 }

@@ -52,6 +52,8 @@ void ScanHandArguments::add_to(CLI::App& verb, const std::string& work_help) {
       ->capture_default_str();
   verb.add_option("--name", options_.name, "Name of the hand; default: that of the file");
   verb.add_flag("--no-report", no_report_, "Write only the hand, no report");
+  verb.add_option("--language", language_, "Language of the report: en or de")
+      ->capture_default_str();
   verb.add_option("--work", options_.work, work_help);
 }
 
@@ -62,6 +64,7 @@ ScanHandOptions ScanHandArguments::options() const {
   options.inks.crease = parse_colour("--crease-colour", crease_);
   options.inks.dot = parse_colour("--dot-colour", dot_);
   options.writes_report = !no_report_;
+  options.language = language_named(language_);
   options.check();
   return options;
 }

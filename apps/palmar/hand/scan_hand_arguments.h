@@ -20,7 +20,7 @@ class ScanHandArguments {
 
  private:
   ScanHandOptions options_;
-  std::string side_, crease_ = "green", dot_ = "blue";
+  std::string side_, language_ = "en", crease_ = "green", dot_ = "blue";
   bool no_report_ = false;
 };
 

@@ -14,7 +14,7 @@ export function localised(text: string): string {
 export function shortNumber(value: number | null | undefined, significant = 3): string {
   if (value === null || value === undefined || !isFinite(value)) return nothing;
   const size = Math.abs(value);
-  if (size === 0) return "0";
+  if (size < 5e-6) return "0"; // would be 0.00000
   const exponent = Number(size.toExponential().split("e")[1]);
   const decimals = Math.max(0, Math.min(5, significant - 1 - exponent));
   return localised(value.toFixed(decimals));

@@ -118,7 +118,7 @@ function provenance(page: AssessmentPage): Section {
       name: hand.name, side: say("side." + hand.side), length: shortNumber(hand.hand_length_mm, 4),
       circumference: shortNumber(hand.hand_circumference_mm, 4), width: shortNumber(hand.hand_width_mm),
     })} ${hand.provenance}</p>
-<p>Palmar ${maker.build}.</p>
+<p>${capitalised(maker.build)}.</p>
 ${page.report.command_line && html`<p>${say("provenance.made_by")} <code>${page.report.command_line}</code></p>
 `}${licence(maker.viewer_licence)}`,
   };

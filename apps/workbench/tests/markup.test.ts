@@ -28,7 +28,7 @@ test("numbers are shortened, digits before the point stay", () => {
   assert.equal(shortNumber(0.0123456), "0.0123");
   assert.equal(shortNumber(1000), "1000");
   assert.equal(shortNumber(0.001), "0.00100");
-  assert.equal(shortNumber(1e-9), "0.00000");
+  assert.equal(shortNumber(-1e-9), "0");
   assert.equal(shortNumber(null), "–");
   assert.equal(shortNumber(NaN), "–");
   assert.equal(percent(0.0731), "7.3 %");

@@ -63,12 +63,14 @@ test("every text is asked for somewhere", () => {
 });
 
 // Put together from parts in grasp_verdict.cpp, grip_needs.cpp, check.cpp, friction_words.cpp,
-// study_verdict.cpp and study_analysis.cpp, so that no piece of them stands anywhere as a whole.
+// study_verdict.cpp, study_analysis.cpp and load_hand.cpp, so that no piece of them stands anywhere as a whole.
 const puzzles = ["It asks for more range of motion than {n_count} of {n_all} hands have.",
   "It asks for more grip strength than {n_count} of {n_all} hands have.",
   "the base of the {finger}", "the middle part of the {finger}",
   "only {n_count} finger besides the thumb touches it; a {grip} needs {n_needed}",
   "only {n_count} fingers besides the thumb touch it; a {grip} needs {n_needed}",
+  "{part} of the {n_p}th percentile (ANSUR II)", "{part} of the {n_p}st percentile (ANSUR II)",
+  "{part} of the {n_p}nd percentile (ANSUR II)", "{part} of the {n_p}rd percentile (ANSUR II)",
   "{n_pairs} pairs of triangles go through each other",
   "But stick and slip of the skin were not found; the map shows one way to hold the load, and the motion is left out.",
   "in {n_count} grasps fewer parts of the hand touch it than the grip needs: those hands would hold it otherwise.",

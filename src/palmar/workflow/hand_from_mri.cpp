@@ -86,7 +86,7 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     Hand& hand = record.made.hand;
     hand.name = request.name.empty() ? hand_name_of(request.out) : request.name;
     write_hand(request.out, hand);
-    if (request.writes_report) write_scan_report(options.work, record, part);
+    if (request.writes_report) write_scan_report(options.work, record, request.language, part);
   };
   outcome.record = run_mri_pipeline(selection.scans, *model, options, progress);
   if (request.writes_report) outcome.report = outcome.work + "/report.html";

@@ -8,6 +8,7 @@
 
 #include "palmar/capture/mri/scan_surfaces.h"
 #include "palmar/capture/scan/scan_record.h"
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/core/setting_names.h"
 #include "palmar/geometry/length_unit.h"
@@ -37,6 +38,7 @@ struct HandFromMriRequest {
   bool accepts_odd_slices = false;  ///< a damaged slice spoils the surfaces near it, so going on is
                                     ///< a choice
   bool writes_report = true;
+  Language language = Language::kEnglish;  ///< of the report
 
   SettingNames setting_names;  ///< for the notes that hand and report keep
   NoteSink note;               ///< gets every note once it is known; may be empty

@@ -192,8 +192,8 @@ GraspIndices to_indices(const FitnessResult& result) {
   share.value = 100.0 * result.contact_share;
   share.definition = "share of all palmar skin that is so near to the product and faces it";
   rows.push_back(share);
-  GraspIndex touching = row("near_skin_touching_percent", "of that skin, share that touches", "%",
-                            Better::kUp, result, 100.0 * result.touching_share);
+  GraspIndex touching = row("near_skin_touching_percent", "share of the near skin that touches",
+                            "%", Better::kUp, result, 100.0 * result.touching_share);
   touching.lowest = 0.0;
   touching.highest = 100.0;
   touching.definition = "share of the skin near the product that is on it or inside it";

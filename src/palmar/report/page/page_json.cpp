@@ -170,9 +170,10 @@ void put_in_language(PageJson& json, const Phrases& phrases) {
     return;
   }
   if (!json.is_object()) return;
-  const bool has_key = json.contains("key");
+  // Names of indices and of hands that were made for a person; other names are people's own.
+  const bool is_described = json.contains("key") || json.contains("provenance");
   for (auto& [key, value] : json.items()) {
-    if (value.is_string() && (sentences.contains(key) || (key == "name" && has_key))) {
+    if (value.is_string() && (sentences.contains(key) || (key == "name" && is_described))) {
       value = phrases(value.get<std::string>());
     } else if (value.is_array() && lists.contains(key)) {
       for (PageJson& one : value) {

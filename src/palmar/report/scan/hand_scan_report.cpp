@@ -1,7 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/hand_scan_report.h"
-#include "palmar/core/language.h"
 
 #include <algorithm>
 #include <array>
@@ -186,7 +185,7 @@ PageJson truth_json(const std::optional<ScanErrors>& errors) {
 
 std::string page_of(const HandFromScan& made, const std::map<ScanPosture, ShownScan>& scans,
                     const std::optional<ScanErrors>& errors, const std::vector<Picture>& pictures,
-                    const std::string& json) {
+                    const std::string& json, Language language) {
   const Hand& hand = made.scanned.hand;
   PageJson segments = PageJson::object();
   for (int s = 0; s < kSegmentCount; ++s) {
@@ -204,7 +203,7 @@ std::string page_of(const HandFromScan& made, const std::map<ScanPosture, ShownS
   }
   Attachments attachments;
   const PageJson view = {{"maker", maker_json()},
-                         {"language", name_of(Language::kEnglish)},
+                         {"language", name_of(language)},
                          {"vocabulary", vocabulary_json(hand)},
                          {"segments", std::move(segments)},
                          {"scans", std::move(shown)},
@@ -217,7 +216,8 @@ std::string page_of(const HandFromScan& made, const std::map<ScanPosture, ShownS
 
 void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::map<ScanPosture, ShownScan>& scans,
-                            const std::optional<ScanErrors>& errors, const Progress& progress) {
+                            const std::optional<ScanErrors>& errors, Language language,
+                            const Progress& progress) {
   const std::filesystem::path base(folder);
   create_folder(base);
   const std::string json = hand_from_scan_json(made);
@@ -228,7 +228,7 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
   write_file(base / "marks.csv", format_csv(mark_table(made.marks)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
-  write_file(base / "report.html", page_of(made, scans, errors, pictures, json));
+  write_file(base / "report.html", page_of(made, scans, errors, pictures, json, language));
 }
 
 }  // namespace palmar

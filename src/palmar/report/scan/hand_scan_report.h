@@ -7,6 +7,7 @@
 #include <string>
 
 #include "palmar/capture/scan/scan_truth.h"
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
@@ -22,11 +23,11 @@ struct ShownScan {
 /// Writes into `folder`: report.html (works offline: what was scanned and found in it, with
 /// pictures; how far the hand lies from the scan; joints and dimensions; notes), scan.json,
 /// dimensions.csv, joints_by_dots.csv, marks.csv, and with
-/// `errors` against a truth truth_errors.csv. Same input, same bytes. Throws OutputError,
-/// Cancelled.
+/// `errors` against a truth truth_errors.csv. The page is in `language`, the files are English.
+/// Same input, same bytes. Throws OutputError, Cancelled.
 void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
                             const std::map<ScanPosture, ShownScan>& scans,
                             const std::optional<ScanErrors>& errors = {},
-                            const Progress& progress = {});
+                            Language language = Language::kEnglish, const Progress& progress = {});
 
 }  // namespace palmar

@@ -1,7 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/scan/scan_report.h"
-#include "palmar/core/language.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/page/page_json.h"
 #include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/phrases.h"
 
 namespace palmar {
 std::string plain_words(ScanPosture posture) {
@@ -26,21 +26,21 @@ constexpr Rgb kIcpColour{150, 158, 166}, kAxisColour{213, 94, 0}, kCmcColour{0, 
 
 /// Errors of one bone, or group of bones, in every posture.
 BarChart error_chart(const std::string& title, std::string_view bones,
-                     const std::vector<ErrorRow>& rows) {
-  BarChart chart{title, {}};
+                     const std::vector<ErrorRow>& rows, const Phrases& phrases) {
+  BarChart chart{phrases(title), {}};
   for (const ErrorRow& row : rows) {
     if (row.bones != bones) continue;
     const std::string words = plain_words(row.posture);
-    chart.bars.push_back({words + ": freely", row.icp, kIcpColour});
-    chart.bars.push_back({words + ": fixed axes", row.single_axis, kAxisColour});
+    chart.bars.push_back({phrases(words + ": freely"), row.icp, kIcpColour});
+    chart.bars.push_back({phrases(words + ": fixed axes"), row.single_axis, kAxisColour});
     if (row.interpolated_cmc) {
-      chart.bars.push_back({words + ": interpolated", *row.interpolated_cmc, kCmcColour});
+      chart.bars.push_back({phrases(words + ": interpolated"), *row.interpolated_cmc, kCmcColour});
     }
   }
   return chart;
 }
 
-PageJson charts_json(const ScanRecord& record, Attachments& attachments) {
+PageJson charts_json(const ScanRecord& record, const Phrases& phrases, Attachments& attachments) {
   const std::vector<ErrorRow> rows = error_rows(record.joints.errors);
   PageJson list = PageJson::array();
   if (rows.empty()) return list;
@@ -48,30 +48,30 @@ PageJson charts_json(const ScanRecord& record, Attachments& attachments) {
        {std::pair{"Thumb metacarpal: mean distance, mm", "thumb_metacarpal"},
         std::pair{"Last phalanges II to V: mean distance, mm", "distal phalanges II-V"}}) {
     list.push_back(attached(attachments, "chart-" + std::to_string(list.size()),
-                            to_svg(bar_figure(error_chart(title, bones, rows)))));
+                            to_svg(bar_figure(error_chart(title, bones, rows, phrases)))));
   }
   return list;
 }
 
 std::string page_of(const ScanRecord& record, const std::vector<Picture>& pictures,
-                    const std::string& json) {
+                    const std::string& json, Language language) {
   Attachments attachments;
   PageJson postures = PageJson::array();
   for (int k = 0; k < kScanPostureCount; ++k) {
     postures.push_back(name_of(static_cast<ScanPosture>(k)));
   }
   const PageJson view = {{"maker", maker_json()},
-                         {"language", name_of(Language::kEnglish)},
+                         {"language", name_of(language)},
                          {"vocabulary", vocabulary_json(record.made.hand)},
                          {"postures", std::move(postures)},
-                         {"charts", charts_json(record, attachments)},
+                         {"charts", charts_json(record, Phrases(language), attachments)},
                          {"pictures", pictures_json(pictures, attachments)}};
   return render_page("hand_from_mri", json, view, std::move(attachments));
 }
 
 }  // namespace
 
-void write_scan_report(const std::string& folder, const ScanRecord& record,
+void write_scan_report(const std::string& folder, const ScanRecord& record, Language language,
                        const Progress& progress) {
   const std::filesystem::path base(folder);
   create_folder(base);
@@ -89,7 +89,7 @@ void write_scan_report(const std::string& folder, const ScanRecord& record,
   const std::vector<Picture> pictures =
       scan_pictures(record, {.width = 700, .height = 560}, part_of(progress, 0.0, 0.95));
   progress.throw_if_cancelled();
-  write_file(base / "report.html", page_of(record, pictures, json));
+  write_file(base / "report.html", page_of(record, pictures, json, language));
 }
 
 }  // namespace palmar

@@ -7,6 +7,7 @@
 
 #include "palmar/capture/mri/scan_posture.h"
 #include "palmar/capture/scan/scan_record.h"
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/report/picture/assessment_pictures.h"
 
@@ -27,9 +28,9 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
 
 /// Writes into `folder`: report.html (works offline: what was scanned, tables 2-2 to 2-5 of Xie
 /// 2014 for this person with charts, ranges, dimensions, pictures, notes), scan.json,
-/// bone_errors.csv, skin_errors.csv and, with a product, grasp_contact.csv. Same record, same
-/// bytes. Throws OutputError, Cancelled.
+/// bone_errors.csv, skin_errors.csv and, with a product, grasp_contact.csv. The page is in
+/// `language`, the files are English. Same record, same bytes. Throws OutputError, Cancelled.
 void write_scan_report(const std::string& folder, const ScanRecord& record,
-                       const Progress& progress = {});
+                       Language language = Language::kEnglish, const Progress& progress = {});
 
 }  // namespace palmar

@@ -131,8 +131,10 @@ class StudySpeaker {
       look_at_report();
       return;
     }
+    const bool is_one = results_.plan.populations.size() == 1;
     next("redesign", "palmar redesign press " + shell_word(product.file) +
-                         (is_mesh(product) ? " --unit " + product.unit : "") + " --hands " +
+                         (is_mesh(product) ? " --unit " + product.unit : "") +
+                         (is_one ? population() : "") + " --hands " +
                          std::to_string(kHandsOfRedesign) + " --out pressed");
   }
 
@@ -147,6 +149,39 @@ class StudySpeaker {
         texts_("study.region", {{"product", name(p)},
                                 {"at", texts_("region_at." + std::string(name_of(worst->region)))},
                                 {"pressure", texts_.number(worst->peak_pressure_cells, 2)}}));
+  }
+
+  /// In how many hands that hold product `p` the pressure is above the onsets, in one sentence.
+  /// How many find it uncomfortable; nothing if the study has no such indices.
+  std::optional<int> add_comfort(int p, bool is_named) {
+    int hands = 0, pain = 0, discomfort = 0;
+    double no_blood = 0.0;
+    for (const int hand : hands_of(results_.plan, condition_)) {
+      const StudyRecord* record = record_of(results_, condition_, p, hand);
+      if (record == nullptr || !is_in_hand(*record)) continue;
+      const auto at_pain = index_value(*record, "pain_onset_percent");
+      const auto at_discomfort = index_value(*record, "discomfort_onset_percent");
+      const auto skin = index_value(*record, "skin_above_50_kpa_percent");
+      if (!at_pain || !at_discomfort || !skin) continue;
+      ++hands;
+      pain += *at_pain >= 100.0 ? 1 : 0;
+      discomfort += *at_discomfort >= 100.0 ? 1 : 0;
+      no_blood += *skin / 100.0;
+    }
+    if (hands == 0) return std::nullopt;
+    answer_.reasons.push_back(
+        (is_named ? name(p) + ": " : "") +
+        texts_("study.comfort", {{"pain", std::to_string(pain)},
+                                 {"discomfort", std::to_string(discomfort)},
+                                 {"hands", std::to_string(hands)},
+                                 {"percent", texts_.percent(no_blood / hands)}}));
+    return discomfort;
+  }
+  static std::optional<double> index_value(const StudyRecord& record, std::string_view key) {
+    for (const IndexRecord& one : record.indices) {
+      if (one.key == key) return one.value;
+    }
+    return std::nullopt;
   }
 
   /// "Hand 1, P5 woman, doesn't hold mug: slips out." for the few that don't.
@@ -197,8 +232,14 @@ class StudySpeaker {
                              {"high", texts_.number(has_ends ? peak->p95 : peak->summary.max, 2)}});
     if (one.outcomes.hands() - one.outcomes.in_hand() <= kFewHands) add_who_does_not(0);
     add_hardest_region(0);
+    const std::optional<int> discomfort = add_comfort(0, false);
     if (!is_drawn_by_chance(results_.plan)) answer_.reasons.push_back(texts_("study.chosen"));
-    redesign(0);
+    // Where nobody finds it uncomfortable there is nothing to press.
+    if (discomfort == 0) {
+      look_at_report();
+    } else {
+      redesign(0);
+    }
   }
 
   /// The product with the lowest mean peak and the next one; products that nobody holds last.
@@ -301,6 +342,7 @@ class StudySpeaker {
     add_missing();
     add_hardest_region(worse);
     add_hardest_region(better);
+    add_comfort(better, true);
     if (!is_drawn) answer_.reasons.push_back(texts_("study.chosen"));
   }
 

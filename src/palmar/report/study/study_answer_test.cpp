@@ -154,5 +154,34 @@ TEST(StudyAnswer, OfOneProductSaysWhatHandsFeel) {
   EXPECT_EQ(study_answer(results).sentence, "No hand holds a.");
 }
 
+StudyResults one_product_with_comfort(double discomfort_percent) {
+  StudyResults results = empty_study(3, {"a"});
+  results.plan.products.front().file = "a.stl";
+  for (int h = 0; h < 3; ++h) {
+    StudyRecord record = grasp_of(h, 0.1);
+    record.indices = {{"pain_onset_percent", h == 0 ? 100.0 : 40.0},
+                      {"discomfort_onset_percent", h < 2 ? discomfort_percent : 50.0},
+                      {"skin_above_50_kpa_percent", 10.0 * h}};
+    results.records.push_back(record);
+  }
+  return results;
+}
+
+TEST(StudyAnswer, SaysInHowManyHandsItHurtsOrIsUncomfortable) {
+  const StudyAnswer answer = study_answer(one_product_with_comfort(120.0));
+  EXPECT_THAT(answer.reasons, Contains("A moment of this grip hurts 1 of 3 hands; repeated, it "
+                                       "becomes uncomfortable for 2 of 3; held for minutes without "
+                                       "a break, it stops the blood in 10 % of the touched skin "
+                                       "(mean)."));
+  EXPECT_EQ(answer.command, "palmar redesign press a.stl --unit mm --hands 12 --out pressed");
+}
+
+TEST(StudyAnswer, WhereNobodyIsUncomfortableNothingIsPressed) {
+  StudyAnswerOptions options;
+  options.store = "a.palmar";
+  const StudyAnswer answer = study_answer(one_product_with_comfort(60.0), options);
+  EXPECT_EQ(answer.command, "palmar study report a.palmar --out report");
+}
+
 }  // namespace
 }  // namespace palmar

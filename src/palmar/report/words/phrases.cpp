@@ -41,6 +41,16 @@ std::string with_decimal_commas(std::string text) {
   return text;
 }
 
+/// Whether a sentence ends within the text and another begins. What a place holds is at most one.
+bool has_sentence_end(std::string_view text) {
+  for (std::size_t at = text.find(". "); at != text.npos; at = text.find(". ", at + 1)) {
+    if (at + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[at + 2])) != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// "a {b} c" -> pieces "a ", " c" and names "b".
 void cut_at_places(const std::string& sentence, std::vector<std::string>& pieces,
                    std::vector<std::string>& names) {
@@ -75,6 +85,7 @@ bool fits(const std::string& text, std::size_t at, const std::vector<std::string
       if (is_last) return false;
       continue;
     }
+    if (!is_verbatim(names[k]) && has_sentence_end(value)) return false;
     values[k] = value;
     if (fits(text, end + next.size(), pieces, names, k + 1, values)) return true;
     if (is_last) return false;

@@ -50,6 +50,25 @@ TEST(Phrases, AShortSentenceDoesNotSwallowALongOne) {
             "Hakengriff: Henkel, Finger hindurch, bei 50 % der Länge");
 }
 
+TEST(Phrases, APlaceHoldsOneSentenceAtMost) {
+  // "{low} against {high}" would fit all of it.
+  EXPECT_EQ(german()("b has a lower contact area than a: 1 against 2 mm2, 50 % less (3 of 3 hands "
+                     "hold both; these hands were chosen, not drawn by chance: a test means "
+                     "nothing). So few hands prove nothing; 6 or more are needed.")
+                .find("against"),
+            std::string::npos);
+}
+
+TEST(Phrases, ClausesAndMusclesOfAVerdict) {
+  EXPECT_EQ(german()("held by five fingers; the thumb's tip does not touch; but it slips out, "
+                     "towards the wrist"),
+            "von fünf Fingern gehalten; die Kuppe des Daumens berührt es nicht; aber es rutscht "
+            "heraus, zu dem Handgelenk");
+  EXPECT_EQ(german()("hardest: ring flexor digitorum profundus, 50 N; pressure alone, no friction"),
+            "am stärksten: tiefer Fingerbeuger des Ringfingers, 50 N; nur Druck, keine Reibung");
+  EXPECT_EQ(german()("woman of the 5th percentile (ANSUR II)"), "Frau, 5. Perzentil (ANSUR II)");
+}
+
 TEST(Phrases, NamesStayEvenIfTheyAreWords) {
   // A product whose name is a word of the table, and whose name has a point.
   EXPECT_EQ(german()("handle: how it is held, palm side."),

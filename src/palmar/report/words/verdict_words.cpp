@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/contact/resolution.h"
 #include "palmar/core/text.h"
 #include "palmar/grasp/rest/task_force.h"
 #include "palmar/report/page/plain_words.h"
@@ -51,6 +52,17 @@ std::string hardest_words(const AssessedProduct& product, const HardestPlace& pl
                                            {"z", texts.number(std::round(p.z()), 1)}});
   }
   return words;
+}
+
+/// Whether the place that presses hardest is on edges that the skin's mesh doesn't resolve.
+bool is_hardest_unresolved(const AssessedProduct& product, const ProductVerdict& verdict) {
+  if (!verdict.hardest) return false;
+  for (const RegionContact& region : product.assessment.contact.regions) {
+    if (region.region == verdict.hardest->region) {
+      return region.unresolved_force > kToldShare * region.force;
+    }
+  }
+  return false;
 }
 
 std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
@@ -254,6 +266,7 @@ class SetSpeaker {
       } else {
         words_.reasons.push_back(texts_("reason.no_band"));
       }
+      add_unresolved(pair);
     }
     const ProductWords& better = words_.products[pair.better];
     if (!better.comfort.empty() && verdict_.products[pair.better].held != HeldVerdict::kNotHeld) {
@@ -276,6 +289,18 @@ class SetSpeaker {
     } else {
       ask_other_hands(pair.verdict == PairVerdict::kLower ? "study" : "more_hands");
     }
+  }
+
+  /// Whose highest pressure hangs on edges sharper than the mesh.
+  void add_unresolved(const ProductComparison& pair) {
+    std::vector<std::string> names;
+    for (const int i : {pair.worse, pair.better}) {
+      if (is_hardest_unresolved(set_.assessments[i], verdict_.products[i])) {
+        names.push_back(name(i));
+      }
+    }
+    if (names.empty()) return;
+    words_.reasons.push_back(texts_("reason.edges", {{"products", texts_.listed(names)}}));
   }
 
   void compare_at_equal_force() {

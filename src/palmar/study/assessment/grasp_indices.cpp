@@ -74,7 +74,7 @@ GraspIndices grip_indices(const Balance& balance) {
   if (!is_known) {
     for (GraspIndex& row : rows) {
       row.remark = slips ? "the product slips out; all other rows are of the hand as it was closed"
-                         : "the grasp was not let come to rest";
+                         : "coming to rest was switched off";
     }
   }
   return rows;

@@ -165,8 +165,20 @@ void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
   }
 }
 
-void warn_of_products(const StudyPlan& plan, const std::vector<Product>& products,
+/// Whether every hand that holds product `p` does so by a loop of it, as a mug's.
+bool is_held_by_loop(const StudyResults& results, int p) {
+  int count = 0;
+  for (const StudyRecord& record : results.records) {
+    if (task_at(results.plan, record.number).product != p || !is_in_hand(record)) continue;
+    if (!record.hold || record.hold->kind != PartKind::kLoop) return false;
+    ++count;
+  }
+  return count > 0;
+}
+
+void warn_of_products(const StudyResults& results, const std::vector<Product>& products,
                       std::vector<StudyWarning>& warnings) {
+  const StudyPlan& plan = results.plan;
   for (std::size_t p = 0; p < products.size() && p < plan.products.size(); ++p) {
     Vec3 sides = bounding_box(products[p].mesh).sizes();
     std::sort(sides.begin(), sides.end());
@@ -178,7 +190,7 @@ void warn_of_products(const StudyPlan& plan, const std::vector<Product>& product
           fmt::format("it is {}; grips were checked against measurements on handles of {:g} to "
                       "{:g} mm.",
                       box, kThinnestChecked, kThickestChecked));
-    } else if (sides[0] > kThickestChecked) {
+    } else if (sides[0] > kThickestChecked && !is_held_by_loop(results, static_cast<int>(p))) {
       add(warnings, true, subject,
           fmt::format("it is {}, nowhere thinner than {:g} mm as a whole; unless a handle of it is "
                       "held, that is thicker than anything that was checked.",
@@ -286,7 +298,7 @@ std::vector<StudyWarning> study_warnings(const StudyResults& results,
                                          const HandDimensions& base) {
   std::vector<StudyWarning> warnings;
   warn_of_settings(results.plan, warnings);
-  warn_of_products(results.plan, products, warnings);
+  warn_of_products(results, products, warnings);
   warn_of_outcomes(results, warnings);
   warn_of_fallbacks(results, warnings);
   warn_of_holds(results, warnings);

@@ -49,7 +49,7 @@ ScanHandOutcome make_hand_of_surfaces(const ScanHandOptions& options, const std:
   if (!options.writes_report) return outcome;
   std::optional<ScanErrors> errors;
   if (!options.truth.empty()) errors = scan_errors(made, read_scan_truth(options.truth));
-  write_hand_scan_report(work, made, shown, errors, part_of(progress, 0.9, 1.0));
+  write_hand_scan_report(work, made, shown, errors, options.language, part_of(progress, 0.9, 1.0));
   outcome.report = work + "/report.html";
   return outcome;
 }

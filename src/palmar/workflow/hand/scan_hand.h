@@ -10,6 +10,7 @@
 #include "palmar/capture/mri/scan_posture.h"
 #include "palmar/capture/scan/hand_from_scan.h"
 #include "palmar/capture/scan/skin_marks.h"
+#include "palmar/core/language.h"
 #include "palmar/core/progress.h"
 #include "palmar/report/scan/hand_scan_report.h"
 
@@ -28,6 +29,7 @@ struct ScanHandOptions {
                       ///< of an earlier run, edited; empty: none
   std::string truth;  ///< subject.json of a synthetic person, for the report; empty: none
   bool writes_report = true;
+  Language language = Language::kEnglish;  ///< of the report
 
   void check() const;  ///< throws UsageError: setting, value, what is allowed
   /// Refuses what can't be written to and files that can't be read, before the long work. The
