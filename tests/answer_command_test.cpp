@@ -104,7 +104,7 @@ TEST_F(AnswerCommand, TheHandIsThatOfThePersonAskedFor) {
   EXPECT_NEAR(length(large), 193.28 + 1.6448536 * 9.946, 0.2);
   // A quarter of her own strength, unless a force is given.
   const Json& strength = small.at("assessments").at(1).at("verdict").at("strength");
-  EXPECT_NEAR(strength.at("share").get<double>(), 0.25, 0.01);
+  EXPECT_NEAR(strength.at("for_comparison").at("share").get<double>(), 0.25, 0.01);
   const Json given = assessed("--person woman:P5 --grip-force-n 30");
   EXPECT_EQ(given.at("assessments").at(0).at("settings").at("grip_force_asked_n"), 30.0);
 }

@@ -138,7 +138,7 @@ TEST_F(BalanceTest, JointsCarryTheMomentsOfTheMuscles) {
       const Vec3 point = hand_from_product * rest.contact.undeformed[v];
       moment += axis.dot((point - centre).cross(force));
     }
-    const double load = (*rest.balance.joint_load)[index_of(*finger_of(first))][0];
+    const double load = rest.balance.joint_load->digit[index_of(*finger_of(first))][0];
     EXPECT_NEAR(moment, load, 0.15 * std::abs(load)) << name_of(dof);
     EXPECT_LT(load, 0.0);  // the product opens the hand
     ++looked_at;
@@ -151,20 +151,26 @@ TEST_F(BalanceTest, TheMusclesOfEveryDigitHoldIt) {
   ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
   EXPECT_FALSE(rest.balance.is_overloaded);
   const HandMuscles muscles(hand());
+  const HandLoad& load = *rest.balance.joint_load;
   double largest = 0.0, share = 0.0;
-  for (const DigitLoad& load : *rest.balance.joint_load) {
-    for (const double moment : load) largest = std::max(largest, std::abs(moment));
+  for (const DigitLoad& one : load.digit) {
+    for (const double moment : one) largest = std::max(largest, std::abs(moment));
   }
+  std::vector<DigitMuscles> digits;
   for (int f = 0; f < kFingerCount; ++f) {
-    const DigitLoad& load = (*rest.balance.joint_load)[f];
-    const DigitMuscles digit = muscles.in(static_cast<Finger>(f), rest.grasp.posture);
-    const MuscleProblem problem = problem_of(digit, load, 1.0);
+    digits.push_back(muscles.in(static_cast<Finger>(f), rest.grasp.posture));
+    const MuscleProblem problem = problem_of(digits.back(), load.digit[f], 1.0);
     EXPECT_TRUE(is_enough(balance_muscles(problem), kNegligibleMoment * largest)) << f;
     share = std::max(share, least_strength_share(problem, kNegligibleMoment * largest));
   }
-  // A finger that stays as it met the thumb has a load that isn't counted.
-  EXPECT_LT(*rest.balance.strength_use, share + 0.02);
-  EXPECT_GT(*rest.balance.strength_use, 0.5 * share);
+  // No digit alone needs more than the hand does with its wrist.
+  EXPECT_LT(share, *rest.balance.strength_use + 0.02);
+  const MuscleProblem all = problem_of(digits, muscles.wrist(), load, 1.0);
+  EXPECT_NEAR(least_strength_share(all, kNegligibleMoment * largest), *rest.balance.strength_use,
+              0.01);
+  if (!rest.balance.is_by_wrist) {
+    EXPECT_NEAR(share, *rest.balance.strength_use, 0.03);
+  }
 }
 
 TEST_F(BalanceTest, AWeakHandStaysBelowTheForceAskedFor) {

@@ -155,6 +155,27 @@ TEST_F(People, StrengthNeededGrowsWithTheLoad) {
   EXPECT_GT(needed(5.0, 0.5), 5.0 / (M_PI * 0.5) - 1e-9);
 }
 
+// The muscles' own share decides: a hand that holds 80 N with 40 % of 1.2 times the mean strength
+// needs 96 N of grip strength for 40 N, and a stated grip force counts like one that a load needs.
+TEST_F(People, StrengthNeededIsWhatTheMusclesTakeForTheTasksForce) {
+  const Assessment& a = hold(hand(), 1.0, 24.0).assessment;
+  Balance rest;
+  rest.status = BalanceStatus::kBalanced;
+  rest.strength_use = 0.4;
+  rest.grip_force = 80.0;
+  StrengthQuestion question;
+  question.muscle_strength = 1.2;
+  question.stated_force = 40.0;
+  EXPECT_NEAR(strength_needed(hand(), a.contact, question, &rest),
+              0.4 * 40.0 / 80.0 * 1.2 * usual_grip_strength(), 1e-9);
+  // By a dynamometer where muscles give no answer: 40 N of a power grip.
+  EXPECT_NEAR(strength_needed(hand(), a.contact, question), 40.0, 1e-9);
+  rest.strength_use.reset();
+  EXPECT_NEAR(strength_needed(hand(), a.contact, question, &rest), 40.0, 1e-9);
+  question.load.weight = 200.0;
+  EXPECT_GT(strength_needed(hand(), a.contact, question), 40.0);
+}
+
 // A wall perpendicular to the middle finger of the flat hand, 10 mm beyond the farthest nail's
 // root: there is room for 10 mm.
 TEST_F(People, NailsEndAtTheProduct) {

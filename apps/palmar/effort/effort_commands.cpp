@@ -113,6 +113,20 @@ TendonModel tendon_model(const std::string& points, const std::string& hood) {
   return model;
 }
 
+/// Where the wrist is.
+struct WristArguments {
+  double flexion = -30.0, deviation = 0.0;  // degrees
+  void add_to(CLI::App& verb) {
+    verb.add_option("--wrist-flexion-deg", flexion,
+                    "Flexion of the wrist; extension is negative: -70 to 75")
+        ->capture_default_str();
+    verb.add_option("--wrist-deviation-deg", deviation,
+                    "Deviation of the wrist to the thumb's side: -35 to 20")
+        ->capture_default_str();
+  }
+  WristPosture posture() const { return {radians(flexion), radians(deviation)}; }
+};
+
 struct ModelArguments {
   std::string points = "synek2019", hood = "synek2019";
   void add_to(CLI::App& verb) {
@@ -230,6 +244,18 @@ std::string effort_text(const EffortResult& effort) {
                       joint.external, joint.muscles, joint.stop, joint.missing);
     }
   }
+  if (!effort.wrist) return text;
+  const WristEffort& wrist = *effort.wrist;
+  text += "\nwrist\n  muscle   force_n  strength_n  activation\n";
+  for (int i = 0; i < kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<WristMuscle>(i);
+    const auto k = static_cast<std::size_t>(i);
+    text += fmt::format("  {:<6} {:>9.2f} {:>11.1f} {:>10.1f} %\n", name_of(muscle), wrist.force[k],
+                        wrist.strength[k], 100.0 * wrist.activation(muscle));
+  }
+  text += "  moments, N mm          external    digits     wrist   missing\n";
+  text += fmt::format("  {:<20} {:>10.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", "flexion", wrist.external,
+                      wrist.digits, wrist.muscles, wrist.missing);
   return text;
 }
 
@@ -241,6 +267,7 @@ void add_grasp(CLI::App& effort, Context& context) {
     FrictionArguments friction;
     BalanceArguments balance;
     ModelArguments model;
+    WristArguments wrist;
     EffortOptions effort;
   };
   const auto o = std::make_shared<Options>();
@@ -255,6 +282,7 @@ void add_grasp(CLI::App& effort, Context& context) {
   o->friction.add_to(*verb);
   o->balance.add_to(*verb);
   o->model.add_to(*verb);
+  o->wrist.add_to(*verb);
   verb->add_option("--exponent", o->effort.exponent,
                    "n of the smallest sum (force / cross-section)^n: 2 or 3")
       ->capture_default_str();
@@ -272,6 +300,7 @@ void add_grasp(CLI::App& effort, Context& context) {
       request.rest = o->balance.settings();
       request.effort = o->effort;
       request.effort.tendons = tendon_model(o->model.points, o->model.hood);
+      request.effort.wrist = o->wrist.posture();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand = {.name = o->grasp.hand,
                       .tissue = o->contact.tissue,
@@ -313,6 +342,7 @@ void add_capacity(CLI::App& effort, Context& context) {
     ContactArguments contact;
     std::optional<double> friction, strength_n;
     std::string person, about;
+    WristArguments wrist;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
@@ -333,9 +363,11 @@ void add_capacity(CLI::App& effort, Context& context) {
   verb->add_option("--person", o->person,
                    "woman, man or man:age=60: mean grip strength of that group (Steiber 2016)")
       ->excludes("--strength-n");
+  o->wrist.add_to(*verb);
   verb->callback([&context, o] {
     context.run = [&context, o] {
       CapacityRequest request;
+      request.wrist = o->wrist.posture();
       request.grasp = o->grasp.settings();
       request.contact = o->contact.options();
       request.model = o->contact.model();

@@ -181,7 +181,7 @@ function answer(page: AssessmentPage): FirstScreen {
       const place = face || (on_product_mm && "(" + on_product_mm.map((x) => shortNumber(Math.round(x), 1)).join(", ") + ") mm");
       if (place) facts.push([say("fact.on_product"), place]);
     }
-    if (isHeld && one.verdict.strength) facts.push([term("strength", say("fact.strength")), percent(one.verdict.strength.share)]);
+    if (isHeld && one.verdict.strength?.share != null) facts.push([term("strength", say("fact.strength")), percent(one.verdict.strength.share)]);
     return {
       title: one.product.name,
       badge: badge(statusVerdict(one), statusWords(one, view.vocabulary)),

@@ -70,7 +70,7 @@ export function assessment(): Assessment {
         moment: onset("index_distal", 0.06, 0.496, 0), repeated: onset("thenar", 0.06, 0.1, 0),
         minutes: { limit_mpa: 0.05, share_of_skin: 0.62, area_mm2: 214 }, regions_touched: 2,
       },
-      strength: { sentence: "A grip of 5.43 N takes 1.3 % of the grip strength.", grip_force_n: 5.43, strength_n: 427, share: 0.0127, whose: "people" },
+      strength: { sentence: "A grip of 5.43 N takes 2.1 % of the strength of the muscles of people in this hold.", grip_force_n: 5.43, share: 0.021, limited_by: "fingers", whose: "people", for_comparison: { dynamometer_n: 427, share: 0.0127 } },
       hardest: { sentence: "It presses hardest at the tip.", region: "index_distal", pressure_mpa: 0.06, on_product_mm: [1, 2, 3], face: null },
     },
     indices: {},

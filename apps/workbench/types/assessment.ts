@@ -275,7 +275,10 @@ export interface ProductVerdict {
     minutes: { limit_mpa: number; share_of_skin: number; area_mm2: number };
     regions_touched: number;
   };
-  strength: null | { sentence: string; grip_force_n: number; strength_n: number; share: number; whose: string };
+  strength: null | {
+    sentence: string; grip_force_n: number; share: number | null; limited_by: "fingers" | "wrist" | null; whose: string;
+    for_comparison: { dynamometer_n: number; share: number };
+  };
   hardest: null | {
     sentence: string;
     region: string;

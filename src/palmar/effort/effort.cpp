@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
 namespace palmar {
@@ -18,21 +19,13 @@ void check_range(const char* name, double value, double least, double most, cons
                    " is allowed");
 }
 
-EffortStatus status_of(MuscleStatus status) {
-  if (status == MuscleStatus::kBalanced) return EffortStatus::kHeld;
-  return status == MuscleStatus::kOverloaded ? EffortStatus::kOverloaded
-                                             : EffortStatus::kNotConverged;
-}
-
-DigitEffort effort_of_digit(const HandMuscles& hand_muscles, Finger finger, const Posture& posture,
-                            const DigitMoments& external, double negligible,
-                            const EffortOptions& options) {
-  const std::span<const Tendon> own = tendons_of(finger);
-  const DigitMuscles digit = hand_muscles.in(finger, posture);
-  const std::array<Dof, kDigitDofs> dofs = digit_dofs(finger);
-
+/// Of one digit, without what its muscles do.
+DigitEffort loaded_digit(const DigitMuscles& digit, const DigitMoments& external,
+                         const EffortOptions& options) {
+  const std::span<const Tendon> own = tendons_of(digit.finger);
+  const std::array<Dof, kDigitDofs> dofs = digit_dofs(digit.finger);
   DigitEffort effort;
-  effort.finger = finger;
+  effort.finger = digit.finger;
   effort.contact_force = external.force;
   for (std::size_t t = 0; t < own.size(); ++t) {
     effort.tendons.push_back({.tendon = own[t],
@@ -43,27 +36,48 @@ DigitEffort effort_of_digit(const HandMuscles& hand_muscles, Finger finger, cons
     effort.joints[k].dof = dofs[k];
     effort.joints[k].external = external.moment[k];
   }
-  if (external.force <= 0.0) return effort;
+  return effort;
+}
 
-  const MuscleProblem problem =
-      problem_of(digit, external.moment, options.strength, options.exponent);
-  const MuscleSolution solution = balance_muscles(problem);
-  const bool is_held = is_enough(solution, negligible);
-  effort.status = is_held ? EffortStatus::kHeld : status_of(solution.status);
-  effort.kkt_residual = solution.kkt_residual;
-  effort.iterations = solution.iterations;
-  effort.strength_share = least_strength_share(problem, negligible);
-  const Eigen::VectorXd muscles = problem.moment_at_strength * solution.activation;
+/// A digit's part of a problem that begins at `row` and `column`.
+void take_solution(const DigitMuscles& digit, const MuscleProblem& problem,
+                   const MuscleSolution& solution, Eigen::Index row, Eigen::Index column,
+                   double negligible, DigitEffort& effort) {
+  const Eigen::VectorXd muscles =
+      problem.moment_at_strength.middleRows(row, kDigitDofs) * solution.activation;
+  double missing = 0.0;
   for (Eigen::Index k = 0; k < kDigitDofs; ++k) {
     JointEffort& joint = effort.joints[static_cast<std::size_t>(k)];
     joint.muscles = muscles[k];
-    joint.stop = solution.stop[k] + digit.passive.moment[k];
-    joint.missing = solution.missing[k];
+    joint.stop = solution.stop[row + k] + digit.passive.moment[k];
+    joint.missing = solution.missing[row + k];
+    missing = std::max(missing, std::abs(joint.missing));
   }
-  for (std::size_t t = 0; t < own.size(); ++t) {
+  for (std::size_t t = 0; t < effort.tendons.size(); ++t) {
     TendonLoad& load = effort.tendons[t];
-    load.activation = solution.activation[static_cast<Eigen::Index>(t)];
+    load.activation = solution.activation[column + static_cast<Eigen::Index>(t)];
     load.force = load.activation * load.strength;
+  }
+  effort.status = solution.status == MuscleStatus::kNotConverged ? EffortStatus::kNotConverged
+                  : missing <= negligible                        ? EffortStatus::kHeld
+                                                                 : EffortStatus::kOverloaded;
+  effort.kkt_residual = solution.kkt_residual;
+  effort.iterations = solution.iterations;
+}
+
+WristEffort wrist_effort(const WristMuscles& wrist, const MuscleProblem& problem,
+                         const MuscleSolution& solution, double external, double strength) {
+  WristEffort effort;
+  effort.external = external;
+  const Eigen::Index first = problem.moment_at_strength.cols() - kWristMuscleCount;
+  const Eigen::RowVectorXd row = problem.moment_at_strength.bottomRows(1);
+  effort.digits = row.head(first).dot(solution.activation.head(first));
+  effort.muscles = row.tail<kWristMuscleCount>().dot(solution.activation.tail<kWristMuscleCount>());
+  effort.missing = solution.missing[solution.missing.size() - 1];
+  for (std::size_t i = 0; i < wrist.strength.size(); ++i) {
+    effort.strength[i] = strength * wrist.strength[i];
+    effort.force[i] =
+        effort.strength[i] * solution.activation[first + static_cast<Eigen::Index>(i)];
   }
   return effort;
 }
@@ -96,6 +110,12 @@ void EffortOptions::check() const {
   check_range("flexion of tight MCP ligaments", tight_mcp_flexion, 0.0, 10.0, "rad");
   check_range("stop margin", stop_margin, 0.0, 0.5, "rad");
   tendons.hood.check();
+  wrist.check();
+}
+
+double WristEffort::activation(WristMuscle muscle) const {
+  const double most = strength[index_of(muscle)];
+  return most > 0.0 ? force[index_of(muscle)] / most : 0.0;
 }
 
 std::string_view name_of(EffortStatus status) {
@@ -134,25 +154,69 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture,
                                    .stops = {.is_on = options.joint_stops,
                                              .tight_mcp_flexion = options.tight_mcp_flexion,
                                              .margin = options.stop_margin},
-                                   .has_passive = at_rest != nullptr});
+                                   .has_passive = at_rest != nullptr,
+                                   .wrist = options.wrist});
   std::array<DigitMoments, kFingerCount> external;
   double largest = 0.0;
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     external[f] = digit_moments(hand, pose_digit(hand.skeleton, finger, posture), loads);
-    if (at_rest != nullptr) external[f].moment = (*at_rest)[f];
+    if (at_rest != nullptr) external[f].moment = at_rest->digit[f];
     for (const double moment : external[f].moment) largest = std::max(largest, std::abs(moment));
   }
+  const double negligible = kNegligibleMoment * largest;
   EffortResult result;
+  std::vector<DigitMuscles> loaded;
+  HandLoad load;
+  if (at_rest != nullptr) load.wrist = at_rest->wrist;
   for (int f = 0; f < kFingerCount; ++f) {
-    DigitEffort& digit = result.digits[f];
-    digit = effort_of_digit(muscles, static_cast<Finger>(f), posture, external[f],
-                            kNegligibleMoment * largest, options);
-    result.status = std::max(result.status, digit.status);
-    result.contact_force += digit.contact_force;
-    result.strength_share = std::max(result.strength_share, digit.strength_share);
-    for (const TendonLoad& load : digit.tendons) result.tendon_force += load.force;
-    add_message(digit, result.message);
+    const DigitMuscles digit = muscles.in(static_cast<Finger>(f), posture);
+    result.digits[f] = loaded_digit(digit, external[f], options);
+    load.digit[f] = external[f].moment;
+    result.contact_force += external[f].force;
+    const bool is_moved = std::any_of(load.digit[f].begin(), load.digit[f].end(),
+                                      [](double moment) { return moment != 0.0; });
+    if (external[f].force <= 0.0 && !is_moved) continue;
+    result.digits[f].strength_share =
+        least_strength_share(problem_of(digit, load.digit[f], options.strength), negligible);
+    loaded.push_back(digit);
+  }
+  if (loaded.empty()) return result;
+  // Digits depend on each other through the wrist alone, and forces that don't balance say nothing
+  // about it.
+  std::vector<std::span<const DigitMuscles>> groups;
+  if (at_rest != nullptr) groups.emplace_back(loaded);
+  for (std::size_t i = 0; i < loaded.size() && at_rest == nullptr; ++i) {
+    groups.emplace_back(&loaded[i], 1);
+  }
+  MuscleProblem problem;
+  MuscleSolution solution;
+  for (const std::span<const DigitMuscles>& group : groups) {
+    problem = at_rest != nullptr
+                  ? problem_of(group, muscles.wrist(), load, options.strength, options.exponent)
+                  : problem_of(group[0], load.digit[index_of(group[0].finger)], options.strength,
+                               options.exponent);
+    solution = balance_muscles(problem);
+    Eigen::Index row = 0, column = 0;
+    for (const DigitMuscles& one : group) {
+      DigitEffort& digit = result.digits[index_of(one.finger)];
+      take_solution(one, problem, solution, row, column, negligible, digit);
+      row += kDigitDofs;
+      column += static_cast<Eigen::Index>(digit.tendons.size());
+      result.status = std::max(result.status, digit.status);
+      for (const TendonLoad& tendon : digit.tendons) result.tendon_force += tendon.force;
+      add_message(digit, result.message);
+    }
+    result.strength_share =
+        std::max(result.strength_share, least_strength_share(problem, negligible));
+  }
+  if (at_rest == nullptr) return result;
+  result.wrist = wrist_effort(muscles.wrist(), problem, solution, at_rest->wrist, options.strength);
+  const double missing = std::abs(result.wrist->missing);
+  if (missing > negligible) {
+    result.status = std::max(result.status, EffortStatus::kOverloaded);
+    result.message += std::string(result.message.empty() ? "" : "; ") +
+                      "wrist flexion: " + rounded(missing) + " N mm missing";
   }
   return result;
 }

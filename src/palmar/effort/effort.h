@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@ struct EffortOptions {
   double tight_mcp_flexion = 1.0472;
   double stop_margin = 0.00873;  ///< rad (0.5 degrees); this near the end counts as at the end
   TendonModel tendons{};
+  WristPosture wrist{};
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -63,9 +65,21 @@ struct DigitEffort {
   double contact_force = 0.0;                  ///< sum of |force| on the digit, N
   std::array<JointEffort, kDigitDofs> joints;  ///< from the palm outwards
   std::vector<TendonLoad> tendons;             ///< in the order of tendons_of(finger)
-  double strength_share = 0.0;                 ///< least_strength_share(); above 1: can't be held
-  double kkt_residual = 0.0;                   ///< see MuscleSolution
+  /// Least share of its own muscles' strength, whatever they do at the wrist; above 1: can't be
+  /// held.
+  double strength_share = 0.0;
+  double kkt_residual = 0.0;  ///< see MuscleSolution
   int iterations = 0;
+};
+
+/// The wrist: moments in the sense of flexion, N mm; they add up to `missing`, turned round.
+struct WristEffort {
+  double external = 0.0;  ///< of the load
+  double digits = 0.0;    ///< of the digits' long muscles
+  double muscles = 0.0;   ///< of the wrist's own
+  double missing = 0.0;
+  std::array<double, kWristMuscleCount> force{}, strength{};  ///< N, by WristMuscle
+  double activation(WristMuscle muscle) const;                ///< force over strength
 };
 
 /// What muscles do while a hand holds a product.
@@ -75,15 +89,17 @@ struct EffortResult {
   bool with_friction = false;   ///< friction forces are in the loads
   double contact_force = 0.0;   ///< sum of |force| on the five digits, N
   double tendon_force = 0.0;    ///< sum over all muscles, N
-  double strength_share = 0.0;  ///< the largest of the digits: what the hold takes of a person
+  double strength_share = 0.0;  ///< of all muscles, what the hold takes of a person
   std::array<DigitEffort, kFingerCount> digits;  ///< indexed by Finger
+  std::optional<WristEffort> wrist;              ///< of a grasp at rest only
 };
 
 /// Tendon forces of every digit by static optimisation: contact forces (joint_moments.h) against
 /// the muscles and passive moments of HandMuscles, muscle_balance.h. `at_rest`: moments of the
 /// contact forces as the grasp at rest has them (Balance::joint_load), in place of those of rigid
-/// phalanges; with them passive moments count. Not modelled: the weight of the hand, the wrist,
-/// muscles shared between fingers. Deterministic; throws UsageError on bad options.
+/// phalanges; with them passive moments count, and the wrist's muscles have to hold what the load
+/// and the fingers' muscles do there. Not modelled: the weight of the hand, muscles shared between
+/// fingers. Deterministic; throws UsageError on bad options.
 EffortResult assess_effort(const Hand& hand, const Posture& posture, const ContactResult& contact,
                            const Rigid3& product_from_hand, const DistanceField& product,
                            const EffortOptions& options = {},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/effort/effort.h"
 
 namespace palmar {
@@ -13,18 +14,25 @@ constexpr const char* kMethod =
     "2019, Mirakhorlo et al. 2016";
 
 struct HardestMuscle {
-  Finger finger{};
-  const TendonLoad* load = nullptr;
+  double activation = 0.0, force = 0.0;
+  std::string name;
 };
 
 HardestMuscle hardest_muscle(const EffortResult& effort) {
   HardestMuscle hardest;
   for (const DigitEffort& digit : effort.digits) {
     for (const TendonLoad& load : digit.tendons) {
-      if (hardest.load == nullptr || load.activation > hardest.load->activation) {
-        hardest = {digit.finger, &load};
-      }
+      if (!hardest.name.empty() && load.activation <= hardest.activation) continue;
+      hardest = {
+          load.activation, load.force,
+          std::string(name_of(digit.finger)) + " " + std::string(anatomical_name_of(load.tendon))};
     }
+  }
+  for (int i = 0; effort.wrist && i < kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<WristMuscle>(i);
+    if (effort.wrist->activation(muscle) <= hardest.activation) continue;
+    hardest = {effort.wrist->activation(muscle), effort.wrist->force[index_of(muscle)],
+               std::string(anatomical_name_of(muscle))};
   }
   return hardest;
 }
@@ -60,13 +68,20 @@ GraspIndices effort_indices(const EffortResult& effort) {
       ++active;
     }
   }
+  double wrist_force = 0.0;
+  for (int i = 0; effort.wrist && i < kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<WristMuscle>(i);
+    missing = std::max(missing, std::abs(effort.wrist->missing));
+    squares += effort.wrist->activation(muscle) * effort.wrist->activation(muscle);
+    wrist_force += effort.wrist->force[index_of(muscle)];
+    ++active;
+  }
   const auto value = [&](double v) { return is_known ? std::optional<double>(v) : std::nullopt; };
-  const std::string which =
-      is_known && hardest.load != nullptr
-          ? "hardest: " + std::string(name_of(hardest.finger)) + " " +
-                std::string(anatomical_name_of(hardest.load->tendon)) + ", " +
-                std::to_string(static_cast<int>(std::lround(hardest.load->force))) + " N"
-          : "";
+  const std::string which = is_known && !hardest.name.empty()
+                                ? "hardest: " + hardest.name + ", " +
+                                      std::to_string(static_cast<int>(std::lround(hardest.force))) +
+                                      " N"
+                                : "";
 
   const auto index = [&](const char* key, const char* name, const char* unit,
                          std::optional<double> of, const char* definition,
@@ -85,15 +100,14 @@ GraspIndices effort_indices(const EffortResult& effort) {
     return result;
   };
   GraspIndex largest =
-      index("largest_activation", "hardest working muscle", "",
-            value(hardest.load != nullptr ? hardest.load->activation : 0.0),
-            "largest share of its strength that any muscle of fingers and thumb gives (min sum "
+      index("largest_activation", "hardest working muscle", "", value(hardest.activation),
+            "largest share of its strength that any muscle of the hand or the wrist gives (min sum "
             "(F/PCSA)^n)",
             which);
-  GraspIndex mean =
-      index("mean_activation", "muscles on average", "",
-            value(active > 0 ? std::sqrt(squares / active) : 0.0),
-            "root mean square of the activations of all muscles of the loaded digits");
+  GraspIndex mean = index(
+      "mean_activation", "muscles on average", "",
+      value(active > 0 ? std::sqrt(squares / active) : 0.0),
+      "root mean square of the activations of all muscles of the loaded digits and the wrist");
   largest.highest = 1.0;
   mean.highest = 1.0;
   const auto per_force = is_known && effort.contact_force > 0.0
@@ -101,10 +115,12 @@ GraspIndices effort_indices(const EffortResult& effort) {
                              : std::nullopt;
   return {
       largest, mean,
-      index("tendon_force_n", "sum of all tendon forces", "N", value(effort.tendon_force),
-            "sum of the forces of all muscles of fingers and thumb"),
+      index("tendon_force_n", "sum of all tendon forces", "N",
+            value(effort.tendon_force + wrist_force),
+            "sum of the forces of all muscles of fingers, thumb and wrist"),
       index("tendon_force_per_contact_force", "tendon force per contact force", "", per_force,
-            "sum of all tendon forces over the sum of contact forces on the digits: the price of "
+            "sum of the digits' tendon forces over the sum of contact forces on the digits: the "
+            "price of "
             "a newton of grip in this posture"),
       index("missing_moment_n_mm", "largest missing joint moment", "N mm", value(missing),
             "largest moment about a joint axis that the muscles would have to give beyond their "

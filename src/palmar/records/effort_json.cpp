@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
+#include "palmar/core/enum_index.h"
 #include "palmar/core/version.h"
 #include "palmar/records/json_values.h"
 
@@ -66,6 +68,22 @@ Json digit_object(const DigitEffort& digit) {
           {"iterations", digit.iterations}};
 }
 
+Json wrist_object(const WristEffort& wrist) {
+  Json muscles = Json::array();
+  for (int i = 0; i < kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<WristMuscle>(i);
+    muscles.push_back({{"muscle", name_of(muscle)},
+                       {"force_n", wrist.force[index_of(muscle)]},
+                       {"strength_n", wrist.strength[index_of(muscle)]},
+                       {"activation", wrist.activation(muscle)}});
+  }
+  return {{"muscles", std::move(muscles)},
+          {"external_moment_n_mm", wrist.external},
+          {"digits_moment_n_mm", wrist.digits},
+          {"wrist_moment_n_mm", wrist.muscles},
+          {"missing_moment_n_mm", wrist.missing}};
+}
+
 Json versions() { return {{"palmar", version()}}; }
 
 }  // namespace
@@ -89,11 +107,17 @@ std::string effort_json(const EffortResult& effort) {
   for (const GraspIndex& index : effort_indices(effort)) {
     indices[index.key] = or_null(index.value);
   }
-  const Json json = {
-      {"status", name_of(effort.status)},      {"message", effort.message},
-      {"with_friction", effort.with_friction}, {"contact_force_n", effort.contact_force},
-      {"tendon_force_n", effort.tendon_force}, {"indices", std::move(indices)},
-      {"digits", std::move(digits)},           {"versions", versions()}};
+  Json wrist = nullptr;
+  if (effort.wrist) wrist = wrist_object(*effort.wrist);
+  const Json json = {{"status", name_of(effort.status)},
+                     {"message", effort.message},
+                     {"with_friction", effort.with_friction},
+                     {"contact_force_n", effort.contact_force},
+                     {"tendon_force_n", effort.tendon_force},
+                     {"indices", std::move(indices)},
+                     {"digits", std::move(digits)},
+                     {"wrist", std::move(wrist)},
+                     {"versions", versions()}};
   return json.dump(2);
 }
 

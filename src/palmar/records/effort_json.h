@@ -20,7 +20,9 @@ std::string fingertip_json(const std::vector<FingertipForce>& forces, const Post
 /// {"status", "message", "with_friction", "contact_force_n", "tendon_force_n", "indices": {key:
 /// value}, "digits": [{"finger", "status", "contact_force_n", "joints": [{"angle",
 /// "external_moment_n_mm", ...}], "tendons": [{"tendon", "force_n", "strength_n", "activation",
-/// "moment_arms_mm"}], "kkt_residual", "iterations"}]}.
+/// "moment_arms_mm"}], "kkt_residual", "iterations"}], "wrist": null or {"muscles": [{"muscle",
+/// "force_n", "strength_n", "activation"}], "external_moment_n_mm", "digits_moment_n_mm",
+/// "wrist_moment_n_mm", "missing_moment_n_mm"}}.
 std::string effort_json(const EffortResult& effort);
 
 }  // namespace palmar

@@ -68,11 +68,16 @@ nlohmann::ordered_json verdict_object(const AssessedProduct& product, const Prod
                                       const ProductWords& words) {
   VerdictJson strength = nullptr;
   if (verdict.strength) {
-    strength = {{"sentence", words.strength},
-                {"grip_force_n", verdict.strength->grip_force},
-                {"strength_n", verdict.strength->strength},
-                {"share", verdict.strength->share()},
-                {"whose", verdict.strength->whose}};
+    strength = {
+        {"sentence", words.strength},
+        {"grip_force_n", verdict.strength->grip_force},
+        {"share", or_null(verdict.strength->share)},
+        {"limited_by", verdict.strength->is_judged
+                           ? VerdictJson(verdict.strength->is_by_wrist ? "wrist" : "fingers")
+                           : VerdictJson(nullptr)},
+        {"whose", verdict.strength->whose},
+        {"for_comparison",
+         {{"dynamometer_n", verdict.strength->reached}, {"share", verdict.strength->compared()}}}};
   }
   return {{"held", name_of(verdict.held)},
           {"sentence", words.held},

@@ -55,7 +55,7 @@ bool is_same(const StudyHold& a, const StudyHold& b);
 /// What a grasp asks of its owner; decides who is excluded (docs/method/profiles.md).
 struct GraspDemand {
   double range_share = 0.0;    ///< smallest HandProfile::range_share that allows the posture
-  double grip_strength = 0.0;  ///< N; smallest that holds the load, 0 without load
+  double grip_strength = 0.0;  ///< N; smallest that holds the task's force, 0 without
   double nail_room = 0.0;      ///< mm; longest nail that touches nothing
 };
 

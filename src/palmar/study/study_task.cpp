@@ -3,6 +3,7 @@
 #include "palmar/study/study_task.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <chrono>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include "palmar/grasp/grasp_place.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
 #include "palmar/study/assessment/assessment.h"
@@ -282,7 +284,9 @@ class StudySubject {
                                 {.friction = setting.friction,
                                  .load = options.balance.load,
                                  .mass_centre = centre_of_volume(product.mesh),
-                                 .grip = record.grip});
+                                 .grip = record.grip,
+                                 .stated_force = setting.grip_force.value_or(0.0),
+                                 .muscle_strength = options.balance.strength});
     }
     for (const GraspIndex& index : assessment.indices) {
       if (index.value && std::isfinite(*index.value)) {
@@ -325,6 +329,12 @@ class StudySubject {
     options.balance.friction = setting.friction;
     options.balance.load.weight = product.mass * kGravity;
     options.balance.grip_force = setting.grip_force;
+    // The person's own muscles, before a profile weakens them: whose share a grasp takes is judged
+    // afterwards, alike for all profiles (exclusion.h).
+    if (sample_.grip_strength > 0.0) {
+      options.balance.strength =
+          std::clamp(sample_.grip_strength / usual_grip_strength(), 0.01, 10.0);
+    }
     if (setting.strength_share) {
       if (!setting.strength && !(sample_.grip_strength > 0.0)) {
         throw Failure{"a share of the grip strength is requested, but the person's isn't known"};

@@ -36,6 +36,7 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   EffortOptions effort = request.effort;
   effort.strength *= options.balance.strength;
   options.balance.strength = effort.strength;
+  options.balance.wrist = effort.wrist;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
   const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);

@@ -16,11 +16,11 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/precision_grip.h"
-#include "palmar/grasp/rest/finger_cones.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_effort.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/grasp/rest/press_down.h"
+#include "palmar/grasp/rest/thumb_meeting.h"
 #include "palmar/grasp/rest/way_words.h"
 #include "palmar/hand/skeleton.h"
 
@@ -47,7 +47,7 @@ constexpr double kWandered = 12.0;
 constexpr double kOutTurn = 0.8;                        // rad
 constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
-// mm; pulp of thumb and finger pressed together, 2 mm each; our choice
+// mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
 constexpr double kPulpGive = 4.0;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
@@ -72,11 +72,10 @@ class Settling {
         has_level_(is_power(grasp.grip) || asked_),
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
-        cones_(hand.hand()),
-        start_cones_(cones_.posed(hand.hand().skeleton, start_.posture)),
+        meeting_(hand.hand(), start_.posture),
         closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_),
-        effort_(hand.hand(), options.activation.value_or(options.strength)) {
+        effort_(hand.hand(), options.activation.value_or(options.strength), options.wrist) {
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =
@@ -101,9 +100,9 @@ class Settling {
     double sum() const { return of_product + of_joints + of_level; }
   };
 
-  bool is_held(int joint) const { return is_held_[index_of(grip_finger(joint))]; }
   bool is_stuck(int joint, double residual) const;
   void add_load(GripVector& residual) const;
+  double wrist_load() const;
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
@@ -116,7 +115,6 @@ class Settling {
   void move_product(const Vec3& shift, const Vec3& turn);
   void finish(Balance& balance);
   bool judge_way(Balance& balance) const;
-  Posture without_crossing(const Posture& next);
 
   const Hand* hand_;
   const BalanceOptions* options_;
@@ -127,10 +125,8 @@ class Settling {
   std::optional<double> asked_;  // grip force, N
   bool has_level_;               // the squeeze is brought to the grip force asked for
   GripState start_, state_;
-  FingerCones cones_;
-  std::vector<RoundCone> start_cones_;
-  FingertipClosing closing_;                  // how a precision grip presses
-  std::array<bool, kFingerCount> is_held_{};  // a finger that met the thumb stays as it is
+  ThumbMeeting meeting_;
+  FingertipClosing closing_;  // how a precision grip presses
   GripMechanics mechanics_;
   Wrench load_;  // product frame
   bool has_load_ = false;
@@ -149,6 +145,15 @@ void Settling::add_load(GripVector& residual) const {
   residual.segment<3>(kGripJoints) += load_share_ * (hand_from_product.rotation * load_.force);
   residual.tail<3>() +=
       load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
+}
+
+/// Moment of the load about the wrist: what the grip itself does there adds up to nothing.
+double Settling::wrist_load() const {
+  if (!has_load_) return 0.0;
+  const Rigid3 hand_from_product = state_.product_from_hand.inverse();
+  return load_share_ * wrist_moment(*hand_, hand_from_product.rotation * load_.force,
+                                    hand_from_product.translation,
+                                    hand_from_product.rotation * load_.moment);
 }
 
 /// People press the harder the heavier a thing is: by what two opposed contacts need to hold the
@@ -185,28 +190,6 @@ Settling::Misfit Settling::misfit(double grip) const {
   result.force = result.residual.segment<3>(kGripJoints).norm();
   result.moment = result.residual.tail<3>().norm();
   result.of_product = std::max(result.force, result.moment / mechanics_.arm()) / grip;
-  return result;
-}
-
-/// `next` without the flexion of fingers that would go into the thumb: their cones overlap at most
-/// kPulpGive more than at the start. Such a finger stays where it is from then on: the thumb
-/// carries it.
-Posture Settling::without_crossing(const Posture& next) {
-  Posture result = next;
-  const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, result);
-  for (std::size_t a = 0; a < cones.size(); ++a) {
-    if (cones[a].finger != Finger::kThumb || cones[a].level == 0) continue;
-    for (std::size_t b = 0; b < cones.size(); ++b) {
-      if (cones[b].finger == Finger::kThumb || cones[b].level == 0) continue;
-      const double allowed = std::max(0.0, overlap(start_cones_[a], start_cones_[b])) + kPulpGive;
-      if (overlap(cones[a], cones[b]) > allowed + 1e-6) {
-        is_held_[index_of(cones[b].finger)] = true;
-      }
-    }
-  }
-  for (int j = 0; j < kGripJoints; ++j) {
-    if (is_held(j)) result[grip_dof(j)] = state_.posture[grip_dof(j)];
-  }
   return result;
 }
 
@@ -248,7 +231,7 @@ void Settling::step(const Misfit& misfit, double missing) {
     turned[dof.dof] =
         std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(upper, angle));
   }
-  state_.posture = without_crossing(turned);
+  state_.posture = turned;
   move_product(way.segment<3>(kGripJoints), way.tail<3>());
 }
 
@@ -280,9 +263,13 @@ GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& fr
   GripVector way = solved(misfit.residual);
   if (!has_level_) return way;
   GripVector closing = GripVector::Zero();
+  std::array<bool, kFingerCount> has_met{};
+  for (const ThumbPress& press : meeting_.presses(state_.posture)) {
+    if (press.overlap > kPulpGive) has_met[index_of(press.finger)] = true;
+  }
   for (int j = 0; j < kGripJoints; ++j) {
     const bool closes = is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
-    if (closes && !is_held(j)) closing[j] = 1.0;
+    if (closes && !has_met[index_of(grip_finger(j))]) closing[j] = 1.0;
   }
   const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
   const double rate = mechanics_.squeeze().dot(gain);
@@ -376,14 +363,20 @@ void Settling::finish(Balance& balance) {
   balance.fallbacks = mechanics_.fallbacks();
   if (squeezes_) {
     const double limit = options_->activation.value_or(options_->strength);
-    if (!is_by_muscles_) effort_.look(state_.posture, mechanics_, {});
-    const double share = effort_.strength_share(mechanics_.force()) * limit / options_->strength;
+    effort_.look(state_.posture, mechanics_.is_loaded(), meeting_.presses(state_.posture),
+                 wrist_load());
+    const GripEffort::Strength strength = effort_.strength_of(mechanics_.force());
+    const double share = strength.share * limit / options_->strength;
     if (std::isfinite(share)) balance.strength_use = share;
-    balance.is_overloaded = !is_by_muscles_ && !(share <= 1.0);
-  }
-  HandLoad& load = balance.joint_load.emplace();
-  for (int j = 0; j < kGripJoints; ++j) {
-    load[j / kDigitDofs][j % kDigitDofs] = mechanics_.force()[j];
+    balance.is_by_wrist = strength.is_by_wrist;
+    balance.is_overloaded = !(share <= 1.0 + (is_by_muscles_ ? kJointSaid : 0.0));
+    balance.joint_load = strength.load;
+  } else {
+    HandLoad& load = balance.joint_load.emplace();
+    for (int j = 0; j < kGripJoints; ++j) {
+      load.digit[j / kDigitDofs][j % kDigitDofs] = mechanics_.force()[j];
+    }
+    load.wrist = wrist_load();
   }
   judge_way(balance);
 }
@@ -409,7 +402,10 @@ Balance Settling::run(const Progress& progress) {
       balance.message = "the contact could not be solved while the grasp came to rest";
       break;
     }
-    if (is_by_muscles_) effort_.look(state_.posture, mechanics_, is_held_);
+    if (is_by_muscles_) {
+      effort_.look(state_.posture, mechanics_.is_loaded(), meeting_.presses(state_.posture),
+                   wrist_load());
+    }
     const double grip = mechanics_.grip().force;
     if (i == 0) {
       start_grip = grip;
@@ -560,12 +556,13 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
     if (is_at_rest || is_first) balance = std::move(attempt);
     if (is_at_rest && way == Way::kStiff && has_muscles) {
       balance.message += ", by fingers that are held stiff";
-      if (balance.is_overloaded) {
-        balance.message += balance.strength_use
-                               ? fmt::format(", which takes {:.1f} times the muscles' strength",
-                                             *balance.strength_use)
-                               : ", which no muscles could";
-      }
+    }
+    if (is_at_rest && balance.is_overloaded) {
+      balance.message +=
+          balance.strength_use
+              ? fmt::format(", which takes {:.1f} times the strength of the muscles{}",
+                            *balance.strength_use, balance.is_by_wrist ? " of the wrist" : "")
+              : ", which no muscles could";
     }
     if (is_at_rest || (is_first && !slips)) break;
   }

@@ -42,6 +42,7 @@ struct BalanceOptions {
   std::optional<double> activation;
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
+  WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
   /// as balanced.
   double aim = 0.002;
@@ -77,13 +78,15 @@ struct Balance {
   double residual_moment = 0.0;  ///< N mm, about the centre of contact
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
-  /// Least share of the person's strength with which the muscles of all digits hold these contact
-  /// forces (least_strength_share()); nothing where no strength could, and for grips other than
-  /// power grips.
+  /// Least share of the person's strength with which the muscles of all digits and the wrist hold
+  /// these contact forces and the load (least_strength()); nothing where no strength could, and for
+  /// grips other than power grips.
   std::optional<double> strength_use;
-  /// A power grip that came to rest only with joints stiffer than its muscles can make them.
+  bool is_by_wrist = false;  ///< the muscles of the digits alone would need a smaller share
+  /// A power grip that came to rest only with more than its muscles can give.
   bool is_overloaded = false;
-  /// Moments of contact forces and friction about the angles of the digits, of the grasp at rest.
+  /// Moments about the angles of the digits of contact forces, friction and of thumb and fingers on
+  /// each other, and of the load about the wrist, of the grasp at rest.
   std::optional<HandLoad> joint_load;
   double moved = 0.0;                ///< of the product in the hand since it was closed, mm
   double turned = 0.0;               ///< rad
@@ -96,11 +99,12 @@ struct Balance {
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
 /// friction and load add up to nothing on the product; in a power grip also about every angle of a
-/// digit in contact, with the moments that its muscles give at least effort (GripEffort). The palm
-/// holds against them. `grasp` gets the new posture and placement. Precision grips: joints are
-/// held stiff and fingertips press straight into the product, all alike, to reach a grip force
-/// (fingertip_closing.h). One that doesn't come to rest where fingertips were first put is tried at
-/// its runners-up; `grasp` is then the first of those that does, and its message says so.
+/// digit in contact and about the wrist, with the moments that the muscles give at least effort
+/// (GripEffort). The palm holds against them. `grasp` gets the new posture and placement. Precision
+/// grips: joints are held stiff and fingertips press straight into the product, all alike, to reach
+/// a grip force (fingertip_closing.h). One that doesn't come to rest where fingertips were first
+/// put is tried at its runners-up; `grasp` is then the first of those that does, and its message
+/// says so.
 ///
 /// Friction is that of skin that sticks where it was when the hand was closed and gives way
 /// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal

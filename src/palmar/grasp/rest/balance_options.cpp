@@ -42,6 +42,7 @@ void BalanceOptions::check() const {
   if (!(strength >= 0.01 && strength <= 10.0)) {
     throw UsageError(fmt::format("balance: strength is {}; 0.01 to 10 is allowed", strength));
   }
+  wrist.check();
   if (activation && !(*activation > 0.0 && *activation <= strength)) {
     throw UsageError(
         fmt::format("balance: activation is {}; above 0, up to strength ({}), is allowed",

@@ -50,16 +50,24 @@ double distance_to(const RoundCone& cone, const Vec3& point) {
   return (point - (cone.a + t * (cone.b - cone.a))).norm() - radius_at(cone, t);
 }
 
-double overlap(const RoundCone& p, const RoundCone& q) {
+ConeContact contact_of(const RoundCone& p, const RoundCone& q) {
   // Nearest points of two segments by alternating feet; four rounds reach 0.1 mm for fingers.
   double s = 0.5, t = 0.5;
   for (int round = 0; round < 4; ++round) {
     t = foot(q.a, q.b, p.a + s * (p.b - p.a));
     s = foot(p.a, p.b, q.a + t * (q.b - q.a));
   }
-  const double gap = (p.a + s * (p.b - p.a) - q.a - t * (q.b - q.a)).norm();
-  return radius_at(p, s) + radius_at(q, t) - gap;
+  const Vec3 on_p = p.a + s * (p.b - p.a);
+  const Vec3 across = q.a + t * (q.b - q.a) - on_p;
+  const double gap = across.norm();
+  ConeContact contact;
+  contact.overlap = radius_at(p, s) + radius_at(q, t) - gap;
+  if (gap > 0.0) contact.normal = across / gap;
+  contact.point = on_p + (radius_at(p, s) - 0.5 * contact.overlap) * contact.normal;
+  return contact;
 }
+
+double overlap(const RoundCone& p, const RoundCone& q) { return contact_of(p, q).overlap; }
 
 FingerCones::FingerCones(const Hand& hand) {
   const Skeleton& skeleton = hand.skeleton;

@@ -25,6 +25,14 @@ double distance_to(const RoundCone& cone, const Vec3& point);
 /// is a gap.
 double overlap(const RoundCone& p, const RoundCone& q);
 
+/// Where two cones are nearest to each other.
+struct ConeContact {
+  Vec3 point = Vec3::Zero();    ///< between their surfaces, mm
+  Vec3 normal = Vec3::UnitZ();  ///< unit, from the first to the second
+  double overlap = 0.0;         ///< mm
+};
+ConeContact contact_of(const RoundCone& p, const RoundCone& q);
+
 /// Stand-ins for the fingers of one hand while it closes: cheap enough to keep fingers from
 /// crossing each other at every step. Radii are the mean distance of the skin from the bone line.
 class FingerCones {

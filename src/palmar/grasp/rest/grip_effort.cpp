@@ -5,19 +5,23 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "palmar/core/enum_index.h"
 
 namespace palmar {
 namespace {
 
-constexpr double kHeldPrice = 0.01;      // of what is missing, against that of the squeeze
-constexpr double kPlacePrice = 0.001;    // of the product's way
+constexpr double kHeldPrice = 0.01;    // of what is missing, against that of the squeeze
+constexpr double kPlacePrice = 0.001;  // of the product's way
+// A wrist that can't hold fells the grip: it goes before everything.
+constexpr double kWristPrice = 100.0;
+constexpr double kByWrist = 1.02;        // of the share of fingers alone; more is the wrist's
 constexpr double kMostGivingWay = 0.05;  // rad in one step
 constexpr double kWayBeyondReach = 1.1;  // of what all muscles together could add, to ask for all
 
 int muscle_count() {
-  int count = 0;
+  int count = kWristMuscleCount;
   for (int f = 0; f < kFingerCount; ++f) {
     count += static_cast<int>(tendons_of(static_cast<Finger>(f)).size());
   }
@@ -26,36 +30,48 @@ int muscle_count() {
 
 }  // namespace
 
-GripEffort::GripEffort(const Hand& hand, double limit)
-    : hand_(&hand),
-      muscles_(hand),
+GripEffort::GripEffort(const Hand& hand, double limit, const WristPosture& wrist)
+    : muscles_(hand, {.wrist = wrist}),
       limit_(limit),
       at_limit_(Eigen::MatrixXd::Zero(kGripJoints, muscle_count())),
+      wrist_at_limit_(Eigen::RowVectorXd::Zero(muscle_count())),
       now_{.activation = Eigen::VectorXd::Zero(muscle_count())} {}
 
-void GripEffort::look(const Posture& posture, const GripMechanics& mechanics,
-                      const std::array<bool, kFingerCount>& is_out) {
-  is_loaded_ = mechanics.is_loaded();
+void GripEffort::look(const Posture& posture, const std::array<bool, kGripJoints>& is_loaded,
+                      std::vector<ThumbPress> presses, double wrist) {
+  is_loaded_ = is_loaded;
+  presses_ = std::move(presses);
+  wrist_load_ = wrist;
+  for (const ThumbPress& press : presses_) {
+    for (int j = 0; j < kGripJoints; ++j) {
+      if (press.moment[j] != 0.0) is_loaded_[j] = true;
+    }
+  }
   at_limit_.setZero();
+  wrist_at_limit_.setZero();
   Eigen::Index column = 0;
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     const auto count = static_cast<Eigen::Index>(tendons_of(finger).size());
     const auto first = is_loaded_.begin() + kDigitDofs * f;
-    const bool takes_part =
-        !is_out[f] && std::any_of(first, first + kDigitDofs, [](bool is) { return is; });
     digits_[f].reset();
-    if (takes_part) {
+    if (std::any_of(first, first + kDigitDofs, [](bool is) { return is; })) {
       digits_[f] = muscles_.in(finger, posture);
       for (Eigen::Index t = 0; t < count; ++t) {
+        const auto tendon = static_cast<std::size_t>(t);
+        const double strength = limit_ * digits_[f]->strength[tendon];
         for (int k = 0; k < kDigitDofs; ++k) {
-          const auto tendon = static_cast<std::size_t>(t);
-          at_limit_(kDigitDofs * f + k, column + t) =
-              limit_ * digits_[f]->strength[tendon] * digits_[f]->arm[tendon][k];
+          at_limit_(kDigitDofs * f + k, column + t) = strength * digits_[f]->arm[tendon][k];
         }
+        wrist_at_limit_[column + t] = strength * digits_[f]->wrist_arm[tendon].x();
       }
     }
     column += count;
+  }
+  const WristMuscles& motors = muscles_.wrist();
+  for (std::size_t i = 0; i < motors.arm.size(); ++i) {
+    wrist_at_limit_[column + static_cast<Eigen::Index>(i)] =
+        limit_ * motors.strength[i] * motors.arm[i].x();
   }
 }
 
@@ -70,6 +86,10 @@ void GripEffort::add_passive(GripVector& force, GripMatrix& stiffness) const {
     force.segment<kDigitDofs>(kDigitDofs * f) += digits_[f]->passive.moment;
     stiffness.block<kDigitDofs, kDigitDofs>(kDigitDofs * f, kDigitDofs * f) +=
         digits_[f]->passive.stiffness;
+  }
+  for (const ThumbPress& press : presses_) {
+    force += press.force * press.moment;
+    stiffness += press.stiffness * press.moment * press.moment.transpose();
   }
 }
 
@@ -111,7 +131,8 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
   const Eigen::MatrixXd between = stiffness(held, free);
 
   const Eigen::Index kept = moved_before != nullptr ? 3 : 0;
-  const Eigen::Index rows = held_count + 1 + kept;
+  // Rows: held angles, the squeeze, the wrist, the product's place.
+  const Eigen::Index rows = held_count + 2 + kept;
   MuscleProblem problem{.moment_at_strength = Eigen::MatrixXd(rows, muscles),
                         .required = Eigen::VectorXd(rows),
                         .stop = Eigen::VectorXi::Zero(rows),
@@ -130,6 +151,9 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
   problem.required[held_count] =
       missing ? *missing - along.dot(by_force) : kWayBeyondReach * gain.cwiseMax(0.0).sum();
   problem.price[held_count] = 1.0;
+  problem.moment_at_strength.row(held_count + 1) = wrist_at_limit_;
+  problem.required[held_count + 1] = -wrist_load_;
+  problem.price[held_count + 1] = kWristPrice;
   if (kept > 0) {
     // The product's translation is the first of its six coordinates, which come last.
     problem.moment_at_strength.bottomRows(3) = by_muscle.middleRows(free_count - 6, 3);
@@ -161,18 +185,29 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
   return step;
 }
 
-double GripEffort::strength_share(const GripVector& contact_force) const {
-  const double negligible =
-      kNegligibleMoment * contact_force.head<kGripJoints>().lpNorm<Eigen::Infinity>();
-  double share = 0.0;
+GripEffort::Strength GripEffort::strength_of(const GripVector& contact_force) const {
+  GripVector moments = contact_force;
+  for (const ThumbPress& press : presses_) moments += press.force * press.moment;
+  Strength strength;
+  strength.load.wrist = wrist_load_;
+  std::vector<DigitMuscles> digits;
   for (int f = 0; f < kFingerCount; ++f) {
-    if (!digits_[f]) continue;
-    DigitLoad load{};
-    for (int k = 0; k < kDigitDofs; ++k) load[k] = contact_force[kDigitDofs * f + k];
-    share =
-        std::max(share, least_strength_share(problem_of(*digits_[f], load, limit_), negligible));
+    for (int k = 0; k < kDigitDofs; ++k) {
+      strength.load.digit[f][k] = moments[kDigitDofs * f + k];
+    }
+    if (digits_[f]) digits.push_back(*digits_[f]);
   }
-  return share;
+  const double negligible =
+      kNegligibleMoment * moments.head<kGripJoints>().lpNorm<Eigen::Infinity>();
+  const MuscleProblem problem = problem_of(digits, muscles_.wrist(), strength.load, limit_);
+  strength.share = least_strength_share(problem, negligible);
+  MuscleProblem fingers = problem;
+  const Eigen::Index angles = problem.required.size() - 1;
+  fingers.moment_at_strength = problem.moment_at_strength.topRows(angles);
+  fingers.required = problem.required.head(angles);
+  fingers.stop = problem.stop.head(angles);
+  strength.is_by_wrist = strength.share > kByWrist * least_strength_share(fingers, negligible);
+  return strength;
 }
 
 }  // namespace palmar

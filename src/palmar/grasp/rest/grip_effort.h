@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/grasp/rest/thumb_meeting.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
 namespace palmar {
@@ -19,18 +20,21 @@ namespace palmar {
 /// with contact forces linear in the coordinates about the state last looked at. Joints that flex
 /// fingers go where muscles and product bring them. The thumb's joints and all abduction are held
 /// where they are, by whatever moments their muscles can give; where these are too weak they give
-/// way. Squeeze that the muscles can't give is what is missed first.
+/// way. Fingers and thumb that meet press on each other (ThumbMeeting). The wrist's muscles, with
+/// those of the digits that cross it, hold the load and what the fingers' flexors pull at the
+/// wrist. Squeeze that the muscles can't give is what is missed first; the wrist doesn't give way.
 class GripEffort {
  public:
-  /// Keeps a reference to the hand. `limit`: largest activation, times the muscles of HandMuscles.
-  GripEffort(const Hand& hand, double limit);
+  /// `limit`: largest activation, times the muscles of HandMuscles.
+  GripEffort(const Hand& hand, double limit, const WristPosture& wrist = {});
 
-  /// Muscles and passive moments of the loaded digits in a posture; `is_out`: fingers that the
-  /// thumb carries, whose muscles have no part.
-  void look(const Posture& posture, const GripMechanics& mechanics,
-            const std::array<bool, kFingerCount>& is_out);
+  /// Muscles and passive moments of the loaded digits in a posture; `wrist`: moment of the load
+  /// in the sense of the wrist's flexion, N mm.
+  void look(const Posture& posture, const std::array<bool, kGripJoints>& is_loaded,
+            std::vector<ThumbPress> presses = {}, double wrist = 0.0);
 
-  /// Moments of ligaments and slack muscles, onto forces and stiffness of the coordinates.
+  /// Moments of ligaments, of slack muscles and of thumb and fingers on each other, onto forces and
+  /// stiffness of the coordinates.
   void add_passive(GripVector& force, GripMatrix& stiffness) const;
   /// Moments of the muscles as last solved for and of the stops about the angles.
   GripVector moments() const;
@@ -57,25 +61,33 @@ class GripEffort {
              const GripMatrix& stiffness, const GripVector& squeeze, std::optional<double> missing,
              const Vec3* moved);
 
-  /// Least share of `limit` with which the muscles hold the contact forces of the state last looked
-  /// at (least_strength_share()); infinite if no strength could.
-  double strength_share(const GripVector& contact_force) const;
+  /// What the contact forces of the state last looked at take of the muscles, all digits and the
+  /// wrist in one problem.
+  struct Strength {
+    double share =
+        0.0;  ///< least share of `limit` (least_strength_share()); infinite if none could
+    bool is_by_wrist = false;  ///< the fingers alone would need less
+    HandLoad load;             ///< of contact, of thumb and fingers on each other, on the wrist
+  };
+  Strength strength_of(const GripVector& contact_force) const;
 
   /// As last solved for: activations, of `limit`, and moments of stops.
   struct Activations {
-    Eigen::VectorXd activation;
+    Eigen::VectorXd activation;  ///< of the digits' muscles, then the wrist's
     GripVector stops = GripVector::Zero();
   };
   const Activations& activations() const { return now_; }
   void set(const Activations& activations) { now_ = activations; }
 
  private:
-  const Hand* hand_;
   HandMuscles muscles_;
   double limit_;
   std::array<std::optional<DigitMuscles>, kFingerCount> digits_;  ///< those that take part
   std::array<bool, kGripJoints> is_loaded_{};
-  Eigen::MatrixXd at_limit_;  ///< moments at the limit, angles x muscles, N mm
+  std::vector<ThumbPress> presses_;
+  double wrist_load_ = 0.0;
+  Eigen::MatrixXd at_limit_;           ///< moments at the limit, angles x muscles, N mm
+  Eigen::RowVectorXd wrist_at_limit_;  ///< about the wrist, N mm
   Activations now_;
 };
 

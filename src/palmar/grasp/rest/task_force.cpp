@@ -59,7 +59,8 @@ std::string ShareOfStrength::words(Grip grip) const {
         "strength{} of {:.0f} N",
         100.0 * share, reached(grip), of, strength);
   }
-  return fmt::format("{:g} % of the grip strength{}, {:.0f} N", 100.0 * share, of, strength);
+  return fmt::format("{:g} % of what {} reach on a dynamometer, {:.0f} N", 100.0 * share,
+                     whose.empty() ? "people" : whose, strength);
 }
 
 std::string usual_people() {

@@ -34,8 +34,9 @@ TEST(UsualShare, IsAQuarterOfTheMeanStrengthOfWomenAndMen) {
   const ShareOfStrength usual = usual_share(0.5);
   EXPECT_NEAR(usual.force(Grip::kMediumWrap), 0.25 * kStrength, 1e-9);
   EXPECT_FALSE(usual.is_raised(Grip::kMediumWrap));
-  EXPECT_EQ(usual.words(Grip::kMediumWrap),
-            "25 % of the grip strength of women and men of 45 years (mean; Steiber 2016), 427 N");
+  EXPECT_EQ(
+      usual.words(Grip::kMediumWrap),
+      "25 % of what women and men of 45 years (mean; Steiber 2016) reach on a dynamometer, 427 N");
 }
 
 TEST(UsualShare, OfAPinchIsThatShareOfWhatThePinchReaches) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/hand/tendons/hand_muscles.h"
 
-#include <cmath>
-
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
@@ -19,7 +17,6 @@ constexpr double kFingerFibres[4][6] = {{74.9, 83.5, 70.0, 55.4, 31.7, 25.0},
                                         {74.9, 51.5, 65.0, 50.1, 23.6, 46.2}};
 // FPL, EPL, EPB, APL: Lee et al. 2015; FPB, APB, OPP, ADP: Jacobson et al. 1992.
 constexpr double kThumbFibres[8] = {55.2, 41.5, 41.6, 35.5, 34.0, 54.0, 67.5, 71.3};
-constexpr double kForceLengthWidth = 0.45;  // Thelen 2003
 // People's thumbs over what the tendons of the one specimen give at the cross-sections of others:
 // 104 N flexing the proximal phalanx (Li, Harkness 2004) over 37 N. See docs/method/strength.md.
 constexpr double kThumbScale = 2.8;
@@ -49,7 +46,10 @@ double fibres_of(Finger finger, std::size_t tendon) {
 }  // namespace
 
 HandMuscles::HandMuscles(const Hand& hand, const MuscleModel& model)
-    : hand_(&hand), stops_(model.stops), has_passive_(model.has_passive) {
+    : hand_(&hand),
+      stops_(model.stops),
+      has_passive_(model.has_passive),
+      wrist_(wrist_muscles(hand, model.wrist, model.specific_tension)) {
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
     const PosedDigit digit =
@@ -59,8 +59,11 @@ HandMuscles::HandMuscles(const Hand& hand, const MuscleModel& model)
     for (std::size_t t = 0; t < names.size(); ++t) {
       Muscle muscle;
       muscle.best_length = fibres_of(finger, t);
-      muscle.force = model.specific_tension * cross_section_of(finger, names[t]) *
-                     (finger == Finger::kThumb ? kThumbScale : 1.0);
+      const double scale = finger == Finger::kThumb ? kThumbScale : 1.0;
+      muscle.force = model.specific_tension * cross_section_of(finger, names[t]) * scale;
+      const WristVector arm = wrist_arm(hand, finger, names[t]);
+      muscle.wrist_arm = arm / scale;
+      muscle.wrist_stretch = wrist_stretch(arm, model.wrist);
       muscle.best_path = path_length(tendons.path[t], digit);
       muscle.path = std::move(tendons.path[t]);
       muscles_[f].push_back(std::move(muscle));
@@ -74,9 +77,10 @@ DigitMuscles HandMuscles::in(Finger finger, const Posture& posture) const {
   result.finger = finger;
   for (const Muscle& muscle : muscles_[index_of(finger)]) {
     const double stretch =
-        (path_length(muscle.path, digit) - muscle.best_path) / muscle.best_length;
-    result.strength.push_back(muscle.force * std::exp(-stretch * stretch / kForceLengthWidth));
+        path_length(muscle.path, digit) - muscle.best_path + muscle.wrist_stretch;
+    result.strength.push_back(muscle.force * force_length(stretch, muscle.best_length));
     result.arm.push_back(moment_arms(muscle.path, digit));
+    result.wrist_arm.push_back(muscle.wrist_arm);
   }
   if (has_passive_) result.passive = passive_moments(hand_->skeleton, finger, posture);
   for (std::size_t k = 0; k < kDigitDofs; ++k) {
@@ -102,6 +106,40 @@ MuscleProblem problem_of(const DigitMuscles& muscles, const DigitLoad& load, dou
           strength * muscles.strength[tendon] * muscles.arm[tendon][axis];
     }
   }
+  return problem;
+}
+
+MuscleProblem problem_of(std::span<const DigitMuscles> digits, const WristMuscles& wrist,
+                         const HandLoad& load, double strength, int exponent) {
+  Eigen::Index columns = kWristMuscleCount;
+  for (const DigitMuscles& digit : digits) columns += static_cast<Eigen::Index>(digit.arm.size());
+  const Eigen::Index angles = kDigitDofs * static_cast<Eigen::Index>(digits.size());
+  const Eigen::Index rows = angles + 1;
+  MuscleProblem problem{.moment_at_strength = Eigen::MatrixXd::Zero(rows, columns),
+                        .required = Eigen::VectorXd(rows),
+                        .stop = Eigen::VectorXi::Zero(rows),
+                        .exponent = exponent};
+  Eigen::Index row = 0, column = 0;
+  for (const DigitMuscles& digit : digits) {
+    const MuscleProblem own =
+        problem_of(digit, load.digit[index_of(digit.finger)], strength, exponent);
+    const Eigen::Index count = own.moment_at_strength.cols();
+    problem.moment_at_strength.block(row, column, kDigitDofs, count) = own.moment_at_strength;
+    problem.required.segment(row, kDigitDofs) = own.required;
+    problem.stop.segment(row, kDigitDofs) = own.stop;
+    for (Eigen::Index t = 0; t < count; ++t) {
+      const auto tendon = static_cast<std::size_t>(t);
+      problem.moment_at_strength(angles, column + t) =
+          strength * digit.strength[tendon] * digit.wrist_arm[tendon].x();
+    }
+    row += kDigitDofs;
+    column += count;
+  }
+  for (std::size_t i = 0; i < wrist.arm.size(); ++i) {
+    problem.moment_at_strength(angles, column + static_cast<Eigen::Index>(i)) =
+        strength * wrist.strength[i] * wrist.arm[i].x();
+  }
+  problem.required[angles] = -load.wrist;
   return problem;
 }
 

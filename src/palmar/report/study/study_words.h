@@ -49,7 +49,8 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
 std::string grip_force_words(const StudyResults& results, const StudyCondition& condition,
                              int first, int second);
 
-/// How firmly a setting has hands grip: "grip force 107 N: 25 % of the grip strength of ...";
+/// How firmly a setting has hands grip: "grip force 107 N: 25 % of what ... reach on a
+/// dynamometer";
 /// "" where they stay as they were closed.
 std::string grip_force_words(const StudySetting& setting);
 

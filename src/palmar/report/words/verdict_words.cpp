@@ -70,13 +70,23 @@ std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
   if (verdict.strength) {
     const StrengthUse& use = *verdict.strength;
     std::string whose = use.whose;
-    if (whose.empty()) whose = texts("strength.nobody", {{"strength", texts.number(use.strength)}});
+    if (whose.empty()) whose = texts("strength.nobody", {{"strength", texts.number(use.reached)}});
     if (whose == usual_people()) {
       whose = texts("strength.usual", {{"age", texts.number(kUsualAge, 2)}});
     }
-    words = texts("strength.sentence", {{"force", texts.number(use.grip_force, 2)},
-                                        {"percent", texts.percent(use.share())},
-                                        {"whose", whose}});
+    const std::string force = texts.number(use.grip_force, 2);
+    if (use.share) {
+      words = texts(use.is_by_wrist ? "strength.wrist" : "strength.sentence",
+                    {{"force", force}, {"percent", texts.percent(*use.share)}, {"whose", whose}}) +
+              " ";
+    } else if (use.is_judged) {
+      words = texts("strength.beyond", {{"force", force}, {"whose", whose}}) + " ";
+    }
+    words += texts(use.is_pinch ? "strength.pinch" : "strength.compared",
+                   {{"force", force},
+                    {"percent", texts.percent(use.compared())},
+                    {"reached", texts.number(use.reached, 3)},
+                    {"whose", whose}});
   }
   if (verdict.asked && verdict.grip_force > 0.0 &&
       !are_equally_firm(verdict.grip_force, *verdict.asked)) {

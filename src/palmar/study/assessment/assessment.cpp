@@ -69,6 +69,7 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   const Stopwatch index_watch;
   IndexOptions indices = options.indices;
   indices.effort.strength = options.balance.strength;  // one person in one run
+  indices.effort.wrist = options.balance.wrist;
   // One coefficient in one run.
   indices.stability.reduction.friction =
       options.friction.is_on() ? options.friction.coefficient : options.balance.friction;

@@ -20,7 +20,7 @@ enum class ExclusionCause {
   kNotGraspable,  ///< no place that the grip can take
   kSlipsOut,
   kRange,     ///< joints don't bend far enough for any way of holding that was found
-  kStrength,  ///< too weak to hold the load
+  kStrength,  ///< muscles too weak for the task's force
   kNails,     ///< nails meet product or palm
   kUnknown    ///< no grasp gave an answer
 };

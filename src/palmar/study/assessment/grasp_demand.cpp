@@ -12,6 +12,7 @@
 #include "palmar/grasp/indices/stability.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/rest/task_force.h"
 #include "palmar/hand/posture/named_postures.h"
 
 namespace palmar {
@@ -100,8 +101,11 @@ double range_share_of(const Hand& hand, const Posture& posture) {
   return share;
 }
 
-double strength_needed(const Hand& hand, const ContactResult& contact,
-                       const StrengthQuestion& question) {
+namespace {
+
+/// Least grip force [N] that holds the load by friction.
+double force_needed(const Hand& hand, const ContactResult& contact,
+                    const StrengthQuestion& question) {
   const Vec3 mass_centre = question.load.mass_centre.value_or(question.mass_centre);
   const Wrench load = wrench_of(question.load, mass_centre);
   if (load.force.isZero(0.0) && load.moment.isZero(0.0)) return 0.0;
@@ -115,7 +119,20 @@ double strength_needed(const Hand& hand, const ContactResult& contact,
     const Vec3& normal = contacts[i].normal;
     normal_forces.emplace_back(normal.dot(least.force[i]) * normal);
   }
-  return grip_force(normal_forces).force / strength_share(question.grip);
+  return grip_force(normal_forces).force;
+}
+
+}  // namespace
+
+double strength_needed(const Hand& hand, const ContactResult& contact,
+                       const StrengthQuestion& question, const Balance* rest) {
+  const double force = std::max(question.stated_force, force_needed(hand, contact, question));
+  if (rest != nullptr && rest->status == BalanceStatus::kBalanced && rest->strength_use &&
+      rest->grip_force > 0.0) {
+    return *rest->strength_use * force / rest->grip_force * question.muscle_strength *
+           usual_grip_strength();
+  }
+  return force / strength_share(question.grip);
 }
 
 double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
@@ -147,7 +164,7 @@ GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProduc
                       const StrengthQuestion& question) {
   GraspDemand demand;
   demand.range_share = range_share_of(hand, held.grasp.posture);
-  demand.grip_strength = strength_needed(hand, held.contact, question);
+  demand.grip_strength = strength_needed(hand, held.contact, question, &held.balance);
   demand.nail_room = nail_room_of(hand, held.grasp.posture, held.posed_skin,
                                   held.grasp.product_from_hand, product);
   return demand;

@@ -13,23 +13,31 @@ namespace palmar {
 /// range. Above 1 for a posture that even that hand can't take.
 double range_share_of(const Hand& hand, const Posture& posture);
 
-/// Smallest grip strength of a dynamometer [N] with which a hand can hold the load by friction
-/// where it touches the product. Of all normal forces whose friction cones balance the load those
-/// of least sum are taken (least_grip_force(), stability.h), however the fingers would share them
-/// out;
+/// Smallest grip strength of a dynamometer [N], as the measure of a person's muscles, with which a
+/// hand can hold the task's force. That is the grip force that is stated, or what friction needs to
+/// hold the load where the hand touches the product, whichever is more: of all normal forces whose
+/// friction cones balance the load those of least sum (least_grip_force(), stability.h), however
+/// the fingers would share them out.
 ///
-///     strength = grip_force(these) / strength_share(grip).
+/// In a power grip that came to rest its muscles say what that force takes: the share of strength
+/// at rest (Balance::strength_use), in proportion to the force,
 ///
-/// So weaker people can't hold it, and stronger ones may still fail. Infinite where no forces hold
-/// the load; 0 without load.
+///     strength = use x (task's force / grip force at rest) x strength of the muscles at rest.
+///
+/// Elsewhere, and where no muscles could hold the hand as it rests: task's force /
+/// strength_share(grip), what people reach on a dynamometer. Weaker people can't hold it, and
+/// stronger ones may still fail. Infinite where no forces hold the load; 0 without load and force.
 struct StrengthQuestion {
   double friction = 0.5;  ///< of skin on the product
   ProductLoad load;
   Vec3 mass_centre = Vec3::Zero();  ///< product frame, mm; unless the load has its own
   Grip grip = Grip::kMediumWrap;
+  double stated_force = 0.0;     ///< N, grip force that the task asks for; 0: none
+  double muscle_strength = 1.0;  ///< at rest, over that of HandMuscles (BalanceOptions::strength)
 };
+/// `rest`: how the grasp came to rest; nothing: it didn't.
 double strength_needed(const Hand& hand, const ContactResult& contact,
-                       const StrengthQuestion& question);
+                       const StrengthQuestion& question, const Balance* rest = nullptr);
 
 /// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
 /// one with the least room. A nail is a flat strip, two thirds of the distal segment wide, that

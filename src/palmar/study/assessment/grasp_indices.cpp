@@ -65,8 +65,9 @@ GraspIndices grip_indices(const Balance& balance) {
   strength.better = Better::kDown;
   strength.highest = 1.0;
   strength.definition =
-      "least share of the person's strength with which the muscles of fingers and thumb hold these "
-      "forces; 1: as hard as the hand can";
+      "least share of the person's strength with which the muscles of fingers, thumb and wrist "
+      "hold "
+      "these forces and the load; 1: as hard as the hand can";
   strength.source =
       "tendons: An et al. 1979, Synek et al. 2019, Mirakhorlo et al. 2016; docs/method/balance.md";
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";

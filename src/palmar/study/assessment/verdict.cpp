@@ -21,9 +21,16 @@ std::optional<StrengthUse> strength_of(const AssessedProduct& one, double grip_f
   const Grip grip = assessment.grasp.grip;
   if (assessment.balance.status != BalanceStatus::kBalanced || !(grip_force > 0.0)) return {};
   if (grip == Grip::kFixedHook) return {};  // carries; nobody squeezes
-  const auto& share = assessment.options.balance.share_of_strength;
-  if (share) return StrengthUse{grip_force, share->reached(grip), share->whose};
-  return StrengthUse{grip_force, usual_grip_strength() * strength_share(grip), usual_people()};
+  StrengthUse use;
+  use.grip_force = grip_force;
+  use.share = assessment.balance.strength_use;
+  use.is_judged = is_power(grip);
+  use.is_by_wrist = assessment.balance.is_by_wrist;
+  use.is_pinch = strength_share(grip) < 1.0;
+  const auto& asked = assessment.options.balance.share_of_strength;
+  use.reached = asked ? asked->reached(grip) : usual_grip_strength() * strength_share(grip);
+  use.whose = asked ? asked->whose : usual_people();
+  return use;
 }
 
 std::optional<HardestPlace> hardest_of(const AssessedProduct& one) {

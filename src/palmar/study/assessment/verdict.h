@@ -14,15 +14,20 @@ namespace palmar {
 
 // What an assessment comes to, in figures; report/words says it.
 
-/// How strong one has to be for a grip: its force over the largest that the person or group reaches
-/// in it. The one model of strength that verdicts use: what people reach on a dynamometer (Steiber
-/// 2016), for pinches times what they reach in them (Mathiowetz et al. 1985). Joint moments and
-/// muscles are indices for experts.
+/// How strong one has to be for a grip: what its muscles say (Balance::strength_use), the one model
+/// of strength. What people reach on a dynamometer (Steiber 2016), in pinches what they reach in
+/// them (Mathiowetz et al. 1985), stands beside it for comparison only.
 struct StrengthUse {
   double grip_force = 0.0;  ///< N
-  double strength = 0.0;    ///< N, reached in this grip
-  std::string whose;        ///< "women and men of 45 years (mean; Steiber 2016)"; may be empty
-  double share() const { return strength > 0.0 ? grip_force / strength : 0.0; }
+  /// Of the strength of the muscles of these people; nothing where no strength holds it, and for
+  /// pinches, which the muscles don't judge.
+  std::optional<double> share;
+  bool is_judged = false;    ///< by muscles
+  bool is_by_wrist = false;  ///< the wrist's muscles need it; else the digits'
+  double reached = 0.0;      ///< N, on a dynamometer or in such a pinch
+  bool is_pinch = false;     ///< what is reached is that of a pinch
+  std::string whose;         ///< "women and men of 45 years (mean; Steiber 2016)"; may be empty
+  double compared() const { return reached > 0.0 ? grip_force / reached : 0.0; }
 };
 
 /// Where the skin presses hardest, and on what.

@@ -95,17 +95,25 @@ TEST(SetVerdict, OfThreeTheBestBeatsBoth) {
   EXPECT_TRUE(verdict_on({held("a", 60, 0.4)}).comparisons.empty());
 }
 
-TEST(SetVerdict, StrengthIsThatOfADynamometer) {
+TEST(SetVerdict, StrengthIsThatOfTheMusclesADynamometersStandsBeside) {
   AssessedProduct one = held("a", 106.75, 0.4);
+  one.assessment.balance.strength_use = 0.63;
   const SetVerdict usual = verdict_on({one});
   ASSERT_TRUE(usual.products[0].strength);
-  EXPECT_NEAR(usual.products[0].strength->share(), 106.75 / usual_grip_strength(), 1e-12);
+  EXPECT_EQ(usual.products[0].strength->share, 0.63);
+  EXPECT_NEAR(usual.products[0].strength->compared(), 106.75 / usual_grip_strength(), 1e-12);
   one.assessment.options.balance.share_of_strength =
       ShareOfStrength{.share = 0.5, .strength = 213.5, .whose = "her", .why_least = ""};
-  EXPECT_NEAR(verdict_on({one}).products[0].strength->share(), 0.5, 1e-12);
-  // Of a person's strength a pinch reaches a fifth (Mathiowetz et al. 1985).
+  EXPECT_NEAR(verdict_on({one}).products[0].strength->compared(), 0.5, 1e-12);
+  EXPECT_EQ(verdict_on({one}).products[0].strength->share, 0.63);
+  // Of a person's strength a pinch reaches a fifth (Mathiowetz et al. 1985); muscles don't judge
+  // it.
   one.assessment.grasp.grip = Grip::kPalmarPinch;
-  EXPECT_NEAR(verdict_on({one}).products[0].strength->strength, 213.5 * 109.9 / 541.8, 1e-9);
+  one.assessment.balance.strength_use.reset();
+  const auto pinch = verdict_on({one}).products[0].strength;
+  EXPECT_NEAR(pinch->reached, 213.5 * 109.9 / 541.8, 1e-9);
+  EXPECT_FALSE(pinch->is_judged);
+  EXPECT_FALSE(pinch->share);
   one.assessment.balance.status = BalanceStatus::kOff;
   EXPECT_FALSE(verdict_on({one}).products[0].strength);
 }

@@ -118,10 +118,15 @@ void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) 
   const bool is_weak =
       std::any_of(plan.profiles.begin(), plan.profiles.end(),
                   [](const HandProfile& profile) { return profile.strength_share < 1.0; });
+  const bool is_stated =
+      std::any_of(plan.settings.begin(), plan.settings.end(),
+                  [](const StudySetting& setting) { return setting.grip_force.has_value(); });
   for (const StudyProduct& product : plan.products) {
-    if (!is_weak || product.mass > 0.0) continue;
+    if (!is_weak || is_stated || product.mass > 0.0) continue;
     add(warnings, false, product.name,
-        "it has no load (mass_kg): strength excludes nobody, whatever a profile takes of it.");
+        "it has neither a load (mass_kg) nor a grip force (grip_force_n): strength excludes "
+        "nobody, "
+        "whatever a profile takes of it.");
   }
 }
 

@@ -178,7 +178,7 @@ const std::vector<StudyQuantity>& hand_quantities() {
       {"grip_force_n", "grip force", "N", Better::kNeither},
       {"range_share_needed", "share of the range of motion that the posture needs", "",
        Better::kDown},
-      {"grip_strength_needed_n", "grip strength that holds the load", "N", Better::kDown},
+      {"grip_strength_needed_n", "grip strength that holds the task's force", "N", Better::kDown},
       {"nail_room_mm", "longest nail that touches nothing", "mm", Better::kUp}};
   return quantities;
 }

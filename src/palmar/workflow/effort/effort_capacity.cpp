@@ -22,7 +22,11 @@ namespace {
 // the person's strength, and how often the last step is halved.
 constexpr std::array<double, 7> kShares = {0.4, 0.3, 0.22, 0.15, 0.1, 0.06, 0.03};
 constexpr int kHalvings = 3;
-constexpr double kReached = 0.98;  // of the force asked for; less isn't held with it
+// How far above the firmest hold found a firmer one is looked for at a time, and how often.
+constexpr double kClimb = 1.15;
+constexpr int kMostClimbs = 5;
+constexpr double kExhausted = 0.9;  // of the strength: from there on muscles limit; our choice
+constexpr double kReached = 0.98;   // of the force asked for; less isn't held with it
 
 double strength_of(const CapacityRequest& request) {
   const double grip = request.strength ? *request.strength
@@ -49,6 +53,7 @@ void CapacityRequest::check() const {
   grasp.check();
   contact.check();
   friction.options();
+  wrist.check();
   if (strength && person) {
     throw UsageError(
         "setting \"strength\" and setting \"person\" both say how strong the user is; one is "
@@ -96,6 +101,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   BalanceOptions& rest = options.balance;
   rest.friction = request.friction.friction.value_or(kUsualFriction);
   rest.strength = result.strength;
+  rest.wrist = request.wrist;
   result.friction = rest.friction;
 
   struct Tried {
@@ -122,7 +128,6 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     return result;
   }
   Tried best = gripped(std::nullopt);
-  const bool is_at_full_strength = best.is_held;
   double lost = 0.0;
   for (std::size_t i = 0; i < kShares.size() && !best.is_held; ++i) {
     const double asked = kShares[i] * usual_grip_strength() * result.strength;
@@ -134,6 +139,16 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     result.message =
         "the fingers can't press the product into the palm: " + best.assessment.balance.message;
     return result;
+  }
+  // Muscles that give all they can may end where others, asked for a force, give more.
+  for (int i = 0; i < kMostClimbs && lost == 0.0; ++i) {
+    const double asked = kClimb * best.assessment.balance.grip_force;
+    Tried tried = gripped(asked);
+    if (tried.is_held) {
+      best = std::move(tried);
+    } else {
+      lost = asked;
+    }
   }
   for (int i = 0; i < kHalvings && lost > 0.0; ++i) {
     const double middle = 0.5 * (best.assessment.balance.grip_force + lost);
@@ -147,12 +162,14 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   const Assessment& firmest = best.assessment;
   result.activation = *firmest.balance.strength_use;
   result.grip_force = firmest.balance.grip_force;
-  result.limited_by = is_at_full_strength ? "muscles" : "slips";
+  const bool is_by_wrist = firmest.balance.is_by_wrist;
+  const bool is_exhausted = result.activation >= kExhausted;
+  result.limited_by = !is_exhausted ? "slips" : is_by_wrist ? "wrist" : "muscles";
   result.message =
-      is_at_full_strength
-          ? "no muscle could add to it"
-          : fmt::format("gripped harder than with {:.0f} N, the product leaves the hand",
-                        result.grip_force);
+      is_exhausted ? (is_by_wrist ? "the muscles that hold the wrist can't bear more"
+                                  : "no muscle could add to it")
+                   : fmt::format("gripped harder than with {:.0f} N, the product leaves the hand",
+                                 result.grip_force);
   if (rest.friction <= 0.0) return result;
   const auto held_load = [&](const ProductLoad& load) {
     progress.throw_if_cancelled();

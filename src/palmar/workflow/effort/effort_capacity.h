@@ -22,6 +22,7 @@ struct CapacityRequest {
   // How strong the person is; at most one of the two. None: usual_grip_strength().
   std::optional<double> strength;                    ///< N, on a dynamometer
   std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
+  WristPosture wrist{};
   std::optional<Vec3> torque_axis;  ///< product frame, any length but 0; unset: the grip axis
   NoteSink note = {};               ///< what was found in the product
   void check() const;               ///< throws UsageError: field, value, what is allowed
@@ -40,7 +41,7 @@ struct Capacity {
   double friction = 0.0;             ///< coefficient
   Vec3 axis = Vec3::UnitZ();         ///< grip axis towards the thumb's side, unit, product frame
   Vec3 torque_axis = Vec3::UnitZ();  ///< unit, product frame
-  std::string limited_by;            ///< "muscles", "slips" or "reach"
+  std::string limited_by;            ///< "muscles" (of the digits), "wrist", "slips" or "reach"
   std::string message;               ///< one sentence for people
   std::string hold;                  ///< how it is held, in words
   std::string grip;                  ///< name_of(Grip)
