@@ -161,9 +161,6 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       }
       stiffening_ = extrapolation.next(stiffening_, next);
     }
-    if (getenv("DBG"))
-      fprintf(stderr, "round %d change %g m %zu pivots %d cg %d new %d\n", round, change, b.size(),
-              outcome.pivots, outcome.iterations, 0);
     const bool is_steady = change < (forces_only_ ? kSteadyForForces : kSteadyStiffening);
     if (may_extend && is_steady) {
       const std::vector<int> more = pressed_in_on_bone(skin, load);
