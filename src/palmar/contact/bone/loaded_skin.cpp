@@ -14,7 +14,8 @@ LoadedSkin::LoadedSkin(const SkinGeometry& skin, const SkinCompliance& complianc
       half_space_(half_space),
       root_scale_(static_cast<std::size_t>(skin.vertex_count()), 1.0F),
       row_of_(root_scale_.size(), -1),
-      local_(root_scale_.size(), -1) {
+      local_(root_scale_.size(), -1),
+      local_of_row_(compliance.vertex.size(), -1) {
   for (std::size_t v = 0; v < scale.size(); ++v) {
     root_scale_[v] = static_cast<float>(1.0 / std::sqrt(scale[v]));
   }
@@ -24,14 +25,18 @@ LoadedSkin::LoadedSkin(const SkinGeometry& skin, const SkinCompliance& complianc
 }
 
 void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& directions) {
-  for (const int v : vertex_) local_[v] = -1;
+  const auto set_local = [&](int v, int local) {
+    local_[v] = local;
+    if (row_of_[v] >= 0) local_of_row_[row_of_[v]] = local;
+  };
+  for (const int v : vertex_) set_local(v, -1);
   vertex_ = vertices;
   const std::size_t m = vertex_.size();
   scaled_.resize(m);
   cosine_.resize(m);
   for (std::size_t i = 0; i < m; ++i) {
     const int v = vertex_[i];
-    local_[v] = static_cast<int>(i);
+    set_local(v, static_cast<int>(i));
     scaled_[i] = directions[i].cast<float>() * root_scale_[v];
     cosine_[i] = static_cast<float>(-directions[i].dot(skin_->normal[v]));
   }
@@ -43,8 +48,7 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
   const SkinCompliance& C = *compliance_;
   for (std::size_t i = 0; i < m; ++i) {
     const int v = vertex_[i];
-    const auto add = [&](int w, const auto& entry) {
-      const int j = local_[w];
+    const auto add = [&](int j, const auto& entry) {
       if (j < 0) return;
       lower_.column.push_back(j);
       lower_.value.push_back(entry(static_cast<std::size_t>(j)));
@@ -53,14 +57,15 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
     };
     if (const int row = row_of_[v]; row >= 0) {
       for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
-        add(C.vertex[C.other[k]],
+        add(local_of_row_[C.other[k]],
             [&](std::size_t j) { return scaled_[i].dot(C.tensor[k] * scaled_[j]); });
       }
     } else {
       for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {
         const int w = half_space_->vertex[k];
         if (w > v || row_of_[w] >= 0) continue;
-        add(w, [&](std::size_t j) { return half_space_->response[k] * cosine_[i] * cosine_[j]; });
+        add(local_[w],
+            [&](std::size_t j) { return half_space_->response[k] * cosine_[i] * cosine_[j]; });
       }
     }
     lower_.begin.push_back(lower_.column.size());
@@ -89,39 +94,39 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
 std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
                                              const std::vector<int>& at,
                                              const std::vector<Vec3>& along) const {
-  const auto count = static_cast<std::size_t>(skin_->vertex_count());
-  std::vector<Eigen::Vector3f> load(count, Eigen::Vector3f::Zero());
-  std::vector<float> normal_load(count, 0.0F);
-  for (std::size_t j = 0; j < vertex_.size(); ++j) {
-    load[vertex_[j]] = static_cast<float>(force[j]) * scaled_[j];
-    normal_load[vertex_[j]] = static_cast<float>(force[j]) * cosine_[j];
-  }
-  std::vector<char> is_asked(count, 0), is_loaded(count, 0);
-  for (const int v : at) is_asked[v] = 1;
-  for (std::size_t j = 0; j < vertex_.size(); ++j) is_loaded[vertex_[j]] = force[j] != 0.0;
-  std::vector<Eigen::Vector3f> moved(count, Eigen::Vector3f::Zero());
+  // Per row of the compliance.
   const SkinCompliance& C = *compliance_;
-  const auto visit_row = [&](int v) {
-    const auto row = static_cast<std::size_t>(row_of_[v]);
-    for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
-      const int w = C.vertex[C.other[k]];
-      if (is_loaded[w] && is_asked[v]) moved[v] += C.tensor[k] * load[w];
-      if (is_loaded[v] && is_asked[w] && w != v) moved[w] += C.tensor[k].transpose() * load[v];
-    }
-  };
-  std::vector<char> is_visited(count, 0);
-  for (const std::vector<int>* list : {&at, &vertex_}) {
-    for (const int v : *list) {
-      if (row_of_[v] < 0 || is_visited[v] || !(is_asked[v] || is_loaded[v])) continue;
-      is_visited[v] = 1;
-      visit_row(v);
+  const std::size_t rows = C.vertex.size();
+  std::vector<Eigen::Vector3f> load(rows, Eigen::Vector3f::Zero());
+  std::vector<Eigen::Vector3f> moved(rows, Eigen::Vector3f::Zero());
+  std::vector<char> is_asked(rows, 0), is_loaded(rows, 0);
+  std::vector<float> normal_load(row_of_.size(), 0.0F);  // per vertex
+  for (std::size_t j = 0; j < vertex_.size(); ++j) {
+    const int v = vertex_[j];
+    normal_load[v] = static_cast<float>(force[j]) * cosine_[j];
+    if (row_of_[v] < 0) continue;
+    load[row_of_[v]] = static_cast<float>(force[j]) * scaled_[j];
+    is_loaded[row_of_[v]] = force[j] != 0.0;
+  }
+  for (const int v : at) {
+    if (row_of_[v] >= 0) is_asked[row_of_[v]] = 1;
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    const bool asks = is_asked[i] != 0;
+    const bool loads = is_loaded[i] != 0;
+    if (!asks && !loads) continue;
+    for (std::size_t k = C.begin[i]; k < C.begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(C.other[k]);
+      if (asks && is_loaded[j] != 0) moved[i] += C.tensor[k] * load[j];
+      if (loads && is_asked[j] != 0 && j != i) moved[j] += C.tensor[k].transpose() * load[i];
     }
   }
   std::vector<double> result(at.size(), 0.0);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const int v = at[i];
     if (row_of_[v] >= 0) {
-      result[i] = static_cast<double>(root_scale_[v]) * along[i].dot(moved[v].cast<double>());
+      result[i] =
+          static_cast<double>(root_scale_[v]) * along[i].dot(moved[row_of_[v]].cast<double>());
       continue;
     }
     double sum = 0.0;

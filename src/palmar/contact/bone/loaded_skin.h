@@ -41,6 +41,7 @@ class LoadedSkin {
   std::vector<float> root_scale_;  // 1 / sqrt(s) per skin vertex
   std::vector<int> row_of_;        // per skin vertex, in the compliance; -1 for none
   std::vector<int> local_;         // per skin vertex, in vertex_; -1 for none
+  std::vector<int> local_of_row_;  // the same per row of the compliance
   std::vector<int> vertex_;
   std::vector<Eigen::Vector3f> scaled_;  // directions times root_scale_
   std::vector<float> cosine_;            // of the directions with the inward normals

@@ -18,7 +18,7 @@ struct SkinLoad {
   std::vector<double> gap;            ///< after deformation, mm
   std::vector<char> in_contact;
   TissueLevel level = TissueLevel::kNominal;
-  /// Square roots of the shear moduli of all skin vertices; of tissue on bone only. Responses are
+  /// Square roots of the shear moduli; of tissue on bone only. Responses are
   /// then f_ij / (root_i root_j) (block_energy.h), else f_ij / G_i in the solution.
   std::vector<double> root_modulus;
   std::vector<Vec3> direction;  ///< of each force in the reference posture, inwards; on bone only

@@ -15,42 +15,10 @@ namespace palmar {
 namespace {
 
 constexpr int kMostRounds = 60;
-// Relative change of a block's modulus, for results and for who wants forces only.
-constexpr double kSteadyStiffening = 1e-5, kSteadyForForces = 1e-3;
-// Accuracy while moduli and skin in question change, and of forces only in the end.
-constexpr double kCoarse = 1e-6, kForcesOnly = 1e-9;
-constexpr double kMostAhead = 0.5;  // share of a step by which the next is foreseen
-
-/// Logarithms of the moduli that follow on `last`, once the steps towards them shrink evenly:
-/// Aitken's extrapolation along the last step (Irons, Tuck 1969).
-class Extrapolation {
- public:
-  BlockStiffening next(const BlockStiffening& from, const BlockStiffening& to) {
-    BlockStiffening step{};
-    double along = 0.0;
-    double square = 0.0;
-    for (std::size_t b = 0; b < step.size(); ++b) {
-      step[b] = std::log(to[b] / from[b]);
-      along += step[b] * last_[b];
-      square += last_[b] * last_[b];
-    }
-    const double ratio = has_last_ && square > 0.0 ? along / square : 0.0;
-    has_last_ = true;
-    last_ = step;
-    const double ahead = std::clamp(ratio / (1.0 - ratio), 0.0, kMostAhead);
-    BlockStiffening result = to;
-    if (std::abs(ratio) >= 1.0) return result;
-    for (std::size_t b = 0; b < step.size(); ++b) {
-      result[b] = std::max(1.0, to[b] * std::exp(ahead * step[b]));
-      last_[b] = std::log(result[b] / from[b]);
-    }
-    return result;
-  }
-
- private:
-  BlockStiffening last_{};
-  bool has_last_ = false;
-};
+constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
+// Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
+// end; and at most, from nothing or from another posture.
+constexpr double kPerChange = 0.01, kPerSteadiness = 0.02, kRough = 1e-3;
 
 }  // namespace
 
@@ -78,35 +46,41 @@ std::vector<Vec3> ContactSolver::Impl::reference_directions(
   return result;
 }
 
-void ContactSolver::Impl::set_bone_moduli(SkinLoad& load) const {
-  const int count = prepared->skin.vertex_count();
-  load.root_modulus.resize(count);
-  for (int v = 0; v < count; ++v) {
-    load.root_modulus[v] = options.shear_modulus
-                               ? std::sqrt(*options.shear_modulus)
-                               : root_modulus(prepared->bone, load.level, stiffening_, v);
-  }
-  load.shear_modulus.clear();
-  for (const int v : load.vertex) {
-    load.shear_modulus.push_back(load.root_modulus[v] * load.root_modulus[v]);
+double ContactSolver::Impl::bone_root_modulus(TissueLevel level, const BlockRoots& roots,
+                                              int v) const {
+  return options.shear_modulus ? std::sqrt(*options.shear_modulus)
+                               : root_modulus(prepared->bone, level, roots, v);
+}
+
+void ContactSolver::Impl::set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const {
+  load.root_modulus.resize(load.vertex.size());
+  load.shear_modulus.resize(load.vertex.size());
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    load.root_modulus[k] = bone_root_modulus(load.level, roots, load.vertex[k]);
+    load.shear_modulus[k] = load.root_modulus[k] * load.root_modulus[k];
   }
 }
 
 /// With q = p / sqrt(G) the problem of given moduli reads C q + sqrt(G) d >= 0. The moduli follow
-/// from the work of the forces (block_energy.h): fixed-point iteration, which converges fast
-/// because the skin's displacements, and with them the energies at the modulus G0, hardly depend on
-/// the moduli. With `may_extend` skin that bulges into the product joins the problem on the way.
+/// from the work of the forces (block_energy.h): a fixed point (modulus_search.h), found in few
+/// rounds because the skin's displacements, and with them the energies at the modulus G0, hardly
+/// depend on the moduli. Rounds are solved no more exactly than the moduli are known. With
+/// `may_extend` skin that bulges into the product joins the problem on the way.
 bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
                                         ContactResult& result) {
   std::vector<double> b, displacement;
   std::vector<double> was_root(prepared->skin.position.size(), 0.0);
   if (load.force.size() != load.vertex.size()) load.force.assign(load.vertex.size(), 0.0);
+  const double steady = forces_only_ ? forces_accuracy_ : kSteadyStiffening;
+  const double finest = kPerSteadiness * steady;
+  double accuracy = std::max(kRough, finest);
   bool is_new = true;
   bool is_last = false;
   bool is_whole = !may_extend;  // no skin bulged into the product when looked at last
-  Extrapolation extrapolation;
+  search_.begin();
   for (int round = 0; round < kMostRounds; ++round) {
-    set_bone_moduli(load);
+    const BlockRoots roots(stiffening_);
+    set_bone_moduli(roots, load);
     if (is_new) {
       load.direction = reference_directions(skin, load.vertex);
       loaded_->set(load.vertex, load.direction);
@@ -121,57 +95,52 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     is_new = false;
     for (std::size_t k = 0; k < b.size(); ++k) {
       const int v = load.vertex[k];
-      const double root = load.root_modulus[v];
+      const double root = load.root_modulus[k];
       b[k] = root * skin.sample[v].distance;
       // Tissue of another modulus, moved alike, has forces in proportion.
       load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
     }
     const ContactSystem::Outcome outcome =
         system.solve(b, load.in_contact, load.force, load.gap,
-                     !is_last       ? kCoarse
-                     : forces_only_ ? kForcesOnly
-                                    : ContactSystem::kBestAccuracy);
+                     is_last ? ContactSystem::kBestAccuracy : accuracy);
     result.iterations += outcome.pivots;
     result.fallbacks += outcome.fallbacks;
     if (!outcome.is_solved) return false;
+    double complementarity = 0.0;
     for (std::size_t k = 0; k < b.size(); ++k) {
       const int v = load.vertex[k];
-      was_root[v] = load.root_modulus[v];
+      was_root[v] = load.root_modulus[k];
       load.force[k] *= was_root[v];
       load.gap[k] /= was_root[v];
+      complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
       displacement[k] = load.gap[k] - skin.sample[v].distance;
       if (!options.coatings.empty() && load.force[k] > 0.0) {
         displacement[k] -= coating_displacement(skin, load, static_cast<std::size_t>(v));
       }
     }
-    if (is_last) {
-      double complementarity = 0.0;
-      for (std::size_t k = 0; k < b.size(); ++k) {
-        complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
-      }
-      result.complementarity_error = std::max(result.complementarity_error, complementarity);
-      return true;
-    }
     double change = 0.0;
-    if (!options.shear_modulus) {
+    if (!options.shear_modulus && !is_last) {
       const BlockStiffening next = stiffening_of(prepared->bone, load.level, stiffening_,
                                                  load.vertex, load.force, displacement);
       for (std::size_t r = 0; r < next.size(); ++r) {
         change = std::max(change, std::abs(next[r] / stiffening_[r] - 1.0));
       }
-      stiffening_ = extrapolation.next(stiffening_, next);
+      stiffening_ = search_.next(stiffening_, next);
     }
-    if (getenv("DBG"))
-      fprintf(stderr, "round %d change %g m %zu pivots %d cg %d new %d\n", round, change, b.size(),
-              outcome.pivots, outcome.iterations, 0);
-    const bool is_steady = change < (forces_only_ ? kSteadyForForces : kSteadyStiffening);
-    if (may_extend && is_steady) {
-      const std::vector<int> more = pressed_in_on_bone(skin, load);
+    const bool is_steady = change < steady && accuracy <= finest;
+    accuracy = std::clamp(kPerChange * change, finest, std::max(kRough, finest));
+    if (may_extend && is_steady && !is_last) {
+      const std::vector<int> more = pressed_in_on_bone(skin, load, roots);
       is_whole = more.empty();
       if (!is_whole) {
         extend(more, load);
         is_new = true;
       }
+    }
+    // Forces alone need no solution more exact than the moduli.
+    if (is_last || (is_steady && is_whole && forces_only_)) {
+      result.complementarity_error = std::max(result.complementarity_error, complementarity);
+      return true;
     }
     is_last = is_steady && is_whole;
     if (round == kMostRounds - 2 && !is_last) {
@@ -203,7 +172,8 @@ void ContactSolver::Impl::extend(const std::vector<int>& more, SkinLoad& load) c
 }
 
 std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& skin,
-                                                         const SkinLoad& load) const {
+                                                         const SkinLoad& load,
+                                                         const BlockRoots& roots) const {
   std::vector<char> is_known(skin.sample.size(), 0);
   for (const int v : load.vertex) is_known[v] = 1;
   std::vector<int> near;
@@ -212,13 +182,13 @@ std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& sk
     if (!is_known[v] && d >= 0.0 && d < kBulgeRange) near.push_back(v);
   }
   std::vector<double> share(load.force);
-  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[k];
   const std::vector<double> moved =
       loaded_->displacement(share, near, reference_directions(skin, near));
   std::vector<int> result;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const auto v = static_cast<std::size_t>(near[k]);
-    double gap = skin.sample[v].distance + moved[k] / load.root_modulus[v];
+    double gap = skin.sample[v].distance + moved[k] / bone_root_modulus(load.level, roots, near[k]);
     if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
     if (gap < 0.0) result.push_back(near[k]);
   }
@@ -232,17 +202,18 @@ void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const Skin
   for (const int v : load.vertex) is_known[v] = 1;
   std::vector<int> around;
   std::vector<Vec3> inwards;
+  const BlockRoots roots(stiffening_);
   for (std::size_t v = 0; v < is_known.size(); ++v) {
     if (is_known[v] || !u.is_active[v]) continue;
     around.push_back(static_cast<int>(v));
     inwards.emplace_back(-prepared->skin.normal[v]);
   }
   std::vector<double> share(load.force);
-  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[k];
   const std::vector<double> moved = loaded_->displacement(share, around, inwards);
   for (std::size_t k = 0; k < around.size(); ++k) {
     const int v = around[k];
-    u.elastic[v] = moved[k] / load.root_modulus[v];
+    u.elastic[v] = moved[k] / bone_root_modulus(load.level, roots, v);
     u.with_bulge[v] = std::max(u.elastic[v], -skin.sample[v].distance);
   }
 }
@@ -251,8 +222,7 @@ void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const Skin
 /// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
 std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus_on_bone(
     const SkinOnProduct& skin, const SkinLoad& load) {
-  std::vector<double> root;
-  for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
+  const std::vector<double>& root = load.root_modulus;
   const auto y = system.solve_on(load.in_contact, root);
   if (!y) return std::nullopt;
   std::array<double, kRegionCount> result{};

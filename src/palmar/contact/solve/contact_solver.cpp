@@ -71,9 +71,10 @@ std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLeve
   std::vector<double> result;
   result.reserve(load.vertex.size());
   if (prepared->is_on_bone()) {
+    const BlockRoots roots(stiffening_);
     for (const int v : load.vertex) {
-      const double root = root_modulus(prepared->bone, level, stiffening_, v);
-      result.push_back(options.shear_modulus.value_or(root * root));
+      const double root = bone_root_modulus(level, roots, v);
+      result.push_back(root * root);
     }
     return result;
   }
@@ -179,6 +180,7 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
 void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& load,
                                           ContactResult& result) {
   result.status = ContactStatus::kNotConverged;
+  set_depth(skin, load);
   if (prepared->model.coupling == RegionCoupling::kCoupled) {
     ++result.fallbacks.by_region;
     append_note(result.message,
@@ -282,22 +284,22 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
     load.vertex.erase(std::unique(load.vertex.begin(), load.vertex.end()), load.vertex.end());
   }
   std::vector<char> start(skin.sample.size(), 0);
+  const bool is_on_bone = prepared->is_on_bone();
   for (int round = 0;; ++round) {
-    set_depth(skin, load);
-    load.shear_modulus = moduli(load, TissueLevel::kNominal);
+    const bool is_new = was_in_contact.empty() && round == 0;
+    if (!is_on_bone || is_new) set_depth(skin, load);
+    if (!is_on_bone) load.shear_modulus = moduli(load, TissueLevel::kNominal);
     load.in_contact.clear();
     load.force.clear();
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
       const int v = load.vertex[k];
       // Under a smooth product the contact ends where the penetration is half the deepest (Hertz:
       // at r^2 = R depth).
-      const bool is_new = was_in_contact.empty() && round == 0;
       load.in_contact.push_back(is_new       ? skin.sample[v].distance < -0.5 * load.depth[k]
                                 : round == 0 ? was_in_contact[v] != 0
                                              : start[v] != 0);
       load.force.push_back(was_force.empty() ? 0.0 : was_force[v]);
     }
-    const bool is_on_bone = prepared->is_on_bone();
     if (!(is_on_bone ? solve_on_bone(skin, load, true, result)
                      : solve_system(skin, load, result))) {
       solve_by_region(skin, load, result);
@@ -383,8 +385,10 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
 
 void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
                                        const Rigid3& product_from_hand,
-                                       const DistanceField& product, ContactResult& result) {
+                                       const DistanceField& product, double accuracy,
+                                       ContactResult& result) {
   forces_only_ = true;
+  forces_accuracy_ = accuracy;
   const SkinLoad load = find_forces(posed_skin, product_from_hand, product, {},
                                     may_bulge() ? kNearRange : 0.0, result);
   const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);

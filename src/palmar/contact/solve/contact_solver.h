@@ -13,6 +13,7 @@
 #include "palmar/contact/response/skin_displacement.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"
+#include "palmar/contact/tissue/modulus_search.h"
 
 namespace palmar {
 
@@ -31,9 +32,10 @@ struct ContactSolver::Impl {
              const DistanceField& product, std::optional<Region> only, ContactResult& result);
   /// The same for who wants forces only: loaded skin is put on the product, all else stays where it
   /// was; of pressures none, of regions and totals just force, largest penetration and shear
-  /// modulus are set. A third of the time.
+  /// modulus are set. A third of the time. On bone moduli are settled to `accuracy` [relative], and
+  /// forces with them.
   void solve_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                    const DistanceField& product, ContactResult& result);
+                    const DistanceField& product, double accuracy, ContactResult& result);
 
   const PreparedHand* hand;
   const PreparedHand::Impl* prepared;
@@ -68,10 +70,12 @@ struct ContactSolver::Impl {
   bool solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
                      ContactResult& result);
   void extend(const std::vector<int>& more, SkinLoad& load) const;
-  void set_bone_moduli(SkinLoad& load) const;
+  double bone_root_modulus(TissueLevel level, const BlockRoots& roots, int v) const;
+  void set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const;
   std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
                                          const std::vector<int>& vertices) const;
-  std::vector<int> pressed_in_on_bone(const SkinOnProduct& skin, const SkinLoad& load) const;
+  std::vector<int> pressed_in_on_bone(const SkinOnProduct& skin, const SkinLoad& load,
+                                      const BlockRoots& roots) const;
   void displace_on_bone(const SkinOnProduct& skin, const SkinLoad& load, SkinDisplacement& u) const;
   void solve_by_region(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   void solve_load(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
@@ -97,8 +101,10 @@ struct ContactSolver::Impl {
   CoatingCompliance coating_;
   std::optional<LoadedSkin> loaded_;               ///< of tissue on bone
   const std::vector<Vec3>* undeformed_ = nullptr;  ///< of the call under way
-  BlockStiffening stiffening_ = no_stiffening();   ///< of the last solution on bone
-  bool forces_only_ = false;                       ///< the call under way is solve_forces()
+  BlockStiffening stiffening_ = no_stiffening();   ///< after the last solution on bone
+  ModulusSearch search_;
+  bool forces_only_ = false;  ///< the call under way is solve_forces()
+  double forces_accuracy_ = 0.0;
   SkinSampler sampler_;
   SkinOnProduct skin_;
 };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers the residual
 constexpr double kInner = 1e-5;  // by what each further one does; single precision gives as much
+constexpr double kUnder = 0.3;   // of the accuracy asked for: errors here are mean squares
 constexpr int kMostCorrections = 8;
 constexpr int kMaxFruitless = 8;  // exchanges of blocks without progress before single ones
 constexpr int kMostPivots = 400;
@@ -298,15 +299,19 @@ void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<doubl
       all_rows_, [&](int row) { return p[row]; }, [&](int row, double moved) { s[row] += moved; });
 }
 
-void ContactSystem::measure(const std::vector<double>& b, const std::vector<double>& force,
-                            std::vector<double>& gap, Outcome& outcome) const {
+void ContactSystem::find_gap(const std::vector<double>& b, const std::vector<double>& force,
+                             std::vector<double>& gap) const {
   multiply_all(force, gap);
+  for (std::size_t i = 0; i < gap.size(); ++i) gap[i] += b[i];
+}
+
+void ContactSystem::measure(const std::vector<double>& b, const std::vector<double>& force,
+                            const std::vector<double>& gap, Outcome& outcome) {
   const double b_scale = std::max(largest(b), 1e-300);
   const double p_scale = std::max(largest(force), 1e-300);
   outcome.complementarity = 0.0;
   outcome.relative_residual = 0.0;
   for (std::size_t i = 0; i < gap.size(); ++i) {
-    gap[i] += b[i];
     outcome.complementarity = std::max(outcome.complementarity, std::abs(gap[i] * force[i]));
     outcome.relative_residual = std::max(outcome.relative_residual,
                                          std::abs(std::min(gap[i] / b_scale, force[i] / p_scale)));
@@ -340,6 +345,7 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
     force[i] = solution.force[i];
     in_contact[i] = solution.force[i] > 0.0;
   }
+  find_gap(b, force, gap);
   measure(b, force, gap, outcome);
   return true;
 }
@@ -356,14 +362,10 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
   int fruitless_left = kMaxFruitless;
   bool is_exact = false;  // whether every set is to be solved to the end
   std::vector<int> infeasible;
-  const auto find_gap = [&] {
-    multiply_all(force, gap);
-    for (std::size_t i = 0; i < m; ++i) gap[i] += b[i];
-  };
   const auto error_on_set = [&] {
     double most = 0.0;
     for (const int i : set_) most = std::max(most, std::abs(gap[i]));
-    return most;
+    return most / b_scale;
   };
   bool is_regular = true;
   while (is_regular && outcome.pivots < kMostPivots) {
@@ -374,13 +376,18 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
     for (std::size_t i = 0; i < m; ++i) {
       if (!in_contact[i]) force[i] = 0.0;
     }
-    find_gap();
+    find_gap(b, force, gap);
+    double error = error_on_set();
     for (int round = 0;; ++round) {
-      is_regular =
-          correct(round == 0 && !is_exact ? kFirst : kInner, gap, force, outcome.iterations);
-      if (!is_regular) break;
-      find_gap();
-      const double error = error_on_set() / b_scale;
+      if (error > accuracy) {
+        // No further than wanted.
+        const double share =
+            std::max(round == 0 && !is_exact ? kFirst : kInner, kUnder * accuracy / error);
+        is_regular = correct(share, gap, force, outcome.iterations);
+        if (!is_regular) break;
+        find_gap(b, force, gap);
+        error = error_on_set();
+      }
       const bool is_last = error <= accuracy || round == kMostCorrections;
       // What the solution isn't good enough to determine counts as feasible for now.
       const double slack = std::max(10.0 * error, 1e-11);
@@ -398,7 +405,12 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
     }
     if (infeasible.empty()) {
       outcome.is_solved = true;
-      for (double& p : force) p = std::max(p, 0.0);  // rounding
+      bool is_rounded = false;
+      for (double& p : force) {
+        is_rounded = is_rounded || p < 0.0;
+        p = std::max(p, 0.0);
+      }
+      if (is_rounded) find_gap(b, force, gap);
       measure(b, force, gap, outcome);
       return outcome;
     }

@@ -81,8 +81,10 @@ class ContactSystem {
   void multiply_all(const std::vector<double>& p, std::vector<double>& s) const;
   bool solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
                    std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
-  void measure(const std::vector<double>& b, const std::vector<double>& force,
-               std::vector<double>& gap, Outcome& outcome) const;
+  void find_gap(const std::vector<double>& b, const std::vector<double>& force,
+                std::vector<double>& gap) const;
+  static void measure(const std::vector<double>& b, const std::vector<double>& force,
+                      const std::vector<double>& gap, Outcome& outcome);
 
   const SkinPatches* patches_;
   std::vector<int> vertex_;  // of each row

@@ -58,11 +58,15 @@ BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
   return blocks;
 }
 
-double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level,
-                    const BlockStiffening& lambda, int vertex) {
+BlockRoots::BlockRoots(const BlockStiffening& lambda) : inverse{} {
+  for (std::size_t b = 0; b < lambda.size(); ++b) inverse[b] = 1.0 / std::sqrt(lambda[b]);
+}
+
+double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level, const BlockRoots& roots,
+                    int vertex) {
   double sum = 0.0;
   for (std::size_t k = blocks.begin[vertex]; k < blocks.begin[vertex + 1]; ++k) {
-    sum += blocks.share[k].second / std::sqrt(lambda[blocks.share[k].first]);
+    sum += blocks.share[k].second * roots.inverse[blocks.share[k].first];
   }
   return std::sqrt(blocks.g0[index_of(level)][vertex]) / sum;
 }
@@ -72,12 +76,13 @@ BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, TissueLevel level,
                               const std::vector<double>& force,
                               const std::vector<double>& displacement) {
   std::array<double, kRegionCount> work{};
+  const BlockRoots roots(lambda);
   for (std::size_t i = 0; i < vertex.size(); ++i) {
     if (force[i] == 0.0) continue;
     const int v = vertex[i];
     // 1 / (tau sqrt(G0))
     const double scale =
-        root_modulus(blocks, level, lambda, v) / std::sqrt(blocks.g0[index_of(level)][v]);
+        root_modulus(blocks, level, roots, v) / std::sqrt(blocks.g0[index_of(level)][v]);
     for (std::size_t k = blocks.begin[v]; k < blocks.begin[v + 1]; ++k) {
       work[blocks.share[k].first] += force[i] * displacement[i] * blocks.share[k].second * scale;
     }

@@ -51,9 +51,16 @@ BlockStiffening no_stiffening();                           ///< all 1
 BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
                                     const std::array<double, kRegionCount>& volume);
 
+/// lambda_b^(-1/2) of each block.
+struct BlockRoots {
+  BlockRoots(
+      const BlockStiffening& lambda);  // NOLINT(google-explicit-constructor): the same, again
+  BlockStiffening inverse;
+};
+
 /// 1 / tau of a vertex, sqrt(MPa).
-double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level,
-                    const BlockStiffening& lambda, int vertex);
+double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level, const BlockRoots& roots,
+                    int vertex);
 
 /// The lambda_b that belong to the work of these forces [N] and displacements [mm, inwards] under
 /// the present ones. A fixed point of this is the solution.

@@ -46,6 +46,8 @@ constexpr double kOut = 25.0;          // mm; a product that went farther has le
 constexpr double kWandered = 12.0;
 constexpr double kOutTurn = 0.8;                        // rad
 constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
+// Of what is missing to rest, to which the forces that say so are found; and at most.
+constexpr double kForcesShare = 0.05, kRoughForces = 0.02;
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
 constexpr double kPulpGive = 4.0;
@@ -393,11 +395,13 @@ Balance Settling::run(const Progress& progress) {
     int step = 0;
   } best;
   bool gives_up = false;  // the best state found is looked at once more
+  // Without one asked for, the squeeze of the first state is the goal.
+  double accuracy = asked_ ? kRoughForces : kForcesAccuracy;
   best.misfit.of_product = std::numeric_limits<double>::infinity();
   for (int i = 0;; ++i) {
     progress.throw_if_cancelled();
     balance.iterations = i;
-    if (!mechanics_.look(state_)) {
+    if (!mechanics_.look(state_, accuracy)) {
       balance.status = BalanceStatus::kFailed;
       balance.message = "the contact could not be solved while the grasp came to rest";
       break;
@@ -436,6 +440,10 @@ Balance Settling::run(const Progress& progress) {
     balance.residual_share = now.of_product;
     const bool is_there = now.of_product < options_->aim && now.of_joints < kJointAim &&
                           (now.of_level < kLevelAim || is_at_limit_);
+    if (is_there && accuracy > kForcesAccuracy) {
+      accuracy = kForcesAccuracy;  // the same state again
+      continue;
+    }
     if (is_there || gives_up) {
       balance.status = now.of_product < kBalanced || now.of_product * grip < kNothing
                            ? BalanceStatus::kBalanced
@@ -445,11 +453,13 @@ Balance Settling::run(const Progress& progress) {
     if (now.sum() < best.misfit.sum()) best = {state_, now, effort_.activations(), moved_, i};
     progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
                     "letting the grasp come to rest");
+    accuracy = std::clamp(kForcesShare * now.sum(), kForcesAccuracy, kRoughForces);
     gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps);
     if (!gives_up) {
       const double missing = (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals;
       is_by_muscles_ || closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);
     } else {
+      accuracy = kForcesAccuracy;
       state_ = best.state;
       effort_.set(best.muscles);
       moved_ = best.moved;

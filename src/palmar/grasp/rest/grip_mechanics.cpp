@@ -70,10 +70,10 @@ GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) c
   return result;
 }
 
-bool GripMechanics::look(const GripState& state) {
+bool GripMechanics::look(const GripState& state, double accuracy) {
   const Hand& hand = hand_->hand();
   posed_ = pose_skin(hand, state.posture);
-  solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, contact_);
+  solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, accuracy, contact_);
   fallbacks_ += contact_.fallbacks;
   force_.setZero();
   squeeze_.setZero();

@@ -24,6 +24,8 @@ inline constexpr int kGripCoordinates = kGripJoints + 6;
 using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
 using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
 
+inline constexpr double kForcesAccuracy = 5e-4;  ///< relative; of what is reported. Our choice
+
 struct GripState {
   Posture posture;
   Rigid3 product_from_hand;
@@ -44,8 +46,9 @@ class GripMechanics {
   GripMechanics(const PreparedHand& hand, const Product& product, const ContactOptions& options,
                 double friction, const GripState& start);
 
-  /// Solves the contact of a state and fills what follows. False if it can't be solved.
-  bool look(const GripState& state);
+  /// Solves the contact of a state, on bone to `accuracy` of the forces, and fills what follows.
+  /// False if it can't be solved.
+  bool look(const GripState& state, double accuracy = kForcesAccuracy);
 
   /// What a common motion of joints by `rate` [rad per mm] does in the state last looked at.
   struct Closing {
