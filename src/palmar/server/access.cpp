@@ -133,9 +133,8 @@ std::string safe_file_name(std::string_view name) {
 
 bool is_plain_name(std::string_view name) {
   return !name.empty() && name.size() <= kLongestProject &&
-         std::all_of(name.begin(), name.end(), [](unsigned char c) {
-           return std::isalnum(c) != 0 || c == '-' || c == '_';
-         });
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
 }
 
 }  // namespace palmar

@@ -44,8 +44,9 @@ Target parse_target(std::string_view target);
 /// The token that a request carries: "Authorization: Bearer TOKEN", or "token" in its query.
 std::string token_of(const Target& target, std::string_view authorization);
 
-/// A file's name as a client gives it, safe to be used in a folder of ours: the last part of a path,
-/// without control characters, no leading dots, at most 100 bytes; "product" if nothing is left.
+/// A file's name as a client gives it, safe to be used in a folder of ours: the last part of a
+/// path, without control characters, no leading dots, at most 100 bytes; "product" if nothing is
+/// left.
 std::string safe_file_name(std::string_view name);
 
 /// Letters, digits, '-' and '_', 1 to 64 of them: what projects may be called.

@@ -33,9 +33,9 @@ TEST(Host, OnlyNamesOfThisMachineWithThePort) {
   for (const char* own : {"127.0.0.1:8123", "localhost:8123", "LocalHost:8123", "[::1]:8123"}) {
     EXPECT_TRUE(is_own_host(own, at)) << own;
   }
-  for (const char* other : {"", ":8123", "127.0.0.1", "127.0.0.1:81", "evil.example:8123",
-                            "127.0.0.1.evil.example:8123", "localhost:8123.evil.example",
-                            "192.168.1.5:8123"}) {
+  for (const char* other :
+       {"", ":8123", "127.0.0.1", "127.0.0.1:81", "evil.example:8123",
+        "127.0.0.1.evil.example:8123", "localhost:8123.evil.example", "192.168.1.5:8123"}) {
     EXPECT_FALSE(is_own_host(other, at)) << other;
   }
   EXPECT_TRUE(is_own_host("192.168.1.5:80", {"192.168.1.5", 80}));

@@ -116,7 +116,7 @@ std::string field_frame(const LiveField& field, const FrameHead& head) {
   out.f32(field.grip_force);
   write_totals(out, contact.total);
   out.u32(static_cast<std::uint32_t>(contact.status));
-  for (const double angle : field.posture.angle) out.f32(degrees_of(angle));
+  for (const double angle : field.posture.angle) out.f32(kDegreesPerRadian * angle);
 
   Box3 box;
   for (const Vec3& v : skin) box.extend(v);
