@@ -54,6 +54,7 @@ void add_hand_capture_commands(CLI::App& app, Context& context);
 void add_population_commands(CLI::App& app, Context& context);
 void add_product_commands(CLI::App& app, Context& context);
 void add_redesign_commands(CLI::App& app, Context& context);
+void add_serve_command(CLI::App& app, Context& context);
 void add_study_commands(CLI::App& app, Context& context);
 void add_validate_command(CLI::App& app, Context& context);
 

@@ -20,6 +20,7 @@ void add_commands(CLI::App& app, Context& context) {
   add_elsewhere(app, context, kRedesignProgram, "redesign",
                 "Better shapes for the same hands, and back to CAD");
   add_study_commands(app, context);
+  add_serve_command(app, context);
   add_elsewhere(app, context, kRedesignProgram, "validate",
                 "Compare the simulator with closed forms and measurements; exit code 5 on a miss");
   add_doctor_command(app, context);

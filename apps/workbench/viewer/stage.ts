@@ -47,8 +47,8 @@ export function scaleTexture(map: string, neutral: Triple): DataTexture {
 export class Stage {
   readonly scene = new Scene();
   private readonly renderer: WebGLRenderer;
-  private readonly camera = new PerspectiveCamera(30, 1, 1, 5000);
-  private readonly controls: OrbitControls;
+  readonly camera = new PerspectiveCamera(30, 1, 1, 5000);
+  readonly controls: OrbitControls;
   private readonly lights = new Object3D();
   private readonly centre = new Vector3();
   private radius = 100;
@@ -58,8 +58,8 @@ export class Stage {
   private isFollowing = false;
 
   // Directions of the hand in the scene: out of the palm, towards the fingertips, to the thumb.
-  constructor(private readonly section: HTMLElement, private readonly palmward: Triple,
-              private readonly distal: Triple, private readonly radial: Triple,
+  constructor(private readonly section: HTMLElement, private palmward: Triple,
+              private distal: Triple, private radial: Triple,
               private readonly place = section.querySelector<HTMLElement>(".view-canvas")!) {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setClearColor(0xffffff);
@@ -108,10 +108,17 @@ export class Stage {
   }
 
   // Whether wheel and fingers are the view's or the page's.
-  private use(isUsed: boolean): void {
+  use(isUsed: boolean): void {
     this.controls.enabled = isUsed;
     this.renderer.domElement.style.touchAction = isUsed ? "none" : "pan-y";
     this.section.classList.toggle("is-used", isUsed);
+  }
+
+  // Another hand, whose palm, fingertips and thumb point elsewhere.
+  setSides(palmward: Triple, distal: Triple, radial: Triple): void {
+    this.palmward = palmward;
+    this.distal = distal;
+    this.radial = radial;
   }
 
   // From now on `other` looks from the same side of its hand and from as far.

@@ -68,4 +68,33 @@ int run_program(const std::filesystem::path& program, const std::vector<std::str
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+bool start_detached(const std::filesystem::path& program,
+                    const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child < 0) return false;
+  if (child == 0) {
+    // A child of a child that has ended: nobody has to wait for it.
+    if (::setsid() < 0) ::_exit(1);
+    const pid_t own = ::fork();
+    if (own != 0) ::_exit(own < 0 ? 1 : 0);
+    const int nowhere = ::open("/dev/null", O_RDWR);
+    if (nowhere < 0 || ::dup2(nowhere, STDIN_FILENO) < 0 || ::dup2(nowhere, STDOUT_FILENO) < 0 ||
+        ::dup2(nowhere, STDERR_FILENO) < 0) {
+      ::_exit(1);
+    }
+    ::execv(argv[0], argv.data());
+    ::_exit(1);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return false;
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
 }  // namespace palmar

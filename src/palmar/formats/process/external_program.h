@@ -18,4 +18,9 @@ std::optional<std::filesystem::path> find_program(const std::string& name);
 int run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                 const std::filesystem::path& folder, const std::string& log);
 
+/// Starts a program that goes on by itself, without terminal, input and output. Returns false if it
+/// can't be started; whether it does what it should isn't known.
+bool start_detached(const std::filesystem::path& program,
+                    const std::vector<std::string>& arguments);
+
 }  // namespace palmar

@@ -28,22 +28,21 @@ void take_ways(const GraspPlace& place, const std::shared_ptr<const Hand>& hand,
 
 }  // namespace
 
+std::shared_ptr<const Hand> reference_for(const std::shared_ptr<const Hand>& hand) {
+  const std::shared_ptr<const Hand> built_in = built_in_hand();
+  if (built_in == nullptr || hand->skin.vertices == built_in->skin.vertices) return hand;
+  return hand->side == Side::kLeft ? std::make_shared<const Hand>(mirrored(*built_in)) : built_in;
+}
+
 HeldProduct take_product(const std::shared_ptr<const Hand>& hand, const Product& product,
                          const GraspSettings& settings, const GraspOptions& options,
                          const Progress& progress) {
   HeldProduct held;
   const bool is_alone = settings.is_place_per_hand || settings.placement.product_from_hand;
-  const std::shared_ptr<const Hand> built_in = is_alone ? nullptr : built_in_hand();
-  if (built_in == nullptr || hand->skin.vertices == built_in->skin.vertices) {
-    const GraspPlace place(*hand, product, options, progress);
-    held.grasp = place.reference_grasp();
-    take_ways(place, hand, held);
-    return held;
-  }
-  const auto reference =
-      hand->side == Side::kLeft ? std::make_shared<const Hand>(mirrored(*built_in)) : built_in;
+  const auto reference = is_alone ? hand : reference_for(hand);
   const GraspPlace place(*reference, product, options, progress);
-  held.grasp = place.hold(GraspingHand(hand), progress);
+  held.grasp =
+      reference == hand ? place.reference_grasp() : place.hold(GraspingHand(hand), progress);
   take_ways(place, reference, held);
   return held;
 }

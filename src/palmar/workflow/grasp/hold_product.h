@@ -18,11 +18,15 @@ struct HeldProduct {
   std::shared_ptr<const Hand> ways_hand;    ///< that they were ranked with
 };
 
+/// The hand that holds are ranked and places are searched with, so that hands differ in size and
+/// not in how they hold: the built-in hand, for a left hand its mirror image; `hand` itself if it
+/// is the built-in one or there is none (share_folder()).
+std::shared_ptr<const Hand> reference_for(const std::shared_ptr<const Hand>& hand);
+
 /// How a hand takes hold of a product: by the part and in the way of the built-in hand (GraspPlace;
-/// of its mirror image for a left hand), so that hands differ in size and not in how they hold. The
-/// built-in hand searches, and so does every hand if `settings` ask for that or give the placement
-/// in full, or if there is no built-in hand (share_folder()). `options`: options_for(settings,
-/// product). Throws UsageError, Cancelled.
+/// reference_for()). The built-in hand searches, and so does every hand if `settings` ask for that
+/// or give the placement in full. `options`: options_for(settings, product). Throws UsageError,
+/// Cancelled.
 HeldProduct take_product(const std::shared_ptr<const Hand>& hand, const Product& product,
                          const GraspSettings& settings, const GraspOptions& options,
                          const Progress& progress = {});

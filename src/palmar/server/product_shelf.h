@@ -1,0 +1,92 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/geometry/length_unit.h"
+#include "palmar/product/product.h"
+#include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/live/live_session.h"
+
+namespace palmar {
+
+/// One product that can be opened.
+struct ShelvedProduct {
+  std::string key;             ///< "p1"
+  std::string file_name;       ///< "cup.stl"
+  std::filesystem::path path;  ///< where its file is
+  /// As the command line takes it: the user's own file, or the name of one that was dropped.
+  std::string argument;
+  std::optional<LengthUnit> unit;  ///< as the user said
+  std::string made_by;             ///< command that makes the file; empty if it was there
+  std::shared_ptr<const Product> product;
+};
+
+/// A finished example: made by a command that people can run, too.
+struct ShelvedExample {
+  std::string name;                                   ///< "round-handle"
+  std::string kind;                                   ///< of `palmar product make`
+  std::vector<std::pair<std::string, double>> given;  ///< its parameters
+};
+const std::vector<ShelvedExample>& shelved_examples();
+
+/// The file's unit can't be decided; the sides of its box as they stand in it.
+struct UnitQuestion {
+  Vec3 sides = Vec3::Zero();
+};
+
+/// Products and hands that sessions share. Files that were sent are kept in a folder that goes with
+/// the shelf. Thread-safe.
+class ProductShelf {
+ public:
+  ProductShelf();
+  ProductShelf(const ProductShelf&) = delete;
+  ProductShelf& operator=(const ProductShelf&) = delete;
+  ~ProductShelf();
+
+  /// At most this many products; the one that was put there first goes.
+  static constexpr std::size_t kMost = 32;
+
+  struct Added {
+    ShelvedProduct product;                ///< without key if there is a question
+    std::optional<UnitQuestion> question;  ///< which unit; put it there again with the answer
+  };
+  /// A file that a client sent. Throws InputError naming the file and what is wrong with it,
+  /// Cancelled.
+  Added add_bytes(const std::string& name, std::string_view bytes, std::optional<LengthUnit> unit,
+                  const Progress& progress = {});
+  /// A file of the user's, read when it is first opened.
+  ShelvedProduct add_file(const std::filesystem::path& path, std::optional<LengthUnit> unit);
+  /// Throws UsageError for a name that is none.
+  ShelvedProduct add_example(const std::string& name);
+
+  /// With its product, read if it wasn't. Throws UsageError for an unknown key, InputError,
+  /// Cancelled.
+  ShelvedProduct open(const std::string& key, const Progress& progress = {});
+  /// As it stands there, read or not; nothing for an unknown key.
+  std::optional<ShelvedProduct> find(const std::string& key) const;
+
+  /// A hand ready for contact; made once for every choice. Throws InputError, UsageError.
+  LiveHand hand(const std::optional<PersonOfSize>& person, bool is_left);
+
+ private:
+  ShelvedProduct put(ShelvedProduct product);
+  std::filesystem::path new_folder();
+
+  mutable std::mutex mutex_;
+  std::filesystem::path folder_;
+  int count_ = 0;
+  std::vector<ShelvedProduct> products_;
+  std::mutex hands_mutex_;
+  std::vector<std::pair<std::string, LiveHand>> hands_;  ///< the latest last
+};
+
+}  // namespace palmar

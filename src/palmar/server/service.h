@@ -1,0 +1,84 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/server/access.h"
+#include "palmar/server/product_shelf.h"
+
+namespace palmar {
+
+/// A request as HTTP brings it, without the connection.
+struct ServiceRequest {
+  std::string method;  ///< "GET", ...
+  std::string target;  ///< "/api/products?name=cup.stl"
+  std::string host = {}, origin = {}, authorization = {};
+  std::string body = {};
+};
+
+struct ServiceAnswer {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body = {};
+  std::string file_name = {};  ///< if it is to be saved under that name
+};
+
+/// {"error": "..."}
+ServiceAnswer refusal(int status, const std::string& message);
+
+/// The largest file of a product that is taken; other requests are small.
+inline constexpr std::uint64_t kLargestUpload = std::uint64_t{256} << 20U;
+inline constexpr std::uint64_t kLargestRequest = std::uint64_t{1} << 20U;
+
+/// What the server answers, apart from how requests come in:
+///
+///     GET  /, /bench.js, /bench.css, /icon.svg, /licence.txt   the client, to everybody on this
+///                                                              machine
+///     GET  /api/state                      version, examples, products on the shelf
+///     POST /api/products?name=&unit=       the file as body -> the product, or the question which
+///                                          unit (409)
+///     POST /api/examples?name=             -> the product
+///     GET  /api/products/KEY/file          its file
+///     GET  /api/live                       the live channel (http_server.h)
+///
+/// Everything under /api/ needs the token (401); all requests need a Host and, where a page sends
+/// them, an Origin of this server's (403). Thread-safe.
+class Service {
+ public:
+  Service(std::string token, std::shared_ptr<ProductShelf> shelf);
+
+  void set_place(const ServedAt& at) { at_ = at; }  ///< once the port is known
+  const std::string& token() const { return token_; }
+  const std::shared_ptr<ProductShelf>& shelf() const { return shelf_; }
+  /// A product that was given on the command line.
+  void give(const std::filesystem::path& file, std::optional<LengthUnit> unit);
+
+  /// Why it isn't let in, from its head alone; nothing if it is.
+  std::optional<ServiceAnswer> refused(const ServiceRequest& head) const;
+  /// How large its body may be.
+  std::uint64_t largest_body(const ServiceRequest& head) const;
+  /// Never throws for what a client sends: errors are answers.
+  ServiceAnswer answer(const ServiceRequest& request, const Progress& progress = {}) const;
+
+ private:
+  ServiceAnswer routed(const ServiceRequest& request, const Target& target,
+                       const Progress& progress) const;
+  ServiceAnswer client_file(const std::string& path) const;
+  ServiceAnswer state() const;
+  ServiceAnswer add_product(const ServiceRequest& request, const Target& target,
+                            const Progress& progress) const;
+
+  std::string token_;
+  std::shared_ptr<ProductShelf> shelf_;
+  ServedAt at_;
+  std::vector<std::string> given_;  ///< keys of products
+};
+
+}  // namespace palmar

@@ -1,0 +1,94 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "palmar/contact/contact.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/rest/friction_settings.h"
+#include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/study/assessment/assessment.h"
+#include "palmar/workflow/hand/load_hand.h"
+
+namespace palmar {
+
+/// Who holds products, ready for contact. Made once; shareable between sessions and threads.
+struct LiveHand {
+  std::shared_ptr<const Hand> hand;
+  std::shared_ptr<const Hand> reference;  ///< reference_for() it
+  std::shared_ptr<const PreparedHand> prepared;
+};
+/// Some 0.5 s. Throws InputError, UsageError.
+LiveHand prepare_live_hand(const HandChoice& choice, const ContactModel& model = palmar_model());
+
+/// What is asked of the hand while it holds the product.
+struct LiveTask {
+  RestSettings rest;
+  FrictionSettings friction;
+};
+
+/// A hand in a posture and where it holds the product.
+struct LivePose {
+  Posture posture;  ///< held to the range of motion before use
+  Rigid3 product_from_hand;
+};
+
+/// One product in one hand, worked on step by step: what `palmar assess` and `palmar grasp
+/// evaluate` do at once, with what depends on hand and product alone kept between the steps. Their
+/// figures for the same hold and task, or the same posture and placement, are the same to the last
+/// digit. One thread at a time.
+class LiveSession {
+ public:
+  /// The product with the findings of its check (add_findings()).
+  LiveSession(LiveHand hand, std::shared_ptr<const Product> product);
+
+  const Hand& hand() const { return *hand_.hand; }
+  const Hand& reference() const { return *hand_.reference; }
+  const Product& product() const { return *product_; }
+
+  /// Ways to hold the product, best first; ranked once (some 1 s). Throws Cancelled.
+  const RankedHolds& holds(const Progress& progress = {});
+
+  /// Takes the hold of that number, from 1, and lets it come to rest: `palmar assess --hold N`. A
+  /// hold that was taken before isn't searched again. Throws UsageError (also if there are fewer
+  /// holds), Cancelled.
+  AssessmentSet take_hold(int number, const LiveTask& task, const Progress& progress = {});
+
+  /// Fingers close round the product where it is, and the grasp comes to rest. `grip`: a power
+  /// grip; unset: the one that suits the shape there. Throws UsageError, Cancelled.
+  AssessmentSet close_here(const LivePose& pose, std::optional<Grip> grip, const LiveTask& task,
+                           const Progress& progress = {});
+
+  /// The grasp comes to rest from that posture and placement. Throws UsageError, Cancelled.
+  AssessmentSet rest_here(const LivePose& pose, Grip grip, const LiveTask& task,
+                          const Progress& progress = {});
+
+  /// Posture and placement as they are: `palmar grasp evaluate`. Throws InputError if a number
+  /// isn't finite, Cancelled.
+  AssessmentSet evaluate_here(const LivePose& pose, Grip grip, const LiveTask& task,
+                              const Progress& progress = {});
+
+  /// The contact alone, along a motion: from the last call's solution, without the error band;
+  /// 10 to 20 ms. The result is overwritten by the next call. Throws UsageError for numbers that
+  /// aren't finite.
+  const ContactResult& move(const LivePose& pose);
+
+ private:
+  AssessOptions options_for_task(const LiveTask& task) const;
+  AssessmentSet set_of(Assessment assessment) const;
+  Grasp given(const LivePose& pose, Grip grip) const;
+  AssessmentSet rest_of(const AssessOptions& options, const Grasp& grasp, const Progress& progress);
+
+  LiveHand hand_;
+  std::shared_ptr<const Product> product_;
+  std::map<int, GraspPlace> places_;  ///< by the number of the hold
+  std::map<int, Grasp> grasps_;       ///< of `hand_` there
+  std::optional<ContactSolver> solver_;
+  ContactResult moving_;
+};
+
+}  // namespace palmar
