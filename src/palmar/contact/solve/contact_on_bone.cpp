@@ -41,7 +41,7 @@ std::vector<Vec3> ContactSolver::Impl::reference_directions(
     const Eigen::Matrix3d before =
         frame(reference.normal[v], reference.position[next] - reference.position[v]);
     const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
-    result.emplace_back(before * (posed.transpose() * -skin.sample[v].normal));
+    result.emplace_back(before * (posed.transpose() * skin.sample[v].normal));
   }
   return result;
 }
