@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,6 +61,45 @@ TEST(StudyStore, OneProcessWritesAtATime) {
     store.keep(record_for(1));
   }
   EXPECT_EQ(StudyStore(path).done().size(), 2U);
+}
+
+// `study status` in a loop reads for some milliseconds at a time; a run that starts then waits.
+TEST(StudyStore, AWriterWaitsForReaders) {
+  const TestFolder folder;
+  const Study study = small_study();
+  const fs::path path = folder / "a.palmar";
+  StudyStore::create(path, study.plan, study.inputs);
+  int reading[2];
+  ASSERT_EQ(pipe(reading), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    sqlite3* file = nullptr;
+    const bool is_read = sqlite3_open(path.c_str(), &file) == SQLITE_OK &&
+                         sqlite3_exec(file, "BEGIN; SELECT count(*) FROM sqlite_schema", nullptr,
+                                      nullptr, nullptr) == SQLITE_OK;
+    const bool is_told = write(reading[1], "r", 1) == 1;
+    usleep(300'000);
+    _exit(is_read && is_told ? 0 : 1);  // without COMMIT: the end of the process ends it
+  }
+  char byte = 0;
+  ASSERT_EQ(read(reading[0], &byte, 1), 1);
+  StudyStore(path, StudyAccess::kWrite).keep(record_for(0));
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(StudyStore(path).done().size(), 1U);
+}
+
+TEST(StudyStore, AStoreThatIsGoneIsSaidToBeGone) {
+  const TestFolder folder;
+  const Study study = small_study();
+  const fs::path path = folder / "a.palmar";
+  StudyStore::create(path, study.plan, study.inputs);
+  StudyStore store(path, StudyAccess::kWrite);
+  store.keep(record_for(0));
+  fs::remove(path);
+  const std::string message = message_of<OutputError>([&] { store.keep(record_for(1)); });
+  EXPECT_THAT(message, HasSubstr("a.palmar: was moved or deleted"));
 }
 
 TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
