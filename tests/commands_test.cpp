@@ -177,6 +177,22 @@ TEST(DoctorCommand, NamesAMissingTemplate) {
   EXPECT_THAT(run.out + run.err, HasSubstr("template.hand.glb"));
 }
 
+TEST(DoctorCommand, NamesACutComplianceOfTheTemplate) {
+  const fs::path share = fs::path(PALMAR_EXECUTABLE).parent_path() / "../share/palmar";
+  const fs::path folder = temporary_folder();
+  for (const char* file : {"template.hand.glb", "generic-hand-right.glb", "template.compliance"}) {
+    fs::copy_file(share / file, folder / file);
+  }
+  const fs::path cut = folder / "template.compliance";
+  fs::resize_file(cut, fs::file_size(cut) / 2);
+  const ProgramRun run = run_palmar("--version > /dev/null; PALMAR_SHARE='" + folder.string() +
+                                    "' '" PALMAR_EXECUTABLE "' doctor");
+  EXPECT_EQ(run.exit_code, 5);
+  EXPECT_THAT(run.out, HasSubstr("MISSING  template on bone"));
+  EXPECT_THAT(run.out, HasSubstr(cut.string() + " is missing, cut"));
+  EXPECT_THAT(run.out, HasSubstr("palmar hand template --out"));
+}
+
 TEST(Help, EveryVerbShowsAWorkedExample) {
   for (const std::string verb :
        {"assess", "hand template", "hand info", "hand measure", "hand mirror", "hand pose",

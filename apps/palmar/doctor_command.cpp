@@ -17,6 +17,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/records/product/cad_file.h"
 #include "palmar/records/study/study_store.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar::cli {
 namespace {
@@ -46,6 +47,11 @@ std::string template_state() {
 std::string asset_state() {
   const std::string path = share_folder() + "/generic-hand-right.glb";
   return fmt::format("{} ({} bytes)", path, read_file(path).size());
+}
+
+std::string compliance_state() {
+  const std::string path = template_compliance_file();
+  return fmt::format("{} ({:.0f} MB)", path, static_cast<double>(fs::file_size(path)) / 1e6);
 }
 
 std::string distance_state() {
@@ -84,6 +90,7 @@ std::string memory_state() {
 int run_doctor(const CommonOptions& common) {
   const std::vector<Finding> findings = {
       examine("template hand", template_state),
+      examine("template on bone", compliance_state),
       examine("generic hand asset", asset_state),
       examine("nearest points", distance_state),
       examine("temporary folder", temporary_state),

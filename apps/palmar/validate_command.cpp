@@ -32,7 +32,8 @@ int run_validate(const ValidateArguments& arguments, const CommonOptions& common
   if (common.json && arguments.is_markdown) {
     throw UsageError("--json and --markdown exclude each other");
   }
-  const ValidateRequest& request = arguments.request;
+  ValidateRequest request = arguments.request;
+  request.note = [&common](const std::string& text) { note(common, text); };
   request.check();
   const ValidationReport report = run_validation(request, make_progress(common));
   finish_progress();

@@ -129,6 +129,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   request.model = parse_model(arguments, !hand_name.empty());
   request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
   request.out = arguments.out;
+  request.note = [&common](const std::string& text) { note(common, text); };
   request.check();
   if (arguments.coating) {
     note(common,

@@ -55,6 +55,20 @@ std::shared_ptr<const SkinCompliance> compliance_of(const Hand& hand, const Skin
   return std::make_shared<const SkinCompliance>(skin_compliance(hand, skin));
 }
 
+/// The skin without tissue elements: what alone has the response of a half-space on bone.
+std::vector<int> vertices_off_bone(const SkinGeometry& skin, const SkinCompliance& compliance) {
+  std::vector<int> result;
+  auto next = compliance.vertex.begin();
+  for (int v = 0; v < skin.vertex_count(); ++v) {
+    if (next != compliance.vertex.end() && *next == v) {
+      ++next;
+    } else {
+      result.push_back(v);
+    }
+  }
+  return result;
+}
+
 /// How much longer a hand is than its family's base around each vertex: the root of the ratio of
 /// the areas of its neighbourhoods.
 std::vector<double> length_ratios(const SkinGeometry& base, const SkinGeometry& skin) {
@@ -130,9 +144,12 @@ HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& mod
   // Stretched distances of a flat picture fit in no plane any more, and the point kernel, near its
   // limit on fine skin, would lose its definiteness.
   const bool is_flat = impl->model.distance == SkinDistance::kIsomap;
-  if (!has_far && !is_flat) impl->pairs = skin_pairs(*base, impl->skin, impl->model);
   if (impl->model.tissue == TissueModel::kBone) {
     impl->compliance = compliance_of(*base, impl->skin, std::move(compliance));
+    const std::vector<int> off_bone = vertices_off_bone(impl->skin, *impl->compliance);
+    impl->pairs = skin_pairs(*base, impl->skin, impl->model, &off_bone);
+  } else if (!has_far && !is_flat) {
+    impl->pairs = skin_pairs(*base, impl->skin, impl->model);
   }
   impl->blocks = skin_patches(impl->skin, kBlockSize);
   impl->spots = skin_patches(impl->skin, kSpotSize);
@@ -171,8 +188,12 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
       impl->scale = length_ratios(original, impl->skin);
     }
     impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, volume);
+    const std::vector<int> off_bone = vertices_off_bone(impl->skin, *impl->compliance);
+    impl->response =
+        skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness, &off_bone);
+  } else {
+    impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   }
-  impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
   impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response,
                                    skin_patches(impl->skin, kSpotSize), impl->blocks, impl->model);

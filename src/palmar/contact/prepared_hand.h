@@ -21,8 +21,8 @@ struct PreparedHand::Impl {
   ContactModel model;
   SkinGeometry skin;
   std::vector<double> layer_thickness;  ///< per vertex, mm; with TissueModel::kLayered
-  SkinResponse response;
-  SkinPatches blocks;  ///< of the preconditioner
+  SkinResponse response;  ///< with TissueModel::kBone among skin without tissue elements only
+  SkinPatches blocks;     ///< of the preconditioner
   SkinStiffness stiffness;
   // With TissueModel::kBone.
   BoneTissueBlocks bone;

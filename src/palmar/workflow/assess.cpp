@@ -115,7 +115,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   options.sensors = sensors;
   const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
 
   AssessOutcome outcome;
   outcome.asked = tasks.size();

@@ -39,7 +39,7 @@ EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progr
   options.balance.wrist = effort.wrist;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
   Assessment held =
       request.grasp_file.empty()
           ? assess(prepared, product, options, progress,

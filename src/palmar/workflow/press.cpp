@@ -57,7 +57,7 @@ PressOutcome run_press(const PressRequest& request) {
     if (test.tissue_level != TissueLevel::kNominal) {
       loaded = std::make_shared<Hand>(hand_at_tissue_level(*loaded, test.tissue_level));
     }
-    hand.emplace(prepared_hand(request.hand, loaded, request.model));
+    hand.emplace(prepared_hand(request.hand, loaded, request.model, request.note));
   } else if (!request.hand.tissue.empty()) {
     test.tissue = read_tissue(request.hand.tissue, default_tissue())
                       .region[static_cast<std::size_t>(Region::kMiddleDistal)];

@@ -8,6 +8,7 @@
 #include "palmar/contact/press/press.h"
 #include "palmar/records/press_json.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/note.h"
 
 namespace palmar {
 
@@ -17,6 +18,7 @@ struct PressRequest {
   HandChoice hand;    ///< whose region is pressed; its tissue file also serves plane and ellipsoid
   ContactModel model = palmar_model();  ///< the equations; a plane or ellipsoid takes the kernel
   std::string out;     ///< file to write, .json, .csv or .svg (the curve); "": none
+  NoteSink note = {};  ///< when something takes long
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 

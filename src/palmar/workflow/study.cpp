@@ -61,8 +61,9 @@ class Keeper {
 };
 
 /// Runs what is missing, finishes the store and says what came of it.
-StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const Progress& progress) {
-  if (inputs.base != nullptr) inputs.compliance = tissue_on_bone(*inputs.base, store.plan());
+StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const NoteSink& note,
+                         const Progress& progress) {
+  if (inputs.base != nullptr) inputs.compliance = tissue_on_bone(*inputs.base, store.plan(), note);
   const std::vector<std::int64_t> rest = store.missing();
   if (store.is_finished() && !rest.empty()) {
     throw InputError(store.path().string() + ": is damaged: " + missing_grasps(rest) +
@@ -231,18 +232,18 @@ StudyRunOutcome run_study(const StudyRunRequest& request, const Progress& progre
   if (done > 0 && !store.is_finished()) {
     note_to(request.note, fmt::format("{}: continues after {} grasps", path.string(), done));
   }
-  return run_rest(store, study.inputs, progress);
+  return run_rest(store, study.inputs, request.note, progress);
 }
 
 StudyRunOutcome resume_study(const fs::path& path, const NoteSink& note, const Progress& progress) {
   StudyStore store(path, StudyAccess::kWrite);
   if (store.is_finished()) {
     note_to(note, path.string() + ": is finished; nothing to do");
-    return run_rest(store, {}, progress);
+    return run_rest(store, {}, note, progress);
   }
   check_program(store);
   check_products(store.plan(), path.parent_path());
-  return run_rest(store, store.inputs(), progress);
+  return run_rest(store, store.inputs(), note, progress);
 }
 
 }  // namespace palmar

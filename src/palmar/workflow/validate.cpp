@@ -21,7 +21,7 @@ ValidationReport run_validation(const ValidateRequest& request, const Progress& 
   request.check();
   const auto hand = load_hand(request.hand);
   ValidationOptions options = request.options;
-  options.compliance = tissue_on_bone(*hand, palmar_model());
+  options.compliance = tissue_on_bone(*hand, palmar_model(), request.note);
   const ValidationReport report = validate(hand, options, progress);
   if (request.out.empty()) return report;
   write_file(request.out, request.out.ends_with(".md") ? validation_markdown(report)

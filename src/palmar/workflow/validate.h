@@ -7,6 +7,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/validation/validation.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/note.h"
 
 namespace palmar {
 
@@ -15,6 +16,7 @@ struct ValidateRequest {
   ValidationOptions options;
   HandChoice hand;
   std::string out;     ///< file to write, .md or .json; "": none
+  NoteSink note = {};  ///< when something takes long
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 

@@ -38,14 +38,7 @@ void for_pairs(const PreparedHand::Impl& prepared, const SubActiveRegion& part,
 void find_skin_as_printed(const Hand& hand, const std::vector<Vec3>& posed,
                           const DistanceField& product, std::optional<Region> only,
                           SkinOnProduct& skin) {
-  vertex_normals(posed, hand.skin.triangles, skin.normal);
-  skin.sample.resize(posed.size());
-  skin.near.clear();
-  skin.collision.clear();
-  skin.left_out.clear();
-  skin.traced.clear();
-  skin.is_too_deep = false;
-  skin.message.clear();
+  skin.begin(hand, posed);
   for (std::size_t v = 0; v < posed.size(); ++v) {
     skin.sample[v] = {kNearRange, posed[v], Vec3::UnitZ(), -1};
     if (only && hand.region[v] != *only) continue;

@@ -173,7 +173,10 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
     for (const GrownVertex& g : around) {
       is_around[g.vertex] = 1;
     }
-    add_held(prepared, load, part, around, is_around, swelling, field);
+    // On bone the caller knows how the skin around moves.
+    if (!prepared.is_on_bone()) {
+      add_held(prepared, load, part, around, is_around, swelling, field);
+    }
     for (const GrownVertex& g : around) {
       const int v = g.vertex;
       const double fade = smooth_step(3.0 * (1.0 - g.distance / reach));

@@ -52,7 +52,8 @@ struct SkinDisplacement {
 /// of the bulge, so that the skin leaves the contact without a step. f_k fades u_k to zero over the
 /// last third of the part's neighbourhood. Parts that were solved together add up; parts that were
 /// solved one by one are blended with weights f_k / (r_k^2 + 1 mm^2), as bulges always are. A bulge
-/// that would enter the product is held on its surface, without force (Xie 2014, eq. 3-7).
+/// that would enter the product is held on its surface, without force (Xie 2014, eq. 3-7). On bone
+/// only loaded and penetrating skin is moved here, and the rest told that is in reach.
 SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                                    const SkinLoad& load, const std::vector<LoadedPart>& parts,
                                    bool swelling);

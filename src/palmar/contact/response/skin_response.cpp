@@ -39,7 +39,11 @@ Columns columns_of(const GeodesicTable& table, const std::vector<int>& vertices,
   return columns;
 }
 
-Columns all_within(const GeodesicSolver& solver, double reach) {
+Columns all_within(const GeodesicSolver& solver, double reach,
+                   const std::vector<int>* only = nullptr) {
+  if (only != nullptr) {
+    return columns_of(geodesic_table(solver, *only, reach), *only, solver.vertex_count());
+  }
   std::vector<int> vertices(solver.vertex_count());
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = static_cast<int>(v);
   return columns_of(geodesic_table(solver, vertices, reach), vertices, solver.vertex_count());
@@ -270,24 +274,25 @@ SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
 }  // namespace
 
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& thickness) {
+                           const std::vector<double>& thickness, const std::vector<int>* only) {
   const GeodesicSolver solver(hand.skin);
   const PairResponse response(hand, skin, model, thickness);
   const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
   if (is_coupled && skin.vertex_count() > kMostFullVertices) {
     return two_level(skin, solver, response);
   }
-  const Columns columns =
-      is_coupled ? all_within(solver, kResponseReach) : by_region(hand, solver, model.distance);
+  const Columns columns = is_coupled ? all_within(solver, kResponseReach, only)
+                                     : by_region(hand, solver, model.distance);
   SkinResponse result;
   static_cast<ResponseColumns&>(result) = filled(columns, response, [](int v) { return v; });
   return result;
 }
 
-SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model) {
+SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+                     const std::vector<int>* only) {
   const GeodesicSolver solver(hand.skin);
   const Columns columns = model.coupling == RegionCoupling::kCoupled
-                              ? all_within(solver, kPairMargin * kResponseReach)
+                              ? all_within(solver, kPairMargin * kResponseReach, only)
                               : by_region(hand, solver, model.distance, kPairMargin);
   SkinPairs pairs;
   pairs.begin.reserve(columns.size() + 1);

@@ -75,9 +75,11 @@ constexpr double kResponseReach = 20.0;  // mm
 /// region (the dorsum: within kResponseReach); across regions the rows within the neighbourhood of
 /// the column's region (they show how the skin moves, and take no part in the solution).
 ///
-/// `thickness` of the layer per vertex [mm] is used by TissueModel::kLayered.
+/// `thickness` of the layer per vertex [mm] is used by TissueModel::kLayered. `only`: the vertices
+/// (ascending) among which responses are wanted, of a coupled skin without a far part; null: all.
 SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& thickness);
+                           const std::vector<double>& thickness,
+                           const std::vector<int>* only = nullptr);
 
 /// The pairs of a skin that act on each other on it or on any skin of the same mesh up to
 /// kPairMargin times smaller, and by how much the way on the skin is longer than the arc between
@@ -89,7 +91,9 @@ struct SkinPairs {
 };
 constexpr double kPairMargin = 1.35;  // hands of people are at most that much smaller than a mean
 
-SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model);
+/// `only` as above.
+SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+                     const std::vector<int>* only = nullptr);
 
 /// Responses of another hand of the same mesh: its distances on the skin are its arcs times the
 /// detours of `pairs`. Of a hand's own pairs this gives skin_response() but for rounding.

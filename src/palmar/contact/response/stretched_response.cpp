@@ -180,7 +180,7 @@ SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
   const Reach reach(hand, model);
   const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
   const bool is_usual =
-      is_coupled && model.tissue == TissueModel::kHalfSpace && model.kernel == Kernel::kPatch;
+      is_coupled && model.tissue != TissueModel::kLayered && model.kernel == Kernel::kPatch;
   const auto find_distances = has_avx2() ? distances_avx2 : distances_any;
   const auto find_responses = has_avx2() ? responses_avx2 : responses_any;
   const int count = skin.vertex_count();

@@ -19,6 +19,9 @@ constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modu
 // Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
 // end; and at most, from nothing or from another posture.
 constexpr double kPerChange = 0.01, kPerSteadiness = 0.02, kRough = 1e-3;
+// Forces less exact than this look for skin that bulges into the product only at first: it is some
+// vertex in a thousand, and forces that count find it.
+constexpr double kExactForces = 1e-3;
 
 }  // namespace
 
@@ -76,7 +79,8 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
   double accuracy = std::max(kRough, finest);
   bool is_new = true;
   bool is_last = false;
-  bool is_whole = !may_extend;  // no skin bulged into the product when looked at last
+  // No skin bulged into the product when looked at last.
+  bool is_whole = !may_extend || (forces_only_ && steady > kExactForces && !was_in_contact.empty());
   search_.begin();
   for (int round = 0; round < kMostRounds; ++round) {
     const BlockRoots roots(stiffening_);
@@ -129,7 +133,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
     const bool is_steady = change < steady && accuracy <= finest;
     accuracy = std::clamp(kPerChange * change, finest, std::max(kRough, finest));
-    if (may_extend && is_steady && !is_last) {
+    if (!is_whole && is_steady && !is_last) {
       const std::vector<int> more = pressed_in_on_bone(skin, load, roots);
       is_whole = more.empty();
       if (!is_whole) {

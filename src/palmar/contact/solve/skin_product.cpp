@@ -86,6 +86,17 @@ std::string one_decimal(double value) {
 
 }  // namespace
 
+void SkinOnProduct::begin(const Hand& hand, const std::vector<Vec3>& posed) {
+  vertex_normals(posed, hand.skin.triangles, normal);
+  sample.resize(posed.size());
+  near.clear();
+  collision.clear();
+  left_out.clear();
+  traced.clear();
+  is_too_deep = false;
+  message.clear();
+}
+
 double flesh_depth(const Hand& hand) {
   const double thickness = hand.dimensions.hand_thickness;
   return thickness > 0.0 ? std::min(kFleshDepth, kFleshShare * thickness) : kFleshDepth;
@@ -177,14 +188,7 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
 void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
                           const DistanceField& product, std::optional<Region> only,
                           SkinSampler* sampler, SkinOnProduct& skin, double wanted) {
-  vertex_normals(posed, hand.skin.triangles, skin.normal);
-  skin.sample.resize(posed.size());
-  skin.near.clear();
-  skin.collision.clear();
-  skin.left_out.clear();
-  skin.traced.clear();
-  skin.is_too_deep = false;
-  skin.message.clear();
+  skin.begin(hand, posed);
   Box3 reach = product.bounding_box();
   if (!reach.isEmpty()) {
     reach.min().array() -= kNearRange;

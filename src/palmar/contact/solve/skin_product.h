@@ -24,6 +24,9 @@ struct SkinOnProduct {
                              ///< but the one the skin came through, ascending
   bool is_too_deep = false;  ///< palmar skin deeper than kMaxContactDepth
   std::string message;       ///< what was left out, or empty
+
+  /// Of a posed skin nothing is known but its normals.
+  void begin(const Hand& hand, const std::vector<Vec3>& posed);
 };
 
 /// Skin farther from the product than this does not matter; beyond the limit depth of the fingers

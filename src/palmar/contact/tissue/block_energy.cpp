@@ -24,9 +24,25 @@ BlockStiffening no_stiffening() {
 BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
                                     const std::array<double, kRegionCount>& volume) {
   BoneTissueBlocks blocks;
+  // Skin farther from a border than they mix is of one block.
+  std::vector<int> at_border;
+  std::vector<char> is_mixed(hand.region.size(), 0);
+  for (int v = 0; v < skin.vertex_count(); ++v) {
+    for (const int w : skin.neighbours(v)) {
+      if (hand.region[w] == hand.region[v]) continue;
+      at_border.push_back(v);
+      break;
+    }
+  }
+  for (const GrownVertex& g : grow(skin, at_border, kMixedWidth)) is_mixed[g.vertex] = 1;
   const auto count = static_cast<std::size_t>(skin.vertex_count());
   blocks.begin.push_back(0);
   for (std::size_t v = 0; v < count; ++v) {
+    if (!is_mixed[v]) {
+      blocks.share.emplace_back(static_cast<int>(index_of(hand.region[v])), 1.0);
+      blocks.begin.push_back(blocks.share.size());
+      continue;
+    }
     const int source = static_cast<int>(v);
     std::array<double, kRegionCount> weight{};
     double sum = 0.0;

@@ -63,12 +63,13 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
                              const SkinPatches& blocks, const ContactModel& model) {
   SkinStiffness result;
   const auto count = static_cast<std::size_t>(skin.vertex_count());
+  const bool has_laws = model.tissue != TissueModel::kBone;
   std::array<Laws, kRegionCount> by_region;
   for (std::size_t r = 0; r < by_region.size(); ++r) {
     by_region[r] = laws_of(hand.tissue.region[r], model.tissue);
   }
-  for (std::vector<StiffeningLaw>& law : result.law) law.resize(count);
-  for (std::size_t v = 0; v < count; ++v) {
+  for (std::vector<StiffeningLaw>& law : result.law) law.resize(has_laws ? count : 0);
+  for (std::size_t v = 0; v < count && has_laws; ++v) {
     const Laws laws = model.coupling == RegionCoupling::kCoupled
                           ? blended(hand, skin, response, by_region, static_cast<int>(v))
                           : by_region[index_of(hand.region[v])];

@@ -14,7 +14,8 @@ namespace palmar {
 /// What the shear modulus of a hand's skin depends on, besides the depth of a contact.
 struct SkinStiffness {
   /// Per level (low, nominal, high) and vertex. With coupled regions the laws of neighbouring
-  /// regions run into each other over 6 mm, else each vertex has its region's.
+  /// regions run into each other over 6 mm, else each vertex has its region's. Empty with
+  /// TissueModel::kBone, which has a law of its own (block_energy.h).
   std::array<std::vector<StiffeningLaw>, 3> law;
   // Spots of a few vertices, by which local_depth() looks around.
   SkinPatches spots;

@@ -86,7 +86,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   options.indices.is_on = false;
   options.footprint = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
   const Grasp grasp = hold_product(hand, product, request.grasp, options.grasp, progress);
   if (!squeezes(grasp.grip)) {
     throw UsageError(

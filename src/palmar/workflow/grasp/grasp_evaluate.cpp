@@ -70,7 +70,7 @@ EvaluateOutcome evaluate_grasp(const EvaluateRequest& request, const Progress& p
     options.indices.coordination = read_coordination(request.natural_postures, hand->skeleton);
   }
   if (progress.report) progress.report(0.0, "preparing the hand");
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model);
+  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
   EvaluateOutcome outcome;
   outcome.set = {.hand = hand, .assessments = {}, .command_line = request.command_line};
   outcome.set.assessments.push_back(

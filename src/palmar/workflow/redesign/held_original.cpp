@@ -101,7 +101,7 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
   const StudyRequest asked = study_of(request);
   HeldOriginal original{.study = load_study(asked, load_hand(asked.hand)), .records = {}};
   StudyInputs& inputs = original.study.inputs;
-  inputs.compliance = tissue_on_bone(*inputs.base, original.study.plan);
+  inputs.compliance = tissue_on_bone(*inputs.base, original.study.plan, request.on_note);
   if (request.on_note) {
     for (const std::string& text : original.study.notes) request.on_note(text);
   }
