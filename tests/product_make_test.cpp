@@ -98,7 +98,8 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
   } cases[] = {
       {"", "a kind of product is required: cylinder, elliptic_handle"},
       {"botle --out none.step", "did you mean bottle?"},
-      {"pram --out none.step", "pram is no kind; did you mean prism? Known are cylinder, "},
+      {"pram --out none.step",
+       "pram is no kind of product; did you mean prism? There are cylinder, "},
       {"bottle --diametre-mm 70 --out none.step", "did you mean --diameter-mm?"},
       {"bottle --diameter-mm 700 --out none.step", "bottle: diameter_mm is 700 mm; 20 to 200 mm"},
       {"bottle --param diametr_mm=70 --out none.step", "did you mean diameter_mm?"},

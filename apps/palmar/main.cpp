@@ -50,8 +50,9 @@ std::string explain_verb(const CLI::App& where, const std::string& wrong) {
   }
   const char* const what =
       full_name(&where) == "palmar product make" ? "kind of product" : "command";
-  return wrong + " is no " + what + (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") +
-         "There are " + joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
+  return wrong + " is no " + what +
+         (nearest.empty() ? "; there are " : "; did you mean " + nearest + "? There are ") +
+         joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
 }
 
 /// What was wrong with the command line, and the nearest thing that would have been right.

@@ -292,7 +292,7 @@ const KindParameter* find_parameter(const ParametricKind& kind, const std::strin
   for (const KindParameter& one : kind.parameters) names.push_back(one.name);
   const std::string nearest = nearest_name(name, names);
   throw UsageError(kind.name + " has no parameter \"" + name + "\"" +
-                   (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") + "It has " +
+                   (nearest.empty() ? "; it has " : "; did you mean " + nearest + "? It has ") +
                    joined(names, ", "));
 }
 
@@ -339,9 +339,10 @@ const ParametricKind& parametric_kind(const std::string& name) {
   }
   const std::vector<std::string> names = parametric_kind_names();
   const std::string nearest = nearest_name(name, names);
-  throw UsageError("kind \"" + name + "\" isn't known" +
-                   (nearest.empty() ? "; " : "; did you mean " + nearest + "? ") + "Known are " +
-                   joined(names, ", "));
+  throw UsageError(
+      "kind \"" + name + "\" isn't known" +
+      (nearest.empty() ? "; there are " : "; did you mean " + nearest + "? There are ") +
+      joined(names, ", "));
 }
 
 std::string unit_of_parameter(const std::string& parameter) {

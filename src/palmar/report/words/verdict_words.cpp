@@ -127,6 +127,42 @@ ProductWords product_words(const AssessedProduct& product, const ProductVerdict&
   return words;
 }
 
+/// Words of a command line as a shell would see them, quotes kept.
+std::vector<std::string> words_of_line(const std::string& line) {
+  std::vector<std::string> words;
+  std::string word;
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '\'') is_quoted = !is_quoted;
+    if (c != ' ' || is_quoted) {
+      word += c;
+    } else if (!word.empty()) {
+      words.push_back(std::move(word));
+      word.clear();
+    }
+  }
+  if (!word.empty()) words.push_back(std::move(word));
+  return words;
+}
+
+/// What a command said of the task, so that another one asks for the same: " --grip-force-n 60".
+std::string task_options(const std::string& command_line) {
+  static const std::vector<std::string> options = {"--grip",          "--grip-force-n", "--hold",
+                                                   "--limit-depths",  "--mass-kg",      "--part",
+                                                   "--strength-share"};
+  const std::vector<std::string> words = words_of_line(command_line);
+  std::string line;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string option = words[i].substr(0, words[i].find('='));
+    if (std::find(options.begin(), options.end(), option) == options.end()) continue;
+    line += " " + words[i];
+    const bool has_value =
+        option == words[i] && i + 1 < words.size() && !words[i + 1].starts_with("--");
+    if (has_value) line += " " + words[i + 1];
+  }
+  return line;
+}
+
 class SetSpeaker {
  public:
   SetSpeaker(const AssessmentSet& set, const SetVerdict& verdict, const Texts& texts)
@@ -167,8 +203,8 @@ class SetSpeaker {
   void ask_other_hands(const std::string& key) {
     const std::string products = product_arguments(all_products(), "--product ");
     if (products.empty()) return;
-    next(key, "palmar study run " + products + " --hands " + std::to_string(kHandsToAsk) +
-                  " --out hands.palmar");
+    next(key, "palmar study run " + products + task_options(set_.command_line) + " --hands " +
+                  std::to_string(kHandsToAsk) + " --out hands.palmar");
   }
 
   void try_other_hold(int i) {
@@ -341,24 +377,6 @@ class SetSpeaker {
   const Texts& texts_;
   VerdictWords words_;
 };
-
-/// Words of a command line as a shell would see them, quotes kept.
-std::vector<std::string> words_of_line(const std::string& line) {
-  std::vector<std::string> words;
-  std::string word;
-  bool is_quoted = false;
-  for (const char c : line) {
-    if (c == '\'') is_quoted = !is_quoted;
-    if (c != ' ' || is_quoted) {
-      word += c;
-    } else if (!word.empty()) {
-      words.push_back(std::move(word));
-      word.clear();
-    }
-  }
-  if (!word.empty()) words.push_back(std::move(word));
-  return words;
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 namespace palmar {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -74,6 +75,30 @@ TEST(VerdictWords, TheAnswerNamesProductsAmountAndForce) {
   EXPECT_EQ(words.command,
             "palmar study run --product A.stl --product B.stl --unit mm --hands 12 --out "
             "hands.palmar");
+}
+
+TEST(VerdictWords, TheNextCommandAsksForTheSameTask) {
+  const VerdictWords words =
+      words_of({held("A", 60, 0.40), held("B", 60, 0.292)},
+               "palmar assess A.stl B.stl --unit mm --grip-force-n 60 --left --mass-kg=0.4");
+  EXPECT_EQ(words.command,
+            "palmar study run --product A.stl --product B.stl --unit mm --grip-force-n 60 "
+            "--mass-kg=0.4 --hands 12 --out hands.palmar");
+}
+
+TEST(VerdictWords, AHardestPlaceOnAnUnresolvedEdgeIsTold) {
+  std::vector<AssessedProduct> products = {held("A", 60, 0.40), held("B", 60, 0.292)};
+  for (RegionContact& region : products[0].assessment.contact.regions) {
+    region.force = 10.0;
+    region.unresolved_force = 5.0;
+  }
+  EXPECT_THAT(words_of(products).reasons,
+              Contains("The hardest place of A is on edges sharper than the mesh of the skin: its "
+                       "pressure may be off by 40 %, and so may this difference."));
+  for (RegionContact& region : products[0].assessment.contact.regions) {
+    region.unresolved_force = 1.0;
+  }
+  EXPECT_THAT(words_of(products).reasons, Not(Contains(HasSubstr("edges sharper"))));
 }
 
 TEST(VerdictWords, NoDifferenceSaysWhy) {
