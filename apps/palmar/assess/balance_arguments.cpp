@@ -105,9 +105,11 @@ RestSettings BalanceArguments::settings() const {
   return result;
 }
 
-std::optional<PersonOfSize> BalanceArguments::person() const {
-  if (person_.empty()) return std::nullopt;
-  const PersonArgument person = person_argument(person_);
+std::optional<PersonOfSize> BalanceArguments::person() const { return parse_person_size(person_); }
+
+std::optional<PersonOfSize> parse_person_size(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const PersonArgument person = person_argument(text);
   if (!person.percentile) return std::nullopt;
   const PersonOfSize size{person.strength.sex, *person.percentile};
   size.check();

@@ -14,6 +14,9 @@ namespace palmar::cli {
 /// "woman:age=64" or "man". Throws UsageError.
 PersonOfAge parse_person(const std::string& text);
 
+/// Of "woman:P5" the size, of which "woman:age=64" says nothing; "": nothing. Throws UsageError.
+std::optional<PersonOfSize> parse_person_size(const std::string& text);
+
 /// How firmly the hand grips and whether the grasp comes to rest.
 class BalanceArguments {
  public:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "grasp/grasp_evaluate_command.h"
 
+#include "assess/balance_arguments.h"
 #include "assess/friction_arguments.h"
 #include "grasp/grasp_options.h"
 #include "hand/posture_notes.h"
@@ -20,6 +21,8 @@ struct EvaluateArguments {
   std::optional<int> frame;
   ContactArguments contact;
   FrictionArguments friction;
+  std::string person;
+  bool left = false;
   bool no_pictures = false;
 };
 
@@ -32,7 +35,11 @@ EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& co
   request.model = arguments.contact.model();
   request.friction = arguments.friction.settings();
   request.product = {arguments.product, {.unit = parse_unit(arguments.unit)}};
-  request.hand = {.name = arguments.hand, .tissue = arguments.contact.tissue, .value = nullptr};
+  request.hand = {.name = arguments.hand,
+                  .tissue = arguments.contact.tissue,
+                  .value = nullptr,
+                  .person = parse_person_size(arguments.person),
+                  .is_left = arguments.left};
   request.posture_file = arguments.grasp.empty() ? arguments.posture : arguments.grasp;
   request.frame = arguments.frame;
   if (!arguments.placement.empty()) {
@@ -78,6 +85,10 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
   verb->add_option("PRODUCT", o->product, "Mesh file")->required();
   verb->add_option("--unit", o->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
+  verb->add_option("--person", o->person,
+                   "To whose size the hand is scaled: woman or man with a percentile of hand size "
+                   "(ANSUR II), as woman:P5");
+  verb->add_flag("--left", o->left, "A left hand");
   verb->add_option("--posture", o->posture,
                    "Joint angles, JSON or CSV, as `palmar hand pose --out` writes them");
   verb->add_option("--grasp", o->grasp,

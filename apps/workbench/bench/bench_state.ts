@@ -22,7 +22,8 @@ export interface BenchState {
   holder: Holder;
   gripForce: number | null; // N; null: the usual one
   hold: number; // that was chosen last
-  pose: Pose | null; // set by hand, or come to rest from there; null: the hold as it was found
+  pose: Pose | null; // set by hand; null: the hold as it was found
+  settle: "close" | "rest" | null; // what was done from that pose: fingers closed, come to rest; null: nothing
 }
 
 export type LiveRequest = { do: string; id?: number } & Record<string, unknown>;
@@ -44,8 +45,9 @@ export function poseMembers(pose: Pose): Record<string, unknown> {
   };
 }
 
-/// What shows this state: the hold as it is found, or the pose as it stands.
+/// What shows this state: the hold as it is found, the pose as it stands, or what comes of it.
 export function stateRequest(state: BenchState): LiveRequest {
+  if (state.pose && state.settle) return { do: state.settle, ...poseMembers(state.pose), grip: state.pose.grip, ...task(state) };
   if (state.pose) return { do: "evaluate", ...poseMembers(state.pose), grip: state.pose.grip };
   return { do: "hold", number: state.hold, ...task(state) };
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bench: a product in a hand, moved by gizmo and numbers, with the contact as the server finds it.
-import { Pose, BenchState, needsOpening, openRequest, poseMembers, stateRequest, task } from "./bench_state";
+import { Pose, BenchState, needsOpening, openRequest, poseMembers, stateRequest } from "./bench_state";
 import { colourBar } from "./colour_bar";
 import { el, fill, saveText } from "./dom";
 import { FiguresPanel, RegionName } from "./figures_panel";
@@ -20,6 +20,7 @@ interface OpenedHold {
   against: string;
   score: number | null;
   grip: string;
+  thumb_towards: Triple; // product frame
 }
 
 interface Opened extends Answer {
@@ -54,6 +55,13 @@ function personWords(person: string): string {
   if (!person) return say("bench.template");
   const [sex, percentile] = person.split(":P");
   return say(`bench.${sex}` as TextKey, { percentile });
+}
+
+/// The axis of the product that a direction is nearest to: "+z".
+function directionWords(direction: Triple): string {
+  const sizes = direction.map(Math.abs);
+  const axis = sizes.indexOf(Math.max(...sizes));
+  return (direction[axis] < 0 ? "−" : "+") + "xyz"[axis];
 }
 
 export class BenchView {
@@ -95,7 +103,7 @@ export class BenchView {
   };
 
   constructor(root: HTMLElement, token: string, product: ShelvedProduct, start: BenchState | null, back: () => void) {
-    this.state = start ?? { product: product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null };
+    this.state = start ?? { product: product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
     this.posing = new PosePanel({
       offset: (offset, isOver) => this.moved(offset, isOver),
       angles: (degrees, isOver) => this.bent(degrees, isOver),
@@ -151,8 +159,8 @@ export class BenchView {
             el("option", { value: "clear" }, say("bench.clear")), el("option", { value: "solid" }, say("bench.solid")), el("option", { value: "hidden" }, say("bench.hidden")))),
           el("label", {}, say("bench.cut"), el("input", { type: "range", "data-cut": true, min: 0, max: 100, value: 100 })),
           el("button", { type: "button", "data-save": "palmar-bench" }, say("bench.picture"))),
-        el("div", { class: "view-canvas", "data-label": say("bench.view") }), els.bar, els.busy, els.status, els.point),
-      el("aside", { class: "right" }, els.verdict,
+        el("div", { class: "view" }, el("div", { class: "view-canvas", "data-label": say("bench.view") }), els.bar, els.busy), els.status, els.point),
+      el("aside", { class: "right" }, els.verdict, this.figures.totals,
         el("h2", {}, say("bench.force")),
         el("div", { class: "force" }, els.force, el("label", {}, els.forceNumber, "N"), el("label", { class: "usual" }, els.usual, say("bench.usual_force"))),
         el("h2", {}, say("bench.place")),
@@ -161,9 +169,8 @@ export class BenchView {
           el("button", { type: "button", "data-act": "rest", onclick: () => this.act("rest") }, say("bench.rest")),
           el("button", { type: "button", "data-act": "again", onclick: () => this.again() }, say("bench.again"))),
         this.posing.place, els.hint,
-        el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.joints"))), this.posing.jointsElement),
-        el("h2", {}, say("bench.numbers")), this.figures.totals,
         el("details", { class: "part", open: true }, el("summary", {}, el("h2", {}, say("bench.regions"))), this.figures.table),
+        el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.joints"))), this.posing.jointsElement),
         el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.command"))), els.command)));
     fill(els.title, el("strong", {}, product.file_name));
     fill(root, el("header", { class: "top" }, el("button", { type: "button", onclick: back }, say("bench.back")), els.title,
@@ -251,6 +258,7 @@ export class BenchView {
         return;
       case "rest":
         this.scene.setField(frame, this.what === "evaluate");
+        if (this.state.gripForce === null && this.what === "hold") this.showForce(Math.round(frame.gripForce));
         this.figures.show(frame);
         this.posing.setAngles(frame.postureDeg);
     }
@@ -293,6 +301,7 @@ export class BenchView {
         type: "button", class: "hold", "data-hold": hold.number, "aria-pressed": "false", onclick: () => this.chooseHold(hold.number),
       }, el("img", { src: pictures[k] ?? "", alt: "", width: 264, height: 168 }),
       el("strong", {}, say("bench.hold", { number: hold.number })), el("span", {}, hold.words),
+      el("span", { class: "soft" }, say("bench.thumb_towards", { direction: directionWords(hold.thumb_towards) })),
       hold.against && el("span", { class: "soft" }, hold.against)))));
     this.section.dataset.opened = product.key;
     if (opened.holds.length > 0 || this.state.pose) this.bring();
@@ -317,15 +326,15 @@ export class BenchView {
     this.working(null);
     const isPlaced = this.what === "evaluate";
     this.status(say(isPlaced ? "bench.as_placed" : "bench.at_rest"), isPlaced ? "fair" : "");
-    const tone = { held: "good", doubtful: "fair", not_held: "bad" }[one.verdict.held] ?? "";
+    // A pose that was set by hand is judged as it stands, not as a hold.
+    const tone = isPlaced && one.verdict.held === "held" ? "fair"
+      : { held: "good", doubtful: "fair", not_held: "bad" }[one.verdict.held] ?? "";
     this.els.verdict.className = `verdict ${tone}`;
     fill(this.els.verdict, el("p", { class: "sentence" }, result.assessment.verdict.sentence || one.grasp.message),
-      result.assessment.verdict.reasons.length > 0 && el("details", {}, el("summary", {}, "…"), el("ul", {}, result.assessment.verdict.reasons.map((reason) => el("li", {}, reason)))));
+      result.assessment.verdict.reasons.length > 0 && el("details", {}, el("summary", {}, say("bench.why")), el("ul", {}, result.assessment.verdict.reasons.map((reason) => el("li", {}, reason)))));
     this.showCommand(result);
     this.section.dataset.field = isPlaced ? "placed" : "rest";
     this.section.dataset.results = String(Number(this.section.dataset.results ?? 0) + 1);
-    // What the server found is what stands on the bench.
-    if (this.what === "close" || this.what === "rest") this.state = { ...this.state, pose: this.pose };
     this.keep();
     this.showState();
     if (this.wantedForce !== undefined) {
@@ -341,6 +350,10 @@ export class BenchView {
       copy.textContent = say("bench.copied");
     } }, say("bench.copy"));
     const made = this.opened?.product.made_by;
+    if (!result.command) {
+      fill(this.els.command, el("p", { class: "soft" }, say("bench.no_command")));
+      return;
+    }
     fill(this.els.command, made ? [el("p", { class: "soft" }, say("bench.make_first")), el("code", {}, made)] : null,
       el("code", { "data-command": true }, result.command), copy,
       !result.is_hold && el("button", { type: "button", class: "copy", onclick: () => saveText("posture.json", JSON.stringify(result.posture, null, 2)) }, say("bench.posture_file")));
@@ -388,19 +401,21 @@ export class BenchView {
     els.person.value = state.holder.person;
     els.side.value = state.holder.left ? "left" : "right";
     els.usual.checked = state.gripForce === null;
-    if (state.gripForce !== null && this.wantedForce === undefined) {
-      els.force.value = String(state.gripForce);
-      if (document.activeElement !== els.forceNumber) els.forceNumber.value = String(state.gripForce);
-    }
+    if (state.gripForce !== null && this.wantedForce === undefined) this.showForce(state.gripForce);
     for (const button of els.holds.querySelectorAll<HTMLElement>("[data-hold]")) {
       button.setAttribute("aria-pressed", String(Number(button.dataset.hold) === state.hold && state.pose === null));
     }
-    this.section.dataset.state = JSON.stringify({ ...state, pose: state.pose ? "placed" : null });
+    this.section.dataset.state = JSON.stringify({ ...state, pose: state.pose ? state.settle ?? "placed" : null });
+  }
+
+  private showForce(force: number): void {
+    if (document.activeElement !== this.els.force || this.wantedForce === undefined) this.els.force.value = String(force);
+    if (document.activeElement !== this.els.forceNumber) this.els.forceNumber.value = String(force);
   }
 
   private chooseHold(number: number): void {
     this.isStepping = false;
-    this.state = { ...this.state, hold: number, pose: null };
+    this.state = { ...this.state, hold: number, pose: null, settle: null };
     this.showState();
     this.bring();
   }
@@ -413,32 +428,32 @@ export class BenchView {
     this.isStepping = false;
     const holder = { person: this.els.person.value, left: this.els.side.value === "left" };
     // A pose is one hand's own; another hand takes the hold.
-    this.state = { ...this.state, holder, pose: null };
+    this.state = { ...this.state, holder, pose: null, settle: null };
     this.showState();
     this.bring();
   }
 
   private force(force: number | null): void {
     if (force !== null && !(force >= 1 && force <= 1000)) return;
-    if (force !== null) {
-      this.els.force.value = String(force);
-      if (document.activeElement !== this.els.forceNumber) this.els.forceNumber.value = String(force);
-    }
+    if (force !== null) this.showForce(force);
     if (this.isWorking) { // when that is there
       this.wantedForce = force;
       return;
     }
     this.isStepping = false;
-    this.state = { ...this.state, gripForce: force };
-    if (this.state.pose) this.act("rest");
-    else this.bring();
+    // A pose that was set by hand has the force that it has: it comes to rest with another.
+    this.state = { ...this.state, gripForce: force, settle: this.state.pose ? this.state.settle ?? "rest" : null };
+    this.showState();
+    this.bring();
   }
 
   private act(what: "close" | "rest"): void {
     const pose = this.seenPose();
     if (!pose) return;
     this.isStepping = false;
-    this.ask(what, { do: what, ...poseMembers(pose), grip: pose.grip, ...task(this.state) });
+    this.state = { ...this.state, pose, settle: what };
+    this.showState();
+    this.bring();
   }
 
   private seenPose(): Pose | null {
@@ -469,12 +484,13 @@ export class BenchView {
     this.isStepping = false;
     if (!isOver) {
       this.status(say("bench.moving"), "fair");
+      this.els.verdict.className = "verdict stale"; // of what stood there before
       this.els.busy.hidden = true;
       this.isWorking = false;
       this.channel.move({ do: "move", ...poseMembers(pose) });
       return;
     }
-    this.state = { ...this.state, pose };
+    this.state = { ...this.state, pose, settle: null };
     this.showState();
     this.bring();
   }

@@ -4,14 +4,7 @@
 // What the colours mean: kPa from 0 to the upper end, and the colour of no contact.
 import { decimal, say } from "./say";
 import { Colours } from "./scene";
-
-/// A round step that gives 4 to 9 ticks up to `upper`.
-export function tickStep(upper: number): number {
-  const rough = upper / 8;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const factor = [1, 2, 2.5, 5, 10].find((one) => one * power >= rough * 0.999) ?? 10;
-  return factor * power;
-}
+import { tickStep } from "./ticks";
 
 /// SVG of 104 x 330, as the viewer's pictures take it.
 export function colourBar(colours: Colours, upperKpa: number): string {

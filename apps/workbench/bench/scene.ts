@@ -9,6 +9,7 @@ import {
 } from "three";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
 import { rgb, scaleTexture, Stage, Triple } from "../viewer/stage";
+import { measured } from "./live_channel";
 import { FieldFrame, HandFrame, MeshFrame, Place } from "./live_frame";
 
 export interface Colours {
@@ -65,7 +66,7 @@ export class BenchScene {
   private upper = 0.1; // MPa
   private base = new Vector3(); // of the pivot, where the product came to rest
   private isGrabbed = false;
-  private frames = 0;
+  private isDrawing = false;
 
   /// `moved`: while the gizmo moves the product, and once more when it is let go.
   constructor(private readonly section: HTMLElement, moved: (isOver: boolean) => void) {
@@ -87,10 +88,16 @@ export class BenchScene {
     });
   }
 
+  /// With the browser's next frame, once for all that changed until then.
   draw(): void {
-    this.stage.draw();
-    ++this.frames;
-    this.section.dataset.frames = String(this.frames);
+    if (this.isDrawing) return;
+    this.isDrawing = true;
+    requestAnimationFrame(() => {
+      this.isDrawing = false;
+      const start = performance.now();
+      this.stage.draw();
+      measured("palmar-draw", start);
+    });
   }
 
   setHand(frame: HandFrame, isLeft: boolean): void {
@@ -282,8 +289,8 @@ export class BenchScene {
     const light = new DirectionalLight(0xffffff, 1.7);
     scene.add(light);
     const product = new Mesh(this.plain, new MeshStandardMaterial({ color: rgb(this.colours!.product), roughness: 0.85, side: DoubleSide }));
-    product.matrixAutoUpdate = false;
     const skin = new Mesh(new BufferGeometry(), new MeshStandardMaterial({ color: rgb(this.colours!.skin), roughness: 0.85 }));
+    skin.matrixAutoUpdate = false;
     scene.add(product, skin);
     const index = this.skin.geometry.getIndex()!;
     const pictures = previews.map((preview) => {
@@ -292,13 +299,21 @@ export class BenchScene {
       skin.geometry.setIndex(index);
       skin.geometry.computeVertexNormals();
       skin.geometry.computeBoundingSphere();
-      product.matrix.copy(matrixOf(preview.place).invert());
-      const sphere = skin.geometry.boundingSphere!;
-      const from = new Vector3(isLeft ? -0.75 : 0.75, 0.15, 0.62).normalize();
-      camera.up.set(0, 1, 0);
-      camera.position.copy(sphere.center).addScaledVector(from, sphere.radius * 3.9);
-      camera.lookAt(sphere.center);
-      light.position.copy(from).add(new Vector3(0, 0.6, 0));
+      // In the product's frame, upright, so that holds that differ in how the hand is turned look so.
+      const productFromHand = matrixOf(preview.place);
+      skin.matrix.copy(productFromHand);
+      const turn = new Quaternion().setFromRotationMatrix(productFromHand);
+      const from = new Vector3(isLeft ? -0.8 : 0.8, 0.1, 0.6).applyQuaternion(turn);
+      camera.up.set(0, 0, 1);
+      // Not along the axis that is upright: from above, or from the fingers' side.
+      if (Math.abs(from.z) > 0.75) from.add(new Vector3(0, 0, 1).applyQuaternion(turn).multiplyScalar(0.9));
+      from.z = Math.max(from.z, 0.15);
+      from.normalize();
+      const centre = skin.geometry.boundingSphere!.center.clone().applyMatrix4(productFromHand);
+      camera.position.copy(centre).addScaledVector(from, skin.geometry.boundingSphere!.radius * 3.7);
+      camera.lookAt(centre);
+      light.position.copy(from).add(new Vector3(0, 0, 0.6));
+      light.target.position.set(0, 0, 0);
       renderer.render(scene, camera);
       const picture = renderer.domElement.toDataURL("image/png");
       skin.geometry.dispose();

@@ -14,6 +14,7 @@ declare module "node:assert/strict" {
   const assert: {
     ok(value: unknown, message?: string): void;
     equal(actual: unknown, expected: unknown, message?: string): void;
+    deepEqual(actual: unknown, expected: unknown, message?: string): void;
     throws(run: () => void, message: RegExp): void;
     match(text: string, pattern: RegExp): void;
     doesNotMatch(text: string, pattern: RegExp): void;

@@ -256,6 +256,7 @@ export class Stage {
   private drawOverlay(): void {
     const width = this.place.clientWidth, height = this.place.clientHeight;
     const distance = this.camera.position.distanceTo(this.controls.target);
+    if (distance === 0) return; // nothing has been looked at yet
     const perMm = height / (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360));
     let length = 1;
     for (const next of [2, 5, 10, 20, 50, 100, 200, 500]) if (next * perMm <= 0.3 * width) length = next;

@@ -340,6 +340,8 @@ struct HttpServer::Impl {
     acceptor.async_accept([this](ErrorCode error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (!error && shared->connections < shared->options.most_connections) {
+        ErrorCode ignored;
+        socket.set_option(Tcp::no_delay(true), ignored);  // a frame's last bytes wait for nothing
         std::make_shared<Connection>(std::move(socket), shared)->start();
       }
       accept();

@@ -130,6 +130,7 @@ std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
 std::string command_of(const LiveRequest& request, const LiveRequest& opened,
                        const ShelvedProduct& product) {
   const bool is_hold = request.verb == LiveVerb::kHold;
+  if (!is_hold && request.verb != LiveVerb::kEvaluate) return "";
   std::string command = is_hold ? "palmar assess " : "palmar grasp evaluate ";
   command += shell_word(product.argument);
   if (product.unit) command += " --unit " + name_of(*product.unit);
@@ -138,10 +139,10 @@ std::string command_of(const LiveRequest& request, const LiveRequest& opened,
     if (request.task.rest.grip_force) {
       command += " --grip-force-n " + shortest(*request.task.rest.grip_force);
     }
-    if (opened.person) command += " --person " + person_argument(*opened.person);
   } else {
     command += std::string(" --posture ") + kPostureFile;
   }
+  if (opened.person) command += " --person " + person_argument(*opened.person);
   if (opened.is_left) command += " --left";
   if (request.task.friction.mass) command += " --mass-kg " + shortest(*request.task.friction.mass);
   if (request.task.friction.friction) {

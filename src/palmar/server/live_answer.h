@@ -26,7 +26,8 @@ std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
 /// also the file that it reads ("posture_file", "posture").
 std::string result_answer(const LiveRequest& request, const AssessmentSet& set, Language language);
 
-/// The command line that gives the figures of a request. `opened`: hand of the session.
+/// The command line that gives the figures of a request, "" if there is none: of a hand that closes
+/// or comes to rest where the product was put by hand. `opened`: hand of the session.
 std::string command_of(const LiveRequest& request, const LiveRequest& opened,
                        const ShelvedProduct& product);
 

@@ -1,0 +1,180 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+
+import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import { test } from "node:test";
+import { BenchState, needsOpening, openRequest, stateRequest } from "../bench/bench_state";
+import { decodeFrame, FieldFrame, MeshFrame } from "../bench/live_frame";
+import { MoveQueue } from "../bench/move_queue";
+import { tickStep } from "../bench/ticks";
+import { UndoStack } from "../bench/undo";
+import english from "../bench/texts/en.json";
+import german from "../bench/texts/de.json";
+
+const state: BenchState = { product: "p1", holder: { person: "", left: false }, gripForce: 60, hold: 2, pose: null, settle: null };
+
+/// Bytes as the server writes them: [kind of number, value] one after the other.
+function bytes(parts: [string, number][]): ArrayBuffer {
+  const sizes: Record<string, number> = { u8: 1, u16: 2, u32: 4, f32: 4, f64: 8 };
+  const buffer = new ArrayBuffer(parts.reduce((sum, [kind]) => sum + sizes[kind], 0));
+  const view = new DataView(buffer);
+  let at = 0;
+  for (const [kind, value] of parts) {
+    if (kind === "u8") view.setUint8(at, value);
+    if (kind === "u16") view.setUint16(at, value, true);
+    if (kind === "u32") view.setUint32(at, value, true);
+    if (kind === "f32") view.setFloat32(at, value, true);
+    if (kind === "f64") view.setFloat64(at, value, true);
+    at += sizes[kind];
+  }
+  return buffer;
+}
+
+function head(kind: number, request = 7, number = 0): [string, number][] {
+  return [["u32", 0x314d4c50], ["u32", kind], ["u32", request], ["u32", number]];
+}
+
+function fieldBytes(): ArrayBuffer {
+  const parts = head(3, 7);
+  for (const value of [1, 0, 0, 0, 10, 20, 30]) parts.push(["f64", value]);
+  for (const value of [60, 150, 3700, 0.2, 0.15, 0.04]) parts.push(["f32", value]);
+  parts.push(["u32", 0]);
+  for (let k = 0; k < 23; ++k) parts.push(["f32", k]);
+  for (const value of [-5, 0, 5, 0.5, 0.001]) parts.push(["f32", value]);
+  parts.push(["u32", 1]);
+  for (const value of [15, 150, 3700, 0.2, 0.15, 0.04]) parts.push(["f32", value]);
+  parts.push(["u32", 2]);
+  for (const value of [0, 2, 4, 65535, 0, 1]) parts.push(["u16", value]);
+  for (const value of [0, 200]) parts.push(["u16", value]);
+  return bytes(parts);
+}
+
+test("a field is read as it was written", () => {
+  const frame = decodeFrame(fieldBytes()) as FieldFrame;
+  assert.equal(frame.kind, "moving");
+  assert.equal(frame.request, 7);
+  assert.deepEqual(frame.place, { quaternion: [1, 0, 0, 0], translation: [10, 20, 30] });
+  assert.equal(frame.gripForce, 60);
+  assert.equal(frame.total.area, 3700);
+  assert.equal(frame.postureDeg[22], 22);
+  assert.equal(frame.regions.length, 1);
+  assert.equal(frame.regions[0].region, 15);
+  assert.deepEqual(Array.from(frame.positions), [-5, 1, 7, 32762.5, 0, 5.5]);
+  assert.ok(Math.abs(frame.pressure[1] - 0.2) < 1e-6 && frame.pressure[0] === 0);
+});
+
+test("a footprint has a pressure for each vertex, a product none", () => {
+  const mesh: [string, number][] = [["u32", 3], ["u32", 1]];
+  for (let k = 0; k < 9; ++k) mesh.push(["f32", k]);
+  for (const corner of [0, 2, 1]) mesh.push(["u32", corner]);
+  const product = decodeFrame(bytes([...head(2), ...mesh])) as MeshFrame;
+  assert.deepEqual([product.kind, product.pressure.length], ["product", 0]);
+  const footprint = decodeFrame(bytes([...head(6), ...mesh, ["f32", 0.5], ["f32", 0], ["f32", 0.25]])) as MeshFrame;
+  assert.deepEqual([footprint.kind, Array.from(footprint.pressure)], ["footprint", [0.5, 0, 0.25]]);
+  assert.deepEqual(Array.from(footprint.triangles), [0, 2, 1]);
+});
+
+test("what is cut off or no frame is refused", () => {
+  const whole = fieldBytes();
+  for (const size of [0, 3, 16, 100, whole.byteLength - 1]) {
+    assert.throws(() => decodeFrame(whole.slice(0, size)), /bytes; \d+ are needed/);
+  }
+  assert.throws(() => decodeFrame(bytes([["u32", 1], ["u32", 3], ["u32", 0], ["u32", 0]])), /not with PLM1/);
+  assert.throws(() => decodeFrame(bytes(head(99))), /kind 99 is not known/);
+});
+
+test("ten steps are undone and done again", () => {
+  const stack = new UndoStack<number>();
+  for (let k = 0; k <= 10; ++k) assert.equal(stack.push(k), true);
+  assert.equal(stack.push(10), false, "what doesn't change anything is no step");
+  for (let k = 9; k >= 0; --k) assert.equal(stack.undo(), k);
+  assert.equal(stack.undo(), null);
+  for (let k = 1; k <= 10; ++k) assert.equal(stack.redo(), k);
+  assert.equal(stack.redo(), null);
+});
+
+test("a new step takes the place of those that were undone", () => {
+  const stack = new UndoStack<string>();
+  for (const one of ["a", "b", "c"]) stack.push(one);
+  stack.undo();
+  stack.undo();
+  stack.push("d");
+  assert.equal(stack.canRedo(), false);
+  assert.equal(stack.undo(), "a");
+});
+
+test("the stack forgets the oldest steps", () => {
+  const stack = new UndoStack<number>(3);
+  for (let k = 0; k < 10; ++k) stack.push(k);
+  assert.equal(stack.undo(), 8);
+  assert.equal(stack.undo(), 7);
+  assert.equal(stack.undo(), null);
+});
+
+test("states that were kept don't change with what is done later", () => {
+  const stack = new UndoStack<{ list: number[] }>();
+  const first = { list: [1] };
+  stack.push(first);
+  first.list.push(2);
+  stack.push(first);
+  assert.deepEqual(stack.undo(), { list: [1] });
+});
+
+test("of motions one is on its way and the newest follows", () => {
+  const sent: number[] = [];
+  let id = 0;
+  const queue = new MoveQueue((request) => {
+    sent.push(request.step as number);
+    return ++id;
+  });
+  for (let step = 1; step <= 5; ++step) queue.move({ do: "move", step });
+  assert.deepEqual(sent, [1]);
+  queue.answered(99); // somebody else's
+  assert.deepEqual(sent, [1]);
+  queue.answered(1);
+  assert.deepEqual(sent, [1, 5]);
+  queue.answered(2);
+  assert.deepEqual(sent, [1, 5]);
+  queue.move({ do: "move", step: 6 });
+  assert.deepEqual(sent, [1, 5, 6]);
+  queue.reset();
+  queue.move({ do: "move", step: 7 });
+  assert.deepEqual(sent, [1, 5, 6, 7], "what is stale isn't waited for");
+});
+
+test("a state says what shows it", () => {
+  assert.deepEqual(stateRequest(state), { do: "hold", number: 2, grip_force_n: 60 });
+  assert.deepEqual(stateRequest({ ...state, gripForce: null }), { do: "hold", number: 2 });
+  const pose = { postureDeg: [1, 2], place: { quaternion: [1, 0, 0, 0] as [number, number, number, number], translation: [1, 2, 3] as [number, number, number] }, grip: "tripod" };
+  assert.deepEqual(stateRequest({ ...state, pose }), { do: "evaluate", posture_deg: [1, 2], product_from_hand: { quaternion_wxyz: [1, 0, 0, 0], translation_mm: [1, 2, 3] }, grip: "tripod" });
+  assert.deepEqual(Object.keys(stateRequest({ ...state, pose, settle: "close" })), ["do", "posture_deg", "product_from_hand", "grip", "grip_force_n"]);
+  assert.equal(stateRequest({ ...state, pose, settle: "close" }).do, "close");
+  assert.equal(openRequest({ ...state, holder: { person: "woman:P5", left: true } }, "de").person, "woman:P5");
+  assert.equal(needsOpening(null, state), true);
+  assert.equal(needsOpening(state, { ...state, hold: 1, gripForce: null }), false);
+  assert.equal(needsOpening(state, { ...state, holder: { person: "", left: true } }), true);
+});
+
+test("scales have 4 to 9 round ticks", () => {
+  for (let upper = 3; upper < 5000; upper *= 1.07) {
+    const step = tickStep(upper);
+    const count = Math.floor(upper / step + 1e-9);
+    assert.ok(count >= 3 && count <= 9, `${upper}: ${count} of ${step}`);
+    assert.match((step / 10 ** Math.floor(Math.log10(step) + 1e-9)).toPrecision(3), /^(1\.00|2\.00|2\.50|5\.00)$/);
+  }
+});
+
+test("both languages say the same, and all of it is used", () => {
+  assert.deepEqual(Object.keys(english), Object.keys(german));
+  const sources = readdirSync("apps/workbench/bench").filter((name) => name.slice(-3) === ".ts")
+    .map((name) => readFileSync(`apps/workbench/bench/${name}`, "utf8")).join("\n");
+  const groups = ["finger.", "joint.", "example.", "bench.look_"];
+  for (const [key, text] of Object.entries(english)) {
+    const other = (german as Record<string, string>)[key];
+    assert.ok(text.length > 0 && other.length > 0, key);
+    assert.deepEqual((text.match(/\{[a-z_]+\}/g) ?? []).sort(), (other.match(/\{[a-z_]+\}/g) ?? []).sort(), key);
+    const isTotal = /^bench\.(grip_force|contact_force|area|peak|mean|woman|man)$/.test(key);
+    assert.ok(sources.indexOf(`"${key}"`) >= 0 || isTotal || groups.some((group) => key.indexOf(group) === 0), `${key} is used nowhere`);
+  }
+});
