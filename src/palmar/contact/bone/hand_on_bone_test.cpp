@@ -31,6 +31,18 @@ std::shared_ptr<const Hand> tip(double size) {
   return hand;
 }
 
+/// The tip of size 1, whose elements are solved once.
+const std::shared_ptr<const Hand>& usual_tip() {
+  static const std::shared_ptr<const Hand> hand = tip(1.0);
+  return hand;
+}
+
+const std::shared_ptr<const SkinCompliance>& compliance_of_tip() {
+  static const auto compliance = std::make_shared<const SkinCompliance>(
+      skin_compliance(*usual_tip(), skin_geometry(usual_tip()->skin)));
+  return compliance;
+}
+
 ContactModel on_bone() {
   ContactModel model;
   model.tissue = TissueModel::kBone;
@@ -54,7 +66,7 @@ ContactResult pressed(const PreparedHand& hand, double size, double depth,
 }
 
 TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
-  const PreparedHand hand(tip(1.0), on_bone());
+  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
   const ContactResult one = pressed(hand, 1.0, 1.0);
   const ContactResult two = pressed(hand, 1.0, 2.0);
   ASSERT_EQ(two.status, ContactStatus::kSolved) << two.message;
@@ -71,7 +83,7 @@ TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
 }
 
 TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
-  const PreparedHand hand(tip(1.0), on_bone());
+  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
   const ContactResult plain = pressed(hand, 1.0, 1.5);
   Rigid3 moved;
   moved.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
@@ -82,9 +94,8 @@ TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
 }
 
 TEST(HandOnBone, HandOfAFamilyScaledAsAWholeIsExact) {
-  const auto base = tip(1.0);
-  const HandFamily family(base, on_bone());
-  const PreparedHand own(base, family);
+  const HandFamily family(usual_tip(), on_bone(), compliance_of_tip());
+  const PreparedHand own(usual_tip(), family);
   const PreparedHand larger(tip(1.2), family);
   const ContactResult small = pressed(own, 1.0, 1.5);
   const ContactResult large = pressed(larger, 1.2, 1.8);

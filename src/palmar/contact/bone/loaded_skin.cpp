@@ -56,9 +56,20 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
       if (static_cast<std::size_t>(j) != i) ++count_[j];
     };
     if (const int row = row_of_[v]; row >= 0) {
-      for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
-        add(local_of_row_[C.other[k]],
-            [&](std::size_t j) { return scaled_[i].dot(C.tensor[k] * scaled_[j]); });
+      const std::size_t first = C.begin[row];
+      const std::size_t length = C.begin[row + 1] - first;
+      met_.resize(std::max(met_.size(), length));
+      std::size_t met = 0;
+      for (std::size_t k = 0; k < length; ++k) {
+        // Written in any case, kept only if the vertex takes part: no branch.
+        const int j = local_of_row_[C.other[first + k]];
+        met_[met] = {j, static_cast<int>(k)};
+        met += j >= 0 ? 1 : 0;
+      }
+      for (std::size_t k = 0; k < met; ++k) {
+        const auto [j, entry] = met_[k];
+        const Eigen::Matrix3f& tensor = C.tensor[first + static_cast<std::size_t>(entry)];
+        add(j, [&](std::size_t place) { return scaled_[i].dot(tensor * scaled_[place]); });
       }
     } else {
       for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {

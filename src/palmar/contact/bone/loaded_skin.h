@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "palmar/contact/bone/skin_compliance.h"
@@ -47,6 +48,7 @@ class LoadedSkin {
   std::vector<float> cosine_;            // of the directions with the inward normals
   SparseRows lower_, responses_;
   std::vector<std::size_t> count_, next_;
+  std::vector<std::pair<int, int>> met_;  // of a row: place in vertex_, entry
 };
 
 }  // namespace palmar

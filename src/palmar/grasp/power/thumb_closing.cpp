@@ -53,6 +53,13 @@ constexpr double kDifference = 0.02;  // rad, of the derivatives
 constexpr int kMostIterations = 60;
 constexpr double kAtLimit = 1.0;  // mm; skin that near to its limit depth is there
 
+/// Surely not inside: outside a ball around the cone.
+bool is_clear_of(const Obstacle& finger, const Vec3& point) {
+  const RoundCone& cone = finger.cone;
+  const double reach = 0.5 * (cone.b - cone.a).norm() + std::max(cone.radius_a, cone.radius_b);
+  return (point - 0.5 * (cone.a + cone.b)).squaredNorm() > reach * reach;
+}
+
 }  // namespace
 
 ThumbCloser::ThumbCloser(const Hand& hand, const FingerCones& cones, const DigitGroups& groups,
@@ -116,6 +123,7 @@ Eigen::VectorXd ThumbCloser::residuals(const HeldProduct& product, const DepthLi
     const double d = look.sample[k].distance;
     const double wall = std::sqrt(group.area[k] / kWallArea);
     for (const Obstacle& finger : fingers.cones) {
+      if (is_clear_of(finger, look.in_hand[k])) continue;
       const double into = -distance_to(finger.cone, look.in_hand[k]) - finger.give;
       r[2 * count + i] = std::max(r[2 * count + i], wall * into);
     }
