@@ -36,12 +36,12 @@ export function groupedBars(options: {
   const drawn = groups.map((group, g) => {
     const y = top + legend + g * each;
     const bars = group.values.map((value, i) =>
-      html`<rect x="${left}" y="${coordinate(y + i * bar)}" width="${coordinate(x(value) - left)}" height="${bar - 1}" fill="${productColours[i % 4]}"/><text x="${coordinate(x(Math.max(value, 0)) + 4)}" y="${coordinate(y + i * bar + bar - 1.5)}" font-size="10.5" paint-order="stroke" stroke="#fff" stroke-width="3">${shortNumber(value, 2)}</text>`);
+      html`<rect x="${left}" y="${coordinate(y + i * bar)}" width="${coordinate(x(value) - left)}" height="${bar - 1}" fill="${productColours[i % 4]}"/><text x="${coordinate(x(Math.max(value, 0)) + 4)}" y="${coordinate(y + i * bar + bar - 1.5)}" font-size="10.5" paint-order="stroke" stroke="#fff" stroke-width="5" data-value="${String(value)}">${shortNumber(value, 2)}</text>`);
     return html`<text x="${left - 6}" y="${coordinate(y + 0.5 * bar * names.length + 3)}" text-anchor="end">${group.name}</text><path d="M${coordinate(x(group.mark))} ${coordinate(y - 3)}v${bar * names.length + 5}" stroke="#1d2329" stroke-width="1.5" stroke-dasharray="3 2"/>${bars}`;
   });
   const keys = names.length > 1 ? names.map((name, i) =>
     html`<rect x="${coordinate(i * width / names.length)}" y="20" width="10" height="10" fill="${productColours[i % 4]}"/><text x="${coordinate(i * width / names.length + 14)}" y="29">${name.length > 26 ? name.slice(0, 25) + "…" : name}</text>`) : null;
-  return html`<figure class="small-chart"><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" role="img" font-size="12" fill="#1d2329" aria-label="${options.title}"><text x="0" y="11" font-weight="600">${options.title}</text>${keys}${drawn}</svg><figcaption>${options.mark}</figcaption>${unseenTable(options.title, ["", ...names, options.mark], groups.map((group) => [group.name, ...group.values.map((one) => shortNumber(one) + " " + options.unit), shortNumber(group.mark) + " " + options.unit]))}</figure>`;
+  return html`<figure class="small-chart"><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" role="img" font-size="12" fill="#1d2329" data-unit="${options.unit}" aria-label="${options.title}"><text x="0" y="11" font-weight="600">${options.title}</text>${keys}${drawn}</svg><figcaption>${options.mark}</figcaption>${unseenTable(options.title, ["", ...names, options.mark], groups.map((group) => [group.name, ...group.values.map((one) => shortNumber(one) + " " + options.unit), shortNumber(group.mark) + " " + options.unit]))}</figure>`;
 }
 
 /// One bar per hand, sorted: by how much more or less one product presses than the other.

@@ -161,7 +161,7 @@ const units = `
   const before = { sentence: sentence(), facts: facts(), cell: cell() };
   const button = document.querySelector("button.units");
   button.click();
-  const us = { sentence: sentence(), facts: facts(), cell: cell(), head: table.tHead.textContent };
+  const us = { chart: document.querySelector(".small-chart svg").textContent, sentence: sentence(), facts: facts(), cell: cell(), head: table.tHead.textContent };
   button.click();
   return { before, us, after: { sentence: sentence(), facts: facts(), cell: cell() }, says: button.textContent };`;
 
@@ -200,6 +200,8 @@ try {
     assert.match(said.us.facts, /lbf.*psi/);
     assert.ok(!/ MPa| N\b/.test(said.us.facts), said.us.facts);
     assert.match(said.us.head, /, psi/);
+    assert.match(said.us.chart, /psi/);
+    assert.ok(!/MPa/.test(said.us.chart), said.us.chart);
     // 1 MPa = 145.04 psi; both are rounded to three digits.
     assert.ok(Math.abs(said.us.cell / said.before.cell / 145.04 - 1) < 0.02, JSON.stringify(said));
   }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A page in inches and pounds: numbers before a unit, and columns of tables whose head ends in one.
-// Pictures, charts and coordinates of the product keep the units that stand beside them.
+// The chart of the first screen changes with them. Pictures, other charts and coordinates of the
+// product keep the units that stand beside them.
 
 import { converted, headed, inUsUnits, units } from "./unit_words";
 
@@ -24,6 +25,19 @@ function columnUnits(table: HTMLTableElement): (string | null)[] {
 }
 
 const before = new Map<Text, string>();
+
+/// A small chart of one unit: its title and the numbers at its bars.
+function changeChart(chart: SVGElement, comma: boolean): void {
+  const metric = chart.dataset.unit ?? "";
+  if (!units[metric]) return;
+  for (const text of chart.querySelectorAll("text")) {
+    const node = text.firstChild;
+    if (!(node instanceof Text)) continue;
+    change(node, text.dataset.value !== undefined
+      ? converted(node.data, units[metric].factor, comma)
+      : node.data.replace(headed, (end) => end.replace(metric, units[metric].name)));
+  }
+}
 
 function change(node: Text, text: string): void {
   if (text === node.data) return;
@@ -47,6 +61,7 @@ export function showUsUnits(comma: boolean): void {
       }
     });
   }
+  for (const chart of document.querySelectorAll<SVGElement>("svg[data-unit]")) changeChart(chart, comma);
   for (const node of textsIn(document.body)) {
     if (!before.has(node)) change(node, inUsUnits(node.data, comma));
   }

@@ -149,6 +149,7 @@ void put_in_language(PageJson& json, const Phrases& phrases) {
                                                   "alt",
                                                   "definition",
                                                   "description",
+                                                  "face",
                                                   "friction_words",
                                                   "grip_force_from",
                                                   "message",
