@@ -171,6 +171,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
       impl->scale = length_ratios(original, impl->skin);
     }
     impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, volume);
+    impl->meetings.emplace(*impl->hand);
   }
   impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   impl->blocks = skin_patches(impl->skin, kBlockSize);
@@ -197,6 +198,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& f
         *impl->hand, impl->skin,
         scaled_volumes(shared.compliance->volume, *impl->hand, shared.skin, impl->skin));
     impl->scale = length_ratios(shared.skin, impl->skin);
+    impl->meetings.emplace(*impl->hand);
   }
   impl->response = shared.pairs
                        ? stretched_response(*impl->hand, impl->skin, impl->model,

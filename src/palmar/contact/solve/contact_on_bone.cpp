@@ -19,6 +19,8 @@ constexpr int kMostRounds = 60;
 constexpr double kSteadyStiffening = 1e-5, kSteadyForForces = 1e-3;
 // Accuracy while moduli and skin in question change, and of forces only in the end.
 constexpr double kCoarse = 1e-6, kForcesOnly = 1e-9;
+constexpr double kRoughStiffening =
+    0.05;                           // the same, good enough to look for skin that touches skin
 constexpr double kMostAhead = 0.5;  // share of a step by which the next is foreseen
 
 /// Logarithms of the moduli that follow on `last`, once the steps towards them shrink evenly:
@@ -112,11 +114,21 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       loaded_->set(load.vertex, load.direction);
       b.resize(load.vertex.size());
       displacement.resize(b.size());
+      if (!on_self_->is_empty()) on_self_->join(load.vertex, load.direction);
     }
-    if (is_new || !options.coatings.empty()) {
-      system.assemble(loaded_->responses(), load.vertex);
+    if (is_new || !options.coatings.empty() || !on_self_->is_empty()) {
+      if (on_self_->is_empty()) {
+        system.assemble(loaded_->responses(), load.vertex);
+      } else {
+        system.assemble(on_self_->responses(loaded_->responses(), load.root_modulus),
+                        on_self_->rows(load.vertex));
+      }
       set_coating(skin, load);
-      if (!coating_.diagonal.empty()) system.add(coating_.diagonal, coating_.entries);
+      if (!coating_.diagonal.empty()) {
+        std::vector<double> diagonal = coating_.diagonal;
+        diagonal.resize(static_cast<std::size_t>(system.size()), 0.0);
+        system.add(diagonal, coating_.entries);
+      }
     }
     is_new = false;
     for (std::size_t k = 0; k < b.size(); ++k) {
@@ -126,11 +138,13 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       // Tissue of another modulus, moved alike, has forces in proportion.
       load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
     }
+    if (!on_self_->is_empty()) on_self_->append(b, load.in_contact, load.force);
     const ContactSystem::Outcome outcome =
         system.solve(b, load.in_contact, load.force, load.gap,
                      !is_last       ? kCoarse
                      : forces_only_ ? kForcesOnly
                                     : ContactSystem::kBestAccuracy);
+    if (!on_self_->is_empty()) on_self_->take_off(b, load.in_contact, load.force, load.gap);
     result.iterations += outcome.pivots;
     result.fallbacks += outcome.fallbacks;
     if (!outcome.is_solved) return false;
@@ -145,7 +159,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       }
     }
     if (is_last) {
-      double complementarity = 0.0;
+      double complementarity = on_self_->complementarity();
       for (std::size_t k = 0; k < b.size(); ++k) {
         complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
       }
@@ -154,8 +168,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
     double change = 0.0;
     if (!options.shear_modulus) {
-      const BlockStiffening next = stiffening_of(prepared->bone, load.level, stiffening_,
-                                                 load.vertex, load.force, displacement);
+      const BlockStiffening next = next_stiffening(load, displacement);
       for (std::size_t r = 0; r < next.size(); ++r) {
         change = std::max(change, std::abs(next[r] / stiffening_[r] - 1.0));
       }
@@ -165,13 +178,16 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       fprintf(stderr, "round %d change %g m %zu pivots %d cg %d new %d\n", round, change, b.size(),
               outcome.pivots, outcome.iterations, 0);
     const bool is_steady = change < (forces_only_ ? kSteadyForForces : kSteadyStiffening);
+    bool touches_more = false;
+    if (may_extend && change < kRoughStiffening) {
+      touches_more = on_self_->extend(load.vertex, load.direction, load.force, load.root_modulus);
+      is_new = touches_more;
+    }
     if (may_extend && is_steady) {
       const std::vector<int> more = pressed_in_on_bone(skin, load);
-      is_whole = more.empty();
-      if (!is_whole) {
-        extend(more, load);
-        is_new = true;
-      }
+      if (!more.empty()) extend(more, load);
+      is_whole = more.empty() && !touches_more;
+      is_new = !is_whole;
     }
     is_last = is_steady && is_whole;
     if (round == kMostRounds - 2 && !is_last) {
@@ -182,6 +198,19 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
   }
   return true;
+}
+
+BlockStiffening ContactSolver::Impl::next_stiffening(
+    const SkinLoad& load, const std::vector<double>& displacement) const {
+  if (on_self_->is_empty()) {
+    return stiffening_of(prepared->bone, load.level, stiffening_, load.vertex, load.force,
+                         displacement);
+  }
+  std::vector<int> vertex = load.vertex;
+  std::vector<double> force = load.force;
+  std::vector<double> way = displacement;
+  on_self_->add_work(load.force, vertex, force, way);
+  return stiffening_of(prepared->bone, load.level, stiffening_, vertex, force, way);
 }
 
 /// Takes more vertices into a load, in contact.
@@ -213,12 +242,15 @@ std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& sk
   }
   std::vector<double> share(load.force);
   for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[load.vertex[k]];
-  const std::vector<double> moved =
-      loaded_->displacement(share, near, reference_directions(skin, near));
+  const std::vector<Vec3> direction = reference_directions(skin, near);
+  const std::vector<double> moved = loaded_->displacement(share, near, direction);
+  std::vector<Vec3> by_skin;
+  if (!on_self_->is_empty()) by_skin = on_self_->reference_displacement(near);
   std::vector<int> result;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const auto v = static_cast<std::size_t>(near[k]);
     double gap = skin.sample[v].distance + moved[k] / load.root_modulus[v];
+    if (!by_skin.empty()) gap += by_skin[k].dot(direction[k]);
     if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
     if (gap < 0.0) result.push_back(near[k]);
   }
@@ -253,9 +285,16 @@ std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_m
     const SkinOnProduct& skin, const SkinLoad& load) {
   std::vector<double> root;
   for (const int v : load.vertex) root.push_back(load.root_modulus[v]);
-  const auto y = system.solve_on(load.in_contact, root);
+  std::vector<double> right = root;  // of skin on skin, which adds nothing to F, zero
+  right.resize(static_cast<std::size_t>(system.size()), 0.0);
+  const auto y = system.solve_on(on_self_->with_contact(load.in_contact), right);
   if (!y) return std::nullopt;
   std::array<double, kRegionCount> result{};
+  if (!on_self_->is_empty()) {
+    std::vector<double> q(load.force);
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] /= root[k];
+    on_self_->add_slopes(q, *y, prepared->hand->region, result);
+  }
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const int v = load.vertex[k];
     result[index_of(prepared->hand->region[v])] +=
