@@ -107,6 +107,17 @@ export interface RegionContact extends ContactTotals {
   shear_modulus_mpa: number;
 }
 
+/** Skin of two regions of the hand on each other; no force on the product. */
+export interface SkinOnSkin {
+  region: string;
+  other_region: string;
+  skin_on_skin_force_n: number;
+  force_vector_n: Vector3; // on `region`, product frame
+  contact_area_mm2: number;
+  peak_pressure_mpa: number;
+  crossing_before_mm: number; // deepest, before the skins give way
+}
+
 export interface ContactResult extends ContactTotals {
   status: "solved" | "no_contact" | "not_converged" | "too_deep";
   message: string;
@@ -114,6 +125,9 @@ export interface ContactResult extends ContactTotals {
   complementarity_error_n_mm: number;
   residual_penetration_contact_mm: number;
   residual_penetration_other_mm: number;
+  residual_crossing_mm?: number; // by which skin still crosses other skin
+  skin_on_skin_force_n?: number;
+  skin_on_skin?: SkinOnSkin[];
   iterations: number;
   fallbacks?: Fallbacks;
   regions: RegionContact[];

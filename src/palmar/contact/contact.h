@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "palmar/contact/self/skin_touch.h"
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
@@ -234,6 +235,12 @@ struct ContactResult {
   int iterations = 0;
   ContactFallbacks fallbacks;
   std::optional<ContactBand> band;  ///< with ContactOptions::error_band
+  /// Skin on skin of the same hand (tissue on bone only): single touches, ascending by vertex, with
+  /// normals in the product frame, and their sums per pair of regions. None of it is in `force`,
+  /// `pressure`, `regions` or `total`: it doesn't act on the product.
+  std::vector<SkinTouch> skin_touch;
+  std::vector<SkinOnSkin> skin_on_skin;
+  double residual_crossing = 0.0;  ///< by which skin still crosses other skin after contact, mm
 };
 
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`

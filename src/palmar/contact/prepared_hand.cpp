@@ -188,6 +188,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
       impl->scale = length_ratios(original, impl->skin);
     }
     impl->bone = bone_tissue_blocks(*impl->hand, impl->skin, volume);
+    impl->meetings.emplace(*impl->hand);
     const std::vector<int> off_bone = vertices_off_bone(impl->skin, *impl->compliance);
     impl->response =
         skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness, &off_bone);
@@ -218,6 +219,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& f
         *impl->hand, impl->skin,
         scaled_volumes(shared.compliance->volume, *impl->hand, shared.skin, impl->skin));
     impl->scale = length_ratios(shared.skin, impl->skin);
+    impl->meetings.emplace(*impl->hand);
   }
   impl->response = shared.pairs
                        ? stretched_response(*impl->hand, impl->skin, impl->model,

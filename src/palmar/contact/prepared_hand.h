@@ -4,11 +4,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/response/skin_response.h"
+#include "palmar/contact/self/skin_meetings.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/tissue/block_energy.h"
 #include "palmar/contact/tissue/stiffening.h"
@@ -28,6 +30,7 @@ struct PreparedHand::Impl {
   BoneTissueBlocks bone;
   std::shared_ptr<const SkinCompliance> compliance;  ///< of the hand or its family's base
   std::vector<double> scale;  ///< of a hand of a family, per vertex: see LoadedSkin
+  std::optional<SkinMeetings> meetings;
 
   bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
   bool is_as_printed() const { return model.bulge == BulgeLaw::kPrinted; }

@@ -38,6 +38,16 @@ std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& pro
     loads.push_back(
         {loaded[k], hand_from_product * contact.deformed[v], hand_from_product.rotation * force});
   }
+  const auto add = [&](int vertex, const Vec3& force) {
+    if (force.isZero(0.0)) return;
+    loads.push_back({vertex, hand_from_product * contact.deformed[static_cast<std::size_t>(vertex)],
+                     hand_from_product.rotation * force, true});
+  };
+  for (const SkinTouch& touch : contact.skin_touch) {
+    const Vec3 force = touch.force * touch.meeting.normal;
+    add(touch.meeting.vertex, force);
+    for (std::size_t c = 0; c < 3; ++c) add(touch.meeting.on[c], -touch.meeting.weight[c] * force);
+  }
   return loads;
 }
 
@@ -60,7 +70,7 @@ DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
       body = 1;
       share = metacarpal[v];
     }
-    result.force += share * load.force.norm();
+    if (!load.is_by_skin) result.force += share * load.force.norm();
     for (int k = 0; k < kDigitDofs; ++k) {
       result.moment[k] += share * load.force.dot(digit.velocity(k, body, load.point));
     }

@@ -16,11 +16,13 @@ struct SkinLoad {
   int vertex = 0;             ///< of hand.skin
   Vec3 point = Vec3::Zero();  ///< where it acts in the posture, mm
   Vec3 force = Vec3::Zero();  ///< N
+  bool is_by_skin = false;    ///< of other skin of the same hand, not of the product
 };
 
 /// What a solved contact does to the hand, one load per loaded vertex: the product pushes with p
 /// along its outward normal at the skin after contact; with `friction` minus its tractions (which
-/// are those of the skin on the product).
+/// are those of the skin on the product). Skin on skin of the hand itself adds a load on each of
+/// the two, of opposite sign.
 std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
                                  const DistanceField& product,
                                  const FrictionResult* friction = nullptr);
@@ -28,7 +30,7 @@ std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& pro
 /// What outside forces do at the joints of one digit.
 struct DigitMoments {
   std::array<double, kDigitDofs> moment{};  ///< in the angles' positive sense, N mm
-  double force = 0.0;                       ///< sum of |force| on the digit, N
+  double force = 0.0;                       ///< sum of |force| of the product on the digit, N
 };
 
 /// Moments of `loads` about every axis of the digit in its posture (virtual work): Q_k = sum f .

@@ -139,6 +139,21 @@ Json fallback_object(const ContactFallbacks& fallbacks) {
   return json;
 }
 
+/// Skin of the hand on its own skin, per pair of regions.
+Json skin_on_skin_array(const ContactResult& contact) {
+  Json pairs = Json::array();
+  for (const SkinOnSkin& both : contact.skin_on_skin) {
+    pairs.push_back({{"region", name_of(both.region)},
+                     {"other_region", name_of(both.other)},
+                     {"skin_on_skin_force_n", both.force},
+                     {"force_vector_n", vector3(both.force_vector)},
+                     {"contact_area_mm2", both.area},
+                     {"peak_pressure_mpa", both.peak_pressure},
+                     {"crossing_before_mm", both.deepest}});
+  }
+  return pairs;
+}
+
 /// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
 Json contact_object(const ContactResult& contact, double grip_force) {
   Json json = {{"status", name_of_status(contact.status)},
@@ -149,6 +164,11 @@ Json contact_object(const ContactResult& contact, double grip_force) {
   json["complementarity_error_n_mm"] = contact.complementarity_error;
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
+  json["residual_crossing_mm"] = contact.residual_crossing;
+  double by_skin = 0.0;
+  for (const SkinOnSkin& both : contact.skin_on_skin) by_skin += both.force;
+  json["skin_on_skin_force_n"] = by_skin;
+  json["skin_on_skin"] = skin_on_skin_array(contact);
   json["iterations"] = contact.iterations;
   json["fallbacks"] = fallback_object(contact.fallbacks);
   Json regions = Json::array();

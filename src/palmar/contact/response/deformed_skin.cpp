@@ -54,7 +54,7 @@ double push_out(const SkinOnProduct& skin, const DistanceField& product,
 
 void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
                  const DistanceField& product, const std::vector<char>& is_active,
-                 ContactResult& result) {
+                 const SkinMotion& by_skin, ContactResult& result) {
   const std::size_t n = result.undeformed.size();
   result.deformed = result.undeformed;
   std::vector<int> loaded;
@@ -92,7 +92,14 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
     average_once(geometry, free, 0.3, motion, scratch);
   }
   for (const int v : loaded) result.deformed[v] = skin.sample[v].closest;
-  for (const int v : free) result.deformed[v] += motion[v];
+  for (const int v : free) {
+    result.deformed[v] += motion[v];
+    if (!by_skin.besides.empty()) result.deformed[v] += by_skin.besides[v];
+  }
+  for (std::size_t k = 0; k < by_skin.vertex.size(); ++k) {
+    const int v = by_skin.vertex[k];
+    if (!(result.force[v] > 0.0)) result.deformed[v] = result.undeformed[v] + by_skin.whole[k];
+  }
   std::vector<DistanceSample> after = skin.sample;
   for (const int v : skin.traced) after[v] = {};
   result.residual_penetration_other = push_out(skin, product, free, result, after);

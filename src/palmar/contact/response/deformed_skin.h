@@ -10,6 +10,13 @@
 
 namespace palmar {
 
+/// What other skin of the same hand does to the skin, mm; empty for nothing.
+struct SkinMotion {
+  std::vector<Vec3> besides;  ///< per vertex, on top of what the product does
+  std::vector<int> vertex;    ///< that touches other skin
+  std::vector<Vec3> whole;    ///< how far each of those goes in all, product and skin together
+};
+
 /// Sets result.deformed, the final result.displacement and the residual penetrations, from
 /// result.force and the displacement of the skin so far [mm].
 ///
@@ -23,6 +30,6 @@ namespace palmar {
 /// `is_active` says which vertices may move.
 void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
                  const DistanceField& product, const std::vector<char>& is_active,
-                 ContactResult& result);
+                 const SkinMotion& by_skin, ContactResult& result);
 
 }  // namespace palmar

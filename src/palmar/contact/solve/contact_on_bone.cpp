@@ -22,6 +22,8 @@ constexpr double kPerChange = 0.01, kPerSteadiness = 0.02, kRough = 1e-3;
 // Forces less exact than this look for skin that bulges into the product only at first: it is some
 // vertex in a thousand, and forces that count find it.
 constexpr double kExactForces = 1e-3;
+// Change of the moduli at which it is looked for skin that has come to touch skin.
+constexpr double kRoughStiffening = 0.05;
 
 }  // namespace
 
@@ -64,6 +66,15 @@ void ContactSolver::Impl::set_bone_moduli(const BlockRoots& roots, SkinLoad& loa
   }
 }
 
+std::vector<double> ContactSolver::Impl::skin_roots(TissueLevel level,
+                                                    const BlockRoots& roots) const {
+  std::vector<double> result(prepared->skin.position.size());
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    result[v] = bone_root_modulus(level, roots, static_cast<int>(v));
+  }
+  return result;
+}
+
 /// With q = p / sqrt(G) the problem of given moduli reads C q + sqrt(G) d >= 0. The moduli follow
 /// from the work of the forces (block_energy.h): a fixed point (modulus_search.h), found in few
 /// rounds because the skin's displacements, and with them the energies at the modulus G0, hardly
@@ -90,11 +101,21 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       loaded_->set(load.vertex, load.direction);
       b.resize(load.vertex.size());
       displacement.resize(b.size());
+      if (!on_self_->is_empty()) on_self_->join(load.vertex, load.direction);
     }
-    if (is_new || !options.coatings.empty()) {
-      system.assemble(loaded_->responses(), load.vertex);
+    if (is_new || !options.coatings.empty() || !on_self_->is_empty()) {
+      if (on_self_->is_empty()) {
+        system.assemble(loaded_->responses(), load.vertex);
+      } else {
+        system.assemble(on_self_->responses(loaded_->responses(), skin_roots(load.level, roots)),
+                        on_self_->rows(load.vertex));
+      }
       set_coating(skin, load);
-      if (!coating_.diagonal.empty()) system.add(coating_.diagonal, coating_.entries);
+      if (!coating_.diagonal.empty()) {
+        std::vector<double> diagonal = coating_.diagonal;
+        diagonal.resize(static_cast<std::size_t>(system.size()), 0.0);
+        system.add(diagonal, coating_.entries);
+      }
     }
     is_new = false;
     for (std::size_t k = 0; k < b.size(); ++k) {
@@ -104,13 +125,15 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       // Tissue of another modulus, moved alike, has forces in proportion.
       load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
     }
+    if (!on_self_->is_empty()) on_self_->append(b, load.in_contact, load.force);
     const ContactSystem::Outcome outcome =
         system.solve(b, load.in_contact, load.force, load.gap,
                      is_last ? ContactSystem::kBestAccuracy : accuracy);
+    if (!on_self_->is_empty()) on_self_->take_off(b, load.in_contact, load.force, load.gap);
     result.iterations += outcome.pivots;
     result.fallbacks += outcome.fallbacks;
     if (!outcome.is_solved) return false;
-    double complementarity = 0.0;
+    double complementarity = on_self_->complementarity();
     for (std::size_t k = 0; k < b.size(); ++k) {
       const int v = load.vertex[k];
       was_root[v] = load.root_modulus[k];
@@ -124,8 +147,7 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
     double change = 0.0;
     if (!options.shear_modulus && !is_last) {
-      const BlockStiffening next = stiffening_of(prepared->bone, load.level, stiffening_,
-                                                 load.vertex, load.force, displacement);
+      const BlockStiffening next = next_stiffening(load, displacement);
       for (std::size_t r = 0; r < next.size(); ++r) {
         change = std::max(change, std::abs(next[r] / stiffening_[r] - 1.0));
       }
@@ -133,6 +155,11 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
     const bool is_steady = change < steady && accuracy <= finest;
     accuracy = std::clamp(kPerChange * change, finest, std::max(kRough, finest));
+    if (may_extend && !is_last && change < kRoughStiffening && on_self_->may_grow() &&
+        on_self_->extend(load.vertex, load.direction, load.force, skin_roots(load.level, roots))) {
+      is_new = true;
+    }
+    const bool touches_more = is_new;
     if (!is_whole && is_steady && !is_last) {
       const std::vector<int> more = pressed_in_on_bone(skin, load, roots);
       is_whole = more.empty();
@@ -142,11 +169,12 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
       }
     }
     // Forces alone need no solution more exact than the moduli.
-    if (is_last || (is_steady && is_whole && forces_only_)) {
+    const bool is_done = is_steady && is_whole && !touches_more;
+    if (is_last || (is_done && forces_only_)) {
       result.complementarity_error = std::max(result.complementarity_error, complementarity);
       return true;
     }
-    is_last = is_steady && is_whole;
+    is_last = is_done;
     if (round == kMostRounds - 2 && !is_last) {
       ++result.fallbacks.stiffening_limits;
       append_note(result.message, "the stiffening of the tissue is not steady after " +
@@ -155,6 +183,19 @@ bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& loa
     }
   }
   return true;
+}
+
+BlockStiffening ContactSolver::Impl::next_stiffening(
+    const SkinLoad& load, const std::vector<double>& displacement) const {
+  if (on_self_->is_empty()) {
+    return stiffening_of(prepared->bone, load.level, stiffening_, load.vertex, load.force,
+                         displacement);
+  }
+  std::vector<int> vertex = load.vertex;
+  std::vector<double> force = load.force;
+  std::vector<double> way = displacement;
+  on_self_->add_work(load.force, vertex, force, way);
+  return stiffening_of(prepared->bone, load.level, stiffening_, vertex, force, way);
 }
 
 /// Takes more vertices into a load, in contact.
@@ -187,12 +228,15 @@ std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& sk
   }
   std::vector<double> share(load.force);
   for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[k];
-  const std::vector<double> moved =
-      loaded_->displacement(share, near, reference_directions(skin, near));
+  const std::vector<Vec3> direction = reference_directions(skin, near);
+  const std::vector<double> moved = loaded_->displacement(share, near, direction);
+  std::vector<Vec3> by_skin;
+  if (!on_self_->is_empty()) by_skin = on_self_->reference_displacement(near);
   std::vector<int> result;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const auto v = static_cast<std::size_t>(near[k]);
     double gap = skin.sample[v].distance + moved[k] / bone_root_modulus(load.level, roots, near[k]);
+    if (!by_skin.empty()) gap += by_skin[k].dot(direction[k]);
     if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
     if (gap < 0.0) result.push_back(near[k]);
   }
@@ -227,9 +271,16 @@ void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const Skin
 std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus_on_bone(
     const SkinOnProduct& skin, const SkinLoad& load) {
   const std::vector<double>& root = load.root_modulus;
-  const auto y = system.solve_on(load.in_contact, root);
+  std::vector<double> right = root;  // of skin on skin, which adds nothing to F, zero
+  right.resize(static_cast<std::size_t>(system.size()), 0.0);
+  const auto y = system.solve_on(on_self_->with_contact(load.in_contact), right);
   if (!y) return std::nullopt;
   std::array<double, kRegionCount> result{};
+  if (!on_self_->is_empty()) {
+    std::vector<double> q(load.force);
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] /= root[k];
+    on_self_->add_slopes(q, *y, prepared->hand->region, result);
+  }
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const int v = load.vertex[k];
     result[index_of(prepared->hand->region[v])] +=

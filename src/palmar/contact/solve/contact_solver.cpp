@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "palmar/contact/contact_totals.h"
@@ -21,6 +22,9 @@ namespace {
 
 constexpr int kMostExtensions = 8;     // of the problem by skin that bulges into the product
 constexpr double kCoatingReach = 5.0;  // thicknesses; beyond, a layer's response is gone
+// mm; skin farther from other skin doesn't come to touch it by bulging: twice what a flank pressed
+// at the limit depth bulges. Ours.
+constexpr double kNearSkin = 2.0;
 
 }  // namespace
 
@@ -36,6 +40,7 @@ ContactSolver::Impl::Impl(const PreparedHand& prepared_hand, const ContactOption
       system(prepared->blocks) {
   if (prepared->is_on_bone()) {
     loaded_.emplace(prepared->skin, *prepared->compliance, &prepared->response, prepared->scale);
+    on_self_.emplace(prepared->skin, *prepared->compliance, prepared->scale);
   }
 }
 
@@ -176,11 +181,27 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
   return outcome.is_solved;
 }
 
+/// Skin on skin, which the tissue on bone alone has a law for.
+void ContactSolver::Impl::find_meetings(const std::vector<Vec3>& posed,
+                                        std::optional<Region> only) {
+  if (!on_self_) return;
+  if (only) return on_self_->clear();
+  on_self_->set(prepared->meetings->find(posed, skin_.normal, kNearSkin), posed, skin_.normal);
+}
+
+void ContactSolver::Impl::add_touches(ContactResult& result) const {
+  result.skin_touch.clear();
+  if (on_self_) result.skin_touch = on_self_->touches();
+  result.skin_on_skin =
+      skin_on_skin(result.skin_touch, prepared->hand->region, prepared->skin.area);
+}
+
 /// After the whole problem has failed: each region alone; what has no solution carries no force.
 void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& load,
                                           ContactResult& result) {
   result.status = ContactStatus::kNotConverged;
   set_depth(skin, load);
+  if (on_self_) on_self_->clear();
   if (prepared->model.coupling == RegionCoupling::kCoupled) {
     ++result.fallbacks.by_region;
     append_note(result.message,
@@ -347,6 +368,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
     find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_,
                          wanted);
   }
+  find_meetings(result.undeformed, only);
   const SkinOnProduct& skin = skin_;
   result.message = skin.message;
   result.force.assign(n, 0.0);
@@ -359,15 +381,17 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   result.complementarity_error = 0.0;
   result.residual_penetration_contact = 0.0;
   result.residual_penetration_other = 0.0;
+  result.residual_crossing = 0.0;
   result.status = skin.collision.empty() ? ContactStatus::kNoContact : ContactStatus::kSolved;
   if (skin.is_too_deep) result.status = ContactStatus::kTooDeep;
 
   SkinLoad load;
   if (!skin.collision.empty() && prepared->is_as_printed()) {
     load = solve_as_printed(skin, TissueLevel::kNominal, result);
-  } else if (!skin.collision.empty()) {
+  } else if (!skin.collision.empty() || (on_self_ && !on_self_->is_empty())) {
     solve_load(skin, load, result);
   }
+  add_touches(result);
   const std::vector<double>& covered = coating_.diagonal;
   if (!covered.empty() && *std::max_element(covered.begin(), covered.end()) == 0.0) {
     append_note(result.message, "no skin in contact is on a coated part of the product");
@@ -437,7 +461,29 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
       skin_displacement(*prepared, skin, load, parts, options.swelling && !prepared->is_on_bone());
   if (prepared->is_on_bone() && !load.vertex.empty()) displace_on_bone(skin, load, u);
   result.displacement = std::move(u.with_bulge);
-  deform_skin(prepared->skin, skin, product, u.is_active, result);
+  std::vector<Vec3> by_skin;
+  if (on_self_ && !on_self_->is_empty()) {
+    std::vector<int> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    by_skin = on_self_->displacement(all);
+    for (std::size_t v = 0; v < n; ++v) {
+      if (!by_skin[v].isZero(0.0)) u.is_active[v] = 1;
+    }
+  }
+  SkinMotion other{by_skin, {}, {}};
+  if (!by_skin.empty()) {
+    other.vertex = on_self_->corners();
+    other.whole =
+        on_self_->whole_displacement(other.vertex, load.vertex, load.direction, load.force);
+  }
+  deform_skin(prepared->skin, skin, product, u.is_active, other, result);
+
+  if (!by_skin.empty()) {
+    const std::vector<Vec3> normal =
+        vertex_normals(result.deformed, prepared->hand->skin.triangles);
+    result.residual_crossing =
+        deepest_crossing(prepared->meetings->find(result.deformed, normal, 0.0));
+  }
 
   result.distance.resize(n);
   std::vector<double> gap(n);

@@ -11,6 +11,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/self/meeting_loads.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"
 #include "palmar/contact/tissue/modulus_search.h"
@@ -46,6 +47,8 @@ struct ContactSolver::Impl {
   std::vector<double> was_force;  ///< N
 
  private:
+  void find_meetings(const std::vector<Vec3>& posed, std::optional<Region> only);
+  void add_touches(ContactResult& result) const;
   SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
                        const DistanceField& product, std::optional<Region> only, double wanted,
                        ContactResult& result);
@@ -69,8 +72,11 @@ struct ContactSolver::Impl {
   bool solve_system(const SkinOnProduct& skin, SkinLoad& load, ContactResult& result);
   bool solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
                      ContactResult& result);
+  BlockStiffening next_stiffening(const SkinLoad& load,
+                                  const std::vector<double>& displacement) const;
   void extend(const std::vector<int>& more, SkinLoad& load) const;
   double bone_root_modulus(TissueLevel level, const BlockRoots& roots, int v) const;
+  std::vector<double> skin_roots(TissueLevel level, const BlockRoots& roots) const;
   void set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const;
   std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
                                          const std::vector<int>& vertices) const;
@@ -100,6 +106,7 @@ struct ContactSolver::Impl {
 
   CoatingCompliance coating_;
   std::optional<LoadedSkin> loaded_;               ///< of tissue on bone
+  std::optional<MeetingLoads> on_self_;            ///< the same; skin on skin of the call under way
   const std::vector<Vec3>* undeformed_ = nullptr;  ///< of the call under way
   BlockStiffening stiffening_ = no_stiffening();   ///< after the last solution on bone
   ModulusSearch search_;

@@ -75,6 +75,7 @@ class Settling {
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
         meeting_(hand.hand(), start_.posture),
+        has_skin_on_skin_(hand.model().tissue == TissueModel::kBone),
         closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_),
         effort_(hand.hand(), options.activation.value_or(options.strength), options.wrist) {
@@ -128,6 +129,7 @@ class Settling {
   bool has_level_;               // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   ThumbMeeting meeting_;
+  bool has_skin_on_skin_;  // what fingers do to each other is in the contact
   FingertipClosing closing_;  // how a precision grip presses
   GripMechanics mechanics_;
   Wrench load_;  // product frame
@@ -365,7 +367,7 @@ void Settling::finish(Balance& balance) {
   balance.fallbacks = mechanics_.fallbacks();
   if (squeezes_) {
     const double limit = options_->activation.value_or(options_->strength);
-    effort_.look(state_.posture, mechanics_.is_loaded(), meeting_.presses(state_.posture),
+    effort_.look(state_.posture, mechanics_.is_loaded(), presses(),
                  wrist_load());
     const GripEffort::Strength strength = effort_.strength_of(mechanics_.force());
     const double share = strength.share * limit / options_->strength;
@@ -407,7 +409,7 @@ Balance Settling::run(const Progress& progress) {
       break;
     }
     if (is_by_muscles_) {
-      effort_.look(state_.posture, mechanics_.is_loaded(), meeting_.presses(state_.posture),
+      effort_.look(state_.posture, mechanics_.is_loaded(), presses(),
                    wrist_load());
     }
     const double grip = mechanics_.grip().force;

@@ -52,22 +52,58 @@ GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
 }
 
-GripMechanics::Column GripMechanics::column(const Posture& posture, int joint) const {
+GripMechanics::Column GripMechanics::column(const Posture& posture, int joint,
+                                            const std::vector<int>& vertices) const {
   Column result;
-  std::vector<int> vertices;
-  for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    if (is_moved_[joint][loaded_[k]] == 0) continue;
+  std::vector<int> moved;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (is_moved_[joint][vertices[k]] == 0) continue;
     result.row.push_back(static_cast<int>(k));
-    vertices.push_back(loaded_[k]);
+    moved.push_back(vertices[k]);
   }
-  if (vertices.empty()) return result;
+  if (moved.empty()) return result;
   Posture turned = posture;
   turned[grip_dof(joint)] += kTurn;
-  result.speed = pose_skin_vertices(hand_->hand(), turned, vertices);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    result.speed[i] = (result.speed[i] - posed_[vertices[i]]) / kTurn;
+  result.speed = pose_skin_vertices(hand_->hand(), turned, moved);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    result.speed[i] = (result.speed[i] - posed_[moved[i]]) / kTurn;
   }
   return result;
+}
+
+/// Forces of skin on skin, and how they stiffen the angles.
+void GripMechanics::add_touches(const Posture& posture) {
+  const std::vector<SkinTouch>& touches = contact_.skin_touch;
+  if (touches.empty()) return;
+  constexpr std::size_t kCorners = 4;
+  std::vector<int> corners;
+  std::array<double, kRegionCount> depth;
+  depth.fill(kLeastDepth);
+  for (const SkinTouch& touch : touches) {
+    const SkinMeeting& at = touch.meeting;
+    corners.insert(corners.end(), {at.vertex, at.on[0], at.on[1], at.on[2]});
+    double& d = depth[index_of(hand_->hand().region[at.vertex])];
+    d = std::max(d, -at.distance);
+  }
+  std::vector<GripVector> opening(touches.size(), GripVector::Zero());
+  for (int j = 0; j < kGripJoints; ++j) {
+    const Column one = column(posture, j, corners);
+    for (std::size_t i = 0; i < one.row.size(); ++i) {
+      const std::size_t k = static_cast<std::size_t>(one.row[i]) / kCorners;
+      const std::size_t corner = static_cast<std::size_t>(one.row[i]) % kCorners;
+      const SkinMeeting& at = touches[k].meeting;
+      const double weight = corner == 0 ? 1.0 : -at.weight[corner - 1];
+      opening[k][j] += weight * one.speed[i].dot(hand_from_product_ * at.normal);
+    }
+    is_loaded_[j] = is_loaded_[j] || !one.row.empty();
+  }
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const double force = touches[k].force;
+    const double stiff =
+        kPower * force / depth[index_of(hand_->hand().region[touches[k].meeting.vertex])];
+    force_ += force * opening[k];
+    stiffness_ += stiff * opening[k] * opening[k].transpose();
+  }
 }
 
 bool GripMechanics::look(const GripState& state, double accuracy) {
@@ -110,7 +146,7 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
   // Motions of each loaded vertex: over the product, per coordinate.
   std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
   for (int j = 0; j < kGripJoints; ++j) {
-    const Column one = column(state.posture, j);
+    const Column one = column(state.posture, j, loaded_);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       motion[one.row[i]].emplace_back(j, one.speed[i]);
     }
@@ -159,6 +195,7 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
       }
     }
   }
+  add_touches(state.posture);
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = limit > 0.0 ? rubbing / limit : 0.0;
   grip_ = squeeze_of_normals();

@@ -38,6 +38,9 @@ struct GripState {
 /// d_r the largest penetration of the vertex' region: a force that grows with the square of the
 /// depth, as those of stiffening skin do. The stiffness only steers the search.
 ///
+/// Skin on skin of the same hand pushes the angles of both apart in the same way, and the product
+/// not at all: f_k J_k, J_k = d(gap of touch k) / dx.
+///
 /// Friction: skin that has gone a tangential way s_v over the product since the start pulls with
 /// t_v = -(2/3) k_v s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v.
 class GripMechanics {
@@ -78,12 +81,13 @@ class GripMechanics {
   std::vector<Vec3> friction_force() const;
 
  private:
-  /// d(posed vertex)/d(joint), hand frame, of the loaded vertices that the joint moves.
+  /// d(posed vertex)/d(joint), hand frame, of those vertices that the joint moves.
   struct Column {
-    std::vector<int> row;     ///< index into loaded_
+    std::vector<int> row;     ///< index into the vertices
     std::vector<Vec3> speed;  ///< mm/rad
   };
-  Column column(const Posture& posture, int joint) const;
+  Column column(const Posture& posture, int joint, const std::vector<int>& vertices) const;
+  void add_touches(const Posture& posture);
   Squeeze squeeze_of_normals() const;
 
   const PreparedHand* hand_;
