@@ -112,6 +112,10 @@ void ContactArguments::add_to(CLI::App& verb) {
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_option("--tissue", tissue,
                   "Tissue file (TOML) for the hand; what it doesn't give stays as it is");
+  verb.add_flag(
+      "--skin-on-skin", skin_on_skin_,
+      "Let skin of the hand press on other skin of it, as fingers do side by side; takes two "
+      "to three times as long");
   verb.add_flag("--no-swelling", no_swelling_, "Leave out the bulge around the contact");
   verb.add_option("--shear-modulus-kpa", shear_modulus_kpa_,
                   "One shear modulus instead of the tissue's own G(d), kPa");
@@ -128,6 +132,7 @@ void ContactArguments::add_to(CLI::App& verb) {
 ContactOptions ContactArguments::options() const {
   ContactOptions result;
   result.swelling = !no_swelling_;
+  result.skin_on_skin = skin_on_skin_;
   if (shear_modulus_kpa_ && !(*shear_modulus_kpa_ > 0.0)) {
     throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa_) +
                      "; more than 0 kPa is required");

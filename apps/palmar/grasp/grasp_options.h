@@ -47,6 +47,7 @@ class ContactArguments {
   std::string kernel_, regions_, tissue_model_;  ///< empty: as in the preset
   bool no_swelling_ = false;
   bool error_band_ = true;
+  bool skin_on_skin_ = false;
   std::optional<double> shear_modulus_kpa_;
   std::vector<std::string> coatings_;
 };

@@ -78,7 +78,7 @@ export function assessment(): Assessment {
     settings: {
       palm_limit_depth_mm: 7, finger_limit_depth_mm: 4, at_mm: null, axis: null, turn_deg: null, balance: false,
       balance_friction: 0.5, grip_force_asked_n: null, grip_force_from: "", contact_model: "palmar", kernel: "patch", tissue_model: "halfspace",
-      regions: "coupled", swelling: true, coatings: [], error_band: true, cell_area_mm2: 24, shear_modulus_mpa: null, seed: 0,
+      regions: "coupled", swelling: true, skin_on_skin: false, coatings: [], error_band: true, cell_area_mm2: 24, shear_modulus_mpa: null, seed: 0,
     },
   };
 }

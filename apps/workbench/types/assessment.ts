@@ -170,6 +170,7 @@ export interface AssessmentSettings {
   tissue_model: "halfspace" | "layered" | "bone";
   regions: "coupled" | "independent";
   swelling: boolean;
+  skin_on_skin: boolean;
   coatings: Coating[];
   error_band: boolean;
   cell_area_mm2: number;

@@ -105,7 +105,10 @@ struct ContactOptions {
   std::optional<double> shear_modulus;  ///< MPa; replaces G everywhere if set
   std::vector<Coating> coatings;  ///< of the product; the first whose box holds a point counts
   bool error_band = false;        ///< solve again with low and high tissue: ContactResult::band
-  void check() const;             ///< throws UsageError: field, value, allowed range
+  /// Skin of the hand presses on other skin of it (self/meeting_loads.h); with tissue on bone
+  /// alone, else UsageError.
+  bool skin_on_skin = false;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 class HandFamily;

@@ -155,7 +155,7 @@ Json skin_on_skin_array(const ContactResult& contact) {
 }
 
 /// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
-Json contact_object(const ContactResult& contact, double grip_force) {
+Json contact_object(const ContactResult& contact, double grip_force, bool has_skin_on_skin) {
   Json json = {{"status", name_of_status(contact.status)},
                {"message", contact.message},
                {"grip_force_n", grip_force}};
@@ -164,11 +164,13 @@ Json contact_object(const ContactResult& contact, double grip_force) {
   json["complementarity_error_n_mm"] = contact.complementarity_error;
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
-  json["residual_crossing_mm"] = contact.residual_crossing;
-  double by_skin = 0.0;
-  for (const SkinOnSkin& both : contact.skin_on_skin) by_skin += both.force;
-  json["skin_on_skin_force_n"] = by_skin;
-  json["skin_on_skin"] = skin_on_skin_array(contact);
+  if (has_skin_on_skin) {
+    json["residual_crossing_mm"] = contact.residual_crossing;
+    double by_skin = 0.0;
+    for (const SkinOnSkin& both : contact.skin_on_skin) by_skin += both.force;
+    json["skin_on_skin_force_n"] = by_skin;
+    json["skin_on_skin"] = skin_on_skin_array(contact);
+  }
   json["iterations"] = contact.iterations;
   json["fallbacks"] = fallback_object(contact.fallbacks);
   Json regions = Json::array();
@@ -373,6 +375,7 @@ Json settings_object(const Assessment& assessment) {
           {"tissue_model", name_of(assessment.contact.model.tissue)},
           {"regions", name_of(assessment.contact.model.coupling)},
           {"swelling", options.contact.swelling},
+          {"skin_on_skin", options.contact.skin_on_skin},
           {"coatings", coating_array(options.contact.coatings)},
           {"error_band", options.contact.error_band},
           {"cell_area_mm2", options.contact.cell_area},
@@ -420,7 +423,8 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
                   {"doubts", doubts_array(assessment)},
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
-                  {"contact", contact_object(assessment.contact, grip_force_of(one))},
+                  {"contact", contact_object(assessment.contact, grip_force_of(one),
+                                             assessment.options.contact.skin_on_skin)},
                   {"verdict", verdict_object(one, verdict.products[number],
                                              number < words.products.size() ? words.products[number]
                                                                             : ProductWords{})},

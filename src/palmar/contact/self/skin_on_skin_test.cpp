@@ -13,6 +13,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/self/meeting_loads.h"
 #include "palmar/contact/self/skin_meetings.h"
+#include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/hand/tissue.h"
 
@@ -135,12 +136,14 @@ TEST(SkinMeetings, LeaveOutWhatAJointFolds) {
   EXPECT_TRUE(SkinMeetings(*hand).find(posed, normal, 0.0).empty());
 }
 
+const ContactOptions kOnSkin{.skin_on_skin = true};
+
 // By symmetry each of two equal bodies pressed on each other meets a rigid plane half way: at equal
 // force the approach is twice that to a plate.
 TEST(SkinOnSkin, TwoEqualTipsPressAsEachOnAPlateHalfWay) {
   for (const double overlap : {1.0, 2.0, 3.0}) {
     const std::vector<Vec3> both = approached(prepared().hand(), overlap);
-    const ContactResult own = solve_hand_contact(prepared(), both, {}, far_plate());
+    const ContactResult own = solve_hand_contact(prepared(), both, {}, far_plate(), kOnSkin);
     EXPECT_EQ(own.status, ContactStatus::kNoContact);
     EXPECT_EQ(own.total.force, 0.0);
     // The index tip alone on a plate whose surface is x = 0: z up is x.
@@ -156,7 +159,7 @@ TEST(SkinOnSkin, TwoEqualTipsPressAsEachOnAPlateHalfWay) {
       if (prepared().hand().segment[v] != Segment::kIndexDistal) index[v].x() = -500.0;
     }
     const ContactResult on_plate =
-        solve_hand_contact(prepared(), index, plate, contact_test::HalfSpace(0.0));
+        solve_hand_contact(prepared(), index, plate, contact_test::HalfSpace(0.0), kOnSkin);
     ASSERT_GT(on_plate.total.force, 0.0);
     EXPECT_NEAR(sum_of(own.skin_touch), on_plate.total.force, 0.06 * on_plate.total.force)
         << overlap;
@@ -203,7 +206,7 @@ TEST(SkinOnSkin, ResponsesAreSymmetricAndPositive) {
 
 TEST(SkinOnSkin, ActionIsReaction) {
   const ContactResult own =
-      solve_hand_contact(prepared(), approached(prepared().hand(), 2.0), {}, far_plate());
+      solve_hand_contact(prepared(), approached(prepared().hand(), 2.0), {}, far_plate(), kOnSkin);
   std::vector<Vec3> force(prepared().hand().skin.vertices.size(), Vec3::Zero());
   for (const SkinTouch& touch : own.skin_touch) {
     const Vec3 f = touch.force * touch.meeting.normal;
@@ -220,10 +223,20 @@ TEST(SkinOnSkin, ActionIsReaction) {
 
 TEST(SkinOnSkin, TissueOfOtherModelsKnowsNone) {
   const PreparedHand half_space(two_tips());
-  const ContactResult own =
-      solve_hand_contact(half_space, approached(half_space.hand(), 2.0), {}, far_plate());
-  EXPECT_TRUE(own.skin_touch.empty());
-  EXPECT_TRUE(own.skin_on_skin.empty());
+  const std::vector<Vec3> both = approached(half_space.hand(), 2.0);
+  EXPECT_TRUE(solve_hand_contact(half_space, both, {}, far_plate()).skin_touch.empty());
+  try {
+    solve_hand_contact(half_space, both, {}, far_plate(), kOnSkin);
+    FAIL() << "half-space";
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "contact: skin on skin needs tissue on bone; the tissue model is halfspace");
+  }
+}
+
+TEST(SkinOnSkin, IsAskedFor) {
+  const std::vector<Vec3> both = approached(prepared().hand(), 2.0);
+  EXPECT_TRUE(solve_hand_contact(prepared(), both, {}, far_plate()).skin_touch.empty());
 }
 
 TEST(SkinOnSkin, SkinApartChangesNoBit) {
@@ -232,7 +245,7 @@ TEST(SkinOnSkin, SkinApartChangesNoBit) {
     // Both lie on the plate below them, 1.5 mm deep.
     Rigid3 up;
     up.translation = Vec3(0.0, 0.0, kRadius - 1.5);
-    return solve_hand_contact(prepared(), skin, up, contact_test::HalfSpace(0.0));
+    return solve_hand_contact(prepared(), skin, up, contact_test::HalfSpace(0.0), kOnSkin);
   };
   const ContactResult apart = on_plate(-20.0);
   const ContactResult near = on_plate(-8.0);
@@ -248,7 +261,7 @@ TEST(SkinOnSkin, SameOnOneThreadAndOnMany) {
     set_thread_count(threads);
     std::vector<double> result;
     for (const SkinTouch& touch :
-         solve_hand_contact(prepared(), both, {}, far_plate()).skin_touch) {
+         solve_hand_contact(prepared(), both, {}, far_plate(), kOnSkin).skin_touch) {
       result.push_back(touch.force);
     }
     set_thread_count(0);

@@ -38,6 +38,10 @@ ContactSolver::Impl::Impl(const PreparedHand& prepared_hand, const ContactOption
       prepared(&prepared_hand.impl()),
       options(contact_options),
       system(prepared->blocks) {
+  if (options.skin_on_skin && !prepared->is_on_bone()) {
+    throw UsageError("contact: skin on skin needs tissue on bone; the tissue model is " +
+                     std::string(name_of(prepared->model.tissue)));
+  }
   if (prepared->is_on_bone()) {
     loaded_.emplace(prepared->skin, *prepared->compliance, &prepared->response, prepared->scale);
     on_self_.emplace(prepared->skin, *prepared->compliance, prepared->scale);
@@ -185,7 +189,7 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
 void ContactSolver::Impl::find_meetings(const std::vector<Vec3>& posed,
                                         std::optional<Region> only) {
   if (!on_self_) return;
-  if (only) return on_self_->clear();
+  if (only || !options.skin_on_skin) return on_self_->clear();
   on_self_->set(prepared->meetings->find(posed, skin_.normal, kNearSkin), posed, skin_.normal);
 }
 

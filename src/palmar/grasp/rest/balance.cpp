@@ -75,7 +75,7 @@ class Settling {
         start_{grasp.posture, grasp.product_from_hand},
         state_(start_),
         meeting_(hand.hand(), start_.posture),
-        has_skin_on_skin_(hand.model().tissue == TissueModel::kBone),
+        has_skin_on_skin_(contact.skin_on_skin),
         closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_),
         effort_(hand.hand(), options.activation.value_or(options.strength), options.wrist) {
@@ -106,6 +106,7 @@ class Settling {
   bool is_stuck(int joint, double residual) const;
   void add_load(GripVector& residual) const;
   double wrist_load() const;
+  std::vector<ThumbPress> presses() const;
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
@@ -129,7 +130,7 @@ class Settling {
   bool has_level_;               // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   ThumbMeeting meeting_;
-  bool has_skin_on_skin_;  // what fingers do to each other is in the contact
+  bool has_skin_on_skin_;     // what fingers do to each other is in the contact
   FingertipClosing closing_;  // how a precision grip presses
   GripMechanics mechanics_;
   Wrench load_;  // product frame
@@ -149,6 +150,11 @@ void Settling::add_load(GripVector& residual) const {
   residual.segment<3>(kGripJoints) += load_share_ * (hand_from_product.rotation * load_.force);
   residual.tail<3>() +=
       load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
+}
+
+/// Of the thumb on fingers, unless the contact has it.
+std::vector<ThumbPress> Settling::presses() const {
+  return has_skin_on_skin_ ? std::vector<ThumbPress>{} : meeting_.presses(state_.posture);
 }
 
 /// Moment of the load about the wrist: what the grip itself does there adds up to nothing.
@@ -367,8 +373,7 @@ void Settling::finish(Balance& balance) {
   balance.fallbacks = mechanics_.fallbacks();
   if (squeezes_) {
     const double limit = options_->activation.value_or(options_->strength);
-    effort_.look(state_.posture, mechanics_.is_loaded(), presses(),
-                 wrist_load());
+    effort_.look(state_.posture, mechanics_.is_loaded(), presses(), wrist_load());
     const GripEffort::Strength strength = effort_.strength_of(mechanics_.force());
     const double share = strength.share * limit / options_->strength;
     if (std::isfinite(share)) balance.strength_use = share;
@@ -409,8 +414,7 @@ Balance Settling::run(const Progress& progress) {
       break;
     }
     if (is_by_muscles_) {
-      effort_.look(state_.posture, mechanics_.is_loaded(), presses(),
-                   wrist_load());
+      effort_.look(state_.posture, mechanics_.is_loaded(), presses(), wrist_load());
     }
     const double grip = mechanics_.grip().force;
     if (i == 0) {
