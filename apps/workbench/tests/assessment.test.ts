@@ -28,7 +28,7 @@ test("three questions of comfort have one scale each, with source and figure", (
   const one = assessment();
   const section = text(comfortSection(one, vocabulary));
   assert.equal(count(section, "data-question="), 3);
-  for (const part of ["A moment of this grip doesn’t hurt.", "Johansson", "Chalmers", "12 % of the onset", "60 % of the onset", "62 %", "1.3 %"]) {
+  for (const part of ["A moment of this grip doesn’t hurt.", "Johansson", "Chalmers", "12 % of the onset", "60 % of the onset", "62 %", "2.1 %"]) {
     assert.ok(section.indexOf(part) >= 0, part);
   }
   assert.match(section, /data-question="moment"[^]*badge good[^]*data-question="repeated"[^]*badge fair/);
