@@ -8,6 +8,8 @@ import { el, fill } from "./dom";
 import { BenchLanguage, benchLanguage, chooseLanguage, say, startLanguage } from "./say";
 import { Api, ServerState, ShelvedProduct, StartView } from "./start_view";
 
+const kLeft = "palmar-bench";
+
 class App {
   private readonly main = el("main");
   private readonly language: HTMLSelectElement = el("select", { class: "language", onchange: () => this.speak(this.language.value as BenchLanguage) });
@@ -26,8 +28,30 @@ class App {
       fill(this.main, el("div", { class: "start" }, el("h1", {}, say("title")), el("p", { class: "message", role: "alert" }, say("bench.failed", { message: String(error) }))));
       return;
     }
-    if (this.state.given.length === 1) this.open(this.state.given[0], null);
+    const before = await this.leftBefore();
+    if (before) this.open(before.product, before.state);
+    else if (this.state.given.length === 1) this.open(this.state.given[0], null);
     else this.start();
+  }
+
+  // What this tab had on the bench when it was loaded anew; of this server alone, whose token it is.
+  private async leftBefore(): Promise<{ product: ShelvedProduct; state: BenchState } | null> {
+    try {
+      const left = JSON.parse(sessionStorage.getItem(kLeft) ?? "null") as { token: string; state: BenchState } | null;
+      const product = left?.token === this.api.token ? await this.api.product(left.state.product) : null;
+      return left && product ? { product, state: left.state } : null;
+    } catch {
+      return null; // a browser that keeps nothing
+    }
+  }
+
+  private keep(state: BenchState | null): void {
+    try {
+      if (state) sessionStorage.setItem(kLeft, JSON.stringify({ token: this.api.token, state }));
+      else sessionStorage.removeItem(kLeft);
+    } catch {
+      // As above.
+    }
   }
 
   private name(): void {
@@ -40,8 +64,9 @@ class App {
     this.view?.close();
     this.view = null;
     this.product = null;
+    this.keep(null);
     document.body.dataset.view = "start";
-    new StartView(this.freshRoot(), this.api, this.state!, (product) => this.open(product, null));
+    new StartView(this.freshRoot(), this.api, this.state!, (product, state) => this.open(product, state));
   }
 
   // An element without listeners of what stood there before.
@@ -55,7 +80,7 @@ class App {
     this.view?.close();
     this.product = product;
     document.body.dataset.view = "bench";
-    this.view = new BenchView(this.freshRoot(), this.api.token, product, state, () => this.start());
+    this.view = new BenchView(this.freshRoot(), this.api, product, state, () => this.start(), (now) => this.keep(now));
   }
 
   private speak(language: BenchLanguage): void {

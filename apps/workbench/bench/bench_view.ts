@@ -11,7 +11,8 @@ import { FieldFrame, Frame, Place, Triple } from "./live_frame";
 import { Angle, PosePanel } from "./pose_panel";
 import { benchLanguage, decimal, say, TextKey } from "./say";
 import { BenchScene, Colours, Offset, Pointed } from "./scene";
-import { ShelvedProduct, sidesText } from "./start_view";
+import { projectEnding, projectText } from "./project";
+import { Api, ShelvedProduct, sidesText } from "./start_view";
 import { UndoStack } from "./undo";
 
 interface OpenedHold {
@@ -102,7 +103,9 @@ export class BenchView {
     title: el("div", { class: "title" }),
   };
 
-  constructor(root: HTMLElement, token: string, product: ShelvedProduct, start: BenchState | null, back: () => void) {
+  /// `kept`: with every step, so that the page can be loaded again.
+  constructor(root: HTMLElement, private readonly api: Api, private readonly product: ShelvedProduct, start: BenchState | null,
+              back: () => void, private readonly kept: (state: BenchState) => void) {
     this.state = start ?? { product: product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
     this.posing = new PosePanel({
       offset: (offset, isOver) => this.moved(offset, isOver),
@@ -115,7 +118,7 @@ export class BenchView {
     document.addEventListener("keydown", this.keys);
     this.status(say("bench.opening", { file: product.file_name }));
     const place = location.protocol === "https:" ? "wss" : "ws";
-    this.channel = new LiveChannel(`${place}://${location.host}/api/live?token=${encodeURIComponent(token)}`, {
+    this.channel = new LiveChannel(`${place}://${location.host}/api/live?token=${encodeURIComponent(api.token)}`, {
       frame: (frame) => this.frame(frame),
       answer: (answer) => this.answer(answer),
       connected: (isConnected) => this.connected(isConnected),
@@ -174,7 +177,7 @@ export class BenchView {
         el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.command"))), els.command)));
     fill(els.title, el("strong", {}, product.file_name));
     fill(root, el("header", { class: "top" }, el("button", { type: "button", onclick: back }, say("bench.back")), els.title,
-      el("span", { class: "group" }, els.undo, els.redo)), els.lost, section);
+      el("span", { class: "group" }, els.undo, els.redo, el("button", { type: "button", "data-project": true, onclick: () => void this.saveProject() }, say("bench.save")))), els.lost, section);
     return section;
   }
 
@@ -383,8 +386,19 @@ export class BenchView {
   private keep(): void {
     if (!this.isStepping) this.undo.push(this.state);
     this.isStepping = false;
+    this.kept(this.state);
     this.els.undo.disabled = !this.undo.canUndo();
     this.els.redo.disabled = !this.undo.canRedo();
+  }
+
+  private async saveProject(): Promise<void> {
+    try {
+      const bytes = await this.api.file(this.product.key);
+      const name = this.product.file_name;
+      saveText(name.replace(/\.[^.]*$/, "") + projectEnding, projectText({ fileName: name, unit: this.product.unit, bytes, state: this.state }));
+    } catch (error) {
+      this.status(say("bench.failed", { message: String(error) }), "bad");
+    }
   }
 
   private step(which: "undo" | "redo"): void {

@@ -3,7 +3,9 @@
 //
 // The first page: a file dropped or chosen, an example, or what `palmar serve FILE` was given.
 import { decimal, say, TextKey } from "./say";
+import { BenchState } from "./bench_state";
 import { el, fill } from "./dom";
+import { parseProject, projectEnding } from "./project";
 
 export interface ShelvedProduct {
   key: string;
@@ -41,6 +43,16 @@ export class Api {
     const answer = await fetch(path, { method, body, headers: { Authorization: `Bearer ${this.token}` } });
     return { status: answer.status, json: await answer.json() };
   }
+  /// A product that is still on the server's shelf.
+  async product(key: string): Promise<ShelvedProduct | null> {
+    const answer = await this.ask("GET", `/api/products/${encodeURIComponent(key)}`);
+    return answer.status === 200 ? (answer.json as ShelvedProduct) : null;
+  }
+  async file(key: string): Promise<Uint8Array> {
+    const answer = await fetch(`/api/products/${encodeURIComponent(key)}/file`, { headers: { Authorization: `Bearer ${this.token}` } });
+    if (!answer.ok) throw new Error(`${answer.status}`);
+    return new Uint8Array(await answer.arrayBuffer());
+  }
   async state(): Promise<ServerState> {
     const answer = await this.ask("GET", "/api/state");
     if (answer.status !== 200) throw new Error((answer.json as { error: string }).error);
@@ -50,11 +62,11 @@ export class Api {
 
 export class StartView {
   private readonly message = el("p", { class: "message", role: "status" });
-  private readonly picker = el("input", { type: "file", class: "unseen", tabindex: -1, accept: ".stl,.obj,.ply,.3mf,.gltf,.glb,.step,.stp,.iges,.igs",
+  private readonly picker = el("input", { type: "file", class: "unseen", tabindex: -1, accept: ".stl,.obj,.ply,.3mf,.gltf,.glb,.step,.stp,.iges,.igs,.palmar-project",
     onchange: () => { if (this.picker.files?.[0]) void this.send(this.picker.files[0]); } });
 
   constructor(root: HTMLElement, private readonly api: Api, state: ServerState,
-              private readonly open: (product: ShelvedProduct) => void) {
+              private readonly open: (product: ShelvedProduct, state: BenchState | null) => void) {
     this.picker.setAttribute("aria-hidden", "true");
     const drop = el("div", { class: "drop" },
       el("p", {}, say("start.drop")),
@@ -71,7 +83,7 @@ export class StartView {
       if (file) void this.send(file);
     });
     const given = state.given.map((product) => el("li", {},
-      el("button", { type: "button", class: "card", onclick: () => this.open(product) }, el("strong", {}, product.file_name))));
+      el("button", { type: "button", class: "card", onclick: () => this.open(product, null) }, el("strong", {}, product.file_name))));
     const examples = state.examples.map((name) => el("li", {},
       el("button", { type: "button", class: "card", "data-example": name, onclick: () => void this.example(name) },
         shape(name), el("strong", {}, say(`example.${name}` as TextKey)))));
@@ -84,15 +96,30 @@ export class StartView {
 
   private async send(file: File, unit = ""): Promise<void> {
     this.message.textContent = say("start.reading", { file: file.name });
+    if (file.name.endsWith(projectEnding)) return this.reopen(file);
     try {
       const query = new URLSearchParams({ name: file.name, unit });
       const { status, json } = await this.api.ask("POST", `/api/products?${query.toString()}`, file);
       this.message.textContent = "";
-      if (status === 200) this.open(json as ShelvedProduct);
+      if (status === 200) this.open(json as ShelvedProduct, null);
       else if (status === 409) this.askUnit(file, json as UnitQuestion);
       else this.fail((json as { error: string }).error);
     } catch (error) {
       this.fail(String(error));
+    }
+  }
+
+  // A project's product goes to the server as its file was, then the bench is as it was left.
+  private async reopen(file: File): Promise<void> {
+    try {
+      const project = parseProject(await file.text());
+      const query = new URLSearchParams({ name: project.fileName, unit: project.unit ?? "" });
+      const { status, json } = await this.api.ask("POST", `/api/products?${query.toString()}`, new Blob([project.bytes]));
+      if (status !== 200) throw new Error((json as { error: string }).error);
+      const product = json as ShelvedProduct;
+      this.open(product, { ...project.state, product: product.key });
+    } catch (error) {
+      this.fail(`${file.name}: ${error instanceof Error ? error.message : String(error)}`);
     }
   }
 
@@ -118,7 +145,7 @@ export class StartView {
 
   private async example(name: string): Promise<void> {
     const { status, json } = await this.api.ask("POST", `/api/examples?name=${encodeURIComponent(name)}`);
-    if (status === 200) this.open(json as ShelvedProduct);
+    if (status === 200) this.open(json as ShelvedProduct, null);
     else this.fail((json as { error: string }).error);
   }
 }

@@ -7,6 +7,7 @@ import { test } from "node:test";
 import { BenchState, needsOpening, openRequest, stateRequest } from "../bench/bench_state";
 import { decodeFrame, FieldFrame, MeshFrame } from "../bench/live_frame";
 import { MoveQueue } from "../bench/move_queue";
+import { parseProject, Project, projectText } from "../bench/project";
 import { tickStep } from "../bench/ticks";
 import { UndoStack } from "../bench/undo";
 import english from "../bench/texts/en.json";
@@ -154,6 +155,30 @@ test("a state says what shows it", () => {
   assert.equal(needsOpening(null, state), true);
   assert.equal(needsOpening(state, { ...state, hold: 1, gripForce: null }), false);
   assert.equal(needsOpening(state, { ...state, holder: { person: "", left: true } }), true);
+});
+
+test("a project reads back exactly and says what is wrong with it", () => {
+  const bytes = new Uint8Array(70000);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = (i * 7919) % 256;
+  const pose = { postureDeg: Array.from({ length: 23 }, (_, k) => k / 3), place: { quaternion: [0.6, 0, 0.8, 0] as [number, number, number, number], translation: [0.1, -2.7, 3] as [number, number, number] }, grip: "medium_wrap" };
+  const project: Project = { fileName: "a b.stl", unit: "mm", bytes, state: { holder: { person: "man:P95", left: true }, gripForce: 33.3, hold: 2, pose, settle: "close" } };
+  assert.deepEqual(parseProject(projectText(project)), project);
+  const plain: Project = { ...project, unit: null, state: { holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null } };
+  assert.deepEqual(parseProject(projectText(plain)), plain);
+  const changed = (change: (json: Record<string, any>) => void) => () => {
+    const json = JSON.parse(projectText(project));
+    change(json);
+    parseProject(JSON.stringify(json));
+  };
+  assert.throws(() => { parseProject("{"); }, /no JSON/);
+  assert.throws(() => { parseProject("[]"); }, /an object is required/);
+  assert.throws(changed((json) => { json.palmar_project = 2; }), /"palmar_project" is 2; 1 is read here/);
+  assert.throws(changed((json) => { delete json.product; }), /"product".*an object/);
+  assert.throws(changed((json) => { json.product.bytes_base64 = "%%%"; }), /base64 is required/);
+  assert.throws(changed((json) => { json.pose.posture_deg = [1]; }), /23 numbers/);
+  assert.throws(changed((json) => { json.hold = 1.5; }), /whole number/);
+  assert.throws(changed((json) => { json.settle = "fly"; }), /close, rest or null/);
+  assert.throws(changed((json) => { json.grip_force_n = "60"; }), /grip_force_n/);
 });
 
 test("scales have 4 to 9 round ticks", () => {

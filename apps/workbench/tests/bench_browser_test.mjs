@@ -144,6 +144,12 @@ async function choose(page, path) {
   await page.send("DOM.setFileInputFiles", { nodeId, files: [path] });
 }
 
+/// The next file that the page offers is in window.saved.
+async function catchSaved(page) {
+  await page.value(`(() => { delete window.saved; const make = URL.createObjectURL; URL.createObjectURL = (blob) => {
+    void blob.text().then((text) => { window.saved = text; }); URL.createObjectURL = make; return make.call(URL, blob); }; })()`);
+}
+
 const contrasts = `(() => {
   for (const one of document.querySelectorAll("details")) one.open = true;
   const channels = (colour) => colour.match(/[\\d.]+/g).map(Number);
@@ -291,9 +297,9 @@ async function doAsPeopleDo(browser) {
   await after(page, () => page.set("[data-angle=index_pip_flexion][type=number]", 40));
   const evaluate = await page.text("[data-command]");
   assert.match(evaluate, /^palmar grasp evaluate round-handle\.stl --unit mm --posture posture\.json$/);
-  await page.value(`(() => { const make = URL.createObjectURL; URL.createObjectURL = (blob) => { window.saved = blob.text(); URL.createObjectURL = make; return make.call(URL, blob); }; })()`);
+  await catchSaved(page);
   await page.value("[...document.querySelectorAll('.command .copy')].pop().click()");
-  writeFileSync(join(folder, "posture.json"), await page.value("window.saved"));
+  writeFileSync(join(folder, "posture.json"), await page.until("window.saved"));
   compared(await figures(page), palmarJson(words(evaluate)).assessments[0].contact);
   // Fingers close there, and it comes to rest with the force.
   await after(page, () => page.click("[data-act=close]"));
@@ -307,6 +313,20 @@ async function doAsPeopleDo(browser) {
   for (let k = 0; k < 10; ++k) await after(page, () => page.key("z", 10));
   const again = await figures(page);
   assert.deepEqual(again, last, "ten steps forward");
+
+  // Loaded again in the middle, and saved and opened as a project: the same figures.
+  const stands = await figures(page);
+  await page.send("Page.reload");
+  await page.until(at("rest"), 60000);
+  assert.deepEqual(await figures(page), stands, "loaded again");
+  await catchSaved(page);
+  await page.click("[data-project]");
+  writeFileSync(join(folder, "mine.palmar-project"), await page.until("window.saved"));
+  await page.click(".top button");
+  await page.until("document.querySelector('[data-example]') !== null");
+  await choose(page, join(folder, "mine.palmar-project"));
+  await page.until(at("rest"), 60000);
+  assert.deepEqual(await figures(page), stands, "opened as a project");
 
   // Another person's left hand.
   await after(page, () => page.set(".who select", "woman:P5"));

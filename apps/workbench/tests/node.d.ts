@@ -21,3 +21,5 @@ declare module "node:assert/strict" {
   };
   export default assert;
 }
+declare function btoa(bytes: string): string;
+declare function atob(text: string): string;

@@ -118,6 +118,11 @@ ServiceAnswer Service::routed(const ServiceRequest& request, const Target& targe
               .file_name = product->file_name};
     }
   }
+  if (is_get && target.path.starts_with(kProducts)) {
+    if (const auto product = shelf_->find(target.path.substr(kProducts.size()))) {
+      return shelved(*product);
+    }
+  }
   return refusal(404, in_quotes(request.method + " " + target.path) + " is nothing here");
 }
 

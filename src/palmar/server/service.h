@@ -45,6 +45,7 @@ inline constexpr std::uint64_t kLargestRequest = std::uint64_t{1} << 20U;
 ///     POST /api/products?name=&unit=       the file as body -> the product, or the question which
 ///                                          unit (409)
 ///     POST /api/examples?name=             -> the product
+///     GET  /api/products/KEY               the product
 ///     GET  /api/products/KEY/file          its file
 ///     GET  /api/live                       the live channel (http_server.h)
 ///

@@ -85,6 +85,10 @@ TEST(Service, FileThatIsSentBecomesAProductAndComesBack) {
   EXPECT_EQ(product["name"], "my ball");
   EXPECT_NEAR(product["sides_mm"][0].get<double>(), 60.0, 1.0);
   EXPECT_EQ(product["unit_source"], "proposed");
+  const ServiceAnswer same =
+      service().answer(asking("GET", "/api/products/" + product["key"].get<std::string>()));
+  EXPECT_EQ(json::parse(same.body), product);
+  EXPECT_EQ(service().answer(asking("GET", "/api/products/p999")).status, 404);
   const ServiceAnswer file = service().answer(
       asking("GET", "/api/products/" + product["key"].get<std::string>() + "/file"));
   EXPECT_EQ(file.body, stl);
