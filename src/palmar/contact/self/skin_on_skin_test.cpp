@@ -136,7 +136,11 @@ TEST(SkinMeetings, LeaveOutWhatAJointFolds) {
   EXPECT_TRUE(SkinMeetings(*hand).find(posed, normal, 0.0).empty());
 }
 
-const ContactOptions kOnSkin{.skin_on_skin = true};
+const ContactOptions kOnSkin = [] {
+  ContactOptions options;
+  options.skin_on_skin = true;
+  return options;
+}();
 
 // By symmetry each of two equal bodies pressed on each other meets a rigid plane half way: at equal
 // force the approach is twice that to a plate.
