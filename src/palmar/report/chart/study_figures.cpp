@@ -93,8 +93,9 @@ Figure trend(const StudyResults& results, const ConditionAnalysis& one,
 Figure shares(const StudyResults& results, const ConditionAnalysis& one, const std::string& which) {
   std::vector<ShareBar> bars;
   for (const Accommodation& a : one.accommodation) {
-    bars.push_back({results.plan.products[at(a.product)].name, product_colour(a.product),
-                    a.inside.share, a.inside.interval.low, a.inside.interval.high,
+    bars.push_back({results.plan.products[static_cast<std::size_t>(a.product)].name,
+                    product_colour(a.product), a.inside.share, a.inside.interval.low,
+                    a.inside.interval.high,
                     std::to_string(a.inside.count) + " of " + std::to_string(a.inside.n)});
   }
   const std::string title = results.plan.limits.empty() ? "hands that hold the product"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/page/assessment_report.h"
 
-#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/csv.h"
 #include "palmar/report/page/assessment_page.h"
+#include "palmar/report/page/file_names.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/holds_picture.h"
 #include "palmar/report/words/phrases.h"
@@ -27,21 +27,6 @@ constexpr int kEmbeddedWidth = 720;   // pixels; the page shows pictures about 5
 constexpr int kSheetWidth = 1280;     // pixels; the sheet of holds, as wide as the page
 constexpr int kSheetTile = 320;       // pixels
 constexpr int kThumbnailWidth = 440;  // pixels; on the cards of products side by side
-
-// A folder name that every file system takes, different from those already used.
-std::string folder_name(const std::string& product, std::set<std::string>& used) {
-  std::string name;
-  for (const char c : product) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ||
-                          c == '_' || (c == '.' && !name.empty());
-    name += is_plain ? c : '_';
-  }
-  if (name.empty()) name = "product";
-  if (name.size() > 80) name.resize(80);
-  std::string unique = name;
-  for (int k = 2; !used.insert(unique).second; ++k) unique = name + "_" + std::to_string(k);
-  return unique;
-}
 
 std::vector<MeshNote> notes_of(const ContactResult& contact) {
   return {{"contact_model", name_of(contact.model)},
@@ -270,7 +255,8 @@ void write_report(const std::string& folder, const AssessmentSet& set, const Rep
       progress.report(static_cast<double>(i) / static_cast<double>(set.assessments.size()),
                       "pictures and fields of " + one.product.name);
     }
-    const std::filesystem::path own = root / folder_name(one.product.name, used);
+    const std::filesystem::path own =
+        root / unique_file_name(one.product.name, used, FullStops::kKept);
     create_folder(own);
     write_fields(own, hand, one, scale, progress);
     if (options.pictures) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/study/study_report.h"
 
-#include <cctype>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/report/chart/study_figures.h"
+#include "palmar/report/page/file_names.h"
 #include "palmar/report/picture/study_pictures.h"
 #include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_answer.h"
@@ -25,20 +25,6 @@ namespace {
 constexpr int kEmbeddedWidth = 640;  // pixels; the page shows pictures about 540 wide
 
 std::size_t picture_place(int i) { return static_cast<std::size_t>(i); }
-
-// A file name that every file system takes, different from those already used.
-std::string file_name(const std::string& text, std::set<std::string>& used) {
-  std::string name;
-  for (const char c : text) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
-    name += is_plain ? c : '_';
-  }
-  if (name.empty()) name = "product";
-  if (name.size() > 80) name.resize(80);
-  std::string unique = name;
-  for (int k = 2; !used.insert(unique).second; ++k) unique = name + "_" + std::to_string(k);
-  return unique;
-}
 
 void check_folder(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
@@ -76,7 +62,7 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
     progress.update(0.55 + 0.35 * static_cast<double>(p) / static_cast<double>(embedded.size()),
                     "maps of " + plan.products[p].name);
-    const std::string name = file_name(plan.products[p].name, used);
+    const std::string name = unique_file_name(plan.products[p].name, used, FullStops::kReplaced);
     if (maps[p].hands == 0) continue;
     const StudyRecord* grasp = typical_grasp(input.results, condition, static_cast<int>(p));
     const PictureOptions drawing{.width = options.picture_width,
