@@ -116,7 +116,7 @@ function(palmar_module name)
                                      "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(palmar_${name} PUBLIC $<BUILD_INTERFACE:palmar::compiler> ${ARG_PUBLIC}
                                        PRIVATE ${ARG_PRIVATE})
-  if(NOT name MATCHES "^(cad|board)$")  # of the programs palmar-cad and palmar-photo alone
+  if(NOT name MATCHES "^(cad|board|server)$")  # of the programs palmar-cad, palmar-photo and palmar alone
     palmar_export(palmar_${name} ${name})
   endif()
   if(ARG_WITH_JSON)
