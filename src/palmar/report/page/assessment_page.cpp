@@ -99,8 +99,9 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
   }
   PageJson sensors = nullptr;
   if (one.assessment.sensors) {
-    sensors = attached(attachments, name + "-sensors",
-                       to_svg(sensor_figure(*one.assessment.sensors, one.assessment.measured)));
+    Figure figure = sensor_figure(*one.assessment.sensors, one.assessment.measured);
+    figure.say(phrases);
+    sensors = attached(attachments, name + "-sensors", to_svg(figure));
   }
   return {{"charts", charts_json(contact, name, phrases, attachments)},
           {"sensor_map", std::move(sensors)},

@@ -73,6 +73,8 @@ std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
     if (whose.empty()) whose = texts("strength.nobody", {{"strength", texts.number(use.reached)}});
     if (whose == usual_people()) {
       whose = texts("strength.usual", {{"age", texts.number(kUsualAge, 2)}});
+    } else {
+      whose = Phrases(texts.language())(whose);
     }
     const std::string force = texts.number(use.grip_force, 2);
     if (use.share) {
