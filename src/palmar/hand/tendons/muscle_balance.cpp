@@ -84,8 +84,7 @@ class InteriorPoint {
 
   int run() {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-      if (has_converged()) return iteration;
-      take_step();
+      if (has_converged() || !take_step()) return iteration;
     }
     return kMaxIterations;
   }
@@ -114,7 +113,9 @@ class InteriorPoint {
            gap() < 1e-4 * kTolerance * price;
   }
 
-  void take_step() {
+  /// Whether there is a step: near the ends of double's range equations may have no finite
+  /// solution; then the iterate stays, and the conditions say how good it is.
+  bool take_step() {
     const VectorXd r = room();
     const VectorXd rd = dual_residual(), rp = p_.a * at_.x - p_.b;
     const VectorXd diagonal = p_.curvature(at_.x).array() + at_.z.array() / at_.x.array() +
@@ -163,11 +164,13 @@ class InteriorPoint {
       step = lengths(d);
     }
     last_gap_ = mu;
+    if (!d.x.allFinite() || !d.y.allFinite() || !d.z.allFinite() || !d.w.allFinite()) return false;
     step = std::min(1.0, 0.995 * step);
     at_.x += step * d.x;
     at_.y += step * d.y;
     at_.z += step * d.z;
     at_.w += step * d.w;
+    return true;
   }
 
   const Program& p_;

@@ -90,18 +90,6 @@ TEST(StudyStore, AWriterWaitsForReaders) {
   EXPECT_EQ(StudyStore(path).done().size(), 1U);
 }
 
-TEST(StudyStore, AStoreThatIsGoneIsSaidToBeGone) {
-  const TestFolder folder;
-  const Study study = small_study();
-  const fs::path path = folder / "a.palmar";
-  StudyStore::create(path, study.plan, study.inputs);
-  StudyStore store(path, StudyAccess::kWrite);
-  store.keep(record_for(0));
-  fs::remove(path);
-  const std::string message = message_of<OutputError>([&] { store.keep(record_for(1)); });
-  EXPECT_THAT(message, HasSubstr("a.palmar: was moved or deleted"));
-}
-
 TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
   const TestFolder folder;
   const Study study = small_study();
