@@ -12,6 +12,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 #include "palmar/geometry/distance/mesh_distance.h"
+#include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_store_fixture.h"
 
 namespace palmar {
