@@ -146,7 +146,7 @@ std::string plain_name_of(Dof dof) {
 }
 
 EffortResult assess_effort(const Hand& hand, const Posture& posture,
-                           std::span<const SkinLoad> loads, const EffortOptions& options,
+                           std::span<const SkinForce> loads, const EffortOptions& options,
                            const HandLoad* at_rest) {
   options.check();
   const HandMuscles muscles(hand, {.tendons = options.tendons,
@@ -225,7 +225,7 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture, const Conta
                            const Rigid3& product_from_hand, const DistanceField& product,
                            const EffortOptions& options, const FrictionResult* friction,
                            const HandLoad* at_rest) {
-  const std::vector<SkinLoad> loads = skin_loads(contact, product_from_hand, product, friction);
+  const std::vector<SkinForce> loads = skin_loads(contact, product_from_hand, product, friction);
   EffortResult result = assess_effort(hand, posture, loads, options, at_rest);
   result.with_friction = friction != nullptr && !friction->force.empty();
   return result;

@@ -108,7 +108,7 @@ EffortResult assess_effort(const Hand& hand, const Posture& posture, const Conta
 
 /// The same for given forces on the skin.
 EffortResult assess_effort(const Hand& hand, const Posture& posture,
-                           std::span<const SkinLoad> loads, const EffortOptions& options = {},
+                           std::span<const SkinForce> loads, const EffortOptions& options = {},
                            const HandLoad* at_rest = nullptr);
 
 /// The indices of group "effort".

@@ -34,8 +34,8 @@ Posture grip_posture(const Hand& hand) {
 }
 
 /// A product pushes every phalanx off by `force` [N], perpendicular to it in its plane of flexion.
-std::vector<SkinLoad> grip_loads(const Hand& hand, const Posture& posture, double force) {
-  std::vector<SkinLoad> loads;
+std::vector<SkinForce> grip_loads(const Hand& hand, const Posture& posture, double force) {
+  std::vector<SkinForce> loads;
   const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
   for (int s = 1; s < kSegmentCount; ++s) {
     const auto segment = static_cast<Segment>(s);
@@ -55,9 +55,9 @@ TEST(JointMoments, ForceTimesLever) {
   // flexion joint is extended by 2 N times its distance.
   const Hand hand = plain_hand();
   const Posture posture;
-  const std::vector<SkinLoad> loads = {{vertex_of(Segment::kRingDistal),
-                                        hand.skin.vertices[vertex_of(Segment::kRingDistal)],
-                                        Vec3(0, 0, -2)}};
+  const std::vector<SkinForce> loads = {{vertex_of(Segment::kRingDistal),
+                                         hand.skin.vertices[vertex_of(Segment::kRingDistal)],
+                                         Vec3(0, 0, -2)}};
   const PosedDigit digit = pose_digit(hand.skeleton, Finger::kRing, posture);
   const DigitMoments moments = digit_moments(hand, digit, loads);
   EXPECT_NEAR(moments.force, 2.0, 1e-12);
@@ -134,7 +134,7 @@ TEST(Effort, MusclesBalanceEveryJoint) {
 
 TEST(Effort, NothingHeldNothingDone) {
   const Hand hand = plain_hand();
-  const EffortResult effort = assess_effort(hand, grip_posture(hand), std::vector<SkinLoad>{});
+  const EffortResult effort = assess_effort(hand, grip_posture(hand), std::vector<SkinForce>{});
   EXPECT_EQ(effort.status, EffortStatus::kNoLoad);
   EXPECT_EQ(effort.tendon_force, 0.0);
   for (const GraspIndex& index : effort_indices(effort)) {
@@ -184,9 +184,9 @@ TEST(Effort, ForcesScaleWithTheLoadUntilAMuscleIsFull) {
 TEST(Effort, LeftHandDoesWhatTheRightOneDoes) {
   const Hand hand = plain_hand(), left = mirrored(hand);
   const Posture posture = grip_posture(hand);
-  std::vector<SkinLoad> loads = grip_loads(hand, posture, 5.0);
+  std::vector<SkinForce> loads = grip_loads(hand, posture, 5.0);
   const EffortResult right = assess_effort(hand, posture, loads);
-  for (SkinLoad& load : loads) {
+  for (SkinForce& load : loads) {
     load.point.x() *= -1.0;
     load.force.x() *= -1.0;
   }
@@ -201,8 +201,8 @@ TEST(Effort, LeftHandDoesWhatTheRightOneDoes) {
 TEST(Effort, OverloadNamesJointAndMoment) {
   const Hand hand = plain_hand();
   const Posture posture = grip_posture(hand);
-  const std::vector<SkinLoad> all = grip_loads(hand, posture, 300.0);
-  const std::vector<SkinLoad> tip = {all[vertex_of(Segment::kIndexDistal)]};
+  const std::vector<SkinForce> all = grip_loads(hand, posture, 300.0);
+  const std::vector<SkinForce> tip = {all[vertex_of(Segment::kIndexDistal)]};
   const EffortResult effort = assess_effort(hand, posture, tip);
   EXPECT_EQ(effort.status, EffortStatus::kOverloaded);
   EXPECT_THAT(effort.message, testing::MatchesRegex(".*index DIP flexion: [0-9]+ N mm missing.*"));
@@ -249,8 +249,8 @@ TEST(Effort, BentMcpIsHeldSidewaysByLigaments) {
   const Hand hand = plain_hand();
   for (const double flexion : {50.0, 70.0}) {
     const Posture posture = effort_test::posture_of(Finger::kRing, flexion, 30, 30);
-    std::vector<SkinLoad> loads = grip_loads(hand, posture, 1.0);
-    for (SkinLoad& load : loads) load.force.x() += 1.0;  // towards the thumb
+    std::vector<SkinForce> loads = grip_loads(hand, posture, 1.0);
+    for (SkinForce& load : loads) load.force.x() += 1.0;  // towards the thumb
     const EffortResult effort = assess_effort(hand, posture, loads);
     for (const JointEffort& joint : effort.digits[3].joints) {
       if (joint.dof != Dof::kRingMcpAbduction) continue;
@@ -263,7 +263,7 @@ TEST(Effort, BentMcpIsHeldSidewaysByLigaments) {
 TEST(Effort, BadOptionsAreNamed) {
   const Hand hand = plain_hand();
   const auto with = [&](const EffortOptions& options) {
-    return [&hand, options] { assess_effort(hand, Posture{}, std::vector<SkinLoad>{}, options); };
+    return [&hand, options] { assess_effort(hand, Posture{}, std::vector<SkinForce>{}, options); };
   };
   EXPECT_THAT(with({.exponent = 1}),
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("exponent is 1; 2 or 3")));

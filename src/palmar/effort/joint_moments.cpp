@@ -21,15 +21,15 @@ std::vector<double> metacarpal_share(const Hand& hand) {
 
 }  // namespace
 
-std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
-                                 const DistanceField& product, const FrictionResult* friction) {
+std::vector<SkinForce> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
+                                  const DistanceField& product, const FrictionResult* friction) {
   std::vector<int> loaded;
   for (std::size_t v = 0; v < contact.force.size(); ++v) {
     if (contact.force[v] > 0.0) loaded.push_back(static_cast<int>(v));
   }
   const std::vector<Vec3> normals = contact_normals(contact, product, loaded);
   const Rigid3 hand_from_product = product_from_hand.inverse();
-  std::vector<SkinLoad> loads;
+  std::vector<SkinForce> loads;
   loads.reserve(loaded.size());
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const auto v = static_cast<std::size_t>(loaded[k]);
@@ -52,11 +52,11 @@ std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& pro
 }
 
 DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
-                           std::span<const SkinLoad> loads) {
+                           std::span<const SkinForce> loads) {
   DigitMoments result;
   std::vector<double> metacarpal;
   if (digit.finger == Finger::kThumb) metacarpal = metacarpal_share(hand);
-  for (const SkinLoad& load : loads) {
+  for (const SkinForce& load : loads) {
     const int v = load.vertex;
     const Segment segment = hand.segment[v];
     const auto finger = finger_of(segment);

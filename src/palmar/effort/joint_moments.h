@@ -12,7 +12,7 @@
 namespace palmar {
 
 /// A force on the hand at a place of its skin, hand frame.
-struct SkinLoad {
+struct SkinForce {
   int vertex = 0;             ///< of hand.skin
   Vec3 point = Vec3::Zero();  ///< where it acts in the posture, mm
   Vec3 force = Vec3::Zero();  ///< N
@@ -23,9 +23,9 @@ struct SkinLoad {
 /// along its outward normal at the skin after contact; with `friction` minus its tractions (which
 /// are those of the skin on the product). Skin on skin of the hand itself adds a load on each of
 /// the two, of opposite sign.
-std::vector<SkinLoad> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
-                                 const DistanceField& product,
-                                 const FrictionResult* friction = nullptr);
+std::vector<SkinForce> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
+                                  const DistanceField& product,
+                                  const FrictionResult* friction = nullptr);
 
 /// What outside forces do at the joints of one digit.
 struct DigitMoments {
@@ -38,6 +38,6 @@ struct DigitMoments {
 /// against it. Skin over the thumb's metacarpal belongs to it by the share with which the CMC moves
 /// it (skinning weights). The weight of the hand is left out.
 DigitMoments digit_moments(const Hand& hand, const PosedDigit& digit,
-                           std::span<const SkinLoad> loads);
+                           std::span<const SkinForce> loads);
 
 }  // namespace palmar
