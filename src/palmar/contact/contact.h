@@ -238,9 +238,9 @@ struct ContactResult {
   int iterations = 0;
   ContactFallbacks fallbacks;
   std::optional<ContactBand> band;  ///< with ContactOptions::error_band
-  /// Skin on skin of the same hand (tissue on bone only): single touches, ascending by vertex, with
-  /// normals in the product frame, and their sums per pair of regions. None of it is in `force`,
-  /// `pressure`, `regions` or `total`: it doesn't act on the product.
+  /// With ContactOptions::skin_on_skin, else empty: single touches of the hand's own skin,
+  /// ascending by vertex, with normals in the product frame, and their sums per pair of regions.
+  /// None of it is in `force`, `pressure`, `regions` or `total`: it doesn't act on the product.
   std::vector<SkinTouch> skin_touch;
   std::vector<SkinOnSkin> skin_on_skin;
   double residual_crossing = 0.0;  ///< by which skin still crosses other skin after contact, mm

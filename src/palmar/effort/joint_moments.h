@@ -21,8 +21,8 @@ struct SkinForce {
 
 /// What a solved contact does to the hand, one load per loaded vertex: the product pushes with p
 /// along its outward normal at the skin after contact; with `friction` minus its tractions (which
-/// are those of the skin on the product). Skin on skin of the hand itself adds a load on each of
-/// the two, of opposite sign.
+/// are those of the skin on the product). Skin on skin, where the contact has it, adds a load on
+/// each of the two, of opposite sign.
 std::vector<SkinForce> skin_loads(const ContactResult& contact, const Rigid3& product_from_hand,
                                   const DistanceField& product,
                                   const FrictionResult* friction = nullptr);

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/hand/tendons/wrist_muscles.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <string>
 
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
@@ -48,10 +49,8 @@ void WristPosture::check() const {
   constexpr const char* kNames[2] = {"flexion", "radial deviation"};
   for (int k = 0; k < 2; ++k) {
     if (asked[k] >= kLowest[k] - 1e-9 && asked[k] <= kHighest[k] + 1e-9) continue;
-    throw UsageError("wrist: " + std::string(kNames[k]) + " is " +
-                     std::to_string(std::lround(asked[k])) + " degrees; " +
-                     std::to_string(std::lround(kLowest[k])) + " to " +
-                     std::to_string(std::lround(kHighest[k])) + " is allowed");
+    throw UsageError(fmt::format("wrist: {} is {:.4g} degrees; {:.0f} to {:.0f} is allowed",
+                                 kNames[k], asked[k], kLowest[k], kHighest[k]));
   }
 }
 

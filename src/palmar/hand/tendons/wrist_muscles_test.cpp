@@ -139,6 +139,12 @@ TEST(WristPosture, SaysWhatIsAllowed) {
     EXPECT_THAT(error.what(), testing::HasSubstr("flexion is 80 degrees; -70 to 75 is allowed"));
   }
   EXPECT_THROW(at(0, 25).check(), UsageError);
+  try {
+    WristPosture{.flexion = std::nan("")}.check();
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("flexion is nan degrees"));
+  }
 }
 
 }  // namespace
