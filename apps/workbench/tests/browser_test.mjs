@@ -2,68 +2,50 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reports in a real browser: node browser_test.mjs PALMAR [FOLDER] makes reports of two products and of
-// a study, adds a script to a copy of each page that does what people do, and reads what came of it from
-// the page. With FOLDER it also leaves screenshots there. Ends with 77 where no browser is found.
+// a study, does in each page what people do, and reads what came of it from the page. With FOLDER it also
+// leaves screenshots there. Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { Browser, browserProgram } from "./browser.mjs";
 
 const palmar = resolve(process.argv[2]);
 const pictures = process.argv[3] && resolve(process.argv[3]);
-const browser = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
-  .find((name) => spawnSync(name, ["--version"]).status === 0);
-if (!browser) {
+if (!browserProgram) {
   console.log("skipped: no browser (chromium, google-chrome) is installed");
   process.exit(77);
 }
 const folder = mkdtempSync(join(tmpdir(), "palmar-browser-"));
+const browser = new Browser();
 
 function run(words) {
   execFileSync(palmar, words.split(" "), { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
 }
 
-function browse(page, size, more) {
-  return spawnSync(browser, [
-    "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
-    `--user-data-dir=${join(folder, "profile")}`, `--window-size=${size}`, "--virtual-time-budget=60000", ...more,
-    `file://${page}`,
-  ], { encoding: "utf8", maxBuffer: 1 << 28, timeout: 120000 });
-}
-
-/// How wide a page is in a frame of 390 pixels, as a phone has: headless windows are never so narrow.
-function widthOnPhone(page) {
-  const outer = join(folder, "phone.html");
-  writeFileSync(outer, `<iframe src="file://${page}" style="width:390px;height:844px;border:0"></iframe><script>
-    onload = () => setTimeout(() => {
-      const inner = document.querySelector("iframe").contentDocument;
-      for (const one of inner.querySelectorAll("details")) one.open = true;
-      setTimeout(() => { document.body.insertAdjacentHTML("beforeend", "<pre id=found>" + inner.documentElement.scrollWidth + "</pre>"); }, 500);
-    }, 500);</script>`);
-  const text = browse(outer, "800,900", ["--allow-file-access-from-files", "--dump-dom"]).stdout.match(/<pre id="found">(\d+)/);
-  assert.ok(text, `${page}: the frame said nothing`);
-  return Number(text[1]);
-}
-
-/// What `script`, the body of an async function, gives back in that page.
-function inPage(page, size, script) {
-  const copy = join(folder, "copy.html");
-  const wait = "const wait = (ms) => new Promise((done) => setTimeout(done, ms));";
-  const added = `<script>(async () => { ${wait} let found; try { found = await (async () => { ${script} })(); } ` +
-    `catch (error) { found = { error: String(error) }; } ` +
-    `const out = document.createElement("pre"); out.id = "found"; out.textContent = JSON.stringify(found); document.body.append(out); })();</script>`;
-  writeFileSync(copy, readFileSync(page, "utf8").replace("</body>", () => added + "</body>"));
-  // A browser that is slow to start its WebGL may end before the script does: once more then.
-  let result = null;
-  for (let tries = 0; tries < 2 && !result; ++tries) {
-    result = browse(copy, size, ["--dump-dom"]).stdout.match(/<pre id="found">([^]*?)<\/pre>/);
-  }
-  assert.ok(result, `${page}: the script didn't end`);
-  const text = result[1].replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&amp;/g, "&");
-  const found = JSON.parse(text);
-  assert.equal(found.error, undefined, found.error);
+/// What `script`, the body of an async function, gives back in that page, in a window of that size.
+async function inPage(page, [width, height], script) {
+  const tab = await browser.page(width, height);
+  await tab.open(`file://${page}`);
+  const found = await tab.value(`(async () => {
+    const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+    const isLive = async (view) => {
+      for (let i = 0; i < 600; ++i, await wait(50)) if (view.classList.contains("is-live")) return;
+      throw new Error("the view didn't start within 30 s");
+    };
+    ${script} })()`);
+  await tab.close();
   return found;
+}
+
+/// The page as the browser prints it.
+async function printed(address) {
+  const tab = await browser.page(1280, 720);
+  await tab.open(address);
+  const { data } = await tab.send("Page.printToPDF", { preferCSSPageSize: true, printBackground: true });
+  await tab.close();
+  return Buffer.from(data, "base64").toString("latin1");
 }
 
 const firstScreen = `
@@ -91,7 +73,7 @@ const pointing = `
   document.querySelector("#product-0").open = true;
   const view = document.querySelector("#product-0 [data-palmar-scene]");
   view.scrollIntoView({ block: "center" });
-  for (let i = 0; i < 400 && !view.classList.contains("is-live"); ++i) await wait(50);
+  await isLive(view);
   const canvas = view.querySelector("canvas");
   const wheel = () => !canvas.dispatchEvent(new WheelEvent("wheel", { deltaY: 10, bubbles: true, cancelable: true }));
   const before = wheel();
@@ -118,7 +100,7 @@ const pointing = `
 const linked = `
   const view = document.querySelector(".pair");
   view.scrollIntoView({ block: "center" });
-  for (let i = 0; i < 400 && !view.classList.contains("is-live"); ++i) await wait(50);
+  await isLive(view);
   const second = view.querySelectorAll("canvas")[1];
   const before = second.toDataURL();
   view.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
@@ -169,7 +151,9 @@ const units = `
 const narrow = `
   for (const one of document.querySelectorAll("details")) one.open = true;
   await wait(200);
-  return { width: document.documentElement.scrollWidth, window: innerWidth };`;
+  return document.documentElement.scrollWidth;`;
+
+const screen = [1280, 720];
 
 try {
   run("product make cylinder --diameter-mm 22 --length-mm 120 --out thin.step");
@@ -180,23 +164,23 @@ try {
   const two = join(folder, "two/report.html"), six = join(folder, "six/report.html");
   const less = /thick presses \d+ % less than thin at its hardest place, in the same grip of 40 N/;
   for (const [page, images, sentence] of [[two, 4, less], [six, 4, /presses [\d.]+ % less than .* of 6 hands agree/]]) {
-    const first = inPage(page, "1280,720", firstScreen);
+    const first = await inPage(page, screen, firstScreen);
     assert.ok(first.bottom <= 720, `${page}: the first screen ends at ${first.bottom}`);
     assert.equal(first.images, images);
     assert.ok(first.drawn && first.charts === 1 && first.rows > 3, JSON.stringify(first));
     assert.match(first.sentence, sentence);
     assert.match(first.command, /^palmar /);
-    const folds = inPage(page, "1280,720", folding);
+    const folds = await inPage(page, screen, folding);
     assert.deepEqual(folds.shut, []);
     assert.ok(folds.links >= 5 && folds.opened && folds.text.length > 40, JSON.stringify(folds));
-    const phone = inPage(page, "500,844", narrow); // the narrowest window of a headless browser
-    assert.ok(phone.width <= phone.window, `${page}: ${phone.width} wide in a window of ${phone.window}`);
-    const onPhone = widthOnPhone(page);
-    assert.ok(onPhone <= 390, `${page}: ${onPhone} wide on a phone of 390`);
-    const contrast = inPage(page, "1280,720", contrasts);
+    for (const window of [500, 390]) {
+      const width = await inPage(page, [window, 844], narrow);
+      assert.ok(width <= window, `${page}: ${width} wide in a window of ${window}`);
+    }
+    const contrast = await inPage(page, screen, contrasts);
     assert.ok(contrast.seen > 100, JSON.stringify(contrast));
     assert.deepEqual(contrast.poor, []);
-    const said = inPage(page, "1280,720", units);
+    const said = await inPage(page, screen, units);
     assert.deepEqual(said.after, said.before);
     assert.match(said.us.facts, /lbf.*psi/);
     assert.ok(!/ MPa| N\b/.test(said.us.facts), said.us.facts);
@@ -207,17 +191,15 @@ try {
     // 1 MPa = 145.04 psi; both are rounded to three digits.
     assert.ok(Math.abs(said.us.cell / said.before.cell / 145.04 - 1) < 0.02, JSON.stringify(said));
   }
-  const pointed = inPage(two, "1280,720", pointing);
+  const pointed = await inPage(two, screen, pointing);
   assert.match(pointed.says, /(MPa|face).*\(-?\d+\.\d, -?\d+\.\d, -?\d+\.\d\) mm/);
   assert.match(pointed.copied, /^--at -?\d+\.\d,-?\d+\.\d,-?\d+\.\d$/);
   assert.deepEqual([pointed.before, pointed.after], [false, true], "the wheel is the page's until the view is clicked");
   assert.match(pointed.scale, /^\d+ mm$/);
-  assert.deepEqual(inPage(two, "1280,720", linked), { canvases: 2, follows: true });
+  assert.deepEqual(await inPage(two, screen, linked), { canvases: 2, follows: true });
   // On paper: the answer on one page, all of it on several.
   for (const [what, paper, width] of [["answer", "a4", 595], ["answer", "letter", 612], ["all", "a4", 595]]) {
-    const pdf = join(folder, `${what}-${paper}.pdf`);
-    browse(`${two}#print=${what},${paper}`, "1280,720", ["--no-pdf-header-footer", `--print-to-pdf=${pdf}`]);
-    const text = readFileSync(pdf, "latin1");
+    const text = await printed(`file://${two}#print=${what},${paper}`);
     const pages = Number(text.match(/\/Count (\d+)/)[1]);
     assert.ok(what === "answer" ? pages === 1 : pages > 5, `${what} on ${paper}: ${pages} pages`);
     assert.equal(Math.round(Number(text.match(/\/MediaBox \[0 0 ([\d.]+)/)[1])), width);
@@ -231,7 +213,7 @@ try {
     assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [1920, 1080], name);
     assert.ok(png.length > 30000, `slide-${name}.png has ${png.length} bytes: it is empty`);
   }
-  const project = inPage(join(folder, "desk/report.html"), "1280,720", `
+  const project = await inPage(join(folder, "desk/report.html"), screen, `
     const logo = document.querySelector(".project img");
     for (let i = 0; i < 50 && !logo.complete; ++i) await wait(50);
     return { text: document.querySelector(".project").textContent, logo: logo.naturalWidth,
@@ -243,7 +225,7 @@ try {
   run("assess thin.step --mass-kg 0.3 --friction 0.6 --language de --no-pictures --out deutsch");
   run("study report six.palmar --language de --no-figures --no-pictures --out studie");
   for (const name of ["deutsch", "studie"]) {
-    const text = inPage(join(folder, name, "report.html"), "1280,720", `
+    const text = await inPage(join(folder, name, "report.html"), screen, `
       for (const one of document.querySelectorAll("script,style,code,pre")) one.remove();
       return [...document.querySelectorAll("body *")].flatMap((one) => [...one.childNodes].filter((node) => node.nodeType === 3)
         .map((node) => node.data.trim())).filter((words) => / (the|of|and|is|are|with|not) /.test(" " + words + " "));`);
@@ -253,12 +235,16 @@ try {
   if (pictures) {
     mkdirSync(pictures, { recursive: true });
     for (const [name, page] of [["two", two], ["six", six]]) {
-      for (const size of ["1280,720", "1920,1080", "500,844"]) {
-        browse(page, size, [`--screenshot=${join(pictures, `${name}-${size.replace(",", "x")}.png`)}`]);
+      for (const size of [screen, [1920, 1080], [500, 844]]) {
+        const tab = await browser.page(...size);
+        await tab.open(`file://${page}`);
+        await tab.picture(join(pictures, `${name}-${size.join("x")}.png`));
+        await tab.close();
       }
     }
   }
   console.log("first screens, links, folding, glossary, 3-D places, linked views, narrow windows and paper are as they should be");
 } finally {
+  await browser.close();
   rmSync(folder, { recursive: true, force: true });
 }
