@@ -82,6 +82,23 @@ TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
   EXPECT_NEAR(two.total.force_vector.z(), -two.total.force, 1e-9);
 }
 
+TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {
+  // Tissue hardly changes its volume: what is pressed in comes out elsewhere.
+  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
+  const ContactResult contact = pressed(hand, 1.0, 1.5);
+  double pressed_in = 0.0, bulge = 0.0;  // mm3
+  for (const auto& [a, b, c] : usual_tip()->skin.triangles) {
+    const auto moved = [&](auto v) { return Vec3(contact.undeformed[v] - contact.deformed[v]); };
+    const Vec3 twice_area = (contact.undeformed[b] - contact.undeformed[a])
+                                .cross(contact.undeformed[c] - contact.undeformed[a]);
+    const double volume = (moved(a) + moved(b) + moved(c)).dot(twice_area) / 6.0;
+    (volume > 0.0 ? pressed_in : bulge) += volume;
+  }
+  // Not all of it is seen: skin moves along its normals only, and that of the back not at all.
+  EXPECT_GT(-bulge, pressed_in / 3.0);
+  EXPECT_LT(-bulge, pressed_in);
+}
+
 TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
   const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
   const ContactResult plain = pressed(hand, 1.0, 1.5);
