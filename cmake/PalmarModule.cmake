@@ -60,7 +60,7 @@ if(PALMAR_PRECOMPILE)
   set(folder ${PROJECT_SOURCE_DIR}/cmake/precompiled)
   add_library(palmar_eigen STATIC ${folder}/eigen_cholesky.cpp ${folder}/eigen_orthogonal.cpp
                                   ${folder}/eigen_products.cpp)
-  target_link_libraries(palmar_eigen PRIVATE $<BUILD_INTERFACE:palmar::compiler> Eigen3::Eigen)
+  target_link_libraries(palmar_eigen PUBLIC palmar::elementary PRIVATE $<BUILD_INTERFACE:palmar::compiler> Eigen3::Eigen)
   palmar_export(palmar_eigen eigen)
   set(palmar_common <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
                     <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>

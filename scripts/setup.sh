@@ -9,7 +9,7 @@ palmar_packages=(
   build-essential cmake ninja-build ccache pkg-config git
   libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libtomlplusplus-dev libboost-dev libsqlite3-dev
-  libnlopt-cxx-dev libexif-dev duktape-dev
+  libnlopt-cxx-dev libexif-dev duktape-dev musl-dev
 )
 # What palmar-cad needs: CAD files.
 palmar_cad_packages=(libocct-data-exchange-dev)
