@@ -46,6 +46,10 @@ std::vector<std::string> split(const CsvFile& file, int line, std::string_view t
 }
 
 void check_header(const CsvFile& file, CsvStyle style) {
+  if (file.header.size() > kMostColumns) {
+    file.fail(file.header_line, std::to_string(file.header.size()) + " columns; at most " +
+                                    std::to_string(kMostColumns) + " are allowed");
+  }
   std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < file.header.size(); ++i) {
     if (file.header[i].empty()) {

@@ -36,8 +36,11 @@ struct CsvFile {
 /// the separator.
 enum class CsvStyle { kStrict, kSpreadsheet };
 
-/// Throws InputError naming file and line: no text, no header, a row longer or shorter than the
-/// header, a quote that isn't closed, a column twice or (kStrict) without a name.
+inline constexpr std::size_t kMostColumns = 10'000;  ///< of a CSV file
+
+/// Throws InputError naming file and line: no text, no header, more than kMostColumns, a row longer
+/// or shorter than the header, a quote that isn't closed, a column twice or (kStrict) without a
+/// name.
 CsvFile parse_csv(std::string_view text, const std::string& path,
                   CsvStyle style = CsvStyle::kStrict);
 CsvFile read_csv(const std::string& path);

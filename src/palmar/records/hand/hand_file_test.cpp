@@ -16,6 +16,7 @@
 namespace palmar {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TriangleMesh tetrahedron(double size) {
@@ -75,6 +76,15 @@ std::string hand_message(const std::string& path) {
     return e.what();
   }
   return "no error";
+}
+
+TEST(HandFile, AJointFarFromTheHandIsRefused) {
+  Hand hand = small_hand();
+  hand.skeleton.joints[0].dofs[0].centre.y() = 4.3e9;
+  const std::string path = temporary("far.hand.glb");
+  write_hand(path, hand);
+  EXPECT_THAT(hand_message(path),
+              AllOf(HasSubstr("far.hand.glb"), HasSubstr("4.3e+09 mm"), HasSubstr("at most 1000")));
 }
 
 TEST(HandFile, ReadBackIsTheIdenticalHand) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/records/hand/skeleton_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +17,8 @@ namespace palmar {
 namespace {
 
 using PlainJson = nlohmann::json;
+
+constexpr double kFarthestJoint = 1000.0;  // mm from the hand frame's origin; our choice
 
 PlainJson to_json(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -119,6 +123,11 @@ JointDof dof_from(const PlainJson& json) {
                      "; a unit vector is needed");
   }
   dof.centre = vec3_from(json.at("centre_mm"));
+  if (!(dof.centre.norm() <= kFarthestJoint)) {
+    throw InputError(
+        fmt::format("centre of \"{}\" is {:g} mm from the origin; at most {:g} are allowed", name,
+                    dof.centre.norm(), kFarthestJoint));
+  }
   dof.reference = finite(json.at("reference_rad"));
   dof.lower = finite(json.at("lower_rad"));
   dof.upper = finite(json.at("upper_rad"));

@@ -171,6 +171,17 @@ TEST(DimensionTable, OnePersonIsEnough) {
   EXPECT_EQ(parsed("label,hand_length_mm\n1,181\n2,181\n").column("label").texts[1], "2");
 }
 
+TEST(DimensionTable, AHundredThousandColumnsAreRefusedAtOnce) {
+  std::string text = "hand_length_mm";
+  for (int i = 1; i < 100'000; ++i) text += ",c" + std::to_string(i);
+  try {
+    parsed(text + "\n");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("100000 columns; at most 10000 are allowed"));
+  }
+}
+
 // ANSUR II's palm is 60 % of the hand, the template's 97.2 of 176.1 mm.
 TEST(DimensionTable, APalmMeasuredBetweenOtherPointsIsReported) {
   EXPECT_THAT(parsed("hand_length_mm,palmlength_mm\n193,115\n181,109\n").notes,
