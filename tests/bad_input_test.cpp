@@ -218,7 +218,7 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
       {"product convert" + part + "--out part.step", "--out with .stl, .obj or .ply is required\n"},
       {"product make sphere --out ball.pdf", "palmar: --out is ball.pdf; .step"},
       {"product make sphere --format pdf --out balls/", "palmar: --format is \"pdf\"; step"},
-      {"redesign press" + prism + "--grip-force-n 20",
+      {"redesign press" + prism + "--hold-posture kept --grip-force-n 20",
        "palmar: --grip-force-n: in a kept posture the shape decides the force; --hold-posture new "
        "goes"},
       {"redesign press" + prism + "--over most", "palmar: --over is \"most\"; mean"},

@@ -87,7 +87,21 @@ TEST(RedesignRegion, OfAPrismGivesCadFilesThatHoldWhatTheySayAndAShapeThatPresse
   EXPECT_THAT(read_text(folder + "/region/region.csv"), HasSubstr("region,face,title,area_mm2"));
   EXPECT_TRUE(fs::exists(folder + "/region/region.png"));
   EXPECT_TRUE(fs::exists(folder + "/region/report/report.html"));
-  EXPECT_FALSE(json["comparison"].is_null());
+
+  // Compared in other hands, in the hold of the original and at its grip force.
+  ASSERT_FALSE(json["comparison"].is_null());
+  EXPECT_TRUE(json["comparison"]["in_other_hands"].get<bool>());
+  const Json& change = json["comparison"]["hold_changes"].at(0);
+  EXPECT_EQ(change["hands"], 6);
+  EXPECT_LT(change["largest_turn_deg"].get<double>(), 30.0);
+  EXPECT_LT(change["largest_shift_mm"].get<double>(), 10.0);
+  EXPECT_FALSE(change["is_other_hold"].get<bool>());
+  EXPECT_THAT(run.err, HasSubstr("compared in 6 other hands than those it was made for"));
+  for (const Json& quantity : json["comparison"]["conditions"][0]["quantities"]) {
+    if (quantity["quantity"] != "grip_force_n") continue;
+    const Json& products = quantity["products"];
+    EXPECT_NEAR(products[0]["mean"].get<double>(), products[1]["mean"].get<double>(), 1.0);
+  }
 }
 
 TEST(RedesignRegion, OfAMeshHasNoSolidAndSaysSo) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/geometry/degrees.h"
 #include "study/study_comparison_text.h"
 
 namespace palmar::cli {
@@ -33,11 +34,13 @@ void RedesignArguments::add_to(CLI::App& verb) {
   verb.add_option("--language", language, "Language of the report: en or de")
       ->capture_default_str();
   verb.add_option("--hold-posture", posture,
-                  "kept: redesigns are held in the posture in which the same hand holds the "
-                  "original; new: each is grasped on its own")
+                  "new: redesigns are grasped anew in the hold of the original, at the same grip "
+                  "force; kept: in the posture in which the same hand holds the original, with "
+                  "whatever force that gives")
       ->capture_default_str();
-  verb.add_option("--grip-force-n", request.grip_force,
-                  "Grip force with which all are held, N; 0: as closed. With --hold-posture new")
+  verb.add_option(
+          "--grip-force-n", request.grip_force,
+          "Grip force with which all are held, N; 0: the usual one. With --hold-posture new")
       ->capture_default_str();
 }
 
@@ -68,6 +71,17 @@ void print_redesign(const std::string& json, const std::optional<RedesignCompari
     if (comparison) {
       object["comparison"] = comparison_object(
           compare_results(comparison->results, comparison->quantities, options), {});
+      object["comparison"]["in_other_hands"] = comparison->is_in_other_hands;
+      for (const HoldChange& change : comparison->changes) {
+        object["comparison"]["hold_changes"].push_back(
+            {{"redesign", change.redesign},
+             {"hands", change.hands},
+             {"turn_deg", change.turn * kDegreesPerRadian},
+             {"largest_turn_deg", change.largest_turn * kDegreesPerRadian},
+             {"shift_mm", change.shift},
+             {"largest_shift_mm", change.largest_shift},
+             {"is_other_hold", change.is_other_hold()}});
+      }
     }
     print(object.dump(2) + "\n");
     return;

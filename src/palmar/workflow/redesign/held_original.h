@@ -21,8 +21,9 @@ struct HeldOriginal {
   const Product& product() const { return study.inputs.products.front(); }
   RecordSource source() const;  ///< of `records`, which must outlive it
 };
-/// Loads, draws and grasps. Throws as RedesignRequest::check() and load_study(), NumericalError if
-/// no hand holds the product: no answer; Cancelled.
+/// Loads, draws and grasps; the place is that of the populations' mean hand. Throws as
+/// RedesignRequest::check() and load_study(), NumericalError if no hand holds the product: no
+/// answer; Cancelled.
 HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress);
 
 /// A redesigned product with what is to be said of it.
@@ -32,6 +33,19 @@ struct RedesignedProduct {
   std::string file;  ///< that was written
 };
 
+/// How differently the hands of a comparison hold the original and one redesign, over the hands
+/// that hold both: where the same place of the product lies in the hand, and how it is turned
+/// there.
+struct HoldChange {
+  std::string redesign;
+  int hands = 0;
+  double turn = 0.0, largest_turn = 0.0;    ///< median and largest, rad
+  double shift = 0.0, largest_shift = 0.0;  ///< median and largest, mm
+  /// The median is beyond 30 degrees or 10 mm: the redesign is held in another way, and a
+  /// difference may be the hold's rather than the shape's.
+  bool is_other_hold() const;
+};
+
 /// Original and redesigns in the same hands.
 struct RedesignComparison {
   StudyResults results;                    ///< product 0 is the original; without fields
@@ -39,9 +53,14 @@ struct RedesignComparison {
   std::filesystem::path report;            ///< report.html
   std::filesystem::path study;             ///< store of the study
   Language language = Language::kEnglish;  ///< of the report
+  bool is_in_other_hands = false;          ///< than those that the redesign was made for
+  std::vector<HoldChange> changes;         ///< one per redesign
+  std::vector<std::string> notes;          ///< those two in sentences
 };
-/// The last step of every redesign: the same hands hold the original and the redesigns. Writes
-/// OUT/redesign.palmar and OUT/report/.
+/// The last step of every redesign: original and redesigns in the same hands, others of the same
+/// populations than those of `original`; given hands (a table), which can't be drawn anew, are the
+/// same. Redesigns are held as the original is: the same hold, the same grip force, or the posture
+/// kept. Writes OUT/redesign.palmar and OUT/report/.
 RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldOriginal& original,
                                      const std::vector<RedesignedProduct>& redesigns,
                                      const Progress& progress);

@@ -41,7 +41,7 @@ void RedesignRequest::check() const {
   constexpr double kMostForce = 500.0;  // N; about the strongest grip measured
   if (!(grip_force >= 0.0 && grip_force <= kMostForce)) {
     throw UsageError(
-        fmt::format("setting \"grip force\" is {:g} N; 0 (as closed) to {:g} N are allowed",
+        fmt::format("setting \"grip force\" is {:g} N; 0 (the usual one) to {:g} N are allowed",
                     grip_force, kMostForce));
   }
   if (grip_force > 0.0 && posture == RedesignPosture::kKept) {

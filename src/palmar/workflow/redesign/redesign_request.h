@@ -19,8 +19,8 @@ namespace palmar {
 
 /// How redesigns are held.
 enum class RedesignPosture {
-  kKept,  ///< in the posture in which the same hand holds the original (Xie 2014, 5.5.3)
-  kNew    ///< grasped by themselves
+  kNew,  ///< grasped anew in the hold of the original, at the same grip force
+  kKept  ///< in the posture in which the same hand holds the original (Xie 2014, 5.5.3)
 };
 std::string name_of(RedesignPosture posture);               ///< "kept", "new"
 RedesignPosture redesign_posture(const std::string& name);  ///< throws UsageError
@@ -38,9 +38,10 @@ struct RedesignRequest {
   std::optional<Vec3> at;                  ///< where it is held, product frame, mm
   std::optional<Vec3> axis;                ///< of the handle there, product frame
   HoldRequest holding;                     ///< by which part and how, in place of `at` and `axis`
-  RedesignPosture posture = RedesignPosture::kKept;
-  /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: as closed. A kept
-  /// posture decides the force itself, so it goes with kNew only.
+  RedesignPosture posture = RedesignPosture::kNew;
+  /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: the usual one. A
+  /// kept posture decides the force itself and the original is held as it was closed, so it goes
+  /// with kNew only.
   double grip_force = 0.0;
   std::uint64_t seed = 0;                  ///< 0: a study's own
   std::filesystem::path out;               ///< folder: new or empty, or of an earlier redesign

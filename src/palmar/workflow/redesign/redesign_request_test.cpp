@@ -55,8 +55,13 @@ TEST(RedesignRequest, NamesTheFieldItsValueAndWhatIsAllowed) {
         r.posture = RedesignPosture::kNew;
         r.grip_force = 501.0;
       },
-      "setting \"grip force\" is 501 N; 0 (as closed) to 500 N are allowed");
-  refuses([](RedesignRequest& r) { r.grip_force = 20.0; }, "setting \"posture\" new goes with it");
+      "setting \"grip force\" is 501 N; 0 (the usual one) to 500 N are allowed");
+  refuses(
+      [](RedesignRequest& r) {
+        r.posture = RedesignPosture::kKept;
+        r.grip_force = 20.0;
+      },
+      "setting \"posture\" new goes with it");
 }
 
 TEST(RedesignRequest, PosturesHaveNames) {

@@ -1,0 +1,78 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/carried_hold.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/product/parts/part_place.h"
+#include "palmar/product/primitives.h"
+
+namespace palmar {
+namespace {
+
+ProductParts bar(double width, double depth) {
+  PrismProductOptions options;
+  options.width = width;
+  options.depth = depth;
+  options.length = 130.0;
+  options.fillet_radius = 4.0;
+  return find_parts(make_prism_product(options));
+}
+
+/// The same part told from its other end and with turns from another side.
+ProductParts told_otherwise(ProductParts parts, double zero_turned) {
+  ProductPart& part = parts.parts.front();
+  std::reverse(part.line.begin(), part.line.end());
+  for (PartStation& station : part.line) {
+    station.along = 1.0 - station.along;
+    station.axis = -station.axis;
+    station.zero = Eigen::AngleAxisd(zero_turned, station.axis) * station.zero;
+  }
+  return parts;
+}
+
+void expect_same_way(const Hold& a, const ProductParts& in_a, const Hold& b,
+                     const ProductParts& in_b, double near) {
+  const Rigid3 x = part_frame(in_a.parts[static_cast<std::size_t>(a.part - 1)], a.along, a.turn);
+  const Rigid3 y = part_frame(in_b.parts[static_cast<std::size_t>(b.part - 1)], b.along, b.turn);
+  EXPECT_NEAR((x.translation - y.translation).norm(), 0.0, near);
+  EXPECT_NEAR((x.rotation * Vec3::UnitZ()).dot(y.rotation * Vec3::UnitZ()), 1.0, 1e-6);
+  EXPECT_NEAR(
+      (a.toward * (x.rotation * Vec3::UnitX())).dot(b.toward * (y.rotation * Vec3::UnitX())), 1.0,
+      1e-6);
+}
+
+TEST(CarriedHold, LooksTheSameWayWhateverThePartsCoordinates) {
+  const ProductParts before = bar(30.0, 40.0);
+  Hold hold;
+  hold.along = 0.4;
+  hold.turn = 0.7;
+  hold.toward = -1;
+  for (const double turned : {0.0, 1.0, 3.0}) {
+    const ProductParts after = told_otherwise(before, turned);
+    expect_same_way(hold, before, carried_hold(hold, before, after), after, 1e-6);
+  }
+}
+
+TEST(CarriedHold, FollowsABarWhoseWideSideBecameTheNarrowOne) {
+  const ProductParts before = bar(30.0, 40.0), after = bar(44.0, 34.0);
+  Hold hold;
+  hold.along = 0.6;
+  hold.turn = -1.2;
+  expect_same_way(hold, before, carried_hold(hold, before, after), after, 0.5);
+}
+
+TEST(CarriedHold, SaysThatThereIsNoSuchPart) {
+  Hold hold;
+  hold.part = 3;
+  const ProductParts parts = bar(30.0, 40.0);
+  EXPECT_THROW(carried_hold(hold, parts, parts), UsageError);
+  hold.part = 1;
+  EXPECT_THROW(carried_hold(hold, parts, ProductParts{}), UsageError);
+}
+
+}  // namespace
+}  // namespace palmar
