@@ -43,7 +43,7 @@ const std::vector<Group>& groups() {
         "--shear-modulus-kpa", "--error-band", "--no-error-band", "--coating"}},
       {"Report",
        {"--language", "--units", "--project", "--pdf", "--paper", "--slides", "--excel",
-        "--no-pictures", "--no-compare"}},
+        "--no-pictures", "--details", "--no-compare"}},
   };
   return all;
 }

@@ -10,6 +10,7 @@
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
 #include "palmar/workflow/grasp/grasp_evaluate.h"
+#include "plain_names.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -67,7 +68,8 @@ int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
     print(assessment_json(outcome.set) + "\n");
   } else {
     print(grasp_text(assessment.grasp) + contact_text(assessment.contact) +
-          friction_text(*outcome.set.hand, assessment) + index_text(assessment.indices));
+          friction_text(*outcome.set.hand, assessment) +
+          with_plain_names(index_text(assessment.indices)));
     if (!arguments.out.empty()) print("Report: " + arguments.out + "/report.html\n");
   }
   if (outcome.has_converged) return 0;
