@@ -78,13 +78,13 @@ std::string pressure_text(const ContactResult& contact) {
   const RegionContact& total = contact.total;
   std::string text = fmt::format("contact area: {} mm²\n", short_number(total.area)) +
                      fmt::format("highest pressure: {} MPa on a sensor cell",
-                                 short_number(total.peak_pressure_cells, 2));
+                                 short_number(total.peak_pressure_cells));
   if (contact.band) {
     const ContactBandRow& all = contact.band->total;
     if (all.peak_pressure_cells_low > 0.0 && all.peak_pressure_cells_high > 0.0) {
       text += fmt::format("; {} with soft, {} with stiff skin",
-                          short_number(all.peak_pressure_cells_low, 2),
-                          short_number(all.peak_pressure_cells_high, 2));
+                          short_number(all.peak_pressure_cells_low),
+                          short_number(all.peak_pressure_cells_high));
     }
   }
   return text + "\n";

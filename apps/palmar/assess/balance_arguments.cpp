@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "palmar/core/error.h"
@@ -123,8 +125,9 @@ std::string balance_text(const Assessment& assessment) {
   const Grip grip = assessment.grasp.grip;
   const std::optional<double> asked = options.asked_grip_force(grip);
   std::string text = "grip force:";
-  if (balance.grip_force > 0.0) text += fmt::format(" {:.0f} N;", balance.grip_force);
-  if (asked) text += fmt::format(" {:.0f} N asked for:", *asked);
+  const bool is_reached = asked && std::abs(balance.grip_force - *asked) < 0.5;
+  if (balance.grip_force > 0.0) text += fmt::format(" {:.0f} N,", balance.grip_force);
+  if (asked && !is_reached) text += fmt::format(" {:.0f} N asked for:", *asked);
   text += " " + options.asked_words(grip) + "\n";
   return text + fmt::format("balance: {}\n", balance.message);
 }

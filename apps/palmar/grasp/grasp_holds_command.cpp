@@ -64,7 +64,10 @@ std::string holds_text(const GraspHoldsOutcome& outcome) {
                         direction_words(thumb_direction(one.grasp, outcome.hand->side)), one.score,
                         one.against);
   }
-  return text + "score: 0 at best; each 0.7 less is a hold that half as many people would choose\n";
+  return text +
+         "score: 0 at best; each 0.7 less is a hold that half as many people would choose. Less "
+         "than "
+         "0.2 is no\ndifference: number 1 may score that much less than number 2\n";
 }
 
 int run_holds(const HoldsArguments& o, const Context& context) {

@@ -169,12 +169,15 @@ class StudySpeaker {
       no_blood += *skin / 100.0;
     }
     if (hands == 0) return std::nullopt;
-    answer_.reasons.push_back(
-        (is_named ? name(p) + ": " : "") +
-        texts_("study.comfort", {{"pain", std::to_string(pain)},
-                                 {"discomfort", std::to_string(discomfort)},
-                                 {"hands", std::to_string(hands)},
-                                 {"percent", texts_.percent(no_blood / hands)}}));
+    const auto of_hands = [&](int count) {
+      const char* key = count == 0 ? "study.of_hands.none" : "study.of_hands";
+      return texts_(key, {{"count", std::to_string(count)}, {"hands", std::to_string(hands)}});
+    };
+    const std::string words =
+        texts_("study.comfort", {{"pain", of_hands(pain)},
+                                 {"discomfort", of_hands(discomfort)},
+                                 {"percent", texts_.percent(no_blood / hands)}});
+    answer_.reasons.push_back(is_named ? name(p) + ": " + words : capitalised(words));
     return discomfort;
   }
   static std::optional<double> index_value(const StudyRecord& record, std::string_view key) {

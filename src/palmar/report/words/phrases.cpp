@@ -28,6 +28,11 @@ bool is_verbatim(const std::string& place) {
   return place == "product" || place == "name" || place == "family" || place == "label";
 }
 
+/// Whether the text is more than a name: clauses that a place for a name must not swallow.
+bool has_clause_end(std::string_view text) {
+  return text.find(": ") != text.npos || text.find("; ") != text.npos;
+}
+
 /// Words that could be anything: there the sentence fits only if they are known themselves.
 bool must_be_known(const std::string& place) {
   return place == "grip" || place == "part" || place == "other";
@@ -85,7 +90,7 @@ bool fits(const std::string& text, std::size_t at, const std::vector<std::string
       if (is_last) return false;
       continue;
     }
-    if (!is_verbatim(names[k]) && has_sentence_end(value)) return false;
+    if (is_verbatim(names[k]) ? has_clause_end(value) : has_sentence_end(value)) return false;
     values[k] = value;
     if (fits(text, end + next.size(), pieces, names, k + 1, values)) return true;
     if (is_last) return false;
