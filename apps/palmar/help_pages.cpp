@@ -25,8 +25,13 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Start here",
-       {"--product", "--unit", "--out", "--person", "--population", "--hands", "--grip", "--hold",
-        "--grip-force-n", "--mass-kg"}},
+       {"--product", "--specimen", "--indenter", "--depth-mm", "--force-n", "--button", "--unit",
+        "--out", "--person", "--population", "--hands", "--grip", "--hold", "--grip-force-n",
+        "--mass-kg"}},
+      {"What is changed, and how far",
+       {"--goal", "--edges", "--radius-mm", "--vary", "--propose", "--overlap-share",
+        "--hands-share", "--threshold-kpa", "--keep-face", "--keep-box", "--largest-offset-mm",
+        "--largest-depth-mm", "--wall-mm"}},
       {"For whom",
        {"--hand", "--left", "--side", "--profile", "--strength-n", "--natural-postures",
         "--tissue"}},
@@ -40,10 +45,11 @@ const std::vector<Group>& groups() {
         "--gravity", "--mass-at", "--load-n", "--torque-n-mm", "--load-at"}},
       {"Skin and contact",
        {"--preset", "--coupling", "--tissue-model", "--kernel", "--no-swelling",
-        "--shear-modulus-kpa", "--error-band", "--no-error-band", "--coating"}},
+        "--shear-modulus-kpa", "--error-band", "--no-error-band", "--coating", "--skin-on-skin"}},
+      {"Beside the answer", {"--sensors", "--measured", "--error-budget"}},
       {"Report",
        {"--language", "--units", "--project", "--pdf", "--paper", "--slides", "--excel",
-        "--no-pictures", "--details", "--no-compare"}},
+        "--rounded-csv", "--no-pictures", "--details", "--no-compare"}},
   };
   return all;
 }

@@ -84,7 +84,8 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
   CLI::App* verb = add_verb(grasp, "evaluate",
                             "Contact and indices of a given posture and placement (no search)",
                             "palmar grasp evaluate handle.step --grasp grasp.json");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--unit", o->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
   verb->add_option("--person", o->person,

@@ -97,7 +97,8 @@ void add_grasp_reach(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<ReachArguments>();
   CLI::App* verb = add_verb(grasp, "reach", "Which fingers reach buttons while the product is held",
                             "palmar grasp reach handle.step --button trigger:22.5,0,80");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--button", o->buttons,
                    "Point that is pressed, may be given several times: NAME:X,Y,Z in mm, or "
                    "NAME:X,Y,Z:FX,FY,FZ with the finger's force on the product in N; default: "
