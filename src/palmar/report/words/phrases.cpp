@@ -193,16 +193,19 @@ std::optional<std::string> Phrases::cut(const std::string& english, int depth) c
   struct Mark {
     std::string text;
     std::string other;
-    bool is_sentence, is_list;
+    bool is_sentence = false, is_list = false, is_heading = false;
   };
   static const std::vector<Mark> marks = {{". ", " ", true, false},
                                           {"; ", "; ", false, false},
-                                          {": ", ": ", false, false},
+                                          {": ", ": ", false, false, true},
                                           {", ", ", ", false, true},
                                           {" and ", " und ", false, true}};
   for (const Mark& mark : marks) {
-    const std::vector<std::string> parts = parted(english, mark.text);
+    std::vector<std::string> parts = parted(english, mark.text);
     if (parts.size() < 2) continue;
+    if (mark.is_heading) {  // what follows may have a colon of its own
+      parts = {parts.front(), english.substr(parts.front().size() + mark.text.size())};
+    }
     std::string text;
     std::size_t known_parts = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {

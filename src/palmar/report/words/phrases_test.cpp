@@ -65,6 +65,20 @@ TEST(Phrases, AProductsNameIsNoClause) {
       "N).");
 }
 
+TEST(Phrases, WhatFollowsAColonMayHaveOneOfItsOwn) {
+  EXPECT_EQ(german()("thumb_flexion: voxels of 1.20 x 1.20 x 1.40 mm and noise of 5 % of the "
+                     "contrast: bones' surfaces are expected within 0.4 mm only, and some bones "
+                     "may be missed or have another one's name: look at the pictures")
+                .find("pictures"),
+            std::string::npos);
+  EXPECT_EQ(german()("thumb_flexion: look at these bones, which may be found wrongly or bear a "
+                     "wrong name: ulna is 8 mm long, where about 14 mm are expected; radius is 9 "
+                     "mm long, where about 15 mm are expected"),
+            "thumb_flexion: sehen Sie sich diese Knochen an, die falsch gefunden sein oder einen "
+            "falschen Namen tragen können: ulna ist 8 mm lang, wo etwa 14 mm zu erwarten sind; "
+            "radius ist 9 mm lang, wo etwa 15 mm zu erwarten sind");
+}
+
 TEST(Phrases, APlaceHoldsOneSentenceAtMost) {
   // "{low} against {high}" would fit all of it.
   EXPECT_EQ(german()("b has a lower contact area than a: 1 against 2 mm2, 50 % less (3 of 3 hands "
