@@ -145,7 +145,7 @@ struct Example {
 constexpr std::array kExamples = {
     Example{"hand",
             "palmar hand scale --hand-length-mm 168 --circumference-mm 178 --out small.hand.glb"},
-    Example{"product", "palmar product make prism --width-mm 35 --out handle.step"},
+    Example{"product", "palmar product make prism --width-mm 35 --out narrow.step"},
     Example{"grasp", "palmar grasp holds handle.step --png holds.png"},
     Example{
         "contact",
@@ -153,7 +153,7 @@ constexpr std::array kExamples = {
     Example{"effort", "palmar effort capacity handle.step"},
     Example{"study",
             "palmar study run --product handle.step --population ansur2_women --hands 6 --out "
-            "women.palmar"},
+            "handle.palmar"},
     Example{"redesign", "palmar redesign press handle.step --hands 6 --out pressed"},
 };
 

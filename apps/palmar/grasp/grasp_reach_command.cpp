@@ -96,7 +96,7 @@ int run_reach(const ReachArguments& o, const Context& context) {
 void add_grasp_reach(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<ReachArguments>();
   CLI::App* verb = add_verb(grasp, "reach", "Which fingers reach buttons while the product is held",
-                            "palmar grasp reach handle.step --button trigger:22.5,0,80");
+                            "palmar grasp reach handle.step --button trigger:20,0,-50");
   verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   verb->add_option("--button", o->buttons,
