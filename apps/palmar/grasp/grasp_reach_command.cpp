@@ -38,7 +38,7 @@ Button parse_button(const std::string& text) {
 }
 
 std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& buttons) {
-  std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  std::string text = status_text(grasp);
   for (const ButtonReach& reach : buttons) {
     text += fmt::format(
         "\n{}: {}\n  finger   reached  miss (mm)  pad tilt (deg)  margin (deg)  "
