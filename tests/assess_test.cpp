@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -127,6 +129,40 @@ TEST(Assess, ReportAsksTheNetworkForNothing) {
   for (const std::string loads : {"src=\"http", "href=\"http", "src='http", "src=\"//", "@import",
                                   "fetch(\"http", "url(http"}) {
     EXPECT_EQ(html.find(loads), std::string::npos) << loads;
+  }
+}
+
+/// Whether a name of files, as index_distal, stands in the text.
+bool has_file_names(const std::string& text) {
+  for (std::size_t at = text.find('_'); at != text.npos; at = text.find('_', at + 1)) {
+    if (at > 0 && std::islower(text[at - 1]) != 0 && std::islower(text[at + 1]) != 0) return true;
+  }
+  return false;
+}
+
+TEST(Assess, AnswersInAFewLinesUnlessAskedForDetails) {
+  const std::string& folder = cylinder().folder;
+  const ProgramRun few =
+      run_palmar("assess c48.stl --unit mm --no-pictures --out few --friction 0.6", folder);
+  ASSERT_EQ(few.exit_code, 0) << few.err;
+  EXPECT_LE(std::count(few.out.begin(), few.out.end(), '\n'), 22) << few.out;
+  EXPECT_TRUE(few.out.starts_with("c48 is held with ")) << few.out;
+  for (const char* part : {"hold: ", "held by ", "grip force: 107 N, 25 % of ", "balance: in balance",
+                           "contact area: ", " mm²\n", "with soft, ", "Report: few/report.html",
+                           "friction: With a friction coefficient of 0.6"}) {
+    EXPECT_THAT(few.out, HasSubstr(part));
+  }
+  const ProgramRun all =
+      run_palmar("assess c48.stl --unit mm --no-pictures --out all --details", folder);
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  for (const char* part : {"pressed in to the limit depth", "index finger    knuckle bent ",
+                           "middle finger, tip", "skin that follows the product within 1 mm"}) {
+    EXPECT_THAT(all.out, HasSubstr(part));
+  }
+  for (const std::string& text : {few.out, all.out}) {
+    EXPECT_FALSE(has_file_names(text)) << text;
+    EXPECT_EQ(text.find("e+0"), text.npos) << text;
+    EXPECT_EQ(text.find("mm2"), text.npos) << text;
   }
 }
 
@@ -325,11 +361,12 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
   // penetrates.
   EXPECT_GT(one.at("contact").at("contact_area_mm2"), 3700.0);
   EXPECT_LT(one.at("contact").at("contact_area_mm2"), 5400.0);
-  const ProgramRun text = run_palmar(
-      "assess c48.stl --unit mm --preset xie2014 --no-pictures --out xie", cylinder().folder);
+  const ProgramRun text =
+      run_palmar("assess c48.stl --unit mm --preset xie2014 --no-pictures --details --out xie",
+                 cylinder().folder);
   EXPECT_THAT(text.out,
               HasSubstr("equations: xie2014 (point kernel, halfspace, independent regions)"));
-  EXPECT_THAT(text.out, HasSubstr("low .. nominal .. high tissue: force "));
+  EXPECT_THAT(text.out, HasSubstr("with soft .. usual .. stiff skin: force "));
   EXPECT_THAT(read_text(cylinder().folder + "/xie/report.html"),
               HasSubstr("Regions are solved one by one"));
 }

@@ -118,6 +118,49 @@ TEST(GermanReport, ARedesign) {
   expect_no_english(folder + "/pressed/report/report.html");
 }
 
+TEST(GermanReport, APersonWithSensorsAndErrors) {
+  const std::string folder = temporary_folder();
+  run_in(folder, "product make prism --fillet-mm 3 --out old.step");
+  run_in(folder,
+         "assess old.step --person woman:P5,age=60 --left --sensors glove --error-budget "
+         "--mass-kg 0.4 --friction 0.6 --coating 3,100 --hold 2 --language de --out person");
+  expect_no_english(folder + "/person/report.html");
+}
+
+TEST(GermanReport, TwoProductsInAGrip) {
+  const std::string folder = temporary_folder();
+  run_in(folder, "product make prism --fillet-mm 3 --out old.step");
+  run_in(folder, "product make cylinder --diameter-mm 30 --out new.stl");
+  run_in(folder, "assess old.step new.stl --unit mm --grip tripod --language de --out two");
+  expect_no_english(folder + "/two/report.html");
+}
+
+TEST(GermanReport, ASearchForABetterShape) {
+  const std::string folder = temporary_folder();
+  run_in(folder, "product make prism --fillet-mm 3 --out old.step");
+  run_in(folder,
+         "redesign fillet old.step --edges long --radius-mm 1:15 --hands 2 --evaluations 3 "
+         "--language de --out search");
+  expect_no_english(folder + "/search/report/report.html");
+}
+
+TEST(GermanReport, WhereHandsTouch) {
+  const std::string folder = temporary_folder();
+  run_in(folder, "product make prism --fillet-mm 3 --out old.step");
+  run_in(folder, "redesign region old.step --hands 3 --language de --out region");
+  expect_no_english(folder + "/region/report/report.html");
+}
+
+TEST(GermanReport, AStudyOfPeopleAndProducts) {
+  const std::string folder = temporary_folder();
+  run_in(folder, "product make prism --fillet-mm 3 --out old.step");
+  run_in(folder, "product make cylinder --diameter-mm 90 --out large.stl");
+  run_in(folder,
+         "assess old.step large.stl --unit mm --population woman:P5..man:P95 --mass-kg 0.4 "
+         "--language de --out people");
+  expect_no_english(folder + "/people/report.html");
+}
+
 TEST(GermanReport, AHandFromAScan) {
   const std::string folder = temporary_folder();
   run_in(folder, "phantom scan --out person");

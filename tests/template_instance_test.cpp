@@ -180,7 +180,7 @@ TEST_F(TemplateInstance, DoesNotDependOnTheOrderOrTheRun) {
   EXPECT_EQ(farthest(first, again), 0.0);
   EXPECT_EQ(farthest(first, other), 0.0);
   EXPECT_EQ(first.provenance, other.provenance);
-  EXPECT_THAT(first.provenance, HasSubstr("hand_length"));
+  EXPECT_THAT(first.provenance, HasSubstr("hand length"));
 }
 
 TEST_F(TemplateInstance, OfTheMirroredHandIsTheMirroredInstance) {

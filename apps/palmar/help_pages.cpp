@@ -25,8 +25,13 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Start here",
-       {"--product", "--unit", "--out", "--person", "--population", "--hands", "--grip", "--hold",
-        "--grip-force-n", "--mass-kg"}},
+       {"--product", "--specimen", "--indenter", "--depth-mm", "--force-n", "--button", "--unit",
+        "--out", "--person", "--population", "--hands", "--grip", "--hold", "--grip-force-n",
+        "--mass-kg"}},
+      {"What is changed, and how far",
+       {"--goal", "--edges", "--radius-mm", "--vary", "--propose", "--overlap-share",
+        "--hands-share", "--threshold-kpa", "--keep-face", "--keep-box", "--largest-offset-mm",
+        "--largest-depth-mm", "--wall-mm"}},
       {"For whom",
        {"--hand", "--left", "--side", "--profile", "--strength-n", "--natural-postures",
         "--tissue"}},
@@ -40,10 +45,11 @@ const std::vector<Group>& groups() {
         "--gravity", "--mass-at", "--load-n", "--torque-n-mm", "--load-at"}},
       {"Skin and contact",
        {"--preset", "--coupling", "--tissue-model", "--kernel", "--no-swelling",
-        "--shear-modulus-kpa", "--error-band", "--no-error-band", "--coating"}},
+        "--shear-modulus-kpa", "--error-band", "--no-error-band", "--coating", "--skin-on-skin"}},
+      {"Beside the answer", {"--sensors", "--measured", "--error-budget"}},
       {"Report",
        {"--language", "--units", "--project", "--pdf", "--paper", "--slides", "--excel",
-        "--no-pictures", "--no-compare"}},
+        "--rounded-csv", "--no-pictures", "--details", "--no-compare"}},
   };
   return all;
 }
@@ -139,7 +145,7 @@ struct Example {
 constexpr std::array kExamples = {
     Example{"hand",
             "palmar hand scale --hand-length-mm 168 --circumference-mm 178 --out small.hand.glb"},
-    Example{"product", "palmar product make prism --width-mm 35 --out handle.step"},
+    Example{"product", "palmar product make prism --width-mm 35 --out narrow.step"},
     Example{"grasp", "palmar grasp holds handle.step --png holds.png"},
     Example{
         "contact",
@@ -147,7 +153,7 @@ constexpr std::array kExamples = {
     Example{"effort", "palmar effort capacity handle.step"},
     Example{"study",
             "palmar study run --product handle.step --population ansur2_women --hands 6 --out "
-            "women.palmar"},
+            "handle.palmar"},
     Example{"redesign", "palmar redesign press handle.step --hands 6 --out pressed"},
 };
 

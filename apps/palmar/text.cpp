@@ -5,9 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "palmar/report/page/plain_words.h"
+#include "plain_names.h"
 
 namespace palmar::cli {
 
@@ -100,8 +104,8 @@ std::string dimensions_csv(const Hand& hand, const HandTape& tape) {
 }
 
 std::string placements_text(const Grasp& grasp) {
-  std::string text = fmt::format("{}: {}\n{} placements tried; best first:\n",
-                                 name_of(grasp.status), grasp.message, grasp.candidates) +
+  std::string text = status_text(grasp) +
+                     fmt::format("{} placements tried; best first:\n", grasp.candidates) +
                      "      grip              score   palm at (mm)                fingers point\n";
   const auto line = [&](std::size_t rank, Grip grip, double score, const Rigid3& placed) {
     const Vec3 palm = placed * Vec3(0.0, 70.0, 0.0);
@@ -118,8 +122,15 @@ std::string placements_text(const Grasp& grasp) {
   return text;
 }
 
+std::string status_text(const Grasp& grasp) {
+  std::string status = plain_words(grasp.status);
+  status[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(status[0])));
+  // "held: held by five fingers" would say it twice.
+  return (grasp.message.starts_with(status) ? "" : status + ": ") + grasp.message + "\n";
+}
+
 std::string grasp_text(const Grasp& grasp) {
-  std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  std::string text = status_text(grasp);
   if (grasp.hold) text += fmt::format("hold: {}\n", grasp.hold_words);
   if (!grasp.fingertips.empty()) {
     text +=
@@ -129,17 +140,13 @@ std::string grasp_text(const Grasp& grasp) {
                           tip.reached.x(), tip.reached.y(), tip.reached.z(), tip.miss);
     }
   }
-  text += "segment           stopped by        penetration (mm)\n";
+  text += fmt::format("{:<24} {:<42} {}\n", "part of the hand", "why it closed no further",
+                      "pressed in, mm");
   for (const SegmentStop& stop : grasp.stops) {
-    text += fmt::format("{:<17} {:<17} {:8.2f}\n", name_of(stop.segment), name_of(stop.reason),
-                        stop.penetration);
+    text += fmt::format("{:<24} {:<42} {:14.2f}\n", plain_words(stop.segment),
+                        plain_words(stop.reason), stop.penetration);
   }
-  text += "angles (deg):";
-  for (int d = 0; d < kDofCount; ++d) {
-    text += fmt::format("{}{} {:.0f}", d % 4 == 0 ? "\n  " : ", ", name_of(static_cast<Dof>(d)),
-                        degrees(grasp.posture.angle[static_cast<std::size_t>(d)]));
-  }
-  return text + "\n";
+  return text + posture_text(grasp.posture);
 }
 
 namespace {
@@ -159,8 +166,8 @@ std::string band_text(const ContactResult& contact) {
   const bool is_low = all.force_low > 0.0;
   const bool is_high = all.force_high > 0.0;
   std::string text = fmt::format(
-      "low .. nominal .. high tissue: force {} N, area {} mm2,\n"
-      "  peak on cells {} MPa\n",
+      "with soft .. usual .. stiff skin: force {} N, area {} mm²,\n"
+      "  peak on a sensor cell {} MPa\n",
       range_text(all.force_low, total.force, all.force_high, 1, is_low, is_high),
       range_text(all.area_low, total.area, all.area_high, 0, is_low, is_high),
       range_text(all.peak_pressure_cells_low, total.peak_pressure_cells,
@@ -169,12 +176,13 @@ std::string band_text(const ContactResult& contact) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return a.force_per_modulus > b.force_per_modulus;
   });
-  text += "10 % stiffer skin in one region adds to the force:\n ";
+  text += "10 % stiffer skin in one region adds most to the force:\n ";
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i) {
-    text += fmt::format("{} {} {:.2f} N", i == 0 ? "" : ",", name_of(rows[i].region),
+    text += fmt::format("{} {} {:.2f} N", i == 0 ? "" : ",",
+                        with_plain_names(std::string(name_of(rows[i].region))),
                         0.1 * rows[i].force_per_modulus);
   }
-  return text + (rows.size() > 3 ? ", ...\n" : "\n");
+  return text + "\n";
 }
 
 }  // namespace
@@ -188,14 +196,15 @@ std::string contact_text(const ContactResult& contact) {
   const std::string equations = "equations: " + equations_text(contact.model) + "\n";
   if (contact.status == ContactStatus::kNoContact) return "no contact\n" + equations;
   const auto row = [](std::string_view name, const RegionContact& r) {
-    return fmt::format("{:<16} {:8.2f} {:9.0f} {:10.3f} {:10.3f} {:10.3f}\n", name, r.force, r.area,
+    return fmt::format("{:<35} {:8.2f} {:9.0f} {:10.3f} {:10.3f} {:10.3f}\n", name, r.force, r.area,
                        r.peak_pressure, r.peak_pressure_cells, r.mean_pressure);
   };
   std::string text =
-      "region            force     area       peak  peak cells       mean\n"
-      "                      N      mm2        MPa        MPa        MPa\n";
-  for (const RegionContact& r : contact.regions) text += row(name_of(r.region), r);
-  text += row("all", contact.total);
+      fmt::format("{:<35} {:>8} {:>9} {:>10} {:>10} {:>10}\n", "region of the skin", "force",
+                  "area", "peak", "on a cell", "mean") +
+      fmt::format("{:<35} {:>8} {:>9} {:>10} {:>10} {:>10}\n", "", "N", "mm²", "MPa", "MPa", "MPa");
+  for (const RegionContact& r : contact.regions) text += row(plain_words(r.region), r);
+  text += row("whole hand", contact.total);
   const Vec3& f = contact.total.force_vector;
   text += fmt::format("sum of the force vectors {:.2f} N (force is the sum of their lengths)\n",
                       f.norm());

@@ -19,6 +19,8 @@ std::string hand_text(const Hand& hand);
 std::string tissue_text(const Tissue& tissue);
 /// Dimensions as CSV, one row per quantity: quantity,segment,value_mm.
 std::string dimensions_csv(const Hand& hand, const HandTape& tape);
+/// Whether it is held and by what: "held by five fingers; ...", "too large for this hand: ...".
+std::string status_text(const Grasp& grasp);
 /// Status, what stopped each segment, angles.
 std::string grasp_text(const Grasp& grasp);
 /// The grasp and its runners-up, one line each: score, place, forearm's direction.

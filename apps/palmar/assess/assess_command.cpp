@@ -4,25 +4,21 @@
 
 #include <set>
 
+#include "assess/assessment_text.h"
 #include "assess/balance_arguments.h"
 #include "assess/friction_arguments.h"
 #include "cli.h"
 #include "grasp/grasp_options.h"
-#include "palmar/contact/resolution.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment_json.h"
-#include "palmar/records/index_json.h"
 #include "palmar/records/study/people_range.h"
-#include "palmar/study/assessment/error_budget.h"
-#include "palmar/study/assessment/hold_doubts.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/study.h"
 #include "palmar/workflow/study/study_report.h"
 #include "product/cad_arguments.h"
 #include "report_arguments.h"
 #include "study/study_comparison_text.h"
-#include "text.h"
 
 namespace palmar::cli {
 namespace {
@@ -41,69 +37,8 @@ struct AssessArguments {
   bool left = false, error_budget = false;
   std::vector<std::string> populations;
   int hands = 0;
-  bool no_pictures = false;
+  bool no_pictures = false, details = false;
 };
-
-/// What the sensors say, and how near a measurement is.
-std::string sensor_text(const Assessment& assessment) {
-  if (!assessment.sensors) return "";
-  const SensorReading& reading = *assessment.sensors;
-  std::string text = fmt::format(
-      "sensors: {} of {} cells, {:.1f} N on them, {:.1f} N beside; highest cell {:.1f} kPa\n",
-      reading.layout.name, reading.cells.size(), reading.force, reading.force_beside,
-      1000.0 * reading.peak_pressure);
-  if (!assessment.measured) return text;
-  const PressureComparison& one = *assessment.measured;
-  return text + fmt::format(
-                    "measured: {:.1f} N, highest cell {:.1f} kPa; over {} loaded cells Pearson's r "
-                    "{:.2f}, Spearman's {:.2f}, differences {:.1f} kPa (RMS)\n",
-                    one.force_measured, 1000.0 * one.peak_measured, one.compared, one.pearson.r,
-                    one.spearman.r, 1000.0 * one.rms);
-}
-
-std::string summary(const Hand& hand, const Product& product, const Assessment& assessment) {
-  std::string text = fmt::format("== {}\n{}{}{}", product.name, balance_text(assessment),
-                                 grasp_text(assessment.grasp), contact_text(assessment.contact)) +
-                     friction_text(hand, assessment) + index_text(assessment.indices);
-  for (const HoldDoubt& doubt : doubts_of(assessment)) {
-    if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
-  }
-  const std::string unresolved = unresolved_words(assessment.contact);
-  if (!unresolved.empty()) text += "not resolved: " + unresolved + "\n";
-  text += sensor_text(assessment);
-  for (const Coating& coating : assessment.options.contact.coatings) {
-    text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
-                        1000.0 * coating.shear_modulus,
-                        coating.where.isEmpty() ? "" : ", inside its box");
-  }
-  return text;
-}
-
-/// One line for each thing changed: what becomes of the figures, against those as they are.
-std::string error_budget_text(const ErrorBudget& budget) {
-  const auto line = [](const std::string& name, const ErrorCase& one) {
-    return fmt::format("{:<42}{:>6.0f}{:>8.0f}{:>9.0f}{:>9.3f}{:>9.3f}\n", name, one.grip_force,
-                       one.force, one.area, one.peak_pressure_cells, one.mean_pressure);
-  };
-  std::string text =
-      fmt::format("{:<42}{:>6}{:>8}{:>9}{:>9}{:>9}\n{:<42}{:>6}{:>8}{:>9}{:>9}{:>9}\n",
-                  "error budget", "grip", "force", "area", "cells", "mean", "", "N", "N", "mm2",
-                  "MPa", "MPa") +
-      line("as it is", budget.nominal);
-  for (const ErrorCase& one : budget.cases) {
-    const std::string name = fmt::format("{}: {}", name_of(one.source), one.changed);
-    text += one.failure.empty() ? line(name, one) : name + ": no figures: " + one.failure + "\n";
-  }
-  return text;
-}
-
-/// The answer, why, and what to do next.
-std::string verdict_text(const VerdictWords& words) {
-  std::string text = words.sentence + "\n";
-  for (const std::string& reason : words.reasons) text += "  " + reason + "\n";
-  if (!words.command.empty()) text += words.next + "\n  " + words.command + "\n";
-  return text + "\n";
-}
 
 Cancelled cancelled_after(const AssessOutcome& outcome) {
   return Cancelled(fmt::format(
@@ -212,8 +147,12 @@ int run_assess(const AssessArguments& arguments, const Context& context) {
   } else {
     print(verdict_text(outcome.words));
     for (const AssessedProduct& one : outcome.set.assessments) {
-      print(summary(*outcome.set.hand, one.product, one.assessment) +
-            (one.errors ? error_budget_text(*one.errors) : "") + "\n");
+      print((arguments.details ? details_text(*outcome.set.hand, one)
+                               : summary_text(*outcome.set.hand, one)) +
+            "\n");
+    }
+    if (!arguments.details) {
+      print("Regions, joints and indices are in the report; --details prints them here.\n");
     }
     if (!outcome.folder.empty()) print("Report: " + outcome.folder + "/report.html\n");
   }
@@ -259,6 +198,8 @@ void add_assess_command(CLI::App& app, Context& context) {
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   arguments->report.add_to(*verb);
+  verb->add_flag("--details", arguments->details,
+                 "Print every figure on the terminal: regions, joints, indices");
   verb->add_flag("--no-pictures", arguments->no_pictures, "Leave out the PNG pictures");
   verb->callback([&context, arguments, verb] {
     context.run = [&context, arguments, verb] {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "palmar/core/error.h"
@@ -122,20 +124,22 @@ std::string balance_text(const Assessment& assessment) {
   const BalanceOptions& options = assessment.options.balance;
   const Grip grip = assessment.grasp.grip;
   const std::optional<double> asked = options.asked_grip_force(grip);
-  std::string text = "grip force";
-  if (balance.grip_force > 0.0) text += fmt::format(" {:.1f} N", balance.grip_force);
-  text += asked ? fmt::format("; {:.0f} N asked for: ", *asked) : "; ";
-  text += options.asked_words(grip) + "\n";
-  text += fmt::format("at rest: {} ({})\n", name_of(balance.status), balance.message);
-  if (balance.grip_force > 0.0) {
-    text += fmt::format(
-        "sum of normal forces {:.1f} N; left over {:.2f} N; friction {:.2f}, {:.0f} % of it in "
-        "use; "
-        "moved {:.1f} mm and {:.1f} deg since it was closed\n",
-        balance.sum_of_normals, balance.residual_force, balance.friction,
-        100.0 * balance.friction_use, balance.moved, degrees(balance.turned));
-  }
-  return text;
+  std::string text = "grip force:";
+  const bool is_reached = asked && std::abs(balance.grip_force - *asked) < 0.5;
+  if (balance.grip_force > 0.0) text += fmt::format(" {:.0f} N,", balance.grip_force);
+  if (asked && !is_reached) text += fmt::format(" {:.0f} N asked for:", *asked);
+  text += " " + options.asked_words(grip) + "\n";
+  return text + fmt::format("balance: {}\n", balance.message);
+}
+
+std::string rest_text(const Assessment& assessment) {
+  const Balance& balance = assessment.balance;
+  if (balance.status == BalanceStatus::kOff || !(balance.grip_force > 0.0)) return {};
+  return fmt::format(
+      "sum of normal forces {:.1f} N; left over {:.2f} N; friction {:.2f}, {:.0f} % of it in use; "
+      "moved {:.1f} mm and {:.1f}° since it was closed\n",
+      balance.sum_of_normals, balance.residual_force, balance.friction,
+      100.0 * balance.friction_use, balance.moved, degrees(balance.turned));
 }
 
 }  // namespace palmar::cli

@@ -36,8 +36,9 @@ class BalanceArguments {
 /// "107 N, 25 % of ... (15 to 23 N in a pinch)": the usual grip force, for help texts.
 std::string usual_words();
 
-/// The grip force, and how the grasp came to rest, in one to three lines; empty if it wasn't asked
-/// to.
+/// The grip force, and how the grasp came to rest, a line each; empty if it wasn't asked to.
 std::string balance_text(const Assessment& assessment);
+/// How far its forces balance, in one line; empty if nothing came to rest.
+std::string rest_text(const Assessment& assessment);
 
 }  // namespace palmar::cli

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "palmar/report/page/friction_words.h"
+#include "palmar/report/page/plain_words.h"
 
 namespace palmar::cli {
 namespace {
@@ -56,18 +57,16 @@ FrictionSettings FrictionArguments::settings() const {
 std::string friction_text(const Hand& hand, const Assessment& assessment) {
   const FrictionResult& friction = assessment.friction;
   if (friction.status == FrictionStatus::kOff) return {};
-  std::string text =
-      fmt::format("friction: {}\n{}\n",
-                  friction.status == FrictionStatus::kSlips ? "SLIPS" : name_of(friction.status),
-                  friction_verdict(hand, assessment));
+  std::string text = fmt::format("friction: {}\n", friction_verdict(hand, assessment));
   if (friction.regions.empty()) return text;
-  text +=
-      "region           normal    at most   friction   slip margin   slips\n"
-      "                      N          N          N             %       % of area\n";
+  text += fmt::format("{:<35} {:>6} {:>10} {:>10} {:>13} {:>10}\n", "region of the skin", "normal",
+                      "at most", "friction", "slip margin", "slips") +
+          fmt::format("{:<35} {:>6} {:>10} {:>10} {:>13} {:>10}\n", "", "N", "N", "N", "%",
+                      "% of area");
   for (const RegionFriction& one : friction.regions) {
-    text += fmt::format("{:<16} {:6.2f} {:10.2f} {:10.2f} {:13.0f} {:7.0f}\n", name_of(one.region),
-                        one.normal_force, one.limit, one.force.norm(), 100.0 * one.margin,
-                        100.0 * one.slipping_share);
+    text += fmt::format("{:<35} {:6.2f} {:10.2f} {:10.2f} {:13.0f} {:10.0f}\n",
+                        plain_words(one.region), one.normal_force, one.limit, one.force.norm(),
+                        100.0 * one.margin, 100.0 * one.slipping_share);
   }
   return text;
 }

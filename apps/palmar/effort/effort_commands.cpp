@@ -274,7 +274,8 @@ void add_grasp(CLI::App& effort, Context& context) {
   CLI::App* verb =
       add_verb(effort, "grasp", "Forces of the muscles of fingers and thumb that hold a product",
                "palmar effort grasp handle.step");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--grasp", o->file,
                    "Grasp to take instead of finding one: JSON of palmar grasp close");
   o->grasp.add_to(*verb);
@@ -349,7 +350,8 @@ void add_capacity(CLI::App& effort, Context& context) {
       add_verb(effort, "capacity",
                "Largest grip force, torque, push and pull that a hand reaches on a product",
                "palmar effort capacity handle.step");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   o->grasp.add_to(*verb);
   o->contact.add_to(*verb);
   verb->add_option("--friction", o->friction,

@@ -28,7 +28,8 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& kind) {
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb = add_verb(grasp, kind.name, kind.about, kind.example);
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   o->grasp.add_to(*verb);
   verb->add_option("--out", o->out, kind.out);
   verb->callback([&context, o, kind] {

@@ -10,6 +10,7 @@
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/index_json.h"
 #include "palmar/workflow/grasp/grasp_evaluate.h"
+#include "plain_names.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -67,7 +68,8 @@ int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
     print(assessment_json(outcome.set) + "\n");
   } else {
     print(grasp_text(assessment.grasp) + contact_text(assessment.contact) +
-          friction_text(*outcome.set.hand, assessment) + index_text(assessment.indices));
+          friction_text(*outcome.set.hand, assessment) +
+          with_plain_names(index_text(assessment.indices)));
     if (!arguments.out.empty()) print("Report: " + arguments.out + "/report.html\n");
   }
   if (outcome.has_converged) return 0;
@@ -82,7 +84,8 @@ void add_grasp_evaluate(CLI::App& grasp, Context& context) {
   CLI::App* verb = add_verb(grasp, "evaluate",
                             "Contact and indices of a given posture and placement (no search)",
                             "palmar grasp evaluate handle.step --grasp grasp.json");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--unit", o->unit, "Unit of the product's file: mm, cm, m or inch");
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
   verb->add_option("--person", o->person,

@@ -64,7 +64,10 @@ std::string holds_text(const GraspHoldsOutcome& outcome) {
                         direction_words(thumb_direction(one.grasp, outcome.hand->side)), one.score,
                         one.against);
   }
-  return text + "score: 0 at best; each 0.7 less is a hold that half as many people would choose\n";
+  return text +
+         "score: 0 at best; each 0.7 less is a hold that half as many people would choose. Less "
+         "than "
+         "0.2 is no\ndifference: number 1 may score that much less than number 2\n";
 }
 
 int run_holds(const HoldsArguments& o, const Context& context) {
@@ -85,7 +88,8 @@ void add_grasp_holds(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<HoldsArguments>();
   CLI::App* verb = add_verb(grasp, "holds", "Show the ways in which people would hold a product",
                             "palmar grasp holds handle.step --png sheet.png");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
   verb->add_option("--grip", o->grip, "Only holds of this grip: " + grip_list())
       ->capture_default_str();

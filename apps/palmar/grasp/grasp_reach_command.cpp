@@ -38,7 +38,7 @@ Button parse_button(const std::string& text) {
 }
 
 std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& buttons) {
-  std::string text = fmt::format("{}: {}\n", name_of(grasp.status), grasp.message);
+  std::string text = status_text(grasp);
   for (const ButtonReach& reach : buttons) {
     text += fmt::format(
         "\n{}: {}\n  finger   reached  miss (mm)  pad tilt (deg)  margin (deg)  "
@@ -96,8 +96,9 @@ int run_reach(const ReachArguments& o, const Context& context) {
 void add_grasp_reach(CLI::App& grasp, Context& context) {
   const auto o = std::make_shared<ReachArguments>();
   CLI::App* verb = add_verb(grasp, "reach", "Which fingers reach buttons while the product is held",
-                            "palmar grasp reach handle.step --button trigger:22.5,0,80");
-  verb->add_option("PRODUCT", o->product, "Mesh file")->required();
+                            "palmar grasp reach handle.step --button trigger:20,0,-50");
+  verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+      ->required();
   verb->add_option("--button", o->buttons,
                    "Point that is pressed, may be given several times: NAME:X,Y,Z in mm, or "
                    "NAME:X,Y,Z:FX,FY,FZ with the finger's force on the product in N; default: "

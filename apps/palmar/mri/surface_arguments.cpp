@@ -6,11 +6,12 @@ namespace palmar::cli {
 
 void SurfaceArguments::add_to(CLI::App& verb) {
   verb.add_option("--air-threshold", options_.air_threshold,
-                  "Intensity that separates skin from air; 0: found from the histogram")
+                  "Intensity, in the image's own numbers, that separates skin from air; 0: found "
+                  "from the histogram")
       ->capture_default_str();
-  verb.add_option(
-          "--bone-threshold", options_.bone_threshold,
-          "Intensity that separates cortical bone from its surroundings; 0: found in the same way")
+  verb.add_option("--bone-threshold", options_.bone_threshold,
+                  "Intensity, in the image's own numbers, that separates cortical bone from its "
+                  "surroundings; 0: found in the same way")
       ->capture_default_str();
   verb.add_flag("--keep-bias", keeps_bias_, "Don't correct the brightness across the image");
   verb.add_option("--bone-edge-mm", options_.edge_length, "Mean edge of the meshes")

@@ -36,10 +36,11 @@ int run_features(const FeatureArguments& a, const Context& context) {
 
 void add_common(CLI::App& verb, FeatureArguments& a) {
   a.redesign.add_to(verb);
-  verb.add_option("--goal", a.request.goal,
-                  "What is made better, mean over hands: peak (pressure on sensor cells), mean "
-                  "(pressure), stability, discomfort or a quantity's key; peak:p95, "
-                  "peak:above=0.3 for other figures over hands")
+  verb.add_option(
+          "--goal", a.request.goal,
+          "What is made better, mean over hands: peak (pressure on sensor cells), mean "
+          "(pressure), stability, discomfort or a quantity's key; peak:p95, "
+          "peak:above=0.3 (share of hands above 0.3 of its unit, MPa) for other figures over hands")
       ->capture_default_str();
   verb.add_option("--largest-offset-mm", a.request.limits.largest_offset,
                   "Most that any point of the surface may move, mm");

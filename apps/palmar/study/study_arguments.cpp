@@ -19,9 +19,10 @@ void StudyArguments::add_to(CLI::App& verb) {
     option->excludes(toml);
     return option;
   };
-  add("--product", quick_.products, "Without FILE: a mesh file, may be given several times")
+  add("--product", quick_.products,
+      "Without FILE: a product (STL, STEP ...), may be given several times")
       ->allow_extra_args(false);
-  add("--unit", unit_, "Unit of mesh files that carry none: mm, cm, m, inch");
+  add("--unit", unit_, "Unit of files that carry none: mm, cm, m, inch");
   add("--population", populations_,
       "Without FILE: a built-in population (`palmar population list`), a population file (.toml) "
       "or "

@@ -28,8 +28,9 @@ void add_report(CLI::App& noun, Context& context) {
                "palmar study report women.palmar --out report");
   verb->add_option("STORE", o->store, "Study: a *.palmar file")->required();
   verb->add_option("--out", o->out, "Folder for report.html, tables and figures")->required();
-  verb->add_option("--threshold-kpa", o->threshold,
-                   "Maps of the share of hands above this pressure (blood-flow family)")
+  verb->add_option(
+          "--threshold-kpa", o->threshold,
+          "Maps show the share of hands above this pressure, kPa; 50: blood flow in the skin stops")
       ->capture_default_str();
   verb->add_option("--significance", o->report.comparison.significance,
                    "Level of the corrected p value below which a difference is named")

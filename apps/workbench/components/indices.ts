@@ -3,12 +3,13 @@
 //
 // Indices for experts. What everybody needs of them stands in the verdicts.
 
-import { GraspIndex } from "../types";
+import { GraspIndex, Vocabulary } from "../types";
 import { say, sayName } from "../texts";
 import { term } from "./glossary";
 import { Markup, html } from "./markup";
 import { nothing, shortNumber, signedNumber } from "./numbers";
 import { folded } from "./parts";
+import { regionWords } from "./verdicts";
 import { emptyCell, numbers, rowHead, table, valueCell, words } from "./tables";
 
 function heading(group: string): string {
@@ -31,9 +32,14 @@ function withUnit(text: string, index: GraspIndex): string {
   return text + (unit === undefined ? " " + index.unit : unit);
 }
 
+/// Whole numbers without decimals: counts, and ends of ranges.
+function briefly(value: number): string {
+  return value === Math.round(value) ? String(value) : shortNumber(value);
+}
+
 function indexCell(index: GraspIndex | undefined): Markup {
   if (!index || index.value === null) return emptyCell();
-  return valueCell(index.value, withUnit(shortNumber(index.value), index));
+  return valueCell(index.value, withUnit(briefly(index.value), index));
 }
 
 function better(index: GraspIndex): string {
@@ -42,18 +48,26 @@ function better(index: GraspIndex): string {
 
 function range(index: GraspIndex): string {
   const { lowest, highest } = index;
-  if (lowest === null) return highest === null ? nothing : say("index.up_to", { high: shortNumber(highest) });
-  return highest === null ? say("index.from", { low: shortNumber(lowest) })
-    : say("range", { low: shortNumber(lowest), high: shortNumber(highest) });
+  if (lowest === null) return highest === null ? nothing : say("index.up_to", { high: briefly(highest) });
+  return highest === null ? say("index.from", { low: briefly(lowest) })
+    : say("range", { low: briefly(lowest), high: briefly(highest) });
 }
 
 function nameOf(index: GraspIndex): string {
   return sayName("index.name", index.key, index.name);
 }
 
+/// A remark names regions and joint angles as files do: "middle_distal", "thumb_mp_flexion".
+function remarkWords(remark: string, vocabulary: Vocabulary): string {
+  return remark.replace(/[a-z]+(_[a-z]+)*/g, (name) => {
+    if (vocabulary.regions[name]) return regionWords(name, vocabulary);
+    return vocabulary.motions[name] ? vocabulary.motions[name].words : name;
+  });
+}
+
 /// `lastRemark`: of the row above, not said twice.
-function row(index: GraspIndex, lastRemark: string): Markup {
-  return html`<tr data-index="${index.key}">${rowHead(html`<details><summary>${nameOf(index)}</summary><p>${index.definition}.</p>${index.source && html`<p>${say("index.source", { source: index.source })}</p>`}<p>${say("index.key")} <code>${index.key}</code></p></details>${index.remark !== lastRemark && index.remark && html`<span class="range">${index.remark}</span>`}`)}${indexCell(index)}<td>${range(index)}</td><td>${better(index)}</td></tr>`;
+function row(index: GraspIndex, lastRemark: string, vocabulary: Vocabulary): Markup {
+  return html`<tr data-index="${index.key}">${rowHead(html`<details><summary>${nameOf(index)}</summary><p>${index.definition}.</p>${index.source && html`<p>${say("index.source", { source: index.source })}</p>`}<p>${say("index.key")} <code>${index.key}</code></p></details>${index.remark !== lastRemark && index.remark && html`<span class="range">${remarkWords(index.remark, vocabulary)}</span>`}`)}${indexCell(index)}<td>${range(index)}</td><td>${better(index)}</td></tr>`;
 }
 
 /// Groups in the order in which they appear first.
@@ -64,12 +78,12 @@ function groupsOf(indices: GraspIndex[]): string[] {
 }
 
 /// A table per group with what it is for; names unfold to definitions.
-export function indexSection(indices: GraspIndex[]): Markup | null {
+export function indexSection(indices: GraspIndex[], vocabulary: Vocabulary): Markup | null {
   if (indices.length === 0) return null;
   const tables = groupsOf(indices).map((group) => {
     let remark = "";
     const rows = indices.filter((one) => one.group === group).map((one) => {
-      const made = row(one, remark);
+      const made = row(one, remark, vocabulary);
       remark = one.remark;
       return made;
     });

@@ -2,20 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { ContactResult, Vocabulary } from "../types";
-import { say, sayList } from "../texts";
+import { say, sayCount, sayList } from "../texts";
 import { Markup } from "./markup";
 import { percent } from "./numbers";
 import { note } from "./parts";
 import { regionWords } from "./verdicts";
 
+const mostNamed = 3;
 const toldShare = 0.3; // of a region's force, as in contact/resolution.h
 
 /// That pressures on sharp edges are not resolved, where that is so.
 export function resolutionNote(contact: ContactResult, vocabulary: Vocabulary): Markup | null {
   const told = contact.regions.filter((one) => one.unresolved_force_n > toldShare * one.force_n);
   if (told.length === 0) return null;
+  told.sort((a, b) => b.peak_pressure_cells_mpa - a.peak_pressure_cells_mpa);
+  // "thumb, base": with the commas of a list it couldn't be read.
+  const named = told.slice(0, mostNamed).map((one) => regionWords(one.region, vocabulary).replace(", ", " – "));
+  if (told.length > mostNamed) named.push(sayCount("resolution.others", told.length - mostNamed));
   return note("fair", say("resolution.begin"), say("resolution.words", {
     share: percent(contact.unresolved_force_n / contact.force_n),
-    regions: sayList(told.map((one) => regionWords(one.region, vocabulary))),
+    regions: sayList(named),
   }));
 }

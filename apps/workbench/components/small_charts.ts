@@ -35,9 +35,17 @@ export function groupedBars(options: {
   const height = top + legend + groups.length * each + 4;
   const drawn = groups.map((group, g) => {
     const y = top + legend + g * each;
+    // Over the bars, with a white edge so that it is seen on them; figures that it would cross stand behind it.
+    const line = `M${coordinate(x(group.mark))} ${coordinate(y - 3)}v${bar * names.length + 5}`;
+    const mark = html`<path d="${line}" stroke="#fff" stroke-width="3.5"/><path d="${line}" stroke="#1d2329" stroke-width="1.5" stroke-dasharray="3 2"/>`;
     const bars = group.values.map((value, i) =>
-      html`<rect x="${left}" y="${coordinate(y + i * bar)}" width="${coordinate(x(value) - left)}" height="${bar - 1}" fill="${productColours[i % 4]}"/><text x="${coordinate(x(Math.max(value, 0)) + 4)}" y="${coordinate(y + i * bar + bar - 1.5)}" font-size="10.5" paint-order="stroke" stroke="#fff" stroke-width="5" data-value="${String(value)}">${shortNumber(value, 2)}</text>`);
-    return html`<text x="${left - 6}" y="${coordinate(y + 0.5 * bar * names.length + 3)}" text-anchor="end">${group.name}</text><path d="M${coordinate(x(group.mark))} ${coordinate(y - 3)}v${bar * names.length + 5}" stroke="#1d2329" stroke-width="1.5" stroke-dasharray="3 2"/>${bars}`;
+      html`<rect x="${left}" y="${coordinate(y + i * bar)}" width="${coordinate(x(value) - left)}" height="${bar - 1}" fill="${productColours[i % 4]}"/>`);
+    const figures = group.values.map((value, i) => {
+      const beside = x(Math.max(value, 0)) + 4, room = 30;
+      const isHit = x(group.mark) > beside - 4 && x(group.mark) < beside + room;
+      return html`<text x="${coordinate(isHit ? x(group.mark) + 4 : beside)}" y="${coordinate(y + i * bar + bar - 1.5)}" font-size="10.5" data-value="${String(value)}">${shortNumber(value, 2)}</text>`;
+    });
+    return html`<text x="${left - 6}" y="${coordinate(y + 0.5 * bar * names.length + 3)}" text-anchor="end">${group.name}</text>${bars}${mark}${figures}`;
   });
   const keys = names.length > 1 ? names.map((name, i) =>
     html`<rect x="${coordinate(i * width / names.length)}" y="20" width="10" height="10" fill="${productColours[i % 4]}"/><text x="${coordinate(i * width / names.length + 14)}" y="29">${name.length > 26 ? name.slice(0, 25) + "…" : name}</text>`) : null;

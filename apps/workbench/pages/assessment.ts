@@ -71,7 +71,7 @@ function productSection(one: Assessment, view: AssessmentView, index: number): S
       below: pointLine(),
       toggles: viewToggles(),
       scene: shown.scene,
-    })}${contact}${frictionSection(one.friction, shown.friction_words, vocabulary)}${waysSection(shown)}${pictures && folded(say("section.pictures"), pictures)}${indexSection(one.index_table)}${folded(say("stops.caption"), stopTable(one, vocabulary))}${folded(say("section.posture"), html`${postureTable(one, vocabulary)}${placementTable(one)}`)}${folded(say("section.settings"), html`${settingsTable(one)}<p>${say("product.from", { source: one.product.source, unit: one.product.unit, from: one.product.unit_from, triangles: one.product.triangles })}</p>`)}`,
+    })}${contact}${frictionSection(one.friction, shown.friction_words, vocabulary)}${waysSection(shown)}${pictures && folded(say("section.pictures"), pictures)}${indexSection(one.index_table, vocabulary)}${folded(say("stops.caption"), stopTable(one, vocabulary))}${folded(say("section.posture"), html`${postureTable(one, vocabulary)}${placementTable(one)}`)}${folded(say("section.settings"), html`${settingsTable(one)}<p>${say("product.from", { source: one.product.source, unit: one.product.unit, from: one.product.unit_from, triangles: one.product.triangles })}</p>`)}`,
   };
 }
 
@@ -196,6 +196,7 @@ function answer(page: AssessmentPage): FirstScreen {
     sentence: report.verdict.sentence,
     reasons: report.verdict.reasons,
     cards,
+    scale: view.scale,
     chart: regionChart(all, view),
     next: report.verdict.next,
     command: report.verdict.command,

@@ -31,6 +31,7 @@ function answer(page: HandFromMriPage): FirstScreen {
               [say("scan.fact.circumference"), fixedNumber(hand.hand_circumference_mm, 1) + " mm"],
               [say("scan.fact.skin"), fixedNumber(mean_mm, 2) + " mm"]],
     }],
+    scale: null,
     chart: null,
     next: say("scan.next"),
     command: "palmar assess product.stl --unit mm --hand " + hand.name + ".hand.glb",

@@ -29,6 +29,7 @@ function answer(page: HandFromScanPage): FirstScreen {
               [say("scan.fact.circumference"), fixedNumber(d.hand_circumference_mm, 1) + " mm"],
               [say("scan.fact.skin"), fixedNumber(report.skin_mean_mm, 2) + " mm"]],
     }],
+    scale: null,
     chart: null,
     next: say("scan.next"),
     command: "palmar assess product.stl --unit mm --hand " + report.hand + ".hand.glb",

@@ -83,6 +83,7 @@ function answer(page: StudyPage): FirstScreen {
     sentence: found.sentence,
     reasons: found.reasons,
     cards,
+    scale: page.scene ? page.scene.scales.mean : null,
     chart: isPair
       ? changeBars(say("study.changes"), found.changes, page.products[found.better || 0].name, page.products[found.worse || 0].name)
       : regionChart(page),

@@ -54,7 +54,7 @@ const firstScreen = `
   for (let i = 0; i < 50 && !images.every((one) => one.complete); ++i) await wait(50);
   return { bottom: answer.bottom + scrollY, images: images.length, drawn: images.every((one) => one.naturalWidth > 100),
            sentence: document.querySelector(".sentence").textContent, command: document.querySelector(".next code")?.textContent ?? "",
-           charts: document.querySelectorAll("#answer svg").length, rows: document.querySelectorAll("#answer .unseen tbody tr").length };`;
+           charts: document.querySelectorAll("#answer .small-chart svg").length, rows: document.querySelectorAll("#answer .unseen tbody tr").length };`;
 
 const folding = `
   const shut = [];

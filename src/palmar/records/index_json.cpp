@@ -21,10 +21,34 @@ std::string better_words(Better better) {
   return better == Better::kDown ? "less is better" : "";
 }
 
-/// Columns on the terminal; the text is ASCII.
-std::string padded(const std::string& text, std::size_t width) {
-  return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
+
+/// To the width of a column on a terminal, a character of UTF-8 for each place.
+std::string padded(const std::string& text, std::size_t width) {
+  const std::size_t own = width_of(text);
+  return text + std::string(width > own ? width - own : 0, ' ');
+}
+
+/// Three significant digits without an exponent: 1972 -> "1970", 0.00159.
+std::string three_digits(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:g}", value);
+  constexpr int kDigits = 3, kMostDecimals = 9;
+  const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  const double step = std::pow(10.0, before - kDigits);
+  const double rounded = std::round(value / step) * step;
+  std::string text =
+      fmt::format("{:.{}f}", rounded, std::clamp(kDigits - before, 0, kMostDecimals));
+  if (text.find('.') != text.npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
+std::string unit_words(const std::string& unit) { return unit == "mm2" ? "mm²" : unit; }
 
 }  // namespace
 
@@ -59,11 +83,11 @@ std::string index_text(const GraspIndices& indices) {
   for (const GraspIndex& index : indices) {
     std::string value = "-";
     if (index.value) {
-      value = fmt::format("{:.3g}", *index.value);
-      if (!index.unit.empty()) value += " " + index.unit;
+      value = three_digits(*index.value);
+      if (!index.unit.empty()) value += " " + unit_words(index.unit);
     }
-    name_width = std::max(name_width, index.name.size());
-    value_width = std::max(value_width, value.size());
+    name_width = std::max(name_width, width_of(index.name));
+    value_width = std::max(value_width, width_of(value));
     values.push_back(std::move(value));
   }
   std::string text, group, remark;

@@ -19,8 +19,8 @@ nlohmann::ordered_json index_values(const GraspIndices& indices);
 nlohmann::ordered_json index_rows(const GraspIndices& indices);
 
 /// Table for a terminal: group, name, value with unit, which way is better, and the remark unless
-/// the row above has the same. Values with three significant digits, columns aligned; ends with a
-/// line break, empty for no rows.
+/// the row above has the same. Values with three significant digits and no exponents, columns
+/// aligned; ends with a line break, empty for no rows.
 std::string index_text(const GraspIndices& indices);
 
 }  // namespace palmar

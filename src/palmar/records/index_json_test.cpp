@@ -63,6 +63,22 @@ TEST(IndexJson, NoRowsAreEmptyAndValidJson) {
   EXPECT_EQ(index_text({}), "");
 }
 
+TEST(IndexJson, TextHasNoExponentsAndItsColumnsStandInLine) {
+  GraspIndices rows = two_rows();
+  rows[0].value = 0.001594;
+  rows[1].value = 1972.4;
+  rows[1].remark.clear();
+  const std::string text = index_text(rows);
+  EXPECT_THAT(text, HasSubstr(" 0.00159 "));
+  EXPECT_THAT(text, HasSubstr(" 1970 mm²  less is better"));
+  // "mm²" is one character longer in bytes than on the terminal.
+  const auto column = [&](const char* words) {
+    const std::size_t at = text.find(words);
+    return at - text.rfind('\n', at);
+  };
+  EXPECT_EQ(column("more is better") + 1, column("less is better"));
+}
+
 TEST(IndexJson, TextGroupsRowsAndLeavesNoBlanksAtLineEnds) {
   const std::string text = index_text(two_rows());
   EXPECT_THAT(text, HasSubstr("stability\n  largest disturbance"));

@@ -63,13 +63,23 @@ HoldTerm grip_term(const PowerPlace& place, const HoldScene& scene, const Hold& 
   const double usual = hold.grip == Grip::kFixedHook ? kHookContact : kUsualContact;
   const double contact =
       std::clamp(measure.contact_area / (usual * hand_length * hand_length), 0.05, 1.5);
+  const double little = std::min(0.0, kContactWeight * std::log(contact / 1.5));
   const double score = -kPerMissingFinger * missing - kPerMissingWrap * wrap -
-                       kPerClash * measure.other_area +
-                       std::min(0.0, kContactWeight * std::log(contact / 1.5));
-  const std::string of_wanted = measure.fingers < wanted ? fmt::format(" of {}", wanted) : "";
-  std::string words = fmt::format("{}{} fingers on it, {:.0f} degrees round it", measure.fingers,
-                                  of_wanted, 360.0 * measure.wrap);
-  if (measure.other_area > 50.0) words += ", the back of the hand against it";
+                       kPerClash * measure.other_area + little;
+  // What speaks against it; if nothing does, what there is.
+  constexpr double kWorthNaming = -0.3;  // of the score: half of what against() tells
+  std::vector<std::string> reasons;
+  const double degrees = 360.0 * measure.wrap;
+  if (missing > 0.0)
+    reasons.push_back(fmt::format("{} of {} fingers on it", measure.fingers, wanted));
+  if (wrap > 0.0) reasons.push_back(fmt::format("only {:.0f} degrees round it", degrees));
+  if (measure.other_area > 50.0) reasons.emplace_back("the back of the hand against it");
+  if (little < kWorthNaming) reasons.emplace_back("little of the palm's side touches it");
+  std::string words;
+  for (const std::string& reason : reasons) words += (words.empty() ? "" : ", ") + reason;
+  if (words.empty()) {
+    words = fmt::format("{} fingers on it, {:.0f} degrees round it", measure.fingers, degrees);
+  }
   return {"closing", static_cast<double>(measure.fingers), "", score, words};
 }
 

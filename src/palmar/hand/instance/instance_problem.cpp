@@ -208,16 +208,24 @@ double InstanceTargets::ratio(HandDimension dimension) const {
 }
 
 std::string InstanceTargets::summary() const {
-  constexpr int kMostListed = 6;
   std::string text;
-  int named = 0;
+  int of_segments = 0;
   for (const HandDimension dimension : all_hand_dimensions()) {
-    if (!has(dimension) || ++named > kMostListed) continue;
-    text += fmt::format("{} {} {:.2f} mm", text.empty() ? "" : ",", name_of(dimension),
-                        *get(dimension));
+    if (!has(dimension)) continue;
+    if (dimension.kind >= DimensionKind::kSegmentLength) {
+      ++of_segments;
+      continue;
+    }
+    std::string name(name_of(dimension));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("{}{} {:.1f} mm", text.empty() ? "" : ", ", name, *get(dimension));
   }
-  if (named > kMostListed) text += fmt::format(" and {} other dimensions", named - kMostListed);
-  return "scaled segment by segment to" + text;
+  if (of_segments > 0) {
+    text += text.empty() ? "" : " and ";
+    text += of_segments == 1 ? "1 dimension of its segments"
+                             : fmt::format("{} dimensions of its segments", of_segments);
+  }
+  return "scaled segment by segment to " + text;
 }
 
 SegmentScales InstanceProblem::scales(const Eigen::VectorXd& unknowns) const {

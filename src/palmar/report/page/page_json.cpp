@@ -145,11 +145,27 @@ PageJson pictures_json(const std::vector<Picture>& pictures, Attachments& attach
 
 void put_in_language(PageJson& json, const Phrases& phrases) {
   if (phrases.language() == Language::kEnglish) return;
-  static const std::set<std::string> sentences = {
-      "against",         "alt",     "definition", "description", "face",     "friction_words",
-      "grip_force_from", "message", "part_name",  "provenance",  "quantity", "grip_force_words",
-      "left_out_words",  "region",  "remark",     "source",      "subject",  "text",
-      "title",           "words"};
+  static const std::set<std::string> sentences = {"against",
+                                                  "alt",
+                                                  "definition",
+                                                  "description",
+                                                  "face",
+                                                  "friction_words",
+                                                  "grip_force_from",
+                                                  "message",
+                                                  "part_name",
+                                                  "provenance",
+                                                  "quantity",
+                                                  "grip_force_words",
+                                                  "left_out_words",
+                                                  "region",
+                                                  "remark",
+                                                  "series",
+                                                  "source",
+                                                  "subject",
+                                                  "text",
+                                                  "title",
+                                                  "words"};
   static const std::set<std::string> lists = {"cautions", "hands", "limits", "notes", "verdict"};
   if (json.is_array()) {
     for (PageJson& one : json) put_in_language(one, phrases);

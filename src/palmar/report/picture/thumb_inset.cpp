@@ -75,7 +75,7 @@ void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
     for (int x = 0; x < width; ++x) picture.at(left + x, top + y) = view.at(x, y);
   }
   draw_text(picture, left, top - 10 * s, title,
-            {.cap_height = 10.5 * s, .colour = Rgb{96, 102, 110}});
+            {.cap_height = 14 * s, .colour = Rgb{96, 102, 110}});
 }
 
 }  // namespace palmar

@@ -169,12 +169,16 @@ class StudySpeaker {
       no_blood += *skin / 100.0;
     }
     if (hands == 0) return std::nullopt;
-    answer_.reasons.push_back(
-        (is_named ? name(p) + ": " : "") +
-        texts_("study.comfort", {{"pain", std::to_string(pain)},
-                                 {"discomfort", std::to_string(discomfort)},
-                                 {"hands", std::to_string(hands)},
-                                 {"percent", texts_.percent(no_blood / hands)}}));
+    const auto of_hands = [&](int count) {
+      if (hands == 1) return texts_(count == 0 ? "study.of_one_hand.none" : "study.of_one_hand");
+      const char* key = count == 0 ? "study.of_hands.none" : "study.of_hands";
+      return texts_(key, {{"count", std::to_string(count)}, {"hands", std::to_string(hands)}});
+    };
+    const std::string words =
+        texts_("study.comfort", {{"pain", of_hands(pain)},
+                                 {"discomfort", of_hands(discomfort)},
+                                 {"percent", texts_.percent(no_blood / hands)}});
+    answer_.reasons.push_back(is_named ? name(p) + ": " + words : capitalised(words));
     return discomfort;
   }
   static std::optional<double> index_value(const StudyRecord& record, std::string_view key) {
@@ -224,12 +228,13 @@ class StudySpeaker {
     answer_.tone = is_held_by_all ? "good" : "fair";
     const bool has_ends = has_percentiles(*peak);
     answer_.sentence =
-        texts_("study.one", {{"product", name(0)},
-                             {"count", std::to_string(one.outcomes.in_hand())},
-                             {"hands", std::to_string(one.outcomes.hands())},
-                             {"mean", texts_.number(peak->summary.mean, 2)},
-                             {"low", texts_.number(has_ends ? peak->p5 : peak->summary.min, 2)},
-                             {"high", texts_.number(has_ends ? peak->p95 : peak->summary.max, 2)}});
+        texts_(one.outcomes.in_hand() == 1 ? "study.one.hand" : "study.one",
+               {{"product", name(0)},
+                {"count", std::to_string(one.outcomes.in_hand())},
+                {"hands", std::to_string(one.outcomes.hands())},
+                {"mean", texts_.number(peak->summary.mean, 2)},
+                {"low", texts_.number(has_ends ? peak->p5 : peak->summary.min, 2)},
+                {"high", texts_.number(has_ends ? peak->p95 : peak->summary.max, 2)}});
     if (one.outcomes.hands() - one.outcomes.in_hand() <= kFewHands) add_who_does_not(0);
     add_hardest_region(0);
     const std::optional<int> discomfort = add_comfort(0, false);

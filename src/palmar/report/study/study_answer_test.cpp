@@ -170,9 +170,9 @@ StudyResults one_product_with_comfort(double discomfort_percent) {
 TEST(StudyAnswer, SaysInHowManyHandsItHurtsOrIsUncomfortable) {
   const StudyAnswer answer = study_answer(one_product_with_comfort(120.0));
   EXPECT_THAT(answer.reasons, Contains("A moment of this grip hurts 1 of 3 hands; repeated, it "
-                                       "becomes uncomfortable for 2 of 3; held for minutes without "
-                                       "a break, it stops the blood in 10 % of the touched skin "
-                                       "(mean)."));
+                                       "becomes uncomfortable for 2 of 3 hands; held for minutes "
+                                       "without a break, it stops the blood in 10 % of the touched "
+                                       "skin (mean)."));
   EXPECT_EQ(answer.command, "palmar redesign press a.stl --unit mm --hands 12 --out pressed");
 }
 

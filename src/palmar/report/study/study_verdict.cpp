@@ -42,8 +42,8 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
                         const Exclusion& exclusion, bool is_only) {
   const std::string& name = results.plan.products[static_cast<std::size_t>(one.product)].name;
   if (one.inside.n == 0) return name + ": no grasp was run.";
-  std::string words = capitalised(name) + " suits " + std::to_string(one.inside.count) + " of " +
-                      counted(one.inside.n, "hand");
+  std::string words = capitalised(name) + " is held by " + std::to_string(one.inside.count) +
+                      " of " + counted(one.inside.n, "hand");
   if (is_drawn_by_chance(results.plan)) {
     words += " (" + short_number(100.0 * one.inside.share) + " %, 95 % interval " +
              short_number(100.0 * one.inside.interval.low, 2) + " to " +
@@ -81,13 +81,14 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
   return words;
 }
 
-/// "4 of 6 (3 strength, 1 nails)", "nobody".
+/// "4 of 6 (67 %: 3 by grip strength, 1 by nails)", "nobody".
 std::string excluded_words(const Exclusion& one) {
   if (one.excluded.count == 0) return "nobody";
   std::string causes;
   for (const auto& [cause, people] : one.causes) {
     if (cause == ExclusionCause::kNone || people.count == 0) continue;
-    causes += (causes.empty() ? "" : ", ") + std::to_string(people.count) + " " + words_of(cause);
+    causes +=
+        (causes.empty() ? "" : ", ") + std::to_string(people.count) + " by " + words_of(cause);
   }
   return std::to_string(one.excluded.count) + " of " + std::to_string(one.excluded.n) + " (" +
          short_number(100.0 * one.excluded.share, 2) + " %" +
@@ -126,10 +127,10 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
   for (std::size_t p = 0; p < other.exclusion.size(); ++p) {
     const std::string& name = results.plan.products[p].name;
     const Proportion& inside = other.accommodation[p].inside;
-    suits += (suits.empty() ? "" : ", ") + name + " suits " + std::to_string(inside.count) +
+    suits += (suits.empty() ? "" : "; ") + name + " is held by " + std::to_string(inside.count) +
              " of " + std::to_string(inside.n);
-    excludes +=
-        (excludes.empty() ? "" : ", ") + name + " excludes " + excluded_words(other.exclusion[p]);
+    excludes += (excludes.empty() ? "" : "; ") + name + " asks too much of " +
+                excluded_words(other.exclusion[p]);
   }
   std::string words =
       capitalised(condition_words(results.plan, other.condition)) + ": " + suits + "; " + excludes;
@@ -144,7 +145,7 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
     words += "; " + standing_words(results, pair, now->pairs[k]);
     const auto forces = grip_forces(results, other.condition, pair.first, pair.second);
     if (forces && forces->are_unequal()) {
-      words += ", at different grip forces (" + short_number(forces->first) + " and " +
+      words += "; at different grip forces (" + short_number(forces->first) + " and " +
                short_number(forces->second) + " N)";
     }
   }
@@ -181,9 +182,9 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
   const bool is_only = all.conditions.size() == 1;
   std::vector<std::string> sentences;
   if (!is_only) {
-    sentences.push_back("First of " + condition_words(results.plan, analysis.condition) + " (of " +
-                        std::to_string(all.conditions.size()) +
-                        " conditions); the others follow at the end.");
+    sentences.push_back("The sentences that come first are of " +
+                        condition_words(results.plan, analysis.condition) +
+                        "; the other conditions follow at the end.");
   }
   describe_pairs(results, analysis, "peak_pressure_cells_mpa", sentences);
   if (results.plan.products.size() == 1) {

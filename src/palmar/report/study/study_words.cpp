@@ -86,7 +86,7 @@ std::string grip_force_words(const StudyResults& results, const StudyCondition& 
          short_number(forces->second) + " N)" +
          (setting.grip_force || setting.strength_share
               ? ": not every hand reaches the requested force."
-              : ": leave out limit_depths to compare at equal force.");
+              : ": compare them in a study at one grip force (grip_force_n).");
 }
 
 std::string grip_force_words(const StudySetting& setting) {

@@ -28,6 +28,11 @@ bool is_verbatim(const std::string& place) {
   return place == "product" || place == "name" || place == "family" || place == "label";
 }
 
+/// Whether the text is more than a name: clauses that a place for a name must not swallow.
+bool has_clause_end(std::string_view text) {
+  return text.find(": ") != text.npos || text.find("; ") != text.npos;
+}
+
 /// Words that could be anything: there the sentence fits only if they are known themselves.
 bool must_be_known(const std::string& place) {
   return place == "grip" || place == "part" || place == "other";
@@ -85,7 +90,7 @@ bool fits(const std::string& text, std::size_t at, const std::vector<std::string
       if (is_last) return false;
       continue;
     }
-    if (!is_verbatim(names[k]) && has_sentence_end(value)) return false;
+    if (is_verbatim(names[k]) ? has_clause_end(value) : has_sentence_end(value)) return false;
     values[k] = value;
     if (fits(text, end + next.size(), pieces, names, k + 1, values)) return true;
     if (is_last) return false;
@@ -188,16 +193,19 @@ std::optional<std::string> Phrases::cut(const std::string& english, int depth) c
   struct Mark {
     std::string text;
     std::string other;
-    bool is_sentence, is_list;
+    bool is_sentence = false, is_list = false, is_heading = false;
   };
   static const std::vector<Mark> marks = {{". ", " ", true, false},
                                           {"; ", "; ", false, false},
-                                          {": ", ": ", false, false},
+                                          {": ", ": ", false, false, true},
                                           {", ", ", ", false, true},
                                           {" and ", " und ", false, true}};
   for (const Mark& mark : marks) {
-    const std::vector<std::string> parts = parted(english, mark.text);
+    std::vector<std::string> parts = parted(english, mark.text);
     if (parts.size() < 2) continue;
+    if (mark.is_heading) {  // what follows may have a colon of its own
+      parts = {parts.front(), english.substr(parts.front().size() + mark.text.size())};
+    }
     std::string text;
     std::size_t known_parts = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -50,6 +50,35 @@ TEST(Phrases, AShortSentenceDoesNotSwallowALongOne) {
             "Hakengriff: Henkel, Finger hindurch, bei 50 % der Länge");
 }
 
+TEST(Phrases, AProductsNameIsNoClause) {
+  EXPECT_EQ(
+      german()("Women of the US Army, 2010-2012: old is held by 2 of 3; fillet:long 3 mm is "
+               "held by 3 of 3; old asks too much of nobody; fillet:long 3 mm asks too much "
+               "of 1 of 3 (33 %: 1 by range of motion, 1 by nails); the difference between old and "
+               "fillet:long 3 mm remains (0.315 and 0.437); at different grip forces (60 and "
+               "50 N)."),
+      "Frauen der US-Armee, 2010-2012: old wird von 2 von 3 gehalten; fillet:long 3 mm wird "
+      "von 3 von 3 gehalten; old verlangt zu viel von: niemand; fillet:long 3 mm verlangt zu "
+      "viel von: 1 von 3 (33 %: 1 durch Bewegungsbereich, 1 durch Nägel); der Unterschied zwischen "
+      "old und "
+      "fillet:long 3 mm bleibt (0,315 und 0,437); bei verschiedenen Greifkräften (60 und 50 "
+      "N).");
+}
+
+TEST(Phrases, WhatFollowsAColonMayHaveOneOfItsOwn) {
+  EXPECT_EQ(german()("thumb_flexion: voxels of 1.20 x 1.20 x 1.40 mm and noise of 5 % of the "
+                     "contrast: bones' surfaces are expected within 0.4 mm only, and some bones "
+                     "may be missed or have another one's name: look at the pictures")
+                .find("pictures"),
+            std::string::npos);
+  EXPECT_EQ(german()("thumb_flexion: look at these bones, which may be found wrongly or bear a "
+                     "wrong name: ulna is 8 mm long, where about 14 mm are expected; radius is 9 "
+                     "mm long, where about 15 mm are expected"),
+            "thumb_flexion: sehen Sie sich diese Knochen an, die falsch gefunden sein oder einen "
+            "falschen Namen tragen können: ulna ist 8 mm lang, wo etwa 14 mm zu erwarten sind; "
+            "radius ist 9 mm lang, wo etwa 15 mm zu erwarten sind");
+}
+
 TEST(Phrases, APlaceHoldsOneSentenceAtMost) {
   // "{low} against {high}" would fit all of it.
   EXPECT_EQ(german()("b has a lower contact area than a: 1 against 2 mm2, 50 % less (3 of 3 hands "

@@ -318,7 +318,8 @@ class SetSpeaker {
     }
     const ProductWords& better = words_.products[pair.better];
     if (!better.comfort.empty() && verdict_.products[pair.better].held != HeldVerdict::kNotHeld) {
-      words_.reasons.push_back(name(pair.better) + ": " + better.comfort);
+      const ComfortResult& comfort = verdict_.products[pair.better].comfort;
+      words_.reasons.push_back(name(pair.better) + ": " + comfort_words(comfort, texts_));
     }
     for (const int i : {pair.worse, pair.better}) {
       const ProductVerdict& one = verdict_.products[i];

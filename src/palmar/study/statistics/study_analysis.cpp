@@ -82,7 +82,7 @@ void warn_of_grip_forces(const StudyResults& results, std::vector<StudyWarning>&
   add(warnings, false, "Grip force",
       "products are held at different grip forces: " + words + ". Pressures differ by that, too; " +
           (is_stated ? "not every hand reaches the requested force."
-                     : "leave out limit_depths to compare at equal force."));
+                     : "compare them in a study at one grip force (grip_force_n)."));
 }
 
 void warn_of_holds(const StudyResults& results, std::vector<StudyWarning>& warnings) {

@@ -32,7 +32,7 @@ std::shared_ptr<const Hand> sized_as(const Hand& base, const PersonOfSize& perso
   const std::vector<HandSample> samples = sample_hands(people_of(person.sex), sampling);
   auto hand = std::make_shared<Hand>(make_hand_instance(base, samples.front().dimensions).hand);
   hand->name = name_of(person);
-  hand->provenance += " Scaled to the " + name_of(person) + ".";
+  hand->provenance += "; size of the " + name_of(person);
   return hand;
 }
 
