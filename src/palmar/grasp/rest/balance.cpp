@@ -48,7 +48,7 @@ constexpr double kWandered = 12.0;
 constexpr double kOutTurn = 0.8;                        // rad
 constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
 // Of what is missing to rest, to which the forces that say so are found; and at most.
-constexpr double kForcesShare = 0.1, kRoughForces = 0.04;
+constexpr double kForcesShare = 0.2, kRoughForces = 0.1;
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
 constexpr double kPulpGive = 4.0;
