@@ -146,9 +146,14 @@ void BlockMatrix::take_part(const BlockMatrix& whole, const std::vector<std::vec
     if (rows.empty() || columns.empty()) continue;
     const Block& to = block_[next++];
     float* target = value_.data() + to.value;
+    const bool has_all_rows = rows.size() == static_cast<std::size_t>(whole.sizes_[from.row]);
     for (const int j : columns) {
       const float* const source =
           whole.value_.data() + from.value + static_cast<std::size_t>(j) * from.stride;
+      if (has_all_rows) {
+        target = std::copy(source, source + from.stride, target);
+        continue;
+      }
       for (std::size_t i = 0; i < rows.size(); ++i) target[i] = source[rows[i]];
       for (std::size_t i = rows.size(); i < to.stride; ++i) target[i] = 0.0F;
       target += to.stride;

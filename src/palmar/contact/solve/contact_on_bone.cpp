@@ -18,7 +18,7 @@ constexpr int kMostRounds = 60;
 constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
 // Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
 // end; and at most, from nothing or from another posture.
-constexpr double kPerChange = 0.01, kPerSteadiness = 0.02, kRough = 1e-3;
+constexpr double kPerChange = 0.01, kPerSteadiness = 0.05, kRough = 1e-3;
 // Forces less exact than this look for skin that bulges into the product only at first: it is some
 // vertex in a thousand, and forces that count find it.
 constexpr double kExactForces = 1e-3;

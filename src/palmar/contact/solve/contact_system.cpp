@@ -350,6 +350,19 @@ bool ContactSystem::solve_dense(const std::vector<double>& b, std::vector<char>&
   return true;
 }
 
+/// Sets the forces of rows outside the contact to zero; with `gap`s known, by the columns of those
+/// rows alone.
+void ContactSystem::take_off_forces(const std::vector<char>& in_contact, bool has_gap,
+                                    std::vector<double>& force, std::vector<double>& gap) const {
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    if (in_contact[i] || force[i] == 0.0) continue;
+    for (std::size_t k = begin_[i]; has_gap && k < begin_[i + 1]; ++k) {
+      gap[column_[k]] -= static_cast<double>(value_[k]) * force[i];
+    }
+    force[i] = 0.0;
+  }
+}
+
 ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
                                             std::vector<char>& in_contact,
                                             std::vector<double>& force, std::vector<double>& gap,
@@ -368,15 +381,15 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
     return most / b_scale;
   };
   bool is_regular = true;
+  bool has_gap = false;  // that of the forces
   while (is_regular && outcome.pivots < kMostPivots) {
     if (!set_contact(in_contact)) {
       ++outcome.fallbacks.refused_matrices;
       break;
     }
-    for (std::size_t i = 0; i < m; ++i) {
-      if (!in_contact[i]) force[i] = 0.0;
-    }
-    find_gap(b, force, gap);
+    take_off_forces(in_contact, has_gap && !has_far_, force, gap);
+    if (!has_gap || has_far_) find_gap(b, force, gap);
+    has_gap = true;
     double error = error_on_set();
     for (int round = 0;; ++round) {
       if (error > accuracy) {

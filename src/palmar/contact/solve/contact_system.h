@@ -83,6 +83,8 @@ class ContactSystem {
                    std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
   void find_gap(const std::vector<double>& b, const std::vector<double>& force,
                 std::vector<double>& gap) const;
+  void take_off_forces(const std::vector<char>& in_contact, bool has_gap,
+                       std::vector<double>& force, std::vector<double>& gap) const;
   static void measure(const std::vector<double>& b, const std::vector<double>& force,
                       const std::vector<double>& gap, Outcome& outcome);
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +34,9 @@ constexpr double kLevelAim = 0.005;              // of the grip force asked for
 constexpr int kMostSteps = 120;
 constexpr int kUsualSteps = 60;  // not there by then, the search goes on only while it gets nearer
 constexpr int kVainSteps = 25;   // without getting nearer: it goes round in circles
-constexpr double kLongestStep = 2.0;  // mm, of any skin or of the product
-constexpr double kLeastRelaxation = 0.1;
+constexpr int kLastSteps = 5;    // the same, where the nearest state so far counts as balanced
+constexpr double kLongestStep = 4.0;  // mm, of any skin or of the product
+constexpr double kLeastRelaxation = 0.3;
 constexpr double kShifted = 5.0;  // mm; a precision grip in which the product shifts more is poor
 constexpr double kLongestPress = 0.7;  // mm, of fingertips in one step
 constexpr double kLongestTurn = 0.06;  // rad, of what they hold
@@ -47,7 +48,7 @@ constexpr double kWandered = 12.0;
 constexpr double kOutTurn = 0.8;                        // rad
 constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
 // Of what is missing to rest, to which the forces that say so are found; and at most.
-constexpr double kForcesShare = 0.1, kRoughForces = 0.04;
+constexpr double kForcesShare = 0.2, kRoughForces = 0.1;
 constexpr double kLostShare = 0.05;  // of the grip force at the start; less is a lost grip
 // mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
 constexpr double kPulpGive = 4.0;
@@ -101,6 +102,10 @@ class Settling {
     double of_joints = 0.0;            ///< largest moment left over the strongest muscle moment
     double of_level = 0.0;             ///< of the grip force against the one asked for
     double sum() const { return of_product + of_joints + of_level; }
+    /// All but at rest.
+    bool is_near() const {
+      return of_product < 0.5 * kBalanced && of_joints < kJointAim && of_level < kLevelAim;
+    }
   };
 
   bool is_stuck(int joint, double residual) const;
@@ -261,7 +266,7 @@ GripVector Settling::step_by_muscles(const Misfit& misfit, const std::vector<int
 
 GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& free,
                                 const Eigen::MatrixXd& k, double missing) const {
-  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
   const auto solved = [&](const GripVector& right) {
     const Eigen::VectorXd part = factor.solve(Eigen::VectorXd(right(free)));
     GripVector whole = GripVector::Zero();
@@ -321,7 +326,7 @@ void Settling::step_fingertips(const Misfit& misfit, double missing) {
     k.diagonal().segment<3>(begin).array() +=
         kSoftest * k.diagonal().segment<3>(begin).mean() + 1e-9;
   }
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(k);
+  const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> factor(k);
   const Vector6 squeeze = mechanics_.squeeze().tail<6>();
   Vector6 force = misfit.residual.tail<6>();
   Posture rate;
@@ -341,7 +346,7 @@ void Settling::step_fingertips(const Misfit& misfit, double missing) {
   Vector6 way = factor.solve(force);
   const double turn = way.tail<3>().norm();
   way.tail<3>() *= std::min(1.0, kLongestTurn / std::max(turn, 1e-12));
-  const Eigen::LDLT<Eigen::Matrix3d> shift(k.topLeftCorner<3, 3>());
+  const Eigen::PartialPivLU<Eigen::Matrix3d> shift(k.topLeftCorner<3, 3>());
   way.head<3>() = shift.solve(Vec3(force.head<3>() - k.topRightCorner<3, 3>() * way.tail<3>()));
   GripVector whole = GripVector::Zero();
   whole.tail<6>() = way;
@@ -460,7 +465,8 @@ Balance Settling::run(const Progress& progress) {
     progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
                     "letting the grasp come to rest");
     accuracy = std::clamp(kForcesShare * now.sum(), kForcesAccuracy, kRoughForces);
-    gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps);
+    gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps) ||
+               (best.misfit.is_near() && i - best.step >= kLastSteps);
     if (!gives_up) {
       const double missing = (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals;
       is_by_muscles_ || closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/rest/grip_effort.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,6 +18,7 @@ constexpr double kPlacePrice = 0.001;  // of the product's way
 constexpr double kWristPrice = 100.0;
 constexpr double kByWrist = 1.02;        // of the share of fingers alone; more is the wrist's
 constexpr double kMostGivingWay = 0.05;  // rad in one step
+constexpr int kSweeps = 20;              // over at most nine angles; more changed no step count
 constexpr double kWayBeyondReach = 1.1;  // of what all muscles together could add, to ask for all
 
 int muscle_count() {
@@ -26,6 +27,19 @@ int muscle_count() {
     count += static_cast<int>(tendons_of(static_cast<Finger>(f)).size());
   }
   return count;
+}
+
+/// x with A x = b as far as no |x_i| above `most` is needed: Gauss-Seidel sweeps with each unknown
+/// held within its bounds, so that the others know of those that have come to them.
+Eigen::VectorXd bounded_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double most) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const double rest = b[i] - A.row(i).dot(x) + A(i, i) * x[i];
+      x[i] = std::clamp(rest / A(i, i), -most, most);
+    }
+  }
+  return x;
 }
 
 }  // namespace
@@ -125,10 +139,12 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
     const int j = free[static_cast<std::size_t>(i)];
     if (j < kGripJoints) by_muscle.row(i) = at_limit_.row(j);
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(k);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
   by_muscle = factor.solve(by_muscle).eval();
-  const Eigen::VectorXd by_force = factor.solve(Eigen::VectorXd(force(free)));
+  Eigen::VectorXd by_force = factor.solve(Eigen::VectorXd(force(free)));
   const Eigen::MatrixXd between = stiffness(held, free);
+  const Eigen::VectorXd along = squeeze(free);
+  const Eigen::RowVectorXd gain = along.transpose() * by_muscle;
 
   const Eigen::Index kept = moved_before != nullptr ? 3 : 0;
   // Rows: held angles, the squeeze, the wrist, the product's place.
@@ -140,45 +156,63 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
                         .price = Eigen::VectorXd::Constant(rows, kHeldPrice)};
   problem.moment_at_strength.topRows(held_count) =
       at_limit_(held, Eigen::all) - between * by_muscle;
-  problem.required.head(held_count) = between * by_force - Eigen::VectorXd(force(held));
   for (Eigen::Index i = 0; i < held_count; ++i) {
     const int j = held[static_cast<std::size_t>(i)];
     problem.stop[i] = digits_[index_of(grip_finger(j))]->stop[j % kDigitDofs];
   }
-  const Eigen::VectorXd along = squeeze(free);
-  const Eigen::RowVectorXd gain = along.transpose() * by_muscle;
   problem.moment_at_strength.row(held_count) = gain;
-  problem.required[held_count] =
-      missing ? *missing - along.dot(by_force) : kWayBeyondReach * gain.cwiseMax(0.0).sum();
   problem.price[held_count] = 1.0;
   problem.moment_at_strength.row(held_count + 1) = wrist_at_limit_;
-  problem.required[held_count + 1] = -wrist_load_;
   problem.price[held_count + 1] = kWristPrice;
   if (kept > 0) {
     // The product's translation is the first of its six coordinates, which come last.
     problem.moment_at_strength.bottomRows(3) = by_muscle.middleRows(free_count - 6, 3);
-    problem.required.tail<3>() = -*moved_before - by_force.segment<3>(free_count - 6);
     problem.price.tail<3>().setConstant(kPlacePrice);
   }
-  const MuscleSolution solution = balance_muscles(problem);
+  Eigen::VectorXd giving = Eigen::VectorXd::Zero(held_count);
+  const auto balance = [&] {
+    problem.required.head(held_count) =
+        between * by_force - Eigen::VectorXd(force(held)) + stiffness(held, held) * giving;
+    problem.required[held_count] =
+        missing ? *missing - along.dot(by_force) - Eigen::VectorXd(squeeze(held)).dot(giving)
+                : kWayBeyondReach * gain.cwiseMax(0.0).sum();
+    problem.required[held_count + 1] = -wrist_load_;
+    if (kept > 0) {
+      problem.required.tail<3>() = -*moved_before - by_force.segment<3>(free_count - 6);
+    }
+    return balance_muscles(problem);
+  };
+  MuscleSolution solution = balance();
+
+  // Held angles that their muscles leave short give way, and the muscles are asked anew.
+  std::vector<int> row, joint;
+  for (Eigen::Index i = 0; i < held_count; ++i) {
+    if (solution.missing[i] == 0.0) continue;
+    row.push_back(static_cast<int>(i));
+    joint.push_back(held[static_cast<std::size_t>(i)]);
+  }
+  if (!row.empty()) {
+    const Eigen::MatrixXd follow = factor.solve(Eigen::MatrixXd(stiffness(free, joint)));
+    Eigen::MatrixXd own = stiffness(joint, joint);
+    const Eigen::VectorXd least = 0.1 * own.diagonal().array() + 1.0;
+    own -= between(row, Eigen::all) * follow;
+    own.diagonal() = own.diagonal().cwiseMax(least);
+    const Eigen::VectorXd way = bounded_solution(own, -solution.missing(row), kMostGivingWay);
+    giving(row) = way;
+    by_force -= follow * way;
+    solution = balance();
+  }
 
   now_.activation = solution.activation;
   now_.stops.setZero();
-  Eigen::VectorXd moved = by_muscle * now_.activation + by_force;
   Step step;
   step.is_short = solution.missing[held_count] > 0.0;
-  Eigen::VectorXd giving = Eigen::VectorXd::Zero(held_count);
   for (Eigen::Index i = 0; i < held_count; ++i) {
     const int j = held[static_cast<std::size_t>(i)];
     now_.stops[j] = solution.stop[i];
-    if (solution.missing[i] == 0.0) continue;
-    const double schur =
-        stiffness(j, j) - between.row(i).dot(factor.solve(Eigen::VectorXd(between.row(i))));
-    giving[i] = std::clamp(-solution.missing[i] / std::max(schur, 0.1 * stiffness(j, j) + 1.0),
-                           -kMostGivingWay, kMostGivingWay);
     step.way[j] = giving[i];
   }
-  moved -= factor.solve(Eigen::VectorXd(between.transpose() * giving));
+  const Eigen::VectorXd moved = by_muscle * now_.activation + by_force;
   for (Eigen::Index i = 0; i < free_count; ++i) {
     step.way[free[static_cast<std::size_t>(i)]] = moved[i];
   }

@@ -20,9 +20,10 @@ namespace palmar {
 /// with contact forces linear in the coordinates about the state last looked at. Joints that flex
 /// fingers go where muscles and product bring them. The thumb's joints and all abduction are held
 /// where they are, by whatever moments their muscles can give; where these are too weak they give
-/// way. Fingers and thumb that meet press on each other (ThumbMeeting). The wrist's muscles, with
-/// those of the digits that cross it, hold the load and what the fingers' flexors pull at the
-/// wrist. Squeeze that the muscles can't give is what is missed first; the wrist doesn't give way.
+/// way, together and within bounds, and the muscles are asked once more with that. Fingers and
+/// thumb that meet press on each other (ThumbMeeting). The wrist's muscles, with those of the
+/// digits that cross it, hold the load and what the fingers' flexors pull at the wrist. Squeeze
+/// that the muscles can't give is what is missed first; the wrist doesn't give way.
 class GripEffort {
  public:
   /// `limit`: largest activation, times the muscles of HandMuscles.

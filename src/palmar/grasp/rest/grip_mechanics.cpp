@@ -172,9 +172,15 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
     const double most = friction_ * p;
     double drag = friction_ > 0.0 ? kTangential * stiff : 0.0;
     Vec3 pull = -drag * way;
+    double with_normal = 0.5;  // share of the change of p that friction takes part in
+    Vec3 slip = Vec3::Zero();  // direction in which the skin slips
+    double across = drag;      // resists ways across that
     if (pull.norm() > most) {
       const double share = most / pull.norm();
       pull *= share;
+      with_normal = 1.0;
+      slip = way.normalized();
+      across *= share;
       drag *= share * share;  // of skin that slips little resists further motion
     }
     tangential_.push_back(pull);
@@ -183,16 +189,16 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
     rubbing += pull.norm();
     limit += most;
     const Vec3 total = p * n + pull;  // of the product on the skin
+    const Vec3 gain = stiff * (n + (with_normal / p) * pull);
     for (const auto& [a, speed] : moves) {
       force_[a] += total.dot(speed);
       squeeze_[a] -= stiff * n.dot(speed);
     }
-    for (const auto& [a, va] : moves) {
-      const double normal_a = n.dot(va);
-      for (const auto& [b, vb] : moves) {
-        const double normal_b = n.dot(vb);
-        stiffness_(a, b) += stiff * normal_a * normal_b + drag * (va.dot(vb) - normal_a * normal_b);
-      }
+    for (const auto& [b, vb] : moves) {
+      const double normal_b = n.dot(vb);
+      const Vec3 along = vb - normal_b * n;
+      const Vec3 change = normal_b * gain + across * (along - slip * slip.dot(along));
+      for (const auto& [a, va] : moves) stiffness_(a, b) += change.dot(va);
     }
   }
   add_touches(state.posture);

@@ -42,7 +42,10 @@ struct GripState {
 /// not at all: f_k J_k, J_k = d(gap of touch k) / dx.
 ///
 /// Friction: skin that has gone a tangential way s_v over the product since the start pulls with
-/// t_v = -(2/3) k_v s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v.
+/// t_v = -(2/3) k_v s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v. It changes with p_v, too: all of
+/// it where the skin slips, half of it where it sticks (p_v grows with the square of the depth, the
+/// denominator of k_v with the depth), so the stiffness isn't symmetric. Skin that slips resists
+/// ways across its slip by |t_v| / |s_v|, and none along it.
 class GripMechanics {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -65,6 +68,7 @@ class GripMechanics {
   /// Of all contacts solved so far.
   const ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< of the contact on the coordinates
+  /// Forces that coordinates (columns) take from coordinates (rows) per mm and rad.
   const GripMatrix& stiffness() const { return stiffness_; }
   /// Change of the sum of normal forces with the coordinates, N per mm and rad.
   const GripVector& squeeze() const { return squeeze_; }

@@ -175,6 +175,16 @@ TEST(BalanceMuscles, LoadScalesActivations) {
   }
 }
 
+// The equations of a step overflow: what comes out is finite and called what it is.
+TEST(BalanceMuscles, StaysFiniteWhereAStepDoesNot) {
+  const MuscleSolution solution = balance_muscles(one_axis({1}, 1e60, 3));
+  EXPECT_EQ(solution.status, MuscleStatus::kNotConverged);
+  EXPECT_LT(solution.iterations, 100);
+  EXPECT_EQ(solution.activation[0], 1.0);
+  EXPECT_TRUE(std::isfinite(solution.missing[0]));
+  EXPECT_TRUE(std::isfinite(solution.kkt_residual));
+}
+
 TEST(BalanceMuscles, BadInputIsNamed) {
   EXPECT_THAT([] { balance_muscles(one_axis({1}, 1, 4)); },
               testing::ThrowsMessage<UsageError>(testing::HasSubstr("exponent is 4; 2 or 3")));
