@@ -69,7 +69,12 @@ std::string summary(const Hand& hand, const Product& product, const Assessment& 
     if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
   const std::string unresolved = unresolved_words(assessment.contact);
-  if (!unresolved.empty()) text += "not resolved: " + unresolved + "\n";
+  const std::string refined = refinement_words(assessment.contact);
+  if (!unresolved.empty()) {
+    text += "not resolved: " + unresolved + "\n";
+  } else if (!refined.empty()) {
+    text += "refined: " + refined + "\n";
+  }
   text += sensor_text(assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "palmar/contact/refine/refined_contact.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/grasp/rest/other_grip.h"
@@ -84,7 +85,9 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
 
   if (options.footprint) {
     progress.update(0.9, "mapping the pressure to the product");
-    result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+    const std::shared_ptr<const RefinedContact>& refined = result.contact.refined;
+    result.footprint = refined ? map_to_product(*refined->hand, refined->contact, product.mesh)
+                               : map_to_product(hand.hand(), result.contact, product.mesh);
     result.faces = face_contacts(result.footprint, product);
   }
   if (options.sensors && result.contact.total.force > 0.0) {
