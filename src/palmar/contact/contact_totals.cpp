@@ -79,6 +79,9 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
       part.area += area[v];
       moment += result.force[v] * result.deformed[v];
     }
+    // Of a patch smaller than those that peaks are told of, the area is that of the force at the
+    // peak.
+    if (!told.empty()) part.area = std::max(part.area, part.force / part.peak_pressure);
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
     part.centre = moment / part.force;
     // A region's own cells see its own load; those of the whole hand see all of it.
