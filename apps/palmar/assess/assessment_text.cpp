@@ -44,7 +44,12 @@ std::string notes_text(const Assessment& assessment) {
     if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
   const std::string unresolved = unresolved_words(assessment.contact);
-  if (!unresolved.empty()) text += "not resolved: " + with_plain_names(unresolved) + "\n";
+  const std::string refined = refinement_words(assessment.contact);
+  if (!unresolved.empty()) {
+    text += "not resolved: " + with_plain_names(unresolved) + "\n";
+  } else if (!refined.empty()) {
+    text += "refined: " + with_plain_names(refined) + "\n";
+  }
   text += sensor_text(assessment);
   for (const Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,

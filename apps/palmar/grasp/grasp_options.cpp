@@ -116,6 +116,8 @@ void ContactArguments::add_to(CLI::App& verb) {
       "--skin-on-skin", skin_on_skin_,
       "Let skin of the hand press on other skin of it, as fingers do side by side; takes two "
       "to three times as long");
+  verb.add_flag("--refine,!--no-refine", refine_,
+                "Refine the skin on sharp edges and small fillets; on by default");
   verb.add_flag("--no-swelling", no_swelling_, "Leave out the bulge around the contact");
   verb.add_option("--shear-modulus-kpa", shear_modulus_kpa_,
                   "One shear modulus instead of the tissue's own G(d), kPa");
@@ -133,6 +135,7 @@ ContactOptions ContactArguments::options() const {
   ContactOptions result;
   result.swelling = !no_swelling_;
   result.skin_on_skin = skin_on_skin_;
+  result.refine = refine_;
   if (shear_modulus_kpa_ && !(*shear_modulus_kpa_ > 0.0)) {
     throw UsageError("--shear-modulus-kpa is " + std::to_string(*shear_modulus_kpa_) +
                      "; more than 0 kPa is required");

@@ -38,7 +38,7 @@ class ContactArguments {
   std::string tissue;  ///< file of the hand's tissue, or empty
 
   /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
-  /// --error-band, --coating and --tissue to a verb.
+  /// --error-band, --refine, --coating and --tissue to a verb.
   void add_to(CLI::App& verb);
   ContactOptions options() const;  ///< throws UsageError naming the option
   ContactModel model() const;      ///< the equations for PreparedHand; throws UsageError
@@ -48,6 +48,7 @@ class ContactArguments {
   bool no_swelling_ = false;
   bool error_band_ = true;
   bool skin_on_skin_ = false;
+  bool refine_ = true;
   std::optional<double> shear_modulus_kpa_;
   std::vector<std::string> coatings_;
 };

@@ -11,8 +11,19 @@ import { regionWords } from "./verdicts";
 const mostNamed = 3;
 const toldShare = 0.3; // of a region's force, as in contact/resolution.h
 
-/// That pressures on sharp edges are not resolved, where that is so.
+/// What was done about sharp edges, or that pressures on them are not resolved, where that is so.
 export function resolutionNote(contact: ContactResult, vocabulary: Vocabulary): Markup | null {
+  const refinement = contact.refinement ?? null;
+  if (refinement !== null && refinement.halvings > 0) {
+    const words = say("resolution.refined", {
+      vertices: String(refinement.vertices_added),
+      edge: refinement.finest_edge_mm.toFixed(1),
+      change: percent(refinement.last_change_of_peaks),
+    });
+    return contact.resolved
+      ? note("good", say("resolution.good"), words)
+      : note("fair", say("resolution.begin"), words);
+  }
   const told = contact.regions.filter((one) => one.unresolved_force_n > toldShare * one.force_n);
   if (told.length === 0) return null;
   told.sort((a, b) => b.peak_pressure_cells_mpa - a.peak_pressure_cells_mpa);

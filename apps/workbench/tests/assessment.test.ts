@@ -259,4 +259,10 @@ test("pressures on sharp edges are said not to be resolved", () => {
   region.unresolved_force_n = 0.5 * region.force_n;
   one.contact.unresolved_force_n = region.unresolved_force_n;
   assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*of the force is on edges/);
+  one.contact.refinement = { halvings: 2, vertices_added: 1442, finest_edge_mm: 0.49, last_change_of_peaks: 0.015, peak_pressure_cells_before_mpa: 0.227 };
+  assert.match(text(resolutionNote(one.contact, vocabulary)), /refined on sharp edges[^]*1442 points[^]*0.5 mm[^]*1.5 %/);
+  one.contact.resolved = false;
+  assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*1442 points/);
+  one.contact.refinement = null;
+  assert.match(text(resolutionNote(one.contact, vocabulary)), /not resolved[^]*of the force is on edges/);
 });

@@ -58,7 +58,7 @@ export function assessment(): Assessment {
     balance: { status: "off", message: "" },
     contact: {
       ...totals(12.3456789, 345, 1.2, 0.06), status: "solved", message: "", grip_force_n: 5.4321, complementarity_error_n_mm: 0,
-      residual_penetration_contact_mm: 0, residual_penetration_other_mm: 0, iterations: 1,
+      residual_penetration_contact_mm: 0, residual_penetration_other_mm: 0, iterations: 1, resolved: true, refinement: null,
       // 1.2 / 3.0 = 0.4 is farther from pain than 1.0 / 2.0 = 0.5, though the pressure is higher.
       regions: [{ ...totals(8, 200, 1.2, 0.06), region: "index_distal", shear_modulus_mpa: 0.03 },
                 { ...totals(4.3456789, 145, 1.0, 0.04), region: "thenar", shear_modulus_mpa: 0.02 }],
@@ -78,7 +78,7 @@ export function assessment(): Assessment {
     settings: {
       palm_limit_depth_mm: 7, finger_limit_depth_mm: 4, at_mm: null, axis: null, turn_deg: null, balance: false,
       balance_friction: 0.5, grip_force_asked_n: null, grip_force_from: "", contact_model: "palmar", kernel: "patch", tissue_model: "halfspace",
-      regions: "coupled", swelling: true, skin_on_skin: false, coatings: [], error_band: true, cell_area_mm2: 24, shear_modulus_mpa: null, seed: 0,
+      regions: "coupled", swelling: true, skin_on_skin: false, refine: true, coatings: [], error_band: true, cell_area_mm2: 24, shear_modulus_mpa: null, seed: 0,
     },
   };
 }

@@ -118,6 +118,15 @@ export interface SkinOnSkin {
   crossing_before_mm: number; // deepest, before the skins give way
 }
 
+/** What was done to the skin on sharp edges of the product. */
+export interface Refinement {
+  halvings: number; // 0: it would have taken too many points
+  vertices_added: number;
+  finest_edge_mm: number;
+  last_change_of_peaks: number; // share by which the last halving moved the highest pressures on cells
+  peak_pressure_cells_before_mpa: number;
+}
+
 export interface ContactResult extends ContactTotals {
   status: "solved" | "no_contact" | "not_converged" | "too_deep";
   message: string;
@@ -130,6 +139,8 @@ export interface ContactResult extends ContactTotals {
   skin_on_skin?: SkinOnSkin[];
   iterations: number;
   fallbacks?: Fallbacks;
+  resolved?: boolean; // whether pressures hold against a finer skin
+  refinement?: Refinement | null; // null: nothing had to be refined, or it was switched off
   regions: RegionContact[];
 }
 
@@ -171,6 +182,7 @@ export interface AssessmentSettings {
   regions: "coupled" | "independent";
   swelling: boolean;
   skin_on_skin: boolean;
+  refine: boolean;
   coatings: Coating[];
   error_band: boolean;
   cell_area_mm2: number;

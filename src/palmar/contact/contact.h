@@ -108,6 +108,9 @@ struct ContactOptions {
   /// Skin of the hand presses on other skin of it (self/meeting_loads.h); with tissue on bone
   /// alone, else UsageError.
   bool skin_on_skin = false;
+  /// Refine the skin on sharp edges and small fillets of the product (refine/refine_contact.h);
+  /// by solve_hand_contact() alone, never along a motion, with Kernel::kPatch and BulgeLaw::kHeld.
+  bool refine = false;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -137,6 +140,8 @@ class PreparedHand {
   const ContactModel& model() const;
 
   struct Impl;
+  /// Of parts that were made elsewhere (contact/refine).
+  explicit PreparedHand(std::unique_ptr<const Impl> impl);
   const Impl& impl() const { return *impl_; }
 
  private:
@@ -218,6 +223,18 @@ extern const std::array<FallbackCount, 11> kFallbackCounts;
 /// All of them in words, or "" if there are none.
 std::string fallbacks_in_words(const ContactFallbacks& fallbacks);
 
+struct RefinedContact;
+
+/// What refining the skin did to a contact; see refine/refine_contact.h.
+struct ContactRefinement {
+  int levels = 0;            ///< how often the skin's edges were halved
+  int vertices = 0;          ///< of the skin that were added
+  double finest_edge = 0.0;  ///< mean edge where it is finest, reference posture, mm
+  double peak_change = 0.0;  ///< by which the last level moved the peaks on cells, relative
+  double peak_before = 0.0;  ///< the hand's peak on cells on its own skin, MPa
+  bool is_resolved = false;  ///< the last level moved them by less than kResolvedChange
+};
+
 /// Contact of a posed hand with a product. Per-vertex fields follow hand.skin; product frame, mm,
 /// N, MPa.
 struct ContactResult {
@@ -244,6 +261,11 @@ struct ContactResult {
   std::vector<SkinTouch> skin_touch;
   std::vector<SkinOnSkin> skin_on_skin;
   double residual_crossing = 0.0;  ///< by which skin still crosses other skin after contact, mm
+  /// With ContactOptions::refine, where anything had to be refined: `regions`, `total` and `band`
+  /// are those of the refined skin, which `refined` has vertex by vertex; all other fields are
+  /// those of the hand's own.
+  std::optional<ContactRefinement> refinement;
+  std::shared_ptr<const RefinedContact> refined;
 };
 
 /// Skin against product (Xie 2014, A3-A7). `posed_skin` is in the hand frame; `product_from_hand`

@@ -42,8 +42,13 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   if (prepared.is_as_printed()) {
     area = contact_triangles(result.undeformed, triangles, result.force);
   } else {
-    result.pressure = pressure_on_skin(pressed, prepared.skin, result.force);
+    result.pressure = pressure_on_skin(pressed, prepared.skin.area, result.force);
     area = contact_area(pressed.position, triangles, result.pressure, gap, shear_modulus);
+  }
+  // Peaks are told of the same areas on skin that was divided as on skin that wasn't.
+  std::vector<double> told;
+  if (!prepared.told_area.empty()) {
+    told = pressure_on_skin(pressed, prepared.told_area, result.force);
   }
 
   RegionContact& total = result.total;
@@ -55,14 +60,17 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
     part.max_penetration = d_max[r];
     part.shear_modulus = modulus[r];
     Vec3 moment = Vec3::Zero();
+    double highest = 0.0;
     for (const int v : loaded[r]) {
-      part.peak_pressure = std::max(part.peak_pressure, result.pressure[v]);
+      highest = std::max(highest, result.pressure[v]);
+      if (!told.empty()) part.peak_pressure = std::max(part.peak_pressure, told[v]);
     }
+    if (told.empty()) part.peak_pressure = highest;
     for (const int v : loaded[r]) {
       // A patch of few vertices is finer than the mesh: its edge correction would leave an area on
       // which the mean exceeds the peak. No vertex gets less than its force needs at the peak.
       if (!prepared.is_as_printed()) {
-        area[v] = std::max(area[v], result.force[v] / part.peak_pressure);
+        area[v] = std::max(area[v], result.force[v] / highest);
       }
       part.force += result.force[v];
       if (is_unresolved(pressed, skin, v)) part.unresolved_force += result.force[v];
@@ -71,6 +79,9 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
       part.area += area[v];
       moment += result.force[v] * result.deformed[v];
     }
+    // Of a patch smaller than those that peaks are told of, the area is that of the force at the
+    // peak.
+    if (!told.empty()) part.area = std::max(part.area, part.force / part.peak_pressure);
     part.mean_pressure = part.area > 0.0 ? part.force / part.area : 0.0;
     part.centre = moment / part.force;
     // A region's own cells see its own load; those of the whole hand see all of it.

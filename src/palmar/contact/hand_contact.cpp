@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "palmar/contact/refine/refine_contact.h"
 #include "palmar/contact/solve/contact_solver.h"
 #include "palmar/core/error.h"
 
@@ -63,8 +64,13 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
                                  const Rigid3& product_from_hand, const DistanceField& product,
                                  const ContactOptions& options) {
-  return solve_region_contact(prepared, posed_skin, product_from_hand, product, options,
-                              std::nullopt);
+  options.check();
+  check_kernel(prepared.model(), options);
+  ContactSolver::Impl solver(prepared, options);
+  ContactResult result;
+  solver.solve(posed_skin, product_from_hand, product, std::nullopt, result);
+  refine_contact(solver, product, result);
+  return result;
 }
 
 ContactSolver::ContactSolver(const PreparedHand& prepared, const ContactOptions& options)

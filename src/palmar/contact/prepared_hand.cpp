@@ -195,10 +195,15 @@ PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel&
   } else {
     impl->response = skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
   }
-  impl->blocks = skin_patches(impl->skin, kBlockSize);
-  impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response,
-                                   skin_patches(impl->skin, kSpotSize), impl->blocks, impl->model);
+  impl->set_patches();
   impl_ = std::move(impl);
+}
+
+PreparedHand::PreparedHand(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+void PreparedHand::Impl::set_patches() {
+  blocks = skin_patches(skin, kBlockSize);
+  stiffness = skin_stiffness(*hand, skin, response, skin_patches(skin, kSpotSize), blocks, model);
 }
 
 PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& family) {

@@ -22,6 +22,9 @@ struct PreparedHand::Impl {
   std::shared_ptr<const Hand> hand;
   ContactModel model;
   SkinGeometry skin;
+  /// Of skin that was divided: areas of the skin before per vertex, at rest, mm^2; no pressure is
+  /// told of less. Empty otherwise.
+  std::vector<double> told_area;
   std::vector<double> layer_thickness;  ///< per vertex, mm; with TissueModel::kLayered
   SkinResponse response;  ///< with TissueModel::kBone among skin without tissue elements only
   SkinPatches blocks;     ///< of the preconditioner
@@ -34,6 +37,9 @@ struct PreparedHand::Impl {
 
   bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
   bool is_as_printed() const { return model.bulge == BulgeLaw::kPrinted; }
+
+  /// Blocks of the preconditioner and stiffness, from hand, skin, response and model.
+  void set_patches();
 
   const RegionTissue& tissue(Region r) const { return hand->tissue.region[index_of(r)]; }
 };

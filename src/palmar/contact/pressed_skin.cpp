@@ -40,19 +40,20 @@ SkinGeometry pressed_skin(const PreparedHand::Impl& prepared, const SkinOnProduc
   return result;
 }
 
-std::vector<double> pressure_on_skin(const SkinGeometry& pressed, const SkinGeometry& at_rest,
+std::vector<double> pressure_on_skin(const SkinGeometry& pressed,
+                                     const std::vector<double>& at_rest,
                                      const std::vector<double>& force) {
   std::vector<double> pressure(force.size(), 0.0);
   std::vector<int> crowded;
   std::vector<double> cell_area;
   for (std::size_t v = 0; v < force.size(); ++v) {
     if (!(force[v] > 0.0)) continue;
-    if (pressed.area[v] >= at_rest.area[v]) {
+    if (pressed.area[v] >= at_rest[v]) {
       pressure[v] = force[v] / pressed.area[v];
       continue;
     }
     crowded.push_back(static_cast<int>(v));
-    cell_area.push_back(at_rest.area[v]);
+    cell_area.push_back(at_rest[v]);
   }
   const SensorCells cells = sensor_cells(pressed, crowded, cell_area);
   for (std::size_t c = 0; c < crowded.size(); ++c) {

@@ -21,8 +21,9 @@ SkinGeometry pressed_skin(const PreparedHand::Impl& prepared, const SkinOnProduc
 
 /// Pressure of every vertex, MPa: its force [N] over its area on the product. Where skin is crowded
 /// together there (in a crease, or on a ridge narrower than its mesh) it is the mean over a disc of
-/// the vertex' area at rest: nothing finer than the mesh is told.
-std::vector<double> pressure_on_skin(const SkinGeometry& pressed, const SkinGeometry& at_rest,
+/// the vertex' area at rest: nothing finer than the mesh is told. `at_rest`: those areas, mm^2.
+std::vector<double> pressure_on_skin(const SkinGeometry& pressed,
+                                     const std::vector<double>& at_rest,
                                      const std::vector<double>& force);
 
 }  // namespace palmar

@@ -29,13 +29,30 @@ bool is_unresolved(const SkinGeometry& skin, const SkinOnProduct& on_product, in
   return false;
 }
 
+bool is_resolved(const ContactResult& contact) {
+  if (contact.refinement) return contact.refinement->is_resolved;
+  return std::none_of(contact.regions.begin(), contact.regions.end(), is_told);
+}
+
+std::string refinement_words(const ContactResult& contact) {
+  if (!contact.refinement || contact.refinement->levels == 0) return "";
+  const ContactRefinement& refinement = *contact.refinement;
+  const long tenths = std::max(1L, std::lround(10.0 * refinement.finest_edge));
+  return std::to_string(refinement.vertices) +
+         " vertices were added to the skin on edges of the product, down to edges of " +
+         std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) +
+         " mm; the last halving moved the highest pressures on cells by " +
+         std::to_string(std::lround(100.0 * refinement.peak_change)) + " %";
+}
+
 std::string unresolved_words(const ContactResult& contact) {
+  if (is_resolved(contact)) return "";
+  if (contact.refinement && contact.refinement->levels > 0) return refinement_words(contact);
   constexpr std::size_t kMostNamed = 3;
   std::vector<RegionContact> told;
   for (const RegionContact& region : contact.regions) {
     if (is_told(region)) told.push_back(region);
   }
-  if (told.empty()) return "";
   std::stable_sort(told.begin(), told.end(), [](const RegionContact& a, const RegionContact& b) {
     return a.peak_pressure_cells > b.peak_pressure_cells;
   });

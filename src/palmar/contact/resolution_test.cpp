@@ -20,7 +20,7 @@ constexpr double kBall = 10.0;  // mm
 
 /// The ball on the edge between two faces of a bar, 1.5 mm deep, with edges of skin of 1.5, 0.75
 /// or 0.37 mm (subdivisions 3 to 5).
-ContactResult press_edge(double fillet, int subdivisions) {
+ContactResult press_edge(double fillet, int subdivisions, bool refine = false) {
   static const std::array<PreparedHand, 3> hands = {PreparedHand(ball_hand(kBall, 3)),
                                                     PreparedHand(ball_hand(kBall, 4)),
                                                     PreparedHand(ball_hand(kBall, 5))};
@@ -31,7 +31,9 @@ ContactResult press_edge(double fillet, int subdivisions) {
   const double away = (apex + kBall - 1.5) / std::sqrt(2.0);
   Rigid3 place;
   place.translation = Vec3(away, away, 0.0);
-  return solve_hand_contact(hand, hand.hand().skin.vertices, place, *bar);
+  ContactOptions options;
+  options.refine = refine;
+  return solve_hand_contact(hand, hand.hand().skin.vertices, place, *bar, options);
 }
 
 TEST(Resolution, WhatIsResolvedMovesByLessThan5PercentWhenTheMeshIsHalved) {
@@ -59,6 +61,16 @@ TEST(Resolution, SharpEdgesAreToldAndTheirForceHoldsAllTheSame) {
     EXPECT_THAT(unresolved_words(contact), testing::HasSubstr("sharper than the skin's mesh"));
     EXPECT_THAT(unresolved_words(contact), testing::HasSubstr("middle_distal "));
     EXPECT_NEAR(contact.total.force, finest.total.force, 0.05 * finest.total.force);
+  }
+}
+
+TEST(Resolution, SkinRefinedOnAnEdgeComesNearTheFinestMesh) {
+  for (const double fillet : {2.0, 3.0}) {
+    const double truth = press_edge(fillet, 5).total.peak_pressure_cells;
+    const ContactResult refined = press_edge(fillet, 3, true);
+    EXPECT_TRUE(is_resolved(refined));
+    EXPECT_NEAR(refined.total.peak_pressure_cells, truth, 0.05 * truth) << fillet;
+    EXPECT_GT(press_edge(fillet, 3).total.peak_pressure_cells, 1.05 * truth) << fillet;
   }
 }
 

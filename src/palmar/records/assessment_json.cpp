@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "palmar/contact/resolution.h"
 #include "palmar/core/version.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/hold/hold_json.h"
@@ -154,6 +155,15 @@ Json skin_on_skin_array(const ContactResult& contact) {
   return pairs;
 }
 
+Json refinement_or_null(const std::optional<ContactRefinement>& refinement) {
+  if (!refinement) return nullptr;
+  return {{"halvings", refinement->levels},
+          {"vertices_added", refinement->vertices},
+          {"finest_edge_mm", refinement->finest_edge},
+          {"last_change_of_peaks", refinement->peak_change},
+          {"peak_pressure_cells_before_mpa", refinement->peak_before}};
+}
+
 /// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
 Json contact_object(const ContactResult& contact, double grip_force, bool has_skin_on_skin) {
   Json json = {{"status", name_of_status(contact.status)},
@@ -161,6 +171,8 @@ Json contact_object(const ContactResult& contact, double grip_force, bool has_sk
                {"grip_force_n", grip_force}};
   add_totals(json, contact.total);
   json["band"] = band_or_null(contact, nullptr);
+  json["resolved"] = is_resolved(contact);
+  json["refinement"] = refinement_or_null(contact.refinement);
   json["complementarity_error_n_mm"] = contact.complementarity_error;
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
   json["residual_penetration_other_mm"] = contact.residual_penetration_other;
@@ -376,6 +388,7 @@ Json settings_object(const Assessment& assessment) {
           {"regions", name_of(assessment.contact.model.coupling)},
           {"swelling", options.contact.swelling},
           {"skin_on_skin", options.contact.skin_on_skin},
+          {"refine", options.contact.refine},
           {"coatings", coating_array(options.contact.coatings)},
           {"error_band", options.contact.error_band},
           {"cell_area_mm2", options.contact.cell_area},

@@ -15,6 +15,7 @@
 
 #include "palmar/contact/footprint.h"
 #include "palmar/contact/hand_family.h"
+#include "palmar/contact/refine/refined_contact.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
@@ -273,10 +274,11 @@ class StudySubject {
     record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
       record.grip_force = grip_force(contact, *product.distance).force;
-      record.product_pressure =
-          sparse(map_to_product(prepared.hand(), contact,
-                                bench_.map_for(task.profile, task.product), kWholeTriangles)
-                     .pressure);
+      const TriangleMesh& map = bench_.map_for(task.profile, task.product);
+      record.product_pressure = sparse(
+          map_to_product(contact.refined ? *contact.refined->hand : prepared.hand(),
+                         contact.refined ? contact.refined->contact : contact, map, kWholeTriangles)
+              .pressure);
     }
     if (contact.total.force > 0.0) {
       record.demand = demand_of(*whole_range_, product,
@@ -317,6 +319,7 @@ class StudySubject {
     options.footprint = false;  // the study's own map serves
     options.indices.is_on = setting.indices;
     options.indices.stability.with_volume = setting.wrench_volume;
+    options.contact.refine = setting.refine;
 
     if (profile_.glove_thickness > 0.0) {
       Coating glove;

@@ -32,7 +32,7 @@ struct AssessRequest {
   HandChoice hand;
   GraspSettings grasp;
   ContactModel model = palmar_model();  ///< the equations of the skin
-  ContactOptions contact = contact_with_band();
+  ContactOptions contact = refined_contact_with_band();
   FrictionSettings friction;
   RestSettings rest;  ///< one grip force for all products, unless it says otherwise
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of

@@ -13,4 +13,11 @@ inline ContactOptions contact_with_band() {
   return options;
 }
 
+/// The same, with the skin refined on sharp edges of the product.
+inline ContactOptions refined_contact_with_band() {
+  ContactOptions options = contact_with_band();
+  options.refine = true;
+  return options;
+}
+
 }  // namespace palmar

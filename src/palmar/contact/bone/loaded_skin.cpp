@@ -102,22 +102,19 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
   }
 }
 
-std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
-                                             const std::vector<int>& at,
-                                             const std::vector<Vec3>& along) const {
-  // Per row of the compliance.
+/// What moves the rows that are asked for, per row of the compliance.
+std::vector<Eigen::Vector3f> LoadedSkin::moved_rows(const std::vector<double>& force,
+                                                    const std::vector<int>& at) const {
   const SkinCompliance& C = *compliance_;
   const std::size_t rows = C.vertex.size();
   std::vector<Eigen::Vector3f> load(rows, Eigen::Vector3f::Zero());
   std::vector<Eigen::Vector3f> moved(rows, Eigen::Vector3f::Zero());
   std::vector<char> is_asked(rows, 0), is_loaded(rows, 0);
-  std::vector<float> normal_load(row_of_.size(), 0.0F);  // per vertex
   for (std::size_t j = 0; j < vertex_.size(); ++j) {
-    const int v = vertex_[j];
-    normal_load[v] = static_cast<float>(force[j]) * cosine_[j];
-    if (row_of_[v] < 0) continue;
-    load[row_of_[v]] = static_cast<float>(force[j]) * scaled_[j];
-    is_loaded[row_of_[v]] = force[j] != 0.0;
+    const int row = row_of_[vertex_[j]];
+    if (row < 0) continue;
+    load[row] = static_cast<float>(force[j]) * scaled_[j];
+    is_loaded[row] = force[j] != 0.0;
   }
   for (const int v : at) {
     if (row_of_[v] >= 0) is_asked[row_of_[v]] = 1;
@@ -131,6 +128,17 @@ std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
       if (asks && is_loaded[j] != 0) moved[i] += C.tensor[k] * load[j];
       if (loads && is_asked[j] != 0 && j != i) moved[j] += C.tensor[k].transpose() * load[i];
     }
+  }
+  return moved;
+}
+
+std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
+                                             const std::vector<int>& at,
+                                             const std::vector<Vec3>& along) const {
+  const std::vector<Eigen::Vector3f> moved = moved_rows(force, at);
+  std::vector<float> normal_load(row_of_.size(), 0.0F);  // per vertex
+  for (std::size_t j = 0; j < vertex_.size(); ++j) {
+    normal_load[vertex_[j]] = static_cast<float>(force[j]) * cosine_[j];
   }
   std::vector<double> result(at.size(), 0.0);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -147,6 +155,19 @@ std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
       sum += static_cast<double>(half_space_->response[k]) * static_cast<double>(normal_load[w]);
     }
     result[i] = -along[i].dot(skin_->normal[v]) * sum;
+  }
+  return result;
+}
+
+std::vector<Vec3> LoadedSkin::motion(const std::vector<double>& force,
+                                     const std::vector<int>& at) const {
+  const std::vector<Eigen::Vector3f> moved = moved_rows(force, at);
+  std::vector<Vec3> result;
+  result.reserve(at.size());
+  for (const int v : at) {
+    const int row = row_of_[v];
+    result.emplace_back(row < 0 ? Vec3(Vec3::Zero())
+                                : Vec3((root_scale_[v] * moved[row]).cast<double>()));
   }
   return result;
 }

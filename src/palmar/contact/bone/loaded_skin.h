@@ -27,6 +27,7 @@ class LoadedSkin {
   /// Vertices ascending; directions [unit] in the frame of the compliance (hand, reference
   /// posture).
   void set(const std::vector<int>& vertices, const std::vector<Vec3>& directions);
+  const std::vector<int>& vertices() const { return vertex_; }  ///< as they were set
   /// Symmetric, 1/mm.
   const SparseRows& responses() const { return responses_; }
 
@@ -34,8 +35,13 @@ class LoadedSkin {
   /// the vertices that were set.
   std::vector<double> displacement(const std::vector<double>& force, const std::vector<int>& at,
                                    const std::vector<Vec3>& along) const;
+  /// The same as vectors, in the frame of the compliance; of skin without tissue elements zero.
+  std::vector<Vec3> motion(const std::vector<double>& force, const std::vector<int>& at) const;
 
  private:
+  std::vector<Eigen::Vector3f> moved_rows(const std::vector<double>& force,
+                                          const std::vector<int>& at) const;
+
   const SkinGeometry* skin_;
   const SkinCompliance* compliance_;
   const SkinResponse* half_space_;

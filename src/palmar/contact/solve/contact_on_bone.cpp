@@ -27,10 +27,8 @@ constexpr double kRoughStiffening = 0.05;
 
 }  // namespace
 
-/// The directions in which the product presses the skin, turned back with it to the reference
-/// posture by the frames of normal and first edge at each vertex.
-std::vector<Vec3> ContactSolver::Impl::reference_directions(
-    const SkinOnProduct& skin, const std::vector<int>& vertices) const {
+/// Turns back to the reference posture, by the frames of normal and first edge at a vertex.
+Eigen::Matrix3d ContactSolver::Impl::to_reference(const SkinOnProduct& skin, int v) const {
   const SkinGeometry& reference = prepared->skin;
   const auto frame = [](const Vec3& normal, const Vec3& edge) {
     Eigen::Matrix3d axes;
@@ -39,14 +37,20 @@ std::vector<Vec3> ContactSolver::Impl::reference_directions(
     axes.col(2) = normal.cross(axes.col(1));
     return axes;
   };
+  const int next = reference.neighbours(v).front();
+  const Eigen::Matrix3d before =
+      frame(reference.normal[v], reference.position[next] - reference.position[v]);
+  const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
+  return before * posed.transpose();
+}
+
+/// The directions in which the product presses the skin, turned back with it.
+std::vector<Vec3> ContactSolver::Impl::reference_directions(
+    const SkinOnProduct& skin, const std::vector<int>& vertices) const {
   std::vector<Vec3> result;
   result.reserve(vertices.size());
   for (const int v : vertices) {
-    const int next = reference.neighbours(v).front();
-    const Eigen::Matrix3d before =
-        frame(reference.normal[v], reference.position[next] - reference.position[v]);
-    const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
-    result.emplace_back(before * (posed.transpose() * skin.sample[v].normal));
+    result.emplace_back(to_reference(skin, v) * skin.sample[v].normal);
   }
   return result;
 }

@@ -353,6 +353,18 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
   }
 }
 
+void ContactSolver::Impl::take_aimed() {
+  if (aimed.empty()) return;
+  std::vector<int>& collision = skin_.collision;
+  for (const auto& [v, sample] : aimed) {
+    skin_.sample[v] = sample;
+    const auto at = std::lower_bound(collision.begin(), collision.end(), v);
+    const bool is_listed = at != collision.end() && *at == v;
+    if (is_listed && sample.distance >= 0.0) collision.erase(at);
+    if (!is_listed && sample.distance < 0.0) collision.insert(at, v);
+  }
+}
+
 SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
                                           const Rigid3& product_from_hand,
                                           const DistanceField& product, std::optional<Region> only,
@@ -371,6 +383,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   } else {
     find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_,
                          wanted);
+    take_aimed();
   }
   find_meetings(result.undeformed, only);
   const SkinOnProduct& skin = skin_;
@@ -386,6 +399,8 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
   result.residual_penetration_contact = 0.0;
   result.residual_penetration_other = 0.0;
   result.residual_crossing = 0.0;
+  result.refinement.reset();
+  result.refined.reset();
   result.status = skin.collision.empty() ? ContactStatus::kNoContact : ContactStatus::kSolved;
   if (skin.is_too_deep) result.status = ContactStatus::kTooDeep;
 

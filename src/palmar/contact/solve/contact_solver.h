@@ -45,8 +45,15 @@ struct ContactSolver::Impl {
   // Of the last call, per skin vertex; empty before the first.
   std::vector<char> was_in_contact;
   std::vector<double> was_force;  ///< N
+  /// In place of what find_skin_on_product() finds at these vertices; empty in any call of ours.
+  std::vector<std::pair<int, DistanceSample>> aimed;
+  const SkinOnProduct& skin() const { return skin_; }  ///< of the last call
+  /// How the forces of a result move skin on bone at some vertices, product frame, mm; after
+  /// solve().
+  std::vector<Vec3> motion_on_bone(const ContactResult& result, const std::vector<int>& at) const;
 
  private:
+  void take_aimed();
   void find_meetings(const std::vector<Vec3>& posed, std::optional<Region> only);
   void add_touches(ContactResult& result) const;
   SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
@@ -78,6 +85,7 @@ struct ContactSolver::Impl {
   double bone_root_modulus(TissueLevel level, const BlockRoots& roots, int v) const;
   std::vector<double> skin_roots(TissueLevel level, const BlockRoots& roots) const;
   void set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const;
+  Eigen::Matrix3d to_reference(const SkinOnProduct& skin, int v) const;
   std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
                                          const std::vector<int>& vertices) const;
   std::vector<int> pressed_in_on_bone(const SkinOnProduct& skin, const SkinLoad& load,

@@ -241,24 +241,26 @@ StudyProduct product_from(const Json& json) {
 
 Json setting_json(const StudySetting& setting) {
   const ContactModel& model = setting.model;
-  return {{"name", setting.name},
-          {"palm_limit_depth_mm", setting.palm_limit_depth},
-          {"finger_limit_depth_mm", setting.finger_limit_depth},
-          {"grip_force_n", optional_json(setting.grip_force)},
-          {"strength_share", optional_json(setting.strength_share)},
-          {"limit_depths", setting.limit_depths},
-          {"strength_n", optional_json(setting.strength)},
-          {"least_grip_force_n", setting.least_grip_force},
-          {"friction", setting.friction},
-          {"is_balanced", setting.is_balanced},
-          {"kernel", name_of(model.kernel)},
-          {"tissue_model", name_of(model.tissue)},
-          {"coupling", name_of(model.coupling)},
-          {"skin_distance", name_of(model.distance)},
-          {"bulge", name_of(model.bulge)},
-          {"indices", setting.indices},
-          {"wrench_volume", setting.wrench_volume},
-          {"place_per_hand", setting.is_place_per_hand}};
+  Json json = {{"name", setting.name},
+               {"palm_limit_depth_mm", setting.palm_limit_depth},
+               {"finger_limit_depth_mm", setting.finger_limit_depth},
+               {"grip_force_n", optional_json(setting.grip_force)},
+               {"strength_share", optional_json(setting.strength_share)},
+               {"limit_depths", setting.limit_depths},
+               {"strength_n", optional_json(setting.strength)},
+               {"least_grip_force_n", setting.least_grip_force},
+               {"friction", setting.friction},
+               {"is_balanced", setting.is_balanced},
+               {"kernel", name_of(model.kernel)},
+               {"tissue_model", name_of(model.tissue)},
+               {"coupling", name_of(model.coupling)},
+               {"skin_distance", name_of(model.distance)},
+               {"bulge", name_of(model.bulge)},
+               {"indices", setting.indices},
+               {"wrench_volume", setting.wrench_volume},
+               {"place_per_hand", setting.is_place_per_hand}};
+  if (setting.refine) json["refine"] = true;  // plans without it stay those of older files
+  return json;
 }
 
 StudySetting setting_from(const Json& json) {
@@ -284,6 +286,7 @@ StudySetting setting_from(const Json& json) {
   setting.indices = json.at("indices");
   setting.wrench_volume = json.at("wrench_volume");
   setting.is_place_per_hand = json.at("place_per_hand");
+  setting.refine = json.value("refine", false);
   return setting;
 }
 

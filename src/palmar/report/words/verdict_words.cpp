@@ -56,7 +56,7 @@ std::string hardest_words(const AssessedProduct& product, const HardestPlace& pl
 
 /// Whether the place that presses hardest is on edges that the skin's mesh doesn't resolve.
 bool is_hardest_unresolved(const AssessedProduct& product, const ProductVerdict& verdict) {
-  if (!verdict.hardest) return false;
+  if (!verdict.hardest || is_resolved(product.assessment.contact)) return false;
   for (const RegionContact& region : product.assessment.contact.regions) {
     if (region.region == verdict.hardest->region) {
       return region.unresolved_force > kToldShare * region.force;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "palmar/contact/refine/refined_contact.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/grasp/rest/other_grip.h"
@@ -82,14 +83,17 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
       load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
   result.times.indices = index_watch.seconds();
 
+  // Where pressure is told place by place, of the refined skin, if it was refined.
+  const RefinedContact* refined = result.contact.refined.get();
+  const Hand& skin_of = refined != nullptr ? *refined->hand : hand.hand();
+  const ContactResult& contact = refined != nullptr ? refined->contact : result.contact;
   if (options.footprint) {
     progress.update(0.9, "mapping the pressure to the product");
-    result.footprint = map_to_product(hand.hand(), result.contact, product.mesh);
+    result.footprint = map_to_product(skin_of, contact, product.mesh);
     result.faces = face_contacts(result.footprint, product);
   }
-  if (options.sensors && result.contact.total.force > 0.0) {
-    result.sensors =
-        sensor_reading(hand.hand(), product, result.grasp, result.contact, *options.sensors);
+  if (options.sensors && contact.total.force > 0.0) {
+    result.sensors = sensor_reading(skin_of, product, result.grasp, contact, *options.sensors);
   }
   // Finished is finished: who cancels now still gets it.
   if (progress.report) progress.report(1.0, "assessed");

@@ -179,12 +179,14 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
     const auto fine = std::make_shared<const Hand>(split_skin(*hand, posed));
     ContactModel solved = model;
     if (is_on_bone) solved.tissue = TissueModel::kHalfSpace;
+    ContactOptions as_it_is = usual.contact;  // the skin's own mesh is asked about
+    as_it_is.refine = false;
     const auto figures = [&](const std::shared_ptr<const Hand>& with,
                              const std::vector<Vec3>& skin) {
       return figures_of(
           ErrorSource::kMesh, split,
           solve_hand_contact(PreparedHand(with, solved), skin, nominal.grasp.product_from_hand,
-                             *product.distance, usual.contact),
+                             *product.distance, as_it_is),
           product);
     };
     ErrorCase one = figures(fine, posed);

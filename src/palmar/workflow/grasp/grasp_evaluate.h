@@ -29,7 +29,7 @@ struct EvaluateRequest {
   /// The product in the frame of the recording (or mesh) that the posture was found from.
   std::optional<Rigid3> measured_from_product = std::nullopt;
   ContactModel model = palmar_model();  ///< the equations of the skin
-  ContactOptions contact = contact_with_band();
+  ContactOptions contact = refined_contact_with_band();
   FrictionSettings friction;
   std::string natural_postures;  ///< CSV, basis of the index of ease; "": the built-in one
   std::string out;               ///< folder of the report; "": none is written

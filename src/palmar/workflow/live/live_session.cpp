@@ -44,7 +44,7 @@ LiveSession::LiveSession(LiveHand hand, std::shared_ptr<const Product> product)
 
 AssessOptions LiveSession::options_for_task(const LiveTask& task) const {
   AssessOptions options;
-  options.contact = contact_with_band();
+  options.contact = refined_contact_with_band();
   options.friction = task.friction.options_for(*product_);
   HeaviestLoad heaviest;
   if (task.rest.is_usual()) heaviest.add(*product_, options.friction.load);
@@ -130,7 +130,7 @@ AssessmentSet LiveSession::rest_here(const LivePose& pose, Grip grip, const Live
 AssessmentSet LiveSession::evaluate_here(const LivePose& pose, Grip grip, const LiveTask& task,
                                          const Progress& progress) {
   AssessOptions options;  // nothing is asked of a hand that isn't moved
-  options.contact = contact_with_band();
+  options.contact = refined_contact_with_band();
   options.friction = task.friction.options_for(*product_);
   return set_of(evaluate(*hand_.prepared, *product_, given(pose, grip), options, progress));
 }
