@@ -6,7 +6,7 @@
 // says. --drag: instead measures a scripted drag of 100 steps. --pictures: instead leaves the pictures of
 // the documents there. Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
-import { execFileSync, spawn } from "node:child_process";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { tmpdir } from "node:os";
@@ -45,6 +45,11 @@ async function stop(server) {
 
 function palmarJson(words) {
   return JSON.parse(execFileSync(palmar, [...words, "--json", "--quiet"], { cwd: folder, encoding: "utf8", maxBuffer: 1 << 28 }));
+}
+/// What a command that must fail ends with and says.
+function refused(words) {
+  const { status, stderr } = spawnSync(palmar, [...words, "--quiet"], { cwd: folder, encoding: "utf8" });
+  return { code: status, says: stderr };
 }
 /// As a shell takes the commands that the page shows: they have no words in quotes here.
 const words = (command) => command.replace(/^palmar /, "").split(" ");
@@ -322,6 +327,12 @@ async function doAsPeopleDo(browser) {
   await catchSaved(page);
   await page.click("[data-project]");
   writeFileSync(join(folder, "mine.palmar-project"), await page.until("window.saved"));
+  compared(stands, palmarJson(["assess", "mine.palmar-project"]).assessments[0].contact);
+  assert.equal(refused(["assess", "mine.palmar-project", "--hold", "2"]).code, 2);
+  writeFileSync(join(folder, "cut.palmar-project"), readFileSync(join(folder, "mine.palmar-project"), "utf8").slice(0, 3000));
+  const cut = refused(["assess", "cut.palmar-project"]);
+  assert.equal(cut.code, 3);
+  assert.match(cut.says, /^palmar: cut\.palmar-project: /);
   await page.click(".top button");
   await page.until("document.querySelector('[data-example]') !== null");
   await choose(page, join(folder, "mine.palmar-project"));
