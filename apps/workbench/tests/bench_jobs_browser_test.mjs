@@ -151,6 +151,8 @@ async function smallStudy(page, server) {
   await page.until("document.querySelector('.dot.is-open') !== null");
   const shown = await page.frameValue("document.querySelector('#turn [data-palmar-scene]')?.dataset.shown", (value) => /^1\/\d+$/.test(value ?? ""), minutes);
   assert.match(shown, /^1\/\d+$/);
+  await page.set("[data-dots=low]", await page.value("document.querySelector('[data-dots=low]').min"), ["change"]);
+  await page.until("document.querySelectorAll('.dot').length === 12");
   await snap(page, "workbench-study");
   const looked = await page.value(contrasts);
   assert.deepEqual(looked.poor, []);
