@@ -7,7 +7,7 @@
 // instead compares designs and has a better shape pressed. --pictures: leaves the pictures of the documents
 // there. Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Bench, choose, contrasts } from "./bench_server.mjs";
@@ -210,6 +210,10 @@ async function redesign(page) {
 const browser = new Browser();
 const begun = Date.now();
 try {
+  // What is wrong with a product that is given is said before there is an address.
+  writeFileSync(join(folder, "empty.stl"), "");
+  const empty = spawnSync(palmar, ["serve", "--no-browser", "empty.stl"], { cwd: folder, encoding: "utf8", timeout: 20000 });
+  assert.deepEqual([empty.status, empty.stdout, empty.stderr], [3, "", "palmar: empty.stl: is empty (0 bytes)\n"]);
   let server = await serve();
   const page = await browser.page();
   page.acceptDialogs();
