@@ -15,7 +15,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "palmar/core/error.h"
@@ -143,10 +145,39 @@ std::string option_named(const std::string& setting) {
   return option.empty() ? "setting \"" + setting + "\"" : option;  // a study's, say
 }
 
+namespace {
+
+/// A program that started this one and wants to know where it stands (palmar serve):
+/// PALMAR_PROGRESS is "lines".
+bool has_watcher() {
+  const char* const wanted = std::getenv("PALMAR_PROGRESS");
+  return wanted != nullptr && std::string_view(wanted) == "lines";
+}
+
+/// "progress SHARE DOING" on standard output, at most ten a second.
+std::function<void(double, const std::string&)> lines_for_a_watcher() {
+  const auto last = std::make_shared<std::chrono::steady_clock::time_point>();
+  const auto most = std::make_shared<double>(0.0);
+  return [last, most](double share, const std::string& activity) {
+    *most = std::clamp(share, *most, 1.0);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - *last < std::chrono::milliseconds(100)) return;
+    *last = now;
+    std::printf("progress %.4f %s\n", *most, activity.c_str());
+    std::fflush(stdout);
+  };
+}
+
+}  // namespace
+
 Progress make_progress(const CommonOptions& common) {
   install_interrupt_handler();
   Progress progress;
   progress.cancel = &interrupted;
+  if (has_watcher()) {
+    progress.report = lines_for_a_watcher();
+    return progress;
+  }
   if (common.quiet || common.json || isatty(STDERR_FILENO) == 0) return progress;
   const auto start = std::chrono::steady_clock::now();
   // A part that doesn't know where it stands in the whole must not turn the line back.

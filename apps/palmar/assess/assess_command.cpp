@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "assess/assessment_text.h"
@@ -14,6 +15,7 @@
 #include "palmar/records/assessment_json.h"
 #include "palmar/records/study/people_range.h"
 #include "palmar/workflow/assess.h"
+#include "palmar/workflow/live/assess_bench.h"
 #include "palmar/workflow/study.h"
 #include "palmar/workflow/study/study_report.h"
 #include "product/cad_arguments.h"
@@ -84,6 +86,11 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
 
 /// The same question put to many hands: a small study with its report.
 int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
+  for (const std::string& product : arguments.products) {
+    if (!is_bench_project(product)) continue;
+    throw UsageError("--population doesn't go with " + product +
+                     ": the project is of one hand; give the product's own file");
+  }
   constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
   static const std::set<std::string> kTaken = {
       "PRODUCT", "help",  "unit",        "population",   "hands",        "out",    "language",
@@ -138,9 +145,43 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   return 0;
 }
 
-int run_assess(const AssessArguments& arguments, const Context& context) {
+/// A project of the workbench: what is held and how stands in the file.
+AssessOutcome assessed_project(const AssessArguments& arguments, const CLI::App& verb,
+                               const Context& context) {
+  static const std::set<std::string> kTaken = {
+      "PRODUCT",      "help",     "out",     "language",    "pdf",           "paper",
+      "units",        "project",  "slides",  "excel",       "rounded-csv",   "no-pictures",
+      "grip-force-n", "friction", "mass-kg", "weight-n",    "density-g-cm3", "acceleration-g",
+      "gravity",      "mass-at",  "load-n",  "torque-n-mm", "load-at"};
+  const std::string& file = arguments.products.front();
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() > 0 && !kTaken.contains(name)) {
+      throw UsageError("--" + name + " doesn't go with " + file +
+                       ": the project says product, hand, hold and posture itself; what may be "
+                       "given is the grip force (--grip-force-n), load, friction and the report");
+    }
+  }
+  BenchAssessRequest request;
+  request.file = file;
+  request.grip_force = arguments.balance.settings().grip_force;
+  request.friction = arguments.friction.settings();
+  request.report = request_of(arguments, context);
+  request.report.products.clear();
+  return assess_bench_project(request, make_progress(context.common));
+}
+
+int run_assess(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
+  const auto& products = arguments.products;
+  const auto project = std::find_if(products.begin(), products.end(), is_bench_project);
+  if (project != products.end() && products.size() > 1) {
+    throw UsageError(*project + " is a project of the workbench and is assessed by itself; " +
+                     std::to_string(products.size()) + " files are given");
+  }
   const AssessOutcome outcome =
-      assess_products(request_of(arguments, context), make_progress(context.common));
+      project != products.end()
+          ? assessed_project(arguments, verb, context)
+          : assess_products(request_of(arguments, context), make_progress(context.common));
   finish_progress();
   if (context.common.json) {
     print(assessment_json(outcome.set, outcome.words) + "\n");
@@ -166,7 +207,10 @@ void add_assess_command(CLI::App& app, Context& context) {
   const auto arguments = std::make_shared<AssessArguments>();
   CLI::App* verb = add_verb(app, "assess", "How products feel in the hand: grasp, contact, report",
                             "palmar assess old.step new.step --out report");
-  verb->add_option("PRODUCT", arguments->products, "Files: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
+  verb->add_option(
+          "PRODUCT", arguments->products,
+          "Files: STL, OBJ, PLY, 3MF, glTF, STEP or IGES; or one project that the workbench "
+          "saved (.palmar-project)")
       ->required();
   arguments->grasp.add_to(*verb);
   arguments->cad.add_to(*verb);
@@ -207,7 +251,7 @@ void add_assess_command(CLI::App& app, Context& context) {
       if (arguments->hands > 0) {
         throw UsageError("--hands is the number of hands of a --population, which is not given");
       }
-      return run_assess(*arguments, context);
+      return run_assess(*arguments, *verb, context);
     };
   });
 }

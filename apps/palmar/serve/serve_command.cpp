@@ -7,7 +7,10 @@
 
 #include "cli.h"
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/process/external_program.h"
+#include "palmar/records/product/cad_format.h"
+#include "palmar/server/data_folder.h"
 #include "palmar/server/http_server.h"
 
 namespace palmar::cli {
@@ -30,14 +33,34 @@ bool has_desktop() {
   return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
 }
 
+/// Small meshes are read at once, so that what is wrong with them is said here and not in the page.
+bool is_read_fast(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kSmall = std::uintmax_t{4} << 20U;  // bytes; some 0.1 s
+  return std::filesystem::file_size(file) <= kSmall && !is_cad_file(file);
+}
+
 int run_serve(const ServeArguments& arguments, const Context& context) {
   for (const std::string& file : arguments.files) {
     if (!std::filesystem::is_regular_file(file)) {
       throw InputError(file + ": there is no such file");
     }
   }
-  const auto service = std::make_shared<Service>(random_token(), std::make_shared<ProductShelf>());
-  for (const std::string& file : arguments.files) service->give(file, parse_unit(arguments.unit));
+  const auto data = user_data_folder();
+  const auto in_data = [&](const char* name) -> std::optional<std::filesystem::path> {
+    return data ? std::optional(*data / name) : std::nullopt;
+  };
+  // Children say where they stand in lines (make_progress()).
+  ::setenv("PALMAR_PROGRESS", "lines", 1);
+  const KeptData kept{
+      std::make_shared<ProjectDrawer>(in_data("projects")),
+      std::make_shared<JobShelf>(in_data("jobs"), std::filesystem::read_symlink("/proc/self/exe"))};
+  const auto shelf = std::make_shared<ProductShelf>();
+  const auto service = std::make_shared<Service>(random_token(), shelf, kept);
+  for (const std::string& file : arguments.files) {
+    const std::string key = service->give(file, parse_unit(arguments.unit));
+    read_ends(file, 1);  // whether it can be read at all
+    if (is_read_fast(file)) shelf->open(key);
+  }
   HttpServerOptions options;
   options.address = arguments.listen;
   options.port = static_cast<unsigned short>(arguments.port);

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The workbench in a browser; `palmar serve` prints the address with its token.
+import { Api, JobKind, newKey, ServerState, ShelvedProduct } from "./api";
 import { BenchState } from "./bench_state";
-import { BenchView } from "./bench_view";
+import { BenchStart, BenchView } from "./bench_view";
 import { el, fill } from "./dom";
+import { JobForm } from "./job_form";
+import { JobView } from "./job_view";
+import { keptHistory } from "./kept_steps";
 import { BenchLanguage, benchLanguage, chooseLanguage, say, startLanguage } from "./say";
-import { Api, ServerState, ShelvedProduct, StartView } from "./start_view";
+import { StartView } from "./start_view";
 
 const kLeft = "palmar-bench";
+
+/// What this tab had before it was loaded anew.
+type Left = { token: string; state: BenchState; project: string } | { token: string; job: string };
 
 class App {
   private readonly main = el("main");
   private readonly language: HTMLSelectElement = el("select", { class: "language", onchange: () => this.speak(this.language.value as BenchLanguage) });
-  private view: BenchView | null = null;
-  private product: ShelvedProduct | null = null;
+  private view: { close(): void } | null = null;
+  private again: () => void = () => this.start(); // what is seen, in another language
   private state: ServerState | null = null;
   private readonly api = new Api(new URLSearchParams(location.search).get("token") ?? "");
 
@@ -28,26 +35,38 @@ class App {
       fill(this.main, el("div", { class: "start" }, el("h1", {}, say("title")), el("p", { class: "message", role: "alert" }, say("bench.failed", { message: String(error) }))));
       return;
     }
-    const before = await this.leftBefore();
-    if (before) this.open(before.product, before.state);
-    else if (this.state.given.length === 1) this.open(this.state.given[0], null);
+    if (await this.goOn()) return;
+    if (this.state.given.length === 1) this.open(this.fresh(this.state.given[0]));
     else this.start();
   }
 
-  // What this tab had on the bench when it was loaded anew; of this server alone, whose token it is.
-  private async leftBefore(): Promise<{ product: ShelvedProduct; state: BenchState } | null> {
+  private fresh(product: ShelvedProduct): BenchStart {
+    return { product, project: newKey(), state: null, history: null };
+  }
+
+  // What this tab showed when it was loaded anew; of this server alone, whose token it is.
+  private async goOn(): Promise<boolean> {
     try {
-      const left = JSON.parse(sessionStorage.getItem(kLeft) ?? "null") as { token: string; state: BenchState } | null;
-      const product = left?.token === this.api.token ? await this.api.product(left.state.product) : null;
-      return left && product ? { product, state: left.state } : null;
+      const left = JSON.parse(sessionStorage.getItem(kLeft) ?? "null") as Left | null;
+      if (left?.token !== this.api.token) return false;
+      if ("job" in left) {
+        await this.api.job(left.job);
+        this.openJob(left.job);
+        return true;
+      }
+      const product = await this.api.product(left.state.product);
+      if (!product) return false;
+      const kept = await this.api.project(left.project).catch(() => null);
+      this.open({ product, project: left.project, state: left.state, history: kept && keptHistory(kept.history, product.key) });
+      return true;
     } catch {
-      return null; // a browser that keeps nothing
+      return false; // a browser that keeps nothing, or a job that is gone
     }
   }
 
-  private keep(state: BenchState | null): void {
+  private keep(left: Left | null): void {
     try {
-      if (state) sessionStorage.setItem(kLeft, JSON.stringify({ token: this.api.token, state }));
+      if (left) sessionStorage.setItem(kLeft, JSON.stringify(left));
       else sessionStorage.removeItem(kLeft);
     } catch {
       // As above.
@@ -60,34 +79,45 @@ class App {
     this.language.setAttribute("aria-label", say("bench.language"));
   }
 
-  private start(): void {
+  // An element without listeners of what stood there before.
+  private freshRoot(view: "start" | "bench" | "form" | "job", again: () => void): HTMLElement {
     this.view?.close();
     this.view = null;
-    this.product = null;
-    this.keep(null);
-    document.body.dataset.view = "start";
-    new StartView(this.freshRoot(), this.api, this.state!, (product, state) => this.open(product, state));
-  }
-
-  // An element without listeners of what stood there before.
-  private freshRoot(): HTMLElement {
+    this.again = again;
+    document.body.dataset.view = view;
     const root = el("div", { class: "root" });
     fill(this.main, root);
     return root;
   }
 
-  private open(product: ShelvedProduct, state: BenchState | null): void {
-    this.view?.close();
-    this.product = product;
-    document.body.dataset.view = "bench";
-    this.view = new BenchView(this.freshRoot(), this.api, product, state, () => this.start(), (now) => this.keep(now));
+  private start(): void {
+    this.keep(null);
+    new StartView(this.freshRoot("start", () => this.start()), this.api, this.state!, {
+      open: (start) => this.open(start), newJob: (kind) => this.newJob(kind), openJob: (key) => this.openJob(key),
+    });
+  }
+
+  private open(start: BenchStart): void {
+    const root = this.freshRoot("bench", () => {});
+    const view = new BenchView(root, this.api, start, () => this.start(), (state) => this.keep({ token: this.api.token, state, project: start.project }));
+    this.view = view;
+    this.again = () => this.open(view.current);
+  }
+
+  private newJob(kind: JobKind): void {
+    this.keep(null);
+    new JobForm(this.freshRoot("form", () => this.newJob(kind)), this.api, this.state!, kind, this.state!.given, () => this.start(), (job) => this.openJob(job.key));
+  }
+
+  private openJob(key: string): void {
+    this.keep({ token: this.api.token, job: key });
+    this.view = new JobView(this.freshRoot("job", () => this.openJob(key)), this.api, key, () => this.start(), (product) => this.open(this.fresh(product)));
   }
 
   private speak(language: BenchLanguage): void {
     chooseLanguage(language);
     this.name();
-    if (this.view && this.product) this.open(this.product, this.view.current);
-    else if (this.state) this.start();
+    if (this.state) this.again();
   }
 }
 

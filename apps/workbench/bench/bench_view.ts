@@ -2,67 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bench: a product in a hand, moved by gizmo and numbers, with the contact as the server finds it.
+import { Api, ShelvedProduct } from "./api";
+import { Autosave } from "./autosave";
+import { Opened, Result } from "./bench_answers";
+import { BenchElements, benchElements, benchPage } from "./bench_page";
 import { Pose, BenchState, needsOpening, openRequest, poseMembers, stateRequest } from "./bench_state";
 import { colourBar } from "./colour_bar";
 import { el, fill, saveText } from "./dom";
-import { FiguresPanel, RegionName } from "./figures_panel";
+import { FiguresPanel } from "./figures_panel";
+import { HistoryStrip } from "./history_strip";
+import { History, kMostKeptSteps } from "./kept_steps";
 import { Answer, LiveChannel, measured } from "./live_channel";
 import { FieldFrame, Frame, Place, Triple } from "./live_frame";
-import { Angle, PosePanel } from "./pose_panel";
-import { benchLanguage, decimal, say, TextKey } from "./say";
-import { BenchScene, Colours, Offset, Pointed } from "./scene";
+import { PosePanel } from "./pose_panel";
+import { benchLanguage, decimal, say, sidesText } from "./say";
+import { BenchScene, Offset, Pointed } from "./scene";
 import { projectEnding, projectText } from "./project";
-import { Api, ShelvedProduct, sidesText } from "./start_view";
 import { UndoStack } from "./undo";
-
-interface OpenedHold {
-  number: number;
-  words: string;
-  against: string;
-  score: number | null;
-  grip: string;
-  thumb_towards: Triple; // product frame
-}
-
-interface Opened extends Answer {
-  product: ShelvedProduct;
-  hand: { name: string; side: string; angles: Angle[]; regions: RegionName[] };
-  holds: OpenedHold[];
-  colours: Colours;
-}
-
-interface Result extends Answer {
-  is_hold: boolean;
-  command: string;
-  posture: { posture: Record<string, number>; product_from_hand: { quaternion_wxyz: number[]; translation_mm: number[] }; grip: string };
-  upper_mpa: number;
-  hold_words: string;
-  assessment: {
-    assessments: {
-      verdict: { held: string; sentence: string };
-      grasp: { message: string; grip: string };
-      contact: { centre_mm: Triple; message: string };
-      doubts?: { words: string }[];
-    }[];
-    verdict: { sentence: string; reasons: string[] };
-  };
-}
-
-const people = ["", "woman:P5", "woman:P50", "woman:P95", "man:P5", "man:P50", "man:P95"];
-const kUsualShown = 107; // N; what the slider shows until the server says what the usual force is
-const kMostForce = 250; // N
-
-function personWords(person: string): string {
-  if (!person) return say("bench.template");
-  const [sex, percentile] = person.split(":P");
-  return say(`bench.${sex}` as TextKey, { percentile });
-}
 
 /// The axis of the product that a direction is nearest to: "+z".
 function directionWords(direction: Triple): string {
   const sizes = direction.map(Math.abs);
   const axis = sizes.indexOf(Math.max(...sizes));
   return (direction[axis] < 0 ? "−" : "+") + "xyz"[axis];
+}
+
+/// With what a bench begins.
+export interface BenchStart {
+  product: ShelvedProduct;
+  project: string; // name under which it is kept by itself
+  state: BenchState | null; // null: the first hold
+  history: History | null;
 }
 
 export class BenchView {
@@ -82,41 +52,38 @@ export class BenchView {
   private readonly scene: BenchScene;
   private readonly figures = new FiguresPanel();
   private readonly posing: PosePanel;
+  private readonly product: ShelvedProduct;
+  private readonly autosave: Autosave;
+  private readonly steps = new HistoryStrip((index) => this.goTo(index));
   private readonly section: HTMLElement;
-  private readonly els = {
-    holds: el("ol", { class: "holds" }),
-    verdict: el("div", { class: "verdict", role: "status" }),
-    status: el("p", { class: "status", role: "status" }),
-    point: el("p", { class: "point" }, say("bench.hint")),
-    bar: el("div", { class: "view-bar" }),
-    command: el("div", { class: "command" }),
-    undo: el("button", { type: "button", disabled: true, onclick: () => this.step("undo") }, say("bench.undo")),
-    redo: el("button", { type: "button", disabled: true, onclick: () => this.step("redo") }, say("bench.redo")),
-    person: el("select", { "aria-label": say("bench.who"), onchange: () => this.chooseHolder() }),
-    side: el("select", { "aria-label": `${say("bench.right")}, ${say("bench.left")}`, onchange: () => this.chooseHolder() }),
-    force: el("input", { type: "range", min: 5, max: kMostForce, step: 1, value: kUsualShown, "aria-label": `${say("bench.force")}, N` }),
-    forceNumber: el("input", { type: "number", min: 1, max: 1000, step: 1, "aria-label": `${say("bench.force")}, N` }),
-    usual: el("input", { type: "checkbox", checked: true }),
-    busy: el("div", { class: "busy", hidden: true }),
-    lost: el("p", { class: "lost", role: "alert", hidden: true }, say("bench.lost")),
-    hint: el("p", { class: "soft" }, say("bench.place_hint")),
-    title: el("div", { class: "title" }),
-  };
+  private readonly els: BenchElements;
 
   /// `kept`: with every step, so that the page can be loaded again.
-  constructor(root: HTMLElement, private readonly api: Api, private readonly product: ShelvedProduct, start: BenchState | null,
+  constructor(root: HTMLElement, private readonly api: Api, private readonly start: BenchStart,
               back: () => void, private readonly kept: (state: BenchState) => void) {
-    this.state = start ?? { product: product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
+    this.product = start.product;
+    this.state = start.state ?? { product: start.product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
+    if (start.history) this.undo.restore(start.history.steps, start.history.at);
+    this.autosave = new Autosave(api, start.project, (problem) => this.tellKept(problem));
     this.posing = new PosePanel({
       offset: (offset, isOver) => this.moved(offset, isOver),
       angles: (degrees, isOver) => this.bent(degrees, isOver),
     });
-    this.section = this.page(root, product, back);
+    const actions = {
+      back, step: (which: "undo" | "redo") => this.step(which), chooseHolder: () => this.chooseHolder(),
+      force: (newtons: number | null) => this.force(newtons), setMode: (mode: "translate" | "rotate") => this.setMode(mode),
+      act: (what: "close" | "rest") => this.act(what), again: () => this.again(), saveProject: () => void this.saveProject(),
+    };
+    this.els = benchElements(actions);
+    fill(this.els.title, el("strong", {}, this.product.file_name));
+    this.section = benchPage(root, this.els, actions, {
+      totals: this.figures.totals, regions: this.figures.table, place: this.posing.place, joints: this.posing.jointsElement, steps: this.steps.element,
+    });
     this.scene = new BenchScene(this.section, (isOver) => this.gizmoMoved(isOver));
     this.scene.onPointed((pointed) => this.tellPoint(pointed));
     this.section.querySelector("[data-product]")!.addEventListener("change", () => this.scene.paint());
     document.addEventListener("keydown", this.keys);
-    this.status(say("bench.opening", { file: product.file_name }));
+    this.status(say("bench.opening", { file: this.product.file_name }));
     const place = location.protocol === "https:" ? "wss" : "ws";
     this.channel = new LiveChannel(`${place}://${location.host}/api/live?token=${encodeURIComponent(api.token)}`, {
       frame: (frame) => this.frame(frame),
@@ -131,55 +98,11 @@ export class BenchView {
   }
 
   /// What stands on the bench, to go on elsewhere (another language).
-  get current(): BenchState { return this.state; }
+  get current(): BenchStart {
+    return { ...this.start, state: this.state, history: this.undo.steps(kMostKeptSteps) };
+  }
 
   // --- the page
-
-  private page(root: HTMLElement, product: ShelvedProduct, back: () => void): HTMLElement {
-    const { els } = this;
-    fill(els.person, people.map((person) => el("option", { value: person }, personWords(person))));
-    fill(els.side, el("option", { value: "right" }, say("bench.right")), el("option", { value: "left" }, say("bench.left")));
-    const forceChanged = (from: HTMLInputElement) => () => {
-      els.usual.checked = false;
-      this.force(Number(from.value));
-    };
-    els.force.addEventListener("input", forceChanged(els.force));
-    els.forceNumber.addEventListener("change", forceChanged(els.forceNumber));
-    els.usual.addEventListener("change", () => this.force(els.usual.checked ? null : Number(els.force.value)));
-    const look = (name: "palm" | "back" | "thumb" | "little") =>
-      el("button", { type: "button", "data-look": name }, say(`bench.look_${name}`));
-    const mode = (name: "translate" | "rotate", key: "bench.move" | "bench.turn") => el("button", {
-      type: "button", "data-mode": name, "aria-pressed": name === "translate" ? "true" : "false",
-      onclick: () => this.setMode(name),
-    }, say(key));
-    const section = el("section", { class: "bench", "aria-label": say("bench.view") },
-      el("aside", { class: "left" }, el("h2", {}, say("bench.who")), el("div", { class: "who" }, els.person, els.side),
-        el("h2", {}, say("bench.holds")), els.holds),
-      el("div", { class: "middle" },
-        el("div", { class: "tools" },
-          el("span", { class: "group", role: "group", "aria-label": say("bench.look") }, el("span", { class: "soft" }, say("bench.look")), look("palm"), look("back"), look("thumb"), look("little")),
-          el("label", {}, say("bench.product"), el("select", { "data-product": true },
-            el("option", { value: "clear" }, say("bench.clear")), el("option", { value: "solid" }, say("bench.solid")), el("option", { value: "hidden" }, say("bench.hidden")))),
-          el("label", {}, say("bench.cut"), el("input", { type: "range", "data-cut": true, min: 0, max: 100, value: 100 })),
-          el("button", { type: "button", "data-save": "palmar-bench" }, say("bench.picture"))),
-        el("div", { class: "view" }, el("div", { class: "view-canvas", "data-label": say("bench.view") }), els.bar, els.busy), els.status, els.point),
-      el("aside", { class: "right" }, els.verdict, this.figures.totals,
-        el("h2", {}, say("bench.force")),
-        el("div", { class: "force" }, els.force, el("label", {}, els.forceNumber, "N"), el("label", { class: "usual" }, els.usual, say("bench.usual_force"))),
-        el("h2", {}, say("bench.place")),
-        el("div", { class: "buttons" }, el("span", { class: "group", role: "group" }, mode("translate", "bench.move"), mode("rotate", "bench.turn")),
-          el("button", { type: "button", "data-act": "close", onclick: () => this.act("close") }, say("bench.close")),
-          el("button", { type: "button", "data-act": "rest", onclick: () => this.act("rest") }, say("bench.rest")),
-          el("button", { type: "button", "data-act": "again", onclick: () => this.again() }, say("bench.again"))),
-        this.posing.place, els.hint,
-        el("details", { class: "part", open: true }, el("summary", {}, el("h2", {}, say("bench.regions"))), this.figures.table),
-        el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.joints"))), this.posing.jointsElement),
-        el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.command"))), els.command)));
-    fill(els.title, el("strong", {}, product.file_name));
-    fill(root, el("header", { class: "top" }, el("button", { type: "button", onclick: back }, say("bench.back")), els.title,
-      el("span", { class: "group" }, els.undo, els.redo, el("button", { type: "button", "data-project": true, onclick: () => void this.saveProject() }, say("bench.save")))), els.lost, section);
-    return section;
-  }
 
   private readonly keys = (event: KeyboardEvent): void => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
@@ -200,6 +123,13 @@ export class BenchView {
     this.els.busy.hidden = share === null;
     this.section.dataset.working = String(this.isWorking);
     if (share !== null) this.status(say("bench.working", { percent: Math.round(100 * share) }));
+  }
+
+  private tellKept(problem: string): void {
+    this.els.kept.textContent = problem ? "" : say("bench.kept");
+    this.section.dataset.kept = String(Number(this.section.dataset.kept ?? 0) + (problem ? 0 : 1));
+    this.els.unkept.hidden = problem === "" || !this.els.lost.hidden;
+    this.els.unkept.textContent = say("bench.not_kept", { message: problem });
   }
 
   private setMode(mode: "translate" | "rotate"): void {
@@ -384,9 +314,11 @@ export class BenchView {
   }
 
   private keep(): void {
-    if (!this.isStepping) this.undo.push(this.state);
+    if (!this.isStepping) this.undo.push(this.state, () => this.scene.miniature());
     this.isStepping = false;
     this.kept(this.state);
+    this.autosave.keep(this.state, this.undo.steps(kMostKeptSteps));
+    this.steps.show(this.undo.pictures, this.undo.at);
     this.els.undo.disabled = !this.undo.canUndo();
     this.els.redo.disabled = !this.undo.canRedo();
   }
@@ -402,7 +334,11 @@ export class BenchView {
   }
 
   private step(which: "undo" | "redo"): void {
-    const state = which === "undo" ? this.undo.undo() : this.undo.redo();
+    this.goTo(this.undo.at + (which === "undo" ? -1 : 1));
+  }
+
+  private goTo(index: number): void {
+    const state = this.undo.goTo(index);
     if (!state) return;
     this.state = state;
     this.isStepping = true;

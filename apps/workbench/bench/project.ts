@@ -22,16 +22,23 @@ function toBase64(bytes: Uint8Array): string {
   return btoa(parts.join(""));
 }
 
-export function projectText(project: Project): string {
-  const { holder, gripForce, hold, pose, settle } = project.state;
-  return JSON.stringify({
-    palmar_project: kVersion,
-    product: { file_name: project.fileName, unit: project.unit, bytes_base64: toBase64(project.bytes) },
+/// What stands on the bench, as files have it: without the product.
+export function stateMembers(state: Omit<BenchState, "product">): Record<string, unknown> {
+  const { holder, gripForce, hold, pose, settle } = state;
+  return {
     hand: { person: holder.person || null, left: holder.left },
     grip_force_n: gripForce,
     hold,
     pose: pose && { posture_deg: pose.postureDeg, quaternion_wxyz: pose.place.quaternion, translation_mm: pose.place.translation, grip: pose.grip },
     settle,
+  };
+}
+
+export function projectText(project: Project): string {
+  return JSON.stringify({
+    palmar_project: kVersion,
+    product: { file_name: project.fileName, unit: project.unit, bytes_base64: toBase64(project.bytes) },
+    ...stateMembers(project.state),
   }, null, 1);
 }
 
@@ -64,6 +71,19 @@ function poseOf(value: unknown): Pose | null {
 }
 
 /// Throws an Error that names what is wrong.
+export function parseState(all: Json): Omit<BenchState, "product"> {
+  const hand = object(all.hand, "hand");
+  const force = all.grip_force_n, hold = all.hold, settle = all.settle;
+  if (force !== null && !(typeof force === "number" && force > 0)) fail("grip_force_n", "a number above 0 or null");
+  if (!(typeof hold === "number" && hold >= 1 && hold % 1 === 0)) return fail("hold", "a whole number from 1");
+  if (settle !== null && settle !== "close" && settle !== "rest") return fail("settle", "close, rest or null");
+  return {
+    holder: { person: hand.person === null ? "" : text(hand.person, "person"), left: hand.left === true },
+    gripForce: force as number | null, hold, pose: poseOf(all.pose), settle,
+  };
+}
+
+/// Throws as parseState() does.
 export function parseProject(content: string): Project {
   let json: unknown;
   try {
@@ -75,11 +95,8 @@ export function parseProject(content: string): Project {
   if (all.palmar_project !== kVersion) {
     throw new Error(`its "palmar_project" is ${JSON.stringify(all.palmar_project)}; ${kVersion} is read here`);
   }
-  const product = object(all.product, "product"), hand = object(all.hand, "hand");
-  const force = all.grip_force_n, hold = all.hold, settle = all.settle;
-  if (force !== null && !(typeof force === "number" && force > 0)) fail("grip_force_n", "a number above 0 or null");
-  if (!(typeof hold === "number" && hold >= 1 && hold % 1 === 0)) return fail("hold", "a whole number from 1");
-  if (settle !== null && settle !== "close" && settle !== "rest") return fail("settle", "close, rest or null");
+  const product = object(all.product, "product");
+  const state = parseState(all);
   let raw: string;
   try {
     raw = atob(text(product.bytes_base64, "bytes_base64"));
@@ -91,10 +108,6 @@ export function parseProject(content: string): Project {
   return {
     fileName: text(product.file_name, "file_name"),
     unit: product.unit === null ? null : text(product.unit, "unit"),
-    bytes,
-    state: {
-      holder: { person: hand.person === null ? "" : text(hand.person, "person"), left: hand.left === true },
-      gripForce: force as number | null, hold, pose: poseOf(all.pose), settle,
-    },
+    bytes, state,
   };
 }

@@ -48,3 +48,13 @@ export function decimal(value: number, decimals: number): string {
   const text = (Object.is(value, -0) ? 0 : value).toFixed(decimals).replace(/^-(?=0(\.0*)?$)/, "").replace("-", "−");
   return language === "de" ? text.replace(".", ",") : text;
 }
+
+/// "40 × 40 × 130", mm.
+export function sidesText(sides: number[]): string {
+  return sides.map((side) => decimal(side, side < 10 ? 1 : 0)).join(" × ");
+}
+
+/// "24 Nov, 20:15" as the language writes it.
+export function dateText(ms: number): string {
+  return new Date(ms).toLocaleString(language, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+}

@@ -58,6 +58,7 @@ export class BenchScene {
   private readonly pivot = new Group();
   private readonly gizmo: TransformControls;
   private texture: DataTexture | null = null;
+  private productTexture: DataTexture | null = null; // where it isn't touched it keeps its own colour
   private colours: Colours | null = null;
   private plain = new BufferGeometry(); // the product as it was opened
   private pressure = new Float32Array(0); // of the skin
@@ -122,6 +123,8 @@ export class BenchScene {
     for (const colour of colours.table) bytes += String.fromCharCode(...colour);
     this.texture?.dispose();
     this.texture = scaleTexture(btoa(bytes), colours.neutral);
+    this.productTexture?.dispose();
+    this.productTexture = scaleTexture(btoa(bytes), colours.product);
     this.paint();
   }
 
@@ -191,7 +194,7 @@ export class BenchScene {
     material.needsUpdate = true;
     const product = this.product.material;
     const isClear = this.shown() === "clear";
-    product.map = this.footprint && !isClear ? this.texture : null;
+    product.map = this.footprint && !isClear ? this.productTexture : null;
     product.color = product.map ? new Color(1, 1, 1) : rgb(this.colours.product);
     product.transparent = isClear;
     product.opacity = isClear ? 0.28 : 1;
@@ -275,6 +278,23 @@ export class BenchScene {
     };
     if (hit.object === this.skin) return { region: this.regionOf[hit.face.a], pressure: nearest(this.pressure), place };
     return { region: null, pressure: this.footprint ? nearest(this.footprint) : null, place };
+  }
+
+  /// What is seen, small, without the gizmo: as a data URL.
+  miniature(): string {
+    const width = 144, height = 92;
+    const view = this.stage.controls.domElement as HTMLCanvasElement;
+    this.gizmo.visible = false;
+    this.stage.draw();
+    const small = document.createElement("canvas");
+    small.width = width;
+    small.height = height;
+    const share = Math.min(view.width / width, view.height / height); // the middle, without borders
+    const w = share * width, h = share * height;
+    small.getContext("2d")?.drawImage(view, (view.width - w) / 2, (view.height - h) / 2, w, h, 0, 0, width, height);
+    this.gizmo.visible = true;
+    this.draw();
+    return small.toDataURL("image/jpeg", 0.8);
   }
 
   /// Pictures of holds: hand and product as small images.

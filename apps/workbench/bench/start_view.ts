@@ -1,112 +1,112 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first page: a file dropped or chosen, an example, or what `palmar serve FILE` was given.
-import { decimal, say, TextKey } from "./say";
-import { BenchState } from "./bench_state";
+// The first page: a file dropped or chosen, an example, what `palmar serve FILE` was given, what was
+// done before.
+import { Api, Job, JobKind, KeptProject, newKey, ServerState, ShelvedProduct } from "./api";
+import { BenchStart } from "./bench_view";
 import { el, fill } from "./dom";
-import { parseProject, projectEnding } from "./project";
+import { FilePicker } from "./file_picker";
+import { jobStateWords } from "./job_words";
+import { keptHistory } from "./kept_steps";
+import { parseProject, parseState } from "./project";
+import { dateText, say, TextKey } from "./say";
 
-export interface ShelvedProduct {
-  key: string;
-  file_name: string;
-  argument: string;
-  unit: string | null;
-  made_by: string;
-  is_read: boolean;
-  name?: string;
-  triangles?: number;
-  sides_mm?: [number, number, number];
-  notes?: string[];
-}
+const kShownAtFirst = 6; // of recent projects
 
-export interface ServerState {
-  version: string;
-  examples: string[];
-  given: ShelvedProduct[];
-  largest_upload_bytes: number;
-}
-
-interface UnitQuestion {
-  file_name: string;
-  units: { unit: string; sides_mm: [number, number, number] }[];
-}
-
-export function sidesText(sides: number[]): string {
-  return sides.map((side) => decimal(side, side < 10 ? 1 : 0)).join(" × ");
-}
-
-/// Talks to the server with the page's token.
-export class Api {
-  constructor(readonly token: string) {}
-  async ask(method: string, path: string, body?: Blob): Promise<{ status: number; json: unknown }> {
-    const answer = await fetch(path, { method, body, headers: { Authorization: `Bearer ${this.token}` } });
-    return { status: answer.status, json: await answer.json() };
-  }
-  /// A product that is still on the server's shelf.
-  async product(key: string): Promise<ShelvedProduct | null> {
-    const answer = await this.ask("GET", `/api/products/${encodeURIComponent(key)}`);
-    return answer.status === 200 ? (answer.json as ShelvedProduct) : null;
-  }
-  async file(key: string): Promise<Uint8Array> {
-    const answer = await fetch(`/api/products/${encodeURIComponent(key)}/file`, { headers: { Authorization: `Bearer ${this.token}` } });
-    if (!answer.ok) throw new Error(`${answer.status}`);
-    return new Uint8Array(await answer.arrayBuffer());
-  }
-  async state(): Promise<ServerState> {
-    const answer = await this.ask("GET", "/api/state");
-    if (answer.status !== 200) throw new Error((answer.json as { error: string }).error);
-    return answer.json as ServerState;
-  }
+export interface StartEvents {
+  open(start: BenchStart): void;
+  newJob(kind: JobKind): void;
+  openJob(key: string): void;
 }
 
 export class StartView {
   private readonly message = el("p", { class: "message", role: "status" });
-  private readonly picker = el("input", { type: "file", class: "unseen", tabindex: -1, accept: ".stl,.obj,.ply,.3mf,.gltf,.glb,.step,.stp,.iges,.igs,.palmar-project",
-    onchange: () => { if (this.picker.files?.[0]) void this.send(this.picker.files[0]); } });
+  private readonly recent = el("div", { class: "recent" });
+  private readonly jobs = el("div", { class: "recent" });
 
-  constructor(root: HTMLElement, private readonly api: Api, state: ServerState,
-              private readonly open: (product: ShelvedProduct, state: BenchState | null) => void) {
-    this.picker.setAttribute("aria-hidden", "true");
+  constructor(root: HTMLElement, private readonly api: Api, state: ServerState, private readonly events: StartEvents) {
+    // All at once: nothing moves away under the pointer when more of it comes.
+    void Promise.all([this.showRecent(false), this.showJobs()]).then(() => this.show(root, state));
+  }
+
+  private show(root: HTMLElement, state: ServerState): void {
+    const { api, events } = this;
+    const picker = new FilePicker(api, (text) => { this.message.textContent = text; }, (product) => this.fresh(product), (file) => void this.reopen(file));
     const drop = el("div", { class: "drop" },
       el("p", {}, say("start.drop")),
-      el("button", { class: "primary", type: "button", onclick: () => this.picker.click() }, say("start.choose")), this.picker);
-    const over = (isOver: boolean) => (event: Event) => {
-      event.preventDefault();
-      drop.classList.toggle("is-over", isOver);
-    };
-    for (const name of ["dragenter", "dragover"]) root.addEventListener(name, over(true));
-    root.addEventListener("dragleave", over(false));
-    root.addEventListener("drop", (event) => {
-      over(false)(event);
-      const file = (event as DragEvent).dataTransfer?.files[0];
-      if (file) void this.send(file);
-    });
+      el("button", { class: "primary", type: "button", onclick: () => picker.choose() }, say("start.choose")), picker.input);
+    picker.takeDrops(root, drop);
     const given = state.given.map((product) => el("li", {},
-      el("button", { type: "button", class: "card", onclick: () => this.open(product, null) }, el("strong", {}, product.file_name))));
+      el("button", { type: "button", class: "card", onclick: () => this.fresh(product) }, el("strong", {}, product.file_name))));
     const examples = state.examples.map((name) => el("li", {},
       el("button", { type: "button", class: "card", "data-example": name, onclick: () => void this.example(name) },
         shape(name), el("strong", {}, say(`example.${name}` as TextKey)))));
+    const task = (kind: JobKind) => el("li", {}, el("button", { type: "button", class: "card task", "data-new": kind, onclick: () => events.newJob(kind) },
+      el("strong", {}, say(`job.new.${kind}`)), el("span", { class: "soft" }, say(`job.about.${kind}`))));
     fill(root, el("div", { class: "start" },
       el("h1", {}, say("start.heading")), el("p", { class: "lead" }, say("start.lead")), drop, this.message,
       given.length > 0 && [el("h2", {}, say("start.given")), el("ul", { class: "cards" }, given)],
+      this.recent, this.jobs,
       el("h2", {}, say("start.examples")), el("ul", { class: "cards" }, examples),
+      el("h2", {}, say("start.more")), el("ul", { class: "cards" }, task("study"), task("compare"), task("redesign")),
       el("p", { class: "soft" }, say("start.local"), ` Palmar ${state.version}`)));
   }
 
-  private async send(file: File, unit = ""): Promise<void> {
-    this.message.textContent = say("start.reading", { file: file.name });
-    if (file.name.endsWith(projectEnding)) return this.reopen(file);
+  private fresh(product: ShelvedProduct): void {
+    this.events.open({ product, project: newKey(), state: null, history: null });
+  }
+
+  private async showRecent(all: boolean): Promise<void> {
+    let projects: KeptProject[];
     try {
-      const query = new URLSearchParams({ name: file.name, unit });
-      const { status, json } = await this.api.ask("POST", `/api/products?${query.toString()}`, file);
-      this.message.textContent = "";
-      if (status === 200) this.open(json as ShelvedProduct, null);
-      else if (status === 409) this.askUnit(file, json as UnitQuestion);
-      else this.fail((json as { error: string }).error);
+      projects = await this.api.projects();
+    } catch {
+      return; // a server that keeps nothing
+    }
+    if (projects.length === 0) return fill(this.recent);
+    const shown = all ? projects : projects.slice(0, kShownAtFirst);
+    const card = (project: KeptProject) => el("li", { class: "removable" },
+      el("button", { type: "button", class: "card project", "data-recent": project.key, onclick: () => void this.openKept(project) },
+        project.picture.startsWith("data:image/") ? el("img", { src: project.picture, alt: "", width: 144, height: 92 }) : el("span", { class: "no-picture" }),
+        el("strong", {}, project.file_name), el("span", { class: "soft" }, dateText(project.changed_ms))),
+      el("button", { type: "button", class: "remove", title: say("start.remove", { file: project.file_name }), "aria-label": say("start.remove", { file: project.file_name }),
+        onclick: () => void this.remove(project) }, "×"));
+    fill(this.recent, el("h2", {}, say("start.recent")), el("ul", { class: "cards" }, shown.map(card)),
+      projects.length > shown.length && el("button", { type: "button", class: "more", onclick: () => void this.showRecent(true) }, say("start.all", { count: projects.length })));
+  }
+
+  private async openKept(project: KeptProject): Promise<void> {
+    try {
+      const { product, state, history } = await this.api.project(project.key);
+      this.events.open({ product, project: project.key, state: { ...parseState(state as Record<string, unknown>), product: product.key }, history: keptHistory(history, product.key) });
+    } catch (error) {
+      this.fail(`${project.file_name}: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  }
+
+  private async remove(project: KeptProject): Promise<void> {
+    if (!confirm(say("start.remove_asked", { file: project.file_name }))) return;
+    try {
+      await this.api.removeProject(project.key);
     } catch (error) {
       this.fail(String(error));
     }
+    await this.showRecent(true);
+  }
+
+  private async showJobs(): Promise<void> {
+    let jobs: Job[];
+    try {
+      jobs = await this.api.jobs();
+    } catch {
+      return;
+    }
+    if (jobs.length === 0) return;
+    fill(this.jobs, el("h2", {}, say("start.jobs")), el("ul", { class: "rows" }, jobs.map((job) => el("li", {},
+      el("button", { type: "button", class: "row", "data-job": job.key, onclick: () => this.events.openJob(job.key) },
+        el("span", { class: "soft" }, say(`job.kind.${job.kind}`)), el("strong", {}, job.title), el("span", { class: `state ${job.state}` }, jobStateWords(job)),
+        el("span", { class: "soft" }, dateText(job.created_ms)))))));
   }
 
   // A project's product goes to the server as its file was, then the bench is as it was left.
@@ -114,10 +114,8 @@ export class StartView {
     try {
       const project = parseProject(await file.text());
       const query = new URLSearchParams({ name: project.fileName, unit: project.unit ?? "" });
-      const { status, json } = await this.api.ask("POST", `/api/products?${query.toString()}`, new Blob([project.bytes]));
-      if (status !== 200) throw new Error((json as { error: string }).error);
-      const product = json as ShelvedProduct;
-      this.open(product, { ...project.state, product: product.key });
+      const product = await this.api.get<ShelvedProduct>("POST", `/api/products?${query.toString()}`, new Blob([project.bytes]));
+      this.events.open({ product, project: newKey(), state: { ...project.state, product: product.key }, history: null });
     } catch (error) {
       this.fail(`${file.name}: ${error instanceof Error ? error.message : String(error)}`);
     }
@@ -127,26 +125,12 @@ export class StartView {
     this.message.textContent = say("bench.failed", { message });
   }
 
-  private askUnit(file: File, question: UnitQuestion): void {
-    const dialog = el("dialog", { "aria-label": say("unit.heading", { file: file.name }) });
-    const choose = (unit: string) => () => {
-      dialog.close();
-      if (unit) void this.send(file, unit);
-    };
-    fill(dialog, el("h2", {}, say("unit.heading", { file: file.name })), el("p", {}, say("unit.lead")),
-      el("ul", { class: "choices" }, question.units.map((one) => el("li", {},
-        el("button", { type: "button", "data-unit": one.unit, onclick: choose(one.unit) },
-          say("unit.choice", { unit: one.unit, sides: sidesText(one.sides_mm) }))))),
-      el("button", { type: "button", class: "plain", onclick: choose("") }, say("unit.cancel")));
-    dialog.addEventListener("close", () => dialog.remove());
-    document.body.append(dialog);
-    dialog.showModal();
-  }
-
   private async example(name: string): Promise<void> {
-    const { status, json } = await this.api.ask("POST", `/api/examples?name=${encodeURIComponent(name)}`);
-    if (status === 200) this.open(json as ShelvedProduct, null);
-    else this.fail((json as { error: string }).error);
+    try {
+      this.fresh(await this.api.example(name));
+    } catch (error) {
+      this.fail(String(error));
+    }
   }
 }
 

@@ -4,7 +4,9 @@
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
 import { test } from "node:test";
+import { keptHistory, keptText } from "../bench/kept_steps";
 import { BenchState, needsOpening, openRequest, stateRequest } from "../bench/bench_state";
+import { dotSummaries } from "../bench/dots";
 import { decodeFrame, FieldFrame, MeshFrame } from "../bench/live_frame";
 import { MoveQueue } from "../bench/move_queue";
 import { parseProject, Project, projectText } from "../bench/project";
@@ -122,6 +124,54 @@ test("states that were kept don't change with what is done later", () => {
   assert.deepEqual(stack.undo(), { list: [1] });
 });
 
+test("any step can be gone to, and steps read back from where they were kept", () => {
+  const stack = new UndoStack<number>();
+  let made = 0;
+  const picture = () => `data:image/jpeg;base64,${++made}`;
+  for (const one of [5, 5, 6, 7]) stack.push(one, picture);
+  assert.equal(made, 3, "a picture is made for steps alone");
+  assert.equal(stack.goTo(0), 5);
+  assert.equal(stack.goTo(3), null);
+  assert.equal(stack.goTo(-1), null);
+  assert.equal(stack.at, 0);
+  assert.deepEqual(stack.pictures.map((one) => one.slice(-1)), ["1", "2", "3"]);
+  stack.goTo(1);
+  const kept = stack.steps(60);
+  const other = new UndoStack<number>();
+  other.restore(kept.steps, kept.at);
+  assert.deepEqual([other.undo(), other.redo(), other.redo(), other.redo()], [5, 6, 7, null]);
+  assert.deepEqual(stack.steps(2), { at: 0, steps: kept.steps.slice(1) }, "the latest, with where one is among them");
+});
+
+test("what is kept by itself reads back with the product as it lies on the shelf then", () => {
+  const other: BenchState = { ...state, holder: { person: "man:P95", left: true }, gripForce: null };
+  const history = { at: 1, steps: [{ state, picture: "data:image/jpeg;base64,A" }, { state: other, picture: `data:image/jpeg;base64,${"A".repeat(50000)}` }] };
+  const kept = JSON.parse(keptText(other, history));
+  assert.equal(kept.product, "p1");
+  assert.equal(kept.picture, "", "a picture that is too large is left out");
+  const back = keptHistory(kept.history, "p9");
+  assert.deepEqual(back, { at: 1, steps: [{ state: { ...state, product: "p9" }, picture: "data:image/jpeg;base64,A" }, { state: { ...other, product: "p9" }, picture: "" }] });
+  for (const damaged of [null, 7, {}, { at: 2, steps: kept.history.steps }, { at: 0, steps: [{ state: { hold: "x" }, picture: "" }] }]) {
+    assert.equal(keptHistory(damaged, "p9"), null);
+  }
+});
+
+test("dots are summed up over the hands of the length that is asked for", () => {
+  const dots = {
+    products: [{ name: "a", colour: [0, 0, 0] as [number, number, number] }, { name: "b", colour: [0, 0, 0] as [number, number, number] }],
+    hands: [{ length_mm: 170, shown: 0 }, { length_mm: 180, shown: 1 }, { length_mm: 190, shown: null }, { length_mm: null, shown: null }],
+    quantities: [{ key: "area", name: "area", unit: "mm2" }],
+    grasps: [0, 1, 2, 3].flatMap((hand) => [{ hand, product: 0, outcome: "held", values: [10 * (hand + 1)] }, { hand, product: 1, outcome: "slips_out", values: [null] }]),
+  };
+  // Of 10, 20, 30, 40 the mean is 25, the standard deviation the root of 500 / 3.
+  const all = dotSummaries(dots, 0, 170, 190, true);
+  assert.deepEqual([all[0].held, all[0].hands, all[0].mean], [4, 4, 25]);
+  assert.ok(Math.abs(all[0].sd! - Math.sqrt(500 / 3)) < 1e-12);
+  assert.deepEqual(all[1], { name: "b", held: 0, hands: 4, mean: null, sd: null });
+  const long = dotSummaries(dots, 0, 175, 190, false);
+  assert.deepEqual([long[0].held, long[0].mean], [2, 25]);
+});
+
 test("of motions one is on its way and the newest follows", () => {
   const sent: number[] = [];
   let id = 0;
@@ -194,7 +244,8 @@ test("both languages say the same, and all of it is used", () => {
   assert.deepEqual(Object.keys(english), Object.keys(german));
   const sources = readdirSync("apps/workbench/bench").filter((name) => name.slice(-3) === ".ts")
     .map((name) => readFileSync(`apps/workbench/bench/${name}`, "utf8")).join("\n");
-  const groups = ["finger.", "joint.", "example.", "bench.look_"];
+  // `job.kind.${...}`: all that begin so; what begins with bench alone is listed below.
+  const groups = [...sources.matchAll(/`([a-z_.]+[._])\$\{/g)].map((match) => match[1]).filter((group) => group !== "bench.");
   for (const [key, text] of Object.entries(english)) {
     const other = (german as Record<string, string>)[key];
     assert.ok(text.length > 0 && other.length > 0, key);

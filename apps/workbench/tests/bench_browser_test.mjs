@@ -6,11 +6,11 @@
 // says. --drag: instead measures a scripted drag of 100 steps. --pictures: instead leaves the pictures of
 // the documents there. Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
-import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import http from "node:http";
-import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { Bench, choose, contrasts } from "./bench_server.mjs";
 import { Browser, browserProgram, wait } from "./browser.mjs";
 
 const palmar = resolve(process.argv[2]);
@@ -20,31 +20,15 @@ if (!browserProgram) {
   console.log("skipped: no browser (chromium, google-chrome) is installed");
   process.exit(77);
 }
-const folder = mkdtempSync(join(tmpdir(), "palmar-bench-"));
-const servers = [];
-
-/// `palmar serve` with its address, and the time until it was printed.
-async function serve(words = []) {
-  const start = Date.now();
-  const child = spawn(palmar, ["serve", "--no-browser", "--quiet", ...words], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
-  servers.push(child);
-  const url = await new Promise((done, fail) => {
-    child.stdout.once("data", (text) => done(String(text).split("\n")[0]));
-    child.once("exit", (code) => fail(new Error(`palmar serve ended with ${code}`)));
-  });
-  return { child, url, ms: Date.now() - start };
-}
-
-async function stop(server) {
-  const start = Date.now();
-  const isOver = new Promise((done) => server.child.once("exit", done));
-  server.child.kill("SIGINT");
-  const code = await isOver;
-  return { ms: Date.now() - start, code };
-}
+const { folder, serve, stop, end } = new Bench(palmar);
 
 function palmarJson(words) {
   return JSON.parse(execFileSync(palmar, [...words, "--json", "--quiet"], { cwd: folder, encoding: "utf8", maxBuffer: 1 << 28 }));
+}
+/// What a command that must fail ends with and says.
+function refused(words) {
+  const { status, stderr } = spawnSync(palmar, [...words, "--quiet"], { cwd: folder, encoding: "utf8" });
+  return { code: status, says: stderr };
 }
 /// As a shell takes the commands that the page shows: they have no words in quotes here.
 const words = (command) => command.replace(/^palmar /, "").split(" ");
@@ -137,36 +121,11 @@ function fineCylinder(triangles) {
   return bytes;
 }
 
-/// A file put into the page as if it had been chosen.
-async function choose(page, path) {
-  const { root } = await page.send("DOM.getDocument");
-  const { nodeId } = await page.send("DOM.querySelector", { nodeId: root.nodeId, selector: "input[type=file]" });
-  await page.send("DOM.setFileInputFiles", { nodeId, files: [path] });
-}
-
 /// The next file that the page offers is in window.saved.
 async function catchSaved(page) {
   await page.value(`(() => { delete window.saved; const make = URL.createObjectURL; URL.createObjectURL = (blob) => {
     void blob.text().then((text) => { window.saved = text; }); URL.createObjectURL = make; return make.call(URL, blob); }; })()`);
 }
-
-const contrasts = `(() => {
-  for (const one of document.querySelectorAll("details")) one.open = true;
-  const channels = (colour) => colour.match(/[\\d.]+/g).map(Number);
-  const light = (c) => c.slice(0, 3).map((v) => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const behind = (one) => { for (; one; one = one.parentElement) { const c = channels(getComputedStyle(one).backgroundColor); if (c.length < 4 || c[3] === 1) return c; } return [255, 255, 255]; };
-  let seen = 0; const poor = [];
-  for (const one of document.querySelectorAll("body *")) {
-    if (one.closest("svg,.unseen,:disabled") || !one.checkVisibility() || ![...one.childNodes].some((node) => node.nodeType === 3 && node.data.trim())) continue;
-    const a = light(channels(getComputedStyle(one).color)), b = light(behind(one)), ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-    ++seen;
-    if (ratio < 4.5) poor.push(one.tagName + "." + one.className + " " + ratio.toFixed(2) + " " + one.textContent.slice(0, 30));
-  }
-  const nameless = [...document.querySelectorAll("button,input,select")].filter((one) => one.checkVisibility() && !one.closest("[aria-hidden]") &&
-    !(one.getAttribute("aria-label") || one.textContent.trim() || one.labels?.length)).map((one) => one.outerHTML.slice(0, 80));
-  return { seen, poor, nameless };
-})()`;
 
 async function measureDrag(browser) {
   writeFileSync(join(folder, "fine.stl"), fineCylinder(50000));
@@ -322,6 +281,12 @@ async function doAsPeopleDo(browser) {
   await catchSaved(page);
   await page.click("[data-project]");
   writeFileSync(join(folder, "mine.palmar-project"), await page.until("window.saved"));
+  compared(stands, palmarJson(["assess", "mine.palmar-project"]).assessments[0].contact);
+  assert.equal(refused(["assess", "mine.palmar-project", "--hold", "2"]).code, 2);
+  writeFileSync(join(folder, "cut.palmar-project"), readFileSync(join(folder, "mine.palmar-project"), "utf8").slice(0, 3000));
+  const cut = refused(["assess", "cut.palmar-project"]);
+  assert.equal(cut.code, 3);
+  assert.match(cut.says, /^palmar: cut\.palmar-project: /);
   await page.click(".top button");
   await page.until("document.querySelector('[data-example]') !== null");
   await choose(page, join(folder, "mine.palmar-project"));
@@ -379,6 +344,5 @@ try {
   console.log(`done in ${((Date.now() - begun) / 1000).toFixed(1)} s`);
 } finally {
   await browser.close();
-  for (const child of servers) if (child.exitCode === null) child.kill("SIGKILL");
-  rmSync(folder, { recursive: true, force: true });
+  end();
 }

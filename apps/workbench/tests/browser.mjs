@@ -114,6 +114,30 @@ export class Page {
     throw new Error(`${expression} didn't become true within ${ms} ms; the page says: ` +
       `${await this.value("document.body.innerText.slice(0, 600)")} ${this.complaints.join("; ")}`);
   }
+  /// What an expression comes to in the frame of the only page that has one, once `isThere` is content
+  /// with it. A frame without an origin is a process, and so a target, of its own.
+  async frameValue(expression, isThere, ms = 30000) {
+    const end = Date.now() + ms;
+    let value;
+    while (Date.now() < end) {
+      const { targetInfos } = await this.browser.send("Target.getTargets", { filter: [{ type: "iframe" }] });
+      for (const { targetId } of targetInfos) {
+        const { sessionId } = await this.browser.send("Target.attachToTarget", { targetId, flatten: true });
+        const { result } = await this.browser.send("Runtime.evaluate", { expression, returnByValue: true }, sessionId);
+        await this.browser.send("Target.detachFromTarget", { sessionId });
+        value = result.value;
+        if (isThere(value)) return value;
+      }
+      await wait(200);
+    }
+    throw new Error(`${expression} in the frame is ${value}`);
+  }
+  /// Questions of the page are answered by yes.
+  acceptDialogs() {
+    this.browser.listeners.push((message) => {
+      if (message.sessionId === this.session && message.method === "Page.javascriptDialogOpening") void this.send("Page.handleJavaScriptDialog", { accept: true });
+    });
+  }
   async box(selector) {
     const box = await this.value(`(() => { const one = document.querySelector(${JSON.stringify(selector)});
       if (!one) return null; one.scrollIntoView({ block: "nearest" }); const b = one.getBoundingClientRect();

@@ -92,3 +92,25 @@ for (const entry of document.querySelectorAll<HTMLElement>("[popover]")) {
     entry.style.top = `${Math.min(box.bottom + 6, innerHeight - entry.offsetHeight - 8)}px`;
   });
 }
+
+// The workbench, in whose frame this page may stand, asks for one hand with one product in the 3-D view.
+window.addEventListener("message", (event: MessageEvent<unknown>) => {
+  if (event.source !== window.parent || window.parent === window) return;
+  const asked = event.data as { palmar?: string; product?: number; hand?: number } | null;
+  const view = document.getElementById("turn");
+  if (asked?.palmar !== "show-hand" || !view) return;
+  const choose = (name: string, value: unknown): void => {
+    const select = view.querySelector<HTMLSelectElement>(`[data-toggle="${name}"]`);
+    const option = [...(select?.options ?? [])].find((one) => one.value === String(value));
+    if (!select || !option) return;
+    select.value = option.value;
+    select.dispatchEvent(new Event("change"));
+  };
+  for (let one: Element | null = view; one; one = one.parentElement) {
+    if (one instanceof HTMLDetailsElement) one.open = true;
+  }
+  for (const one of view.querySelectorAll("details")) one.open = true;
+  choose("which-product", asked.product);
+  choose("which-hand", asked.hand);
+  (view.querySelector(".view-canvas") ?? view).scrollIntoView({ block: "center" });
+});

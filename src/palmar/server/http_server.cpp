@@ -39,6 +39,11 @@ constexpr int kMostTextsWaiting = 200;  // a client that takes none of them is g
 constexpr int kLiveHandshakeSeconds = 10;
 constexpr int kLiveIdleSeconds = 60;  // then it is asked whether it is there
 
+constexpr const char* kClientPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors "
+    "'none'";
+
 class LiveConnection;
 
 /// What connections share.
@@ -87,10 +92,7 @@ http::response<http::string_body> response_of(ServiceAnswer answer, bool keeps_a
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set("Content-Security-Policy",
-               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: "
-               "blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors "
-               "'none'");
+  response.set("Content-Security-Policy", answer.policy.empty() ? kClientPolicy : answer.policy);
   if (!answer.file_name.empty()) {
     std::string name;
     for (const char c : answer.file_name) {

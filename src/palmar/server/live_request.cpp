@@ -107,25 +107,6 @@ LiveTask task_of(const RequestJson& json) {
 
 }  // namespace
 
-PersonOfSize parse_person_of_size(const std::string& text) {
-  const std::size_t colon = std::min(text.find(':'), text.size());
-  const std::string sex = text.substr(0, colon);
-  const bool is_known = (sex == "woman" || sex == "man") && text.substr(colon).starts_with(":P");
-  const auto percentile = is_known ? parse_double(text.substr(colon + 2)) : std::nullopt;
-  if (!percentile) {
-    throw UsageError("person is " + in_quotes(text) +
-                     "; woman or man with a percentile is allowed: woman:P5, man:P95");
-  }
-  const PersonOfSize person{sex == "woman" ? Sex::kFemale : Sex::kMale, *percentile};
-  person.check();
-  return person;
-}
-
-std::string person_argument(const PersonOfSize& person) {
-  return std::string(person.sex == Sex::kFemale ? "woman" : "man") + ":P" +
-         shortest(person.percentile);
-}
-
 LiveRequest parse_live_request(std::string_view text) {
   const RequestJson json = RequestJson::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {

@@ -9,6 +9,7 @@
 
 #include "palmar/core/language.h"
 #include "palmar/grasp/grip.h"
+#include "palmar/workflow/live/live_person.h"
 #include "palmar/workflow/live/live_session.h"
 
 namespace palmar {
@@ -44,11 +45,5 @@ inline constexpr std::size_t kLongestLiveMessage = std::size_t{64} << 10U;
 
 /// Throws UsageError naming the member, its value and what is allowed.
 LiveRequest parse_live_request(std::string_view text);
-
-/// "woman:P5", "man:P97.5": a person by sex and percentile, as `palmar assess --person` takes it.
-/// Throws UsageError.
-PersonOfSize parse_person_of_size(const std::string& text);
-/// The same back.
-std::string person_argument(const PersonOfSize& person);
 
 }  // namespace palmar

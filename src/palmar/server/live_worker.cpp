@@ -9,7 +9,6 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/grasp/rest/task_force.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/report/picture/display_mesh.h"
 #include "palmar/server/live_answer.h"
@@ -162,11 +161,7 @@ void LiveWorker::move(const LiveRequest& request) {
 
 void LiveWorker::work(const LiveRequest& asked, const Progress& progress) {
   LiveRequest request = asked;
-  RestSettings& rest = request.task.rest;
-  if (rest.is_usual() && opened_.person) {  // as `palmar assess --person` takes it
-    rest.person = PersonOfAge{opened_.person->sex, kUsualAge};
-    rest.strength_share = kUsualStrengthShare;
-  }
+  request.task = task_of_person(asked.task, opened_.person);
   const Grip grip = request.grip.value_or(Grip::kMediumWrap);
   switch (request.verb) {
     case LiveVerb::kHold:

@@ -9,61 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/server/live_frame.h"
+#include "palmar/server/live_worker_fixture.h"
 
 namespace palmar {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-/// What came, in its order; waits for it.
-class Answers {
- public:
-  LiveSink sink() {
-    return {[this](std::string text) { add(json::parse(text)); },
-            [this](std::string bytes, bool) {
-              const auto word = [&](std::size_t at) {
-                return static_cast<unsigned char>(bytes[at]) |
-                       static_cast<unsigned char>(bytes[at + 1]) << 8U;
-              };
-              add({{"say", "frame"}, {"kind", word(4)}, {"request", word(8)}});
-            }};
-  }
-  /// The first answer of that kind to that request.
-  json wait_for(const std::string& say, int request) {
-    std::unique_lock lock(mutex_);
-    std::size_t seen = 0;
-    json found;
-    const bool is_there = come_.wait_for(lock, std::chrono::seconds(60), [&] {
-      for (; seen < all_.size(); ++seen) {
-        if (all_[seen]["say"] == say && all_[seen]["request"] == request) {
-          found = all_[seen];
-          return true;
-        }
-      }
-      return false;
-    });
-    EXPECT_TRUE(is_there) << say << " of " << request << " didn't come";
-    return found;
-  }
-  int count(const std::string& say) {
-    const std::scoped_lock lock(mutex_);
-    return static_cast<int>(std::count_if(all_.begin(), all_.end(),
-                                          [&](const json& one) { return one["say"] == say; }));
-  }
-
- private:
-  void add(json answer) {
-    {
-      const std::scoped_lock lock(mutex_);
-      all_.push_back(std::move(answer));
-    }
-    come_.notify_all();
-  }
-  std::mutex mutex_;
-  std::condition_variable come_;
-  std::vector<json> all_;
-};
 
 const std::shared_ptr<ProductShelf>& shelf() {
   static const auto one = std::make_shared<ProductShelf>();
@@ -96,7 +48,7 @@ LiveRequest moving(int id, const Rigid3& place) {
 }
 
 TEST(LiveWorker, OpensHoldsAndMoves) {
-  Answers answers;
+  LiveAnswers answers;
   LiveWorker worker(shelf(), answers.sink());
   worker.post(opening(1));
   const json opened = answers.wait_for("opened", 1);
@@ -118,7 +70,7 @@ TEST(LiveWorker, OpensHoldsAndMoves) {
 }
 
 TEST(LiveWorker, NewestRequestWins) {
-  Answers answers;
+  LiveAnswers answers;
   LiveWorker worker(shelf(), answers.sink());
   worker.post(opening(1));
   for (int id = 2; id < 20; ++id) worker.post(holding(id, 40.0 + id));
@@ -130,7 +82,7 @@ TEST(LiveWorker, NewestRequestWins) {
 }
 
 TEST(LiveWorker, WorkIsCancelledByAMove) {
-  Answers answers;
+  LiveAnswers answers;
   LiveWorker worker(shelf(), answers.sink());
   worker.post(opening(1));
   answers.wait_for("opened", 1);
@@ -144,7 +96,7 @@ TEST(LiveWorker, WorkIsCancelledByAMove) {
 }
 
 TEST(LiveWorker, ErrorsAreAnswersAndTheWorkerGoesOn) {
-  Answers answers;
+  LiveAnswers answers;
   LiveWorker worker(shelf(), answers.sink());
   worker.post(holding(1, 60.0));
   EXPECT_THAT(answers.wait_for("error", 1)["message"].get<std::string>(),
@@ -162,7 +114,7 @@ TEST(LiveWorker, ErrorsAreAnswersAndTheWorkerGoesOn) {
 }
 
 TEST(LiveWorker, StopsWhileItComputes) {
-  Answers answers;
+  LiveAnswers answers;
   const auto start = std::chrono::steady_clock::now();
   {
     LiveWorker worker(shelf(), answers.sink());

@@ -139,6 +139,8 @@ ShelvedProduct ProductShelf::add_file(const std::filesystem::path& path,
   return put(std::move(product));
 }
 
+ShelvedProduct ProductShelf::add_known(ShelvedProduct product) { return put(std::move(product)); }
+
 ShelvedProduct ProductShelf::add_example(const std::string& name) {
   for (const ShelvedExample& example : shelved_examples()) {
     if (example.name != name) continue;

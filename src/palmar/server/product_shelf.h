@@ -65,6 +65,8 @@ class ProductShelf {
                   const Progress& progress = {});
   /// A file of the user's, read when it is first opened.
   ShelvedProduct add_file(const std::filesystem::path& path, std::optional<LengthUnit> unit);
+  /// One whose file is there and isn't the shelf's own, with all that is known of it but its key.
+  ShelvedProduct add_known(ShelvedProduct product);
   /// Throws UsageError for a name that is none.
   ShelvedProduct add_example(const std::string& name);
 

@@ -12,6 +12,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/server/client_files.h"
 #include "palmar/server/live_answer.h"
+#include "palmar/server/service_routes.h"
 
 namespace palmar {
 namespace {
@@ -51,11 +52,12 @@ ServiceAnswer refusal(int status, const std::string& message) {
   return json_answer({{"error", message}}, status);
 }
 
-Service::Service(std::string token, std::shared_ptr<ProductShelf> shelf)
-    : token_(std::move(token)), shelf_(std::move(shelf)) {}
+Service::Service(std::string token, std::shared_ptr<ProductShelf> shelf, KeptData kept)
+    : token_(std::move(token)), shelf_(std::move(shelf)), kept_(std::move(kept)) {}
 
-void Service::give(const std::filesystem::path& file, std::optional<LengthUnit> unit) {
+std::string Service::give(const std::filesystem::path& file, std::optional<LengthUnit> unit) {
   given_.push_back(shelf_->add_file(file, unit).key);
+  return given_.back();
 }
 
 std::optional<ServiceAnswer> Service::refused(const ServiceRequest& head) const {
@@ -107,21 +109,22 @@ ServiceAnswer Service::routed(const ServiceRequest& request, const Target& targe
   if (target.path == "/api/examples" && is_post) {
     return shelved(shelf_->add_example(target.query("name").value_or("")));
   }
-  constexpr std::string_view kProducts = "/api/products/", kFile = "/file";
-  if (is_get && target.path.starts_with(kProducts) && target.path.ends_with(kFile) &&
-      target.path.size() > kProducts.size() + kFile.size()) {
-    const std::string key =
-        target.path.substr(kProducts.size(), target.path.size() - kProducts.size() - kFile.size());
-    if (const auto product = shelf_->find(key)) {
+  constexpr std::string_view kProducts = "/api/products/";
+  if (const auto key = name_between(target.path, kProducts, "/file"); key && is_get) {
+    if (const auto product = shelf_->find(*key)) {
       return {.type = "application/octet-stream",
               .body = read_file(product->path),
               .file_name = product->file_name};
     }
   }
-  if (is_get && target.path.starts_with(kProducts)) {
-    if (const auto product = shelf_->find(target.path.substr(kProducts.size()))) {
-      return shelved(*product);
-    }
+  if (const auto key = name_between(target.path, kProducts); key && is_get) {
+    if (const auto product = shelf_->find(*key)) return shelved(*product);
+  }
+  if (kept_.projects) {
+    if (auto answer = projects_answer(request, target, *shelf_, *kept_.projects)) return *answer;
+  }
+  if (kept_.jobs) {
+    if (auto answer = jobs_answer(request, target, *shelf_, *kept_.jobs)) return *answer;
   }
   return refusal(404, in_quotes(request.method + " " + target.path) + " is nothing here");
 }

@@ -11,7 +11,9 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/server/access.h"
+#include "palmar/server/job_shelf.h"
 #include "palmar/server/product_shelf.h"
+#include "palmar/server/project_drawer.h"
 
 namespace palmar {
 
@@ -28,6 +30,7 @@ struct ServiceAnswer {
   std::string type = "application/json";
   std::string body = {};
   std::string file_name = {};  ///< if it is to be saved under that name
+  std::string policy = {};     ///< Content-Security-Policy; "": that of the client's page
 };
 
 /// {"error": "..."}
@@ -36,6 +39,12 @@ ServiceAnswer refusal(int status, const std::string& message);
 /// The largest file of a product that is taken; other requests are small.
 inline constexpr std::uint64_t kLargestUpload = std::uint64_t{256} << 20U;
 inline constexpr std::uint64_t kLargestRequest = std::uint64_t{1} << 20U;
+
+/// What the server keeps for the user beyond its own end. Null: nothing of that kind.
+struct KeptData {
+  std::shared_ptr<ProjectDrawer> projects = nullptr;
+  std::shared_ptr<JobShelf> jobs = nullptr;
+};
 
 /// What the server answers, apart from how requests come in:
 ///
@@ -47,19 +56,30 @@ inline constexpr std::uint64_t kLargestRequest = std::uint64_t{1} << 20U;
 ///     POST /api/examples?name=             -> the product
 ///     GET  /api/products/KEY               the product
 ///     GET  /api/products/KEY/file          its file
+///     GET  /api/projects                   what was kept by itself, the newest first
+///     GET  /api/projects/KEY               one of them: its product (now on the shelf), state,
+///     steps POST /api/projects/KEY               keeps {"product", "state", "picture", "history"}
+///     DELETE /api/projects/KEY
+///     GET  /api/jobs                       studies, comparisons and redesigns (job_request.h)
+///     POST /api/jobs                       a new one
+///     GET  /api/jobs/KEY                   how it stands
+///     POST /api/jobs/KEY/start, /cancel
+///     POST /api/jobs/KEY/shelve?name=      a shape that a redesign made -> the product
+///     DELETE /api/jobs/KEY
+///     GET  /api/jobs/KEY/report, /dots, /files/NAME
 ///     GET  /api/live                       the live channel (http_server.h)
 ///
 /// Everything under /api/ needs the token (401); all requests need a Host and, where a page sends
 /// them, an Origin of this server's (403). Thread-safe.
 class Service {
  public:
-  Service(std::string token, std::shared_ptr<ProductShelf> shelf);
+  Service(std::string token, std::shared_ptr<ProductShelf> shelf, KeptData kept = {});
 
   void set_place(const ServedAt& at) { at_ = at; }  ///< once the port is known
   const std::string& token() const { return token_; }
   const std::shared_ptr<ProductShelf>& shelf() const { return shelf_; }
-  /// A product that was given on the command line.
-  void give(const std::filesystem::path& file, std::optional<LengthUnit> unit);
+  /// A product that was given on the command line; its key.
+  std::string give(const std::filesystem::path& file, std::optional<LengthUnit> unit);
 
   /// Why it isn't let in, from its head alone; nothing if it is.
   std::optional<ServiceAnswer> refused(const ServiceRequest& head) const;
@@ -78,6 +98,7 @@ class Service {
 
   std::string token_;
   std::shared_ptr<ProductShelf> shelf_;
+  KeptData kept_;
   ServedAt at_;
   std::vector<std::string> given_;  ///< keys of products
 };

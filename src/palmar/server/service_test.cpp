@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "palmar/formats/mesh/stl.h"
@@ -137,6 +138,84 @@ TEST(Service, OnlyProductsMayBeLarge) {
   EXPECT_EQ(service().largest_body(asking("POST", "/api/products?name=a.stl")), 256ULL << 20U);
   EXPECT_EQ(service().largest_body(asking("POST", "/api/examples")), 1ULL << 20U);
   EXPECT_EQ(service().largest_body(asking("GET", "/api/products")), 1ULL << 20U);
+}
+
+/// A service that keeps what users do, in a folder that goes with it.
+class KeepingService : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "palmar_keeping_XXXXXX").string();
+    test_folder = mkdtemp(name.data());
+    shelf = std::make_shared<ProductShelf>();
+    keeping = std::make_unique<Service>(
+        kToken, shelf,
+        KeptData{std::make_shared<ProjectDrawer>(test_folder / "projects"),
+                 std::make_shared<JobShelf>(test_folder / "jobs", "/bin/false")});
+    keeping->set_place({"127.0.0.1", 8123});
+    product = shelf->add_example("ball").key;
+  }
+  void TearDown() override {
+    keeping.reset();
+    std::filesystem::remove_all(test_folder);
+  }
+  ServiceAnswer ask(const std::string& method, const std::string& target,
+                    const json& body = nullptr) const {
+    return keeping->answer(asking(method, target, body.is_null() ? "" : body.dump()));
+  }
+
+  std::filesystem::path test_folder;
+  std::shared_ptr<ProductShelf> shelf;
+  std::unique_ptr<Service> keeping;
+  std::string product;
+};
+
+TEST_F(KeepingService, ProjectsAreKeptOpenedAndRemoved) {
+  EXPECT_EQ(json::parse(ask("GET", "/api/projects").body)["projects"].size(), 0U);
+  const json content = {{"product", product}, {"state", {{"hold", 2}}}, {"history", {{"at", 0}}}};
+  EXPECT_EQ(ask("POST", "/api/projects/mine", content).status, 200);
+  const json opened = json::parse(ask("GET", "/api/projects/mine").body);
+  EXPECT_EQ(opened["product"]["file_name"], "ball.stl");
+  EXPECT_NE(opened["product"]["key"], product) << "the drawer's own copy";
+  EXPECT_EQ(opened["state"]["hold"], 2);
+  EXPECT_EQ(opened["history"]["at"], 0);
+  EXPECT_EQ(ask("DELETE", "/api/projects/mine").status, 200);
+  EXPECT_EQ(ask("GET", "/api/projects/mine").status, 400);
+  for (const char* target : {"/api/projects/..", "/api/projects/a.b", "/api/projects/%2e%2e"}) {
+    EXPECT_EQ(ask("POST", target, content).status, 400) << target;
+  }
+  EXPECT_EQ(ask("POST", "/api/projects/%2e%2e%2fx", content).status, 404);
+  EXPECT_EQ(ask("POST", "/api/projects/mine", {{"product", "p99"}, {"state", {}}}).status, 400);
+}
+
+TEST_F(KeepingService, JobsAreListedAndTheirFilesConfined) {
+  const json request = {{"kind", "compare"},
+                        {"products", {product, shelf->add_example("round-handle").key}}};
+  const json added = json::parse(ask("POST", "/api/jobs", request).body);
+  const std::string path = "/api/jobs/" + added["key"].get<std::string>();
+  EXPECT_EQ(json::parse(ask("GET", "/api/jobs").body)["jobs"].size(), 1U);
+  EXPECT_EQ(json::parse(ask("GET", path).body)["title"], "ball, round-handle");
+  for (const char* rest : {"/report", "/dots", "/files/job.json", "/files/..%2fjob.json", "/files/",
+                           "/files/..", "/nothing"}) {
+    EXPECT_EQ(ask("GET", path + rest).status, 404) << rest;
+  }
+  EXPECT_EQ(ask("POST", path + "/shelve?name=../job.json").status, 404);
+  EXPECT_EQ(ask("POST", path + "/stop").status, 404);
+  EXPECT_EQ(ask("GET", "/api/jobs/..").status, 404);
+  EXPECT_EQ(ask("POST", "/api/jobs/nothing/start").status, 404);
+  EXPECT_EQ(ask("POST", "/api/jobs", {{"kind", "compare"}, {"products", {"p98", "p99"}}}).status,
+            400);
+  EXPECT_EQ(ask("POST", path + "/cancel").status, 200);
+}
+
+TEST_F(KeepingService, NothingOfItWithoutTheToken) {
+  for (const char* target : {"/api/projects", "/api/projects/a", "/api/jobs", "/api/jobs/a/report",
+                             "/api/jobs/a/files/b"}) {
+    for (const char* method : {"GET", "POST", "DELETE"}) {
+      ServiceRequest request = asking(method, target);
+      request.authorization = "";
+      EXPECT_EQ(keeping->answer(request).status, 401) << method << " " << target;
+    }
+  }
 }
 
 }  // namespace

@@ -169,8 +169,14 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     }
   }
   if (outcome.set.assessments.empty()) throw cancelled_early();
+  finish_assessment(request, progress, outcome);
+  return outcome;
+}
+
+void finish_assessment(const AssessRequest& request, const Progress& progress,
+                       AssessOutcome& outcome) {
   outcome.words = verdict_words(outcome.set, verdict_of(outcome.set), request.language);
-  if (request.out.empty()) return outcome;
+  if (request.out.empty()) return;
   // What is done is written even when the user has cancelled, but for pictures.
   outcome.folder = request.out;
   try {
@@ -189,7 +195,6 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   } catch (const Cancelled&) {
     outcome.is_cancelled = true;
   }
-  return outcome;
 }
 
 std::string free_report_folder() {

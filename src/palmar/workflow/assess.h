@@ -72,6 +72,11 @@ struct AssessOutcome {
 /// is thrown. Throws UsageError, InputError naming the file, OutputError.
 AssessOutcome assess_products(const AssessRequest& request, const Progress& progress = {});
 
+/// The verdict in words, and the report if one is asked for; the last 30 % of the whole.
+/// `is_cancelled` says whether anything of the report is missing. Throws as assess_products().
+void finish_assessment(const AssessRequest& request, const Progress& progress,
+                       AssessOutcome& outcome);
+
 /// "palmar-report" in the working folder, or the first free "palmar-report-2", ...: nothing that
 /// stands there is touched.
 std::string free_report_folder();

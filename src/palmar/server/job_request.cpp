@@ -1,0 +1,317 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/server/job_request.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "palmar/core/error.h"
+#include "palmar/core/text.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/records/study/people_range.h"
+#include "palmar/workflow/live/live_person.h"
+
+namespace palmar {
+namespace {
+
+using JobJson = nlohmann::ordered_json;
+
+constexpr std::size_t kMostJobProducts = 12;  // our choice: what a report still shows side by side
+constexpr std::size_t kMostCompared = 3;      // our choice: as many pictures as one screen holds
+constexpr int kMostJobHands = 2000;           // our choice: some hours on two cores
+constexpr double kReportShare = 0.15;         // of a study's time, about
+
+[[noreturn]] void refuse_job(const std::string& member, const JobJson& value,
+                             const std::string& allowed) {
+  throw UsageError("job: \"" + member + "\" is " +
+                   in_quotes(value.dump(-1, ' ', false, JobJson::error_handler_t::replace)) + "; " +
+                   allowed + " is required");
+}
+
+JobJson member_or_null(const JobJson& json, const char* name) {
+  return json.contains(name) ? json[name] : JobJson(nullptr);
+}
+
+std::optional<double> job_number(const JobJson& json, const char* name, double low, double high) {
+  const JobJson value = member_or_null(json, name);
+  if (value.is_null()) return std::nullopt;
+  const double number = value.is_number() ? value.get<double>() : NAN;
+  if (!(number >= low && number <= high)) {
+    refuse_job(name, value, "a number from " + shortest(low) + " to " + shortest(high));
+  }
+  return number;
+}
+
+std::optional<int> job_count(const JobJson& json, const char* name, int low, int high) {
+  const JobJson value = member_or_null(json, name);
+  if (value.is_null()) return std::nullopt;
+  if (!value.is_number_integer() || value.get<double>() < low || value.get<double>() > high) {
+    refuse_job(name, value,
+               "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return value.get<int>();
+}
+
+std::string job_text(const JobJson& json, const char* name) {
+  const JobJson value = member_or_null(json, name);
+  if (value.is_null()) return "";
+  if (!value.is_string()) refuse_job(name, value, "a text");
+  return value.get<std::string>();
+}
+
+std::vector<std::string> job_texts(const JobJson& json, const char* name, std::size_t fewest,
+                                   std::size_t most) {
+  const JobJson value = member_or_null(json, name);
+  const std::string allowed =
+      "a list of " + std::to_string(fewest) + " to " + std::to_string(most) + " different names";
+  if (!value.is_array() || value.size() < fewest || value.size() > most) {
+    refuse_job(name, value, allowed);
+  }
+  std::vector<std::string> all;
+  for (const JobJson& one : value) {
+    if (!one.is_string()) refuse_job(name, value, allowed);
+    all.push_back(one.get<std::string>());
+    if (std::count(all.begin(), all.end(), all.back()) > 1) refuse_job(name, value, allowed);
+  }
+  return all;
+}
+
+/// A built-in population or people from one size to another; never a file of this machine.
+void check_population(const std::string& name) {
+  const bool is_range = is_people_range(name);
+  const bool is_plain =
+      !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
+      std::all_of(name.begin(), name.end(), [is_range](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-' || (is_range && (c == ':' || c == '.'));
+      });
+  if (!is_plain) {
+    throw UsageError("job: population " + in_quotes(name) +
+                     ": the name of a built-in one is required (palmar population list)");
+  }
+  population_requests(name);  // throws for unknown ends of a range
+}
+
+JobKind kind_named(const std::string& name) {
+  if (name == "study") return JobKind::kStudy;
+  if (name == "compare") return JobKind::kCompare;
+  if (name == "redesign") return JobKind::kRedesign;
+  throw UsageError("job: \"kind\" is " + in_quotes(name) +
+                   "; study, compare or redesign is allowed");
+}
+
+std::string kind_name(JobKind kind) {
+  switch (kind) {
+    case JobKind::kStudy:
+      return "study";
+    case JobKind::kCompare:
+      return "compare";
+    case JobKind::kRedesign:
+      return "redesign";
+  }
+  return {};
+}
+
+void read_people(const JobJson& json, JobRequest& request) {
+  request.populations = job_texts(json, "populations", 1, 4);
+  bool are_drawn = false;
+  for (const std::string& one : request.populations) {
+    check_population(one);
+    are_drawn = are_drawn || !is_people_range(one);
+  }
+  request.hands = job_count(json, "hands", 0, kMostJobHands).value_or(0);
+  if (are_drawn && request.hands == 0) {
+    refuse_job("hands", member_or_null(json, "hands"),
+               "a whole number from 1 to " + std::to_string(kMostJobHands));
+  }
+  if (!are_drawn) request.hands = 0;
+}
+
+void add_task(const JobRequest& request, std::vector<std::string>& words) {
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (request.hold) add("--hold", std::to_string(*request.hold));
+  if (request.grip_force) add("--grip-force-n", shortest(*request.grip_force));
+  if (request.mass) add("--mass-kg", shortest(*request.mass));
+}
+
+void add_people(const JobRequest& request, std::vector<std::string>& words) {
+  for (const std::string& one : request.populations) {
+    words.insert(words.end(), {"--population", one});
+  }
+  if (request.hands > 0) words.insert(words.end(), {"--hands", std::to_string(request.hands)});
+}
+
+void add_unit(const JobPlaces& places, std::vector<std::string>& words) {
+  if (places.unit) words.insert(words.end(), {"--unit", name_of(*places.unit)});
+}
+
+std::vector<std::string> study_words(const JobRequest& request, const JobPlaces& places) {
+  std::vector<std::string> words;
+  for (const std::string& one : places.products) words.insert(words.end(), {"--product", one});
+  add_unit(places, words);
+  add_people(request, words);
+  add_task(request, words);
+  return words;
+}
+
+std::vector<std::string> redesign_words(const JobRequest& request, const JobPlaces& places) {
+  std::vector<std::string> words = {"redesign", request.verb, places.products.front()};
+  add_unit(places, words);
+  add_people(request, words);
+  if (request.hold) words.insert(words.end(), {"--hold", std::to_string(*request.hold)});
+  if (request.largest_depth) {
+    words.insert(words.end(), {"--largest-depth-mm", shortest(*request.largest_depth)});
+  }
+  if (request.verb == "fillet") {
+    words.insert(words.end(), {"--edges", "long"});
+    const auto [low, high] = request.radius.value_or(std::pair(1.0, 15.0));
+    words.insert(words.end(), {"--radius-mm", shortest(low) + ":" + shortest(high)});
+  }
+  if (request.verb == "features") words.emplace_back("--propose");
+  return words;
+}
+
+void append(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+JobRequest parse_job_request(std::string_view text) {
+  const JobJson json = JobJson::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) {
+    throw UsageError("job: " + in_quotes(text.substr(0, 100)) + " is no JSON object");
+  }
+  JobRequest request;
+  request.kind = kind_named(job_text(json, "kind"));
+  const std::string language = job_text(json, "language");
+  if (!language.empty()) request.language = language_named(language);
+  request.hold = job_count(json, "hold", 1, 1000);
+  switch (request.kind) {
+    case JobKind::kStudy:
+      request.products = job_texts(json, "products", 1, kMostJobProducts);
+      read_people(json, request);
+      break;
+    case JobKind::kCompare: {
+      request.products = job_texts(json, "products", 2, kMostCompared);
+      request.person = job_text(json, "person");
+      if (!request.person.empty()) {
+        request.person = person_argument(parse_person_of_size(request.person));
+      }
+      const JobJson left = member_or_null(json, "left");
+      if (!left.is_null() && !left.is_boolean()) refuse_job("left", left, "true or false");
+      request.is_left = left.is_boolean() && left.get<bool>();
+      break;
+    }
+    case JobKind::kRedesign: {
+      request.products = job_texts(json, "products", 1, 1);
+      read_people(json, request);
+      request.verb = job_text(json, "verb");
+      const bool is_known = request.verb == "press" || request.verb == "region" ||
+                            request.verb == "fillet" || request.verb == "features";
+      if (!is_known) {
+        refuse_job("verb", member_or_null(json, "verb"), "press, region, fillet or features");
+      }
+      const bool has_depth = request.verb == "press" || request.verb == "region";
+      if (has_depth) request.largest_depth = job_number(json, "largest_depth_mm", 0.1, 50.0);
+      const JobJson radius = member_or_null(json, "radius_mm");
+      if (request.verb != "fillet" || radius.is_null()) return request;
+      const bool are_two =
+          radius.is_array() && radius.size() == 2 && radius[0].is_number() && radius[1].is_number();
+      const double low = are_two ? radius[0].get<double>() : NAN;
+      const double high = are_two ? radius[1].get<double>() : NAN;
+      if (!(low >= 0.1 && low < high && high <= 200.0)) {
+        refuse_job("radius_mm", radius, "two numbers from 0.1 to 200, the smaller one first,");
+      }
+      request.radius = {low, high};
+      return request;
+    }
+  }
+  request.grip_force = job_number(json, "grip_force_n", 0.1, 2000.0);
+  request.mass = job_number(json, "mass_kg", 0.001, 100.0);
+  return request;
+}
+
+std::string job_request_json(const JobRequest& request) {
+  const auto or_null_json = [](const auto& value) {
+    return value ? JobJson(*value) : JobJson(nullptr);
+  };
+  JobJson json = {{"kind", kind_name(request.kind)},
+                  {"products", request.products},
+                  {"language", std::string(name_of(request.language))},
+                  {"hold", or_null_json(request.hold)}};
+  if (request.kind != JobKind::kCompare) {
+    json["populations"] = request.populations;
+    json["hands"] = request.hands;
+  } else {
+    json["person"] = request.person;
+    json["left"] = request.is_left;
+  }
+  if (request.kind != JobKind::kRedesign) {
+    json["grip_force_n"] = or_null_json(request.grip_force);
+    json["mass_kg"] = or_null_json(request.mass);
+  } else {
+    json["verb"] = request.verb;
+    json["largest_depth_mm"] = or_null_json(request.largest_depth);
+    if (request.radius) json["radius_mm"] = {request.radius->first, request.radius->second};
+  }
+  return json.dump();
+}
+
+std::vector<JobCommand> commands_of(const JobRequest& request, const JobPlaces& places) {
+  const std::string language(name_of(request.language));
+  switch (request.kind) {
+    case JobKind::kStudy: {
+      const std::string store = places.folder + kJobStore;
+      std::vector<std::string> run = {"study", "run"};
+      append(run, study_words(request, places));
+      append(run, {"--out", store});
+      return {
+          {std::move(run), 1.0 - kReportShare},
+          {{"study", "report", store, "--out", places.folder + "report", "--language", language},
+           kReportShare}};
+    }
+    case JobKind::kCompare: {
+      std::vector<std::string> words = {"assess"};
+      append(words, places.products);
+      add_unit(places, words);
+      if (!request.person.empty()) append(words, {"--person", request.person});
+      if (request.is_left) words.emplace_back("--left");
+      add_task(request, words);
+      append(words, {"--language", language, "--out", places.folder + "report"});
+      return {{std::move(words), 1.0}};
+    }
+    case JobKind::kRedesign: {
+      std::vector<std::string> words = redesign_words(request, places);
+      append(words, {"--language", language, "--out", places.folder + "redesign"});
+      return {{std::move(words), 1.0}};
+    }
+  }
+  return {};
+}
+
+JobCommand estimate_of(const JobRequest& request, const JobPlaces& places) {
+  std::vector<std::string> words = {"study", "plan"};
+  append(words, study_words(request, places));
+  words.emplace_back("--json");
+  return {std::move(words), 1.0};
+}
+
+std::string command_text(const JobCommand& command) {
+  std::string text = "palmar";
+  for (const std::string& word : command.words) text += " " + shell_word(word);
+  return text;
+}
+
+std::filesystem::path job_report(JobKind kind) {
+  return kind == JobKind::kRedesign ? "redesign/report/report.html" : "report/report.html";
+}
+
+std::filesystem::path job_results(JobKind kind) {
+  return kind == JobKind::kRedesign ? "redesign" : "report";
+}
+
+}  // namespace palmar

@@ -1,0 +1,74 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palmar/core/language.h"
+#include "palmar/geometry/length_unit.h"
+
+namespace palmar {
+
+/// What takes minutes and so runs by itself: many hands, several designs side by side, a redesign.
+enum class JobKind { kStudy, kCompare, kRedesign };
+
+/// What a client asks for, one JSON object:
+///
+///     {"kind": "study", "products": ["p1", ...], "populations": ["ansur2_women"], "hands": 12,
+///     TASK}
+///     {"kind": "compare", "products": ["p1", "p2"], "person": "woman:P5", "left": false, TASK}
+///     {"kind": "redesign", "products": ["p1"], "verb": "press" | "region" | "fillet" | "features",
+///      "populations", "hands", "largest_depth_mm", "radius_mm": [1, 15]}
+///
+///     TASK  "grip_force_n" (null: the usual one), "mass_kg", "hold"; "language": "en" | "de" is of
+///     all
+struct JobRequest {
+  JobKind kind = JobKind::kStudy;
+  std::vector<std::string> products;  ///< keys on the shelf
+  std::vector<std::string> populations;
+  int hands = 0;  ///< from each; 0 for populations of given people
+  std::string person;
+  bool is_left = false;
+  std::optional<double> grip_force;                 ///< N
+  std::optional<double> mass;                       ///< kg
+  std::optional<int> hold;                          ///< number in the list of holds
+  std::string verb;                                 ///< of a redesign
+  std::optional<double> largest_depth;              ///< mm, of press and region
+  std::optional<std::pair<double, double>> radius;  ///< mm, of fillet
+  Language language = Language::kEnglish;
+};
+
+/// Throws UsageError naming the member, its value and what is allowed.
+JobRequest parse_job_request(std::string_view text);
+/// The same back, so that parse_job_request() reads it.
+std::string job_request_json(const JobRequest& request);
+
+/// Where the command lines of a job take its products from and put what comes of it.
+struct JobPlaces {
+  std::vector<std::string> products;  ///< files, in the order of the request
+  std::optional<LengthUnit> unit;     ///< of those that carry none
+  std::string folder;  ///< in front of what is written, with '/'; "": the working folder
+};
+
+/// One step of a job: a command line of this program, without its name.
+struct JobCommand {
+  std::vector<std::string> words;
+  double share = 1.0;  ///< of the whole job's time, about
+};
+std::vector<JobCommand> commands_of(const JobRequest& request, const JobPlaces& places);
+/// What tells how long a study takes.
+JobCommand estimate_of(const JobRequest& request, const JobPlaces& places);
+/// As a person would type it.
+std::string command_text(const JobCommand& command);
+
+/// Where things are in a job's folder.
+std::filesystem::path job_report(JobKind kind);   ///< the page
+std::filesystem::path job_results(JobKind kind);  ///< the folder with files for other programs
+inline constexpr const char* kJobStore = "study.palmar";
+
+}  // namespace palmar

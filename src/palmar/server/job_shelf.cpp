@@ -1,0 +1,371 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/server/job_shelf.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/formats/process/child_process.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/server/access.h"
+#include "palmar/server/job_file.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kJobNiceness = 10;                     // our choice: the live channel comes first
+constexpr double kLongestJob = 30.0 * 24 * 3600;     // s
+constexpr double kJobMemory = 1e6, kJobFiles = 1e6;  // MB; studies need what they need
+constexpr const char* kJobLog = "log.txt";
+
+std::string new_job_key(const std::vector<Job>& jobs) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  std::int64_t stamp = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  const auto is_taken = [&](const std::string& key) {
+    return std::any_of(jobs.begin(), jobs.end(), [&](const Job& one) { return one.key == key; });
+  };
+  while (is_taken("j" + std::to_string(stamp))) ++stamp;
+  return "j" + std::to_string(stamp);
+}
+
+std::string title_of_products(const std::vector<ShelvedProduct>& products) {
+  std::string title;
+  for (const ShelvedProduct& one : products) {
+    title += (title.empty() ? "" : ", ") + std::filesystem::path(one.file_name).stem().string();
+  }
+  return title;
+}
+
+/// Only one unit can be said on a command line, for the files that carry none.
+std::optional<LengthUnit> one_unit_of(const std::vector<ShelvedProduct>& products) {
+  std::optional<LengthUnit> unit;
+  for (const ShelvedProduct& one : products) {
+    if (!one.unit) continue;
+    if (unit && *unit != *one.unit) {
+      throw UsageError("the products are in different units (" + name_of(*unit) + ", " +
+                       name_of(*one.unit) + "); convert one of them (palmar product convert)");
+    }
+    unit = one.unit;
+  }
+  return unit;
+}
+
+/// What the program said last, without its name in front.
+std::string last_words(const std::filesystem::path& log) {
+  constexpr std::string_view kSaid = "palmar: ";
+  try {
+    const std::string text = read_file(log);
+    const std::size_t begin = text.rfind("\npalmar: ");
+    std::string words = begin == std::string::npos ? text : text.substr(begin + 1);
+    if (words.starts_with(kSaid)) words.erase(0, kSaid.size());
+    while (!words.empty() && words.back() == '\n') words.pop_back();
+    return words;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(JobState state) {
+  switch (state) {
+    case JobState::kEstimating:
+      return "estimating";
+    case JobState::kNew:
+      return "new";
+    case JobState::kWaiting:
+      return "waiting";
+    case JobState::kRunning:
+      return "running";
+    case JobState::kStopped:
+      return "stopped";
+    case JobState::kFailed:
+      return "failed";
+    case JobState::kDone:
+      return "done";
+  }
+  return {};
+}
+
+JobShelf::JobShelf(std::optional<std::filesystem::path> folder, std::filesystem::path program)
+    : folder_(std::move(folder)), program_(std::move(program)) {
+  load();
+  thread_ = std::thread([this] { run(); });
+}
+
+JobShelf::~JobShelf() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_stopping_ = true;
+    cancel_ = true;
+  }
+  woken_.notify_all();
+  thread_.join();
+}
+
+void JobShelf::load() {
+  if (!folder_) return;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(*folder_, error)) {
+    const std::string key = entry.path().filename().string();
+    if (!is_plain_name(key)) continue;
+    auto job = read_job(entry.path());
+    if (!job) continue;
+    job->key = key;
+    const bool was_running = job->state == JobState::kRunning || job->state == JobState::kWaiting;
+    if (was_running) job->state = JobState::kStopped;
+    if (job->state == JobState::kEstimating) job->state = JobState::kNew;
+    job->has_report = std::filesystem::exists(report(*job));
+    jobs_.push_back(std::move(*job));
+  }
+}
+
+JobPlaces JobShelf::places(const Job& job) const {
+  JobPlaces places;
+  for (const ShelvedProduct& one : job.products) places.products.push_back(one.path.string());
+  places.unit = one_unit_of(job.products);
+  places.folder = place(job.key).string() + "/";
+  return places;
+}
+
+Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& products) {
+  if (!folder_) throw OutputError("neither XDG_DATA_HOME nor HOME says where to keep results");
+  const std::scoped_lock lock(mutex_);
+  if (jobs_.size() >= kMost) {
+    throw UsageError("there are " + std::to_string(kMost) +
+                     " studies, comparisons and redesigns; "
+                     "remove one first");
+  }
+  Job job;
+  job.request = request;
+  job.title = title_of_products(products);
+  job.key = new_job_key(jobs_);
+  job.created = std::stoll(job.key.substr(1));
+  JobPlaces shown;
+  shown.unit = one_unit_of(products);
+  for (std::size_t p = 0; p < products.size(); ++p) {
+    ShelvedProduct copy = products[p];
+    copy.product = nullptr;
+    // Two may have one name: each in a folder of its own.
+    copy.path = place(job.key) / "products" / std::to_string(p + 1) / copy.file_name;
+    create_folder(copy.path.parent_path());
+    write_file(copy.path, read_file(products[p].path));
+    shown.products.push_back(copy.argument);
+    job.products.push_back(std::move(copy));
+  }
+  for (const JobCommand& one : commands_of(request, shown)) {
+    job.commands.push_back(command_text(one));
+  }
+  job.state = request.kind == JobKind::kStudy ? JobState::kEstimating : JobState::kWaiting;
+  save(job);
+  jobs_.push_back(job);
+  queue_.push_back(job.key);
+  woken_.notify_all();
+  return job;
+}
+
+std::vector<Job> JobShelf::list() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<Job> all = jobs_;
+  std::sort(all.begin(), all.end(), [](const Job& a, const Job& b) {
+    return std::pair(b.created, a.key) < std::pair(a.created, b.key);
+  });
+  return all;
+}
+
+std::optional<Job> JobShelf::find(const std::string& key) const {
+  const std::scoped_lock lock(mutex_);
+  for (const Job& one : jobs_) {
+    if (one.key == key) return one;
+  }
+  return std::nullopt;
+}
+
+Job* JobShelf::at(const std::string& key) {
+  for (Job& one : jobs_) {
+    if (one.key == key) return &one;
+  }
+  throw UsageError("job " + in_quotes(key) + " is not there (any more)");
+}
+
+void JobShelf::save(const Job& job) const { write_job(place(job.key), job); }
+
+void JobShelf::start(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  Job* const job = at(key);
+  if (job->state == JobState::kWaiting || job->state == JobState::kRunning ||
+      job->state == JobState::kDone) {
+    return;
+  }
+  // While it is estimated the estimate is given up.
+  if (running_ == key) cancel_ = true;
+  job->state = JobState::kWaiting;
+  job->message.clear();
+  save(*job);
+  std::erase(queue_, key);
+  queue_.push_back(key);
+  woken_.notify_all();
+}
+
+void JobShelf::cancel(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  Job* const job = at(key);
+  if (running_ == key) {
+    cancel_ = true;  // its thread says that it has stopped
+    return;
+  }
+  if (job->state != JobState::kWaiting) return;
+  std::erase(queue_, key);
+  job->state = JobState::kStopped;
+  save(*job);
+}
+
+void JobShelf::remove(const std::string& key) {
+  const std::scoped_lock lock(mutex_);
+  const Job* const job = at(key);
+  if (running_ == key) throw UsageError("job " + in_quotes(key) + " is running; stop it first");
+  std::erase(queue_, key);
+  std::error_code ignored;
+  // Without it the folder counts for nothing, whatever happens to the rest.
+  std::filesystem::remove(place(job->key) / kJobJson, ignored);
+  std::filesystem::remove_all(place(job->key), ignored);
+  std::erase_if(jobs_, [&](const Job& one) { return one.key == key; });
+}
+
+std::vector<std::string> JobShelf::files(const Job& job) const {
+  std::vector<std::string> names;
+  std::error_code error;
+  const std::filesystem::path folder = place(job.key) / job_results(job.request.kind);
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.is_regular_file(error)) names.push_back(entry.path().filename().string());
+  }
+  if (job.request.kind == JobKind::kStudy && std::filesystem::exists(store(job))) {
+    names.emplace_back(kJobStore);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::optional<std::filesystem::path> JobShelf::file(const Job& job, const std::string& name) const {
+  const std::vector<std::string> names = files(job);
+  if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
+  if (name == kJobStore) return store(job);
+  return place(job.key) / job_results(job.request.kind) / name;
+}
+
+std::filesystem::path JobShelf::report(const Job& job) const {
+  return place(job.key) / job_report(job.request.kind);
+}
+
+std::filesystem::path JobShelf::store(const Job& job) const { return place(job.key) / kJobStore; }
+
+// --- the thread
+
+void JobShelf::run() {
+  // Of this thread alone, and what it starts.
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kJobNiceness);
+  while (true) {
+    std::string key;
+    {
+      std::unique_lock lock(mutex_);
+      running_.clear();
+      woken_.wait(lock, [this] { return is_stopping_ || !queue_.empty(); });
+      if (is_stopping_) return;
+      key = queue_.front();
+      queue_.pop_front();
+      running_ = key;
+      cancel_ = false;
+    }
+    try {
+      work(key);
+    } catch (const std::exception& error) {
+      change(key, JobState::kFailed, error.what());
+    }
+  }
+}
+
+void JobShelf::change(const std::string& key, JobState state, const std::string& message) {
+  const std::scoped_lock lock(mutex_);
+  Job* const job = at(key);
+  job->state = state;
+  job->message = message;
+  job->share = 0.0;
+  job->doing.clear();
+  if (state == JobState::kDone) job->has_report = std::filesystem::exists(report(*job));
+  try {
+    save(*job);
+  } catch (const Error& error) {  // a full disk, say
+    job->message = error.what();
+  }
+}
+
+void JobShelf::work(const std::string& key) {
+  const std::optional<Job> job = find(key);
+  if (!job) return;
+  if (job->state == JobState::kEstimating) return estimate(*job);
+  change(key, JobState::kRunning);
+  if (job->request.kind != JobKind::kStudy) {  // half of what an earlier run made is of no use
+    std::error_code ignored;
+    std::filesystem::remove_all(place(key) / job_results(job->request.kind), ignored);
+  }
+  double from = 0.0;
+  for (const JobCommand& command : commands_of(job->request, places(*job))) {
+    const std::string error = run_command(key, command, from, nullptr);
+    if (cancel_) return change(key, JobState::kStopped);
+    if (!error.empty()) return change(key, JobState::kFailed, error);
+    from += command.share;
+  }
+  change(key, JobState::kDone);
+}
+
+void JobShelf::estimate(const Job& job) {
+  std::string said;
+  const std::string error = run_command(job.key, estimate_of(job.request, places(job)), 0.0, &said);
+  {
+    const std::scoped_lock lock(mutex_);
+    Job* const now = at(job.key);
+    if (now->state != JobState::kEstimating) return;  // it was started meanwhile
+    const StudyEstimateWords words = study_estimate_in(said);
+    now->estimate_seconds = words.seconds;
+    now->grasps = words.grasps;
+  }
+  change(job.key, cancel_ || error.empty() ? JobState::kNew : JobState::kFailed,
+         cancel_ ? "" : error);
+}
+
+std::string JobShelf::run_command(const std::string& key, const JobCommand& command, double from,
+                                  std::string* said) {
+  const std::filesystem::path log = place(key) / kJobLog;
+  const auto take = [&](const std::string& line) {
+    const auto progress = progress_in(line);
+    if (!progress) {
+      if (said != nullptr) *said += line + "\n";
+      return;
+    }
+    const std::scoped_lock lock(mutex_);
+    for (Job& one : jobs_) {
+      if (one.key != key) continue;
+      one.share = from + command.share * progress->share;
+      one.doing = progress->doing;
+    }
+  };
+  const ChildResult result =
+      run_child(program_, command.words, log,
+                {.seconds = kLongestJob, .memory_mb = kJobMemory, .file_mb = kJobFiles}, take,
+                [this] { return cancel_.load(); });
+  if (result.end == ChildResult::End::kExited && result.code == 0) return {};
+  if (result.end == ChildResult::End::kExited) {
+    const std::string words = last_words(log);
+    return words.empty() ? "it ended with code " + std::to_string(result.code) : words;
+  }
+  return result.end == ChildResult::End::kSignal ? words_of_signal(result.code) : "it was stopped";
+}
+
+}  // namespace palmar

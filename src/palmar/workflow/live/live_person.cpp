@@ -1,0 +1,42 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/live/live_person.h"
+
+#include <algorithm>
+
+#include "palmar/core/error.h"
+#include "palmar/core/text.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/rest/task_force.h"
+
+namespace palmar {
+
+PersonOfSize parse_person_of_size(const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string sex = text.substr(0, colon);
+  const bool is_known = (sex == "woman" || sex == "man") && text.substr(colon).starts_with(":P");
+  const auto percentile = is_known ? parse_double(text.substr(colon + 2)) : std::nullopt;
+  if (!percentile) {
+    throw UsageError("person is " + in_quotes(text) +
+                     "; woman or man with a percentile is allowed: woman:P5, man:P95");
+  }
+  const PersonOfSize person{sex == "woman" ? Sex::kFemale : Sex::kMale, *percentile};
+  person.check();
+  return person;
+}
+
+std::string person_argument(const PersonOfSize& person) {
+  return std::string(person.sex == Sex::kFemale ? "woman" : "man") + ":P" +
+         shortest(person.percentile);
+}
+
+LiveTask task_of_person(LiveTask task, const std::optional<PersonOfSize>& person) {
+  if (task.rest.is_usual() && person) {
+    task.rest.person = PersonOfAge{person->sex, kUsualAge};
+    task.rest.strength_share = kUsualStrengthShare;
+  }
+  return task;
+}
+
+}  // namespace palmar
