@@ -147,9 +147,10 @@ TEST(Assess, AnswersInAFewLinesUnlessAskedForDetails) {
   ASSERT_EQ(few.exit_code, 0) << few.err;
   EXPECT_LE(std::count(few.out.begin(), few.out.end(), '\n'), 22) << few.out;
   EXPECT_TRUE(few.out.starts_with("c48 is held with ")) << few.out;
-  for (const char* part : {"hold: ", "held by ", "grip force: 107 N, 25 % of ", "balance: in balance",
-                           "contact area: ", " mm²\n", "with soft, ", "Report: few/report.html",
-                           "friction: With a friction coefficient of 0.6"}) {
+  for (const char* part :
+       {"hold: ", "held by ", "grip force: 107 N, 25 % of ", "balance: in balance",
+        "contact area: ", " mm²\n", "with soft, ", "Report: few/report.html",
+        "friction: With a friction coefficient of 0.6"}) {
     EXPECT_THAT(few.out, HasSubstr(part));
   }
   const ProgramRun all =

@@ -49,7 +49,8 @@ TEST(FrictionCommand, SaysHeldOrSlipsAndEndsWellBothTimes) {
               0.6);
   const ProgramRun anvil = assess("--friction 0.6 --mass-kg 300");
   EXPECT_EQ(anvil.exit_code, 0);
-  EXPECT_THAT(anvil.out, AllOf(HasSubstr("the product slips"), HasSubstr("friction holds at most")));
+  EXPECT_THAT(anvil.out,
+              AllOf(HasSubstr("the product slips"), HasSubstr("friction holds at most")));
   EXPECT_THAT(read_text(folder() + "/report/report.html"),
               AllOf(HasSubstr("It slips."), HasSubstr("Friction per region")));
   EXPECT_THAT(read_text(folder() + "/report/bar/hand.vtp"), HasSubstr("mobilised_friction"));

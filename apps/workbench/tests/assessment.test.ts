@@ -156,7 +156,7 @@ function index(key: string, group: string, value: number | null): GraspIndex {
 }
 
 test("indices have a table per group and unfold to definitions", () => {
-  const section = text(indexSection([index("a", "stability", 0.123456), index("b", "stability", null), index("c", "comfort", 12)]));
+  const section = text(indexSection([index("a", "stability", 0.123456), index("b", "stability", null), index("c", "comfort", 12)], vocabulary));
   assert.equal(count(section, "<table"), 2);
   assert.equal(count(section, "<details>"), 3);
   assert.match(section, /^<details class="inner">/); // folded until it is asked for
@@ -164,7 +164,7 @@ test("indices have a table per group and unfold to definitions", () => {
   for (const part of ['data-value="0.123456"', "mm²", "area &lt; limit", "less is better", "0 to 100"]) {
     assert.ok(section.indexOf(part) >= 0, part);
   }
-  assert.equal(indexSection([]), null);
+  assert.equal(indexSection([], vocabulary), null);
 });
 
 test("indices of several products stand row by row", () => {
