@@ -282,8 +282,11 @@ TEST(Assess, BandEnclosesTheResultOfTheMiddleTissue) {
        {"force_n", "contact_area_mm2", "peak_pressure_mpa", "peak_pressure_cells_mpa"}) {
     const Json& three = contact.at("band").at(key);
     EXPECT_EQ(three.at("nominal"), contact.at(key)) << key;
-    EXPECT_LT(three.at("low").get<double>(), three.at("nominal").get<double>()) << key;
-    EXPECT_GT(three.at("high").get<double>(), three.at("nominal").get<double>()) << key;
+    // In one posture the area is the shapes', hardly the tissue's.
+    const double nominal = three.at("nominal").get<double>();
+    const double slack = key == std::string("contact_area_mm2") ? 1e-3 * nominal : 0.0;
+    EXPECT_LT(three.at("low").get<double>(), nominal + slack) << key;
+    EXPECT_GT(three.at("high").get<double>(), nominal - slack) << key;
   }
   double low = 0.0, high = 0.0;
   for (const Json& region : contact.at("regions")) {
@@ -421,7 +424,7 @@ TEST(Assess, SleeveSpreadsThePressure) {
   const Json one = assessed("--coating 3,100");
   const Json& contact = one.at("contact");
   const Json& bare = rigid().at("contact");
-  for (const char* key : {"peak_pressure_mpa", "peak_pressure_cells_mpa", "force_n"}) {
+  for (const char* key : {"peak_pressure_mpa", "peak_pressure_cells_mpa", "mean_pressure_mpa"}) {
     EXPECT_LT(contact.at(key).get<double>(), bare.at(key).get<double>()) << key;
   }
   EXPECT_GT(contact.at("contact_area_mm2").get<double>(),

@@ -21,19 +21,19 @@ using ::testing::HasSubstr;
 
 class BadInput : public ::testing::Test {
  protected:
-  std::string folder_ = temporary_folder();
+  std::string folder = temporary_folder();
 
   std::string file(const std::string& name, const std::string& content) {
-    return write_text(folder_ + "/" + name, content);
+    return write_text(folder + "/" + name, content);
   }
   ProgramRun assess(const std::string& arguments) {
-    return run_palmar("assess --out '" + folder_ + "/report' " + arguments, folder_);
+    return run_palmar("assess --out '" + folder + "/report' " + arguments, folder);
   }
   void expect_input_error(const ProgramRun& run, const std::string& name, const std::string& text) {
     EXPECT_EQ(run.exit_code, 3) << run.err;
     EXPECT_THAT(run.err, AllOf(HasSubstr(name), HasSubstr(text)));
     EXPECT_EQ(run.out, "");
-    EXPECT_FALSE(std::filesystem::exists(folder_ + "/report"));
+    EXPECT_FALSE(std::filesystem::exists(folder + "/report"));
   }
   /// A binary STL of one tetrahedron with corner coordinates scaled by `scale`.
   static std::string tetrahedron(float scale) {
@@ -129,10 +129,10 @@ TEST_F(BadInput, WrongHandFile) {
 TEST_F(BadInput, UnwritableOutput) {
   file("part.stl", tetrahedron(60));
   file("occupied", "a file, not a folder");
-  const ProgramRun run = run_palmar("assess part.stl --unit mm --out occupied/report", folder_);
+  const ProgramRun run = run_palmar("assess part.stl --unit mm --out occupied/report", folder);
   EXPECT_EQ(run.exit_code, 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("occupied"));
-  EXPECT_EQ(read_text(folder_ + "/occupied"), "a file, not a folder");
+  EXPECT_EQ(read_text(folder + "/occupied"), "a file, not a folder");
 }
 
 TEST_F(BadInput, FullDisk) {
@@ -147,10 +147,10 @@ TEST_F(BadInput, FileSizeLimitLeavesNoHalfFile) {
   const ProgramRun run =
       run_palmar("--version >/dev/null; ulimit -f 8; trap '' XFSZ; '" PALMAR_EXECUTABLE
                  "' product make sphere --diameter-mm 60 --out ball.stl",
-                 folder_);
+                 folder);
   EXPECT_EQ(run.exit_code, 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr("ball.stl"));
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 TEST_F(BadInput, UnknownOptionNamesTheNearest) {
@@ -240,11 +240,11 @@ TEST_F(BadInput, MessagesNameOptionsAsTheyAreTyped) {
        "palmar: --edges with --radius-mm \"9:2\": from 9 to 2"},
   };
   for (const auto& one : cases) {
-    const ProgramRun run = run_palmar(one.arguments, folder_);
+    const ProgramRun run = run_palmar(one.arguments, folder);
     EXPECT_EQ(run.exit_code, 2) << one.arguments << run.err;
     EXPECT_THAT(run.err, HasSubstr(one.said)) << one.arguments;
   }
-  EXPECT_FALSE(std::filesystem::exists(folder_ + "/made"));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/made"));
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ std::string shortened(std::string command) {
     const std::string many = command.find(" --hands ") == command.npos ? " --hands 2" : "";
     at_most("--hands", "2");
     command += many;
-    if (command.starts_with("redesign f")) command += " --evaluations 3";  // fillet, features
+    // fillet, features: hands close on every candidate anew, but for a posture that is kept
+    if (command.starts_with("redesign f")) command += " --evaluations 3 --hold-posture kept";
   }
   return command;
 }

@@ -124,7 +124,7 @@ TEST(FrictionCommand, GripForceAndStrengthAreAskedFor) {
 TEST(FrictionCommand, UsualGripForceIsSaidWithItsSource) {
   const ProgramRun usual = assess("");
   ASSERT_EQ(usual.exit_code, 0) << usual.err;
-  EXPECT_THAT(usual.out, HasSubstr("107 N asked for: 25 % of what women and men of 45 years "
+  EXPECT_THAT(usual.out, HasSubstr("grip force: 107 N, 25 % of what women and men of 45 years "
                                    "(mean; Steiber 2016) reach on a dynamometer, 427 N"));
   EXPECT_THAT(read_text(folder() + "/report/report.html"),
               HasSubstr("asked to grip with 107 N (25 % of what women and men"));

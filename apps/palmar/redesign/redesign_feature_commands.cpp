@@ -97,7 +97,7 @@ void add_redesign_feature_commands(CLI::App& noun, Context& context) {
   CLI::App* verb = add_verb(
       noun, "features", "Sizes of features with the best goal over hands; proposals of which",
       "palmar redesign features \"made: cylinder diameter_mm=30 length_mm=130\" --vary "
-      "diameter_mm=25:45 --hold-posture new --hands 30 --out handle");
+      "diameter_mm=25:45 --hands 30 --out handle");
   add_common(*verb, *a);
   verb->add_option(
           "--vary", a->request.vary,

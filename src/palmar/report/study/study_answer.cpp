@@ -8,6 +8,7 @@
 
 #include "palmar/core/text.h"
 #include "palmar/grasp/indices/grasp_index.h"
+#include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/study_words.h"
 #include "palmar/report/words/phrases.h"
 #include "palmar/report/words/texts.h"
