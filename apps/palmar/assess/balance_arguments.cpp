@@ -125,7 +125,8 @@ std::string balance_text(const Assessment& assessment) {
   const Grip grip = assessment.grasp.grip;
   const std::optional<double> asked = options.asked_grip_force(grip);
   std::string text = "grip force:";
-  const bool is_reached = asked && std::abs(balance.grip_force - *asked) < 0.5;
+  // As they are printed.
+  const bool is_reached = asked && std::lround(balance.grip_force) == std::lround(*asked);
   if (balance.grip_force > 0.0) text += fmt::format(" {:.0f} N,", balance.grip_force);
   if (asked && !is_reached) text += fmt::format(" {:.0f} N asked for:", *asked);
   text += " " + options.asked_words(grip) + "\n";
