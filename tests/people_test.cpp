@@ -39,7 +39,8 @@ TEST_F(People, RegressionsStandInTheTemplatesProportions) {
 // Hands as drawn can be made: their dimensions don't contradict each other.
 TEST_F(People, HandsAsDrawnCanBeMade) {
   const HandInstanceMaker maker(hand());
-  for (const char* name : {"xie2014", "ansur2", "japanese", "delhi_men", "nigerian"}) {
+  for (const char* name : {"xie2014", "ansur2", "japanese", "delhi_men", "nigerian", "indian_women",
+                           "dutch_over_80", "dutch_children_2"}) {
     SamplingOptions options;
     options.hands = 6;
     for (const HandSample& person : sample_hands(population_named(name), options)) {

@@ -40,6 +40,27 @@ function legend(scale: ColourBar): Markup {
   return html`<svg class="legend" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 420 14" role="img" font-size="12" fill="#1d2329" data-unit="${scale.unit}" aria-label="${say("colourbar.label", { quantity: scale.quantity, upper: shortNumber(scale.upper), unit: scale.unit })}"><text x="0" y="12">${scale.quantity}, ${scale.unit}</text><text x="${left - 6}" y="12" text-anchor="end" data-value="0">0</text>${bands}<text x="${left + width + 6}" y="12" data-value="${String(scale.upper)}">${most}</text></svg>`;
 }
 
+/// A command that breaks between its options, and inside one only where it is longer than the line: words
+/// of a shell, an option together with its values.
+export function commandParts(command: string): string[][] {
+  const words = command.match(/(?:'[^']*'|"[^"]*"|\\.|[^\s'"\\])+/g) || [];
+  const parts: string[][] = [];
+  let isOption = false;
+  for (const word of words) {
+    const starts = /^--?[a-z]/.test(word);
+    if (starts || !isOption) parts.push([word]);
+    else parts[parts.length - 1].push(word);
+    isOption = isOption || starts;
+  }
+  return parts;
+}
+
+function commandMarkup(command: string): Markup {
+  const spaced = (all: Markup[]): Markup => html`${all.map((one, i) => html`${i > 0 && " "}${one}`)}`;
+  return spaced(commandParts(command).map((part) =>
+    html`<span class="part">${spaced(part.map((word) => html`<span class="part">${word}</span>`))}</span>`));
+}
+
 export function firstScreen(screen: FirstScreen): Markup {
   const isMany = screen.cards.length > 2;
   const hasMap = screen.cards.length < 4 && screen.cards.some((one) => one.pictures.length > 1);
@@ -48,7 +69,7 @@ export function firstScreen(screen: FirstScreen): Markup {
 <p class="sentence ${screen.tone}">${screen.sentence}</p>
 ${screen.warning}<div class="answer-body"><div class="holds${isMany && " many"} n${Math.min(screen.cards.length, 4)}">${screen.cards.map((one) => card(one, screen.scale !== null))}${hasMap && screen.scale && legend(screen.scale)}</div>
 <div class="why">${screen.chart}<ul class="plain">${screen.reasons.map((one) => html`<li>${one}</li>`)}</ul></div></div>
-${screen.command && html`<p class="next"><strong>${screen.next}</strong> <code>${screen.command}</code> <button type="button" class="copy" data-copy="${screen.command}" hidden>${say("answer.copy")}</button></p>`}
+${screen.command && html`<p class="next"><strong>${screen.next}</strong> <code>${commandMarkup(screen.command)}</code> <button type="button" class="copy" data-copy="${screen.command}" hidden>${say("answer.copy")}</button></p>`}
 </section>
 `;
 }

@@ -11,7 +11,8 @@ namespace palmar {
 
 /// Populations that come with Palmar, each with its sources and cautions: xie2014; ansur2_men,
 /// ansur2_women, ansur2 (both, in the survey's shares); japanese_men, japanese_women, japanese;
-/// delhi_men. docs/method/populations.md says what was measured and what was borrowed.
+/// those of civilian_populations(). docs/method/populations.md says what was measured and what was
+/// borrowed.
 const std::vector<Population>& built_in_populations();
 
 /// The built-in population of that name. Throws UsageError naming the nearest one.

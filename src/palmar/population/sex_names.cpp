@@ -8,6 +8,8 @@ namespace palmar {
 
 std::string name_of(Sex sex) { return sex == Sex::kMale ? "male" : "female"; }
 
+std::string people_of(Sex sex) { return sex == Sex::kMale ? "men" : "women"; }
+
 std::optional<Sex> sex_named(std::string_view name) {
   if (name == "male") return Sex::kMale;
   if (name == "female") return Sex::kFemale;

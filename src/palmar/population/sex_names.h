@@ -10,7 +10,8 @@
 
 namespace palmar {
 
-std::string name_of(Sex sex);  ///< "male", "female"
+std::string name_of(Sex sex);    ///< "male", "female"
+std::string people_of(Sex sex);  ///< "men", "women"
 std::optional<Sex> sex_named(std::string_view name);
 
 /// Sex from a cell's text: "M", "male", "men", "F", "women" ...; nothing if it is no such word.

@@ -52,6 +52,13 @@ constexpr GreinerFigures kGreinerWomen = {.length = {180.7, 9.8},
 
 const AnsurFigures& ansur2_figures(Sex sex) { return sex == Sex::kMale ? kAnsurMen : kAnsurWomen; }
 
+Eigen::Matrix3d ansur_correlation(Sex sex) {
+  const AnsurFigures& figures = ansur2_figures(sex);
+  const double lc = figures.r_length_circumference, lw = figures.r_length_breadth,
+               cw = figures.r_circumference_breadth;
+  return Eigen::Matrix3d{{1.0, lc, lw}, {lc, 1.0, cw}, {lw, cw, 1.0}};
+}
+
 const GreinerFigures& greiner_figures(Sex sex) {
   return sex == Sex::kMale ? kGreinerMen : kGreinerWomen;
 }

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include <Eigen/Core>
+
 #include "palmar/grasp/joint_strength.h"
 
 namespace palmar {
@@ -26,6 +28,8 @@ struct AnsurFigures {
   double palm_residual = 0.0;  ///< mm
 };
 const AnsurFigures& ansur2_figures(Sex sex);
+/// Of length, circumference and breadth in ANSUR II, in this order.
+Eigen::Matrix3d ansur_correlation(Sex sex);
 
 /// Greiner 1991 (NATICK/TR-92/011): 1 003 men and 1 304 women of the US Army, 1988; from a
 /// third party's transcription.
@@ -41,5 +45,10 @@ const GreinerFigures& greiner_figures(Sex sex);
 /// Share of its mean by which a dimension scatters at given hand length (or circumference) if its
 /// mean is in proportion to that:  sqrt(sd^2 - (mean / driver.mean * driver.sd)^2) / mean.
 double residual_share(const Moment& dimension, const Moment& driver);
+
+/// Where the segments of built-in populations come from, for people who read a result.
+inline constexpr const char* kSegmentCaution =
+    "Segments are regressed: other people's scatter about the template's proportions (ANSUR II, "
+    "Greiner 1991 at second hand, Buryanov & Kotiuk 2010).";
 
 }  // namespace palmar
