@@ -79,7 +79,7 @@ function productSection(one: Assessment, view: AssessmentView, index: number): S
 function waysSection(shown: AssessmentView["products"][0]): Markup | null {
   if (shown.ways.length < 2) return null;
   const sheet = pictureFigures(shown.pictures.filter((picture) => picture.name === "holds"));
-  const items = shown.ways.map((way) => html`${way.number}. ${capitalised(way.words)}${way.score !== null && say("ways.score", { score: shortNumber(way.score, 2) })}${way.against && say("ways.against", { against: way.against })}${way.number === shown.way_taken && html` <strong>${say("ways.taken")}</strong>`}`);
+  const items = shown.ways.map((way) => html`${way.number}. ${capitalised(way.words)}${way.score !== null && say("ways.score", { score: shortNumber(way.score, 2) })}${way.against && say("ways.against", { against: way.against })}${way.number === shown.way_taken && html` <strong>${say("ways.taken")}</strong>${shown.why_taken && " " + shown.why_taken + "."}`}`);
   const other = shown.ways.filter((way) => way.number !== shown.way_taken && way.number >= 3)[0] ||
     shown.ways.filter((way) => way.number !== shown.way_taken)[0];
   return folded(say("ways.title"), html`<p><code>--hold ${other.number}</code>: ${say("ways.option", { number: other.number })}</p>

@@ -114,7 +114,7 @@ export function page(assessments: Assessment[]): AssessmentPage {
                neutral: "#888888", ticks: [{ value: 0, text: "0.0" }, { value: 0.5, text: "≥ 0.5" }] },
       products: assessments.map(() => ({
         charts: [{ title: "Force, N", svg: "<svg>force</svg>" }], sensor_map: null, sensitivity_chart: "<svg>stiffer</svg>",
-        friction_words: "It slips.", scene: "{}", ways: [], way_taken: null,
+        friction_words: "It slips.", scene: "{}", ways: [], way_taken: null, why_taken: "",
         pictures: [{ name: "grasp_palm", title: "Grasp", alt: "A hand", src: "attachment:p", thumbnail: "attachment:t" }],
       })),
     },

@@ -411,6 +411,7 @@ export interface AssessmentView {
     pictures: Picture[];
     ways: { number: number; words: string; score: number | null; against: string }[]; // best first
     way_taken: number | null; // which of them
+    why_taken: string; // why that isn't the first; "": it is, or it was asked for
     scene: TrustedMarkup; // JSON for the 3-D view
   }[];
 }

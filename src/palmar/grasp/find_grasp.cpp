@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/find_grasp.h"
 
+#include <cmath>
 #include <string>
 
 #include "palmar/core/error.h"
@@ -19,6 +20,10 @@ bool GraspOptions::is_placed() const {
 }
 
 void GraspOptions::check() const {
+  if (grip_force && !(*grip_force > 0.0 && std::isfinite(*grip_force))) {
+    throw UsageError("setting \"grip force\" is " + std::to_string(*grip_force) +
+                     " N; more than 0 N is required");
+  }
   if (hold_rank < 1) {
     throw UsageError("setting \"hold\" is " + std::to_string(hold_rank) +
                      "; the best is 1, the next 2, ...");

@@ -15,10 +15,13 @@ namespace palmar {
 /// How a product is to be taken: by a hold, or where coordinates say (a placement of `power`, or
 /// targets or a placement of `precision`).
 struct GraspOptions {
-  std::optional<Grip> grip;        ///< unset: as people would choose for the product's shape
-  std::optional<Hold> hold;        ///< this one; unset: one of rank_holds()
-  HoldOptions holds;               ///< which holds to choose from; its grip is replaced by `grip`
-  int hold_rank = 1;               ///< the best is 1
+  std::optional<Grip> grip;  ///< unset: as people would choose for the product's shape
+  std::optional<Hold> hold;  ///< this one; unset: one of rank_holds()
+  HoldOptions holds;         ///< which holds to choose from; its grip is replaced by `grip`
+  int hold_rank = 1;         ///< the best is 1
+  /// N that it is to be gripped with, whatever the grip: of ranked holds the one that suits it
+  /// (firm_hold()) in place of `hold_rank`. Unset: as usual in each grip.
+  std::optional<double> grip_force;
   PowerGraspOptions power;         ///< for power grips
   PrecisionGripOptions precision;  ///< for the others; its grip is replaced by `grip`
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/grasp/holds/firm_hold.h"
 #include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/holds/laid_holds.h"
 #include "palmar/grasp/power/power_place.h"
@@ -113,7 +114,13 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
     asked.finger_limit_depth = power.finger_limit_depth;
     asked.most = std::max(asked.most, options.hold_rank);
     ranked = rank_holds(*reference, *product, asked, progress);
-    const auto rank = static_cast<std::size_t>(options.hold_rank);
+    ranked.taken = options.hold_rank;
+    if (options.grip_force && !ranked.holds.empty()) {
+      const FirmHold firm = firm_hold(ranked.holds, *options.grip_force);
+      ranked.taken = firm.number;
+      ranked.why_taken = firm.why;
+    }
+    const auto rank = static_cast<std::size_t>(ranked.taken);
     if (ranked.holds.size() < rank) {
       if (rank > 1) {
         throw UsageError(fmt::format("setting \"hold\" is {}; {} holds of {} were found", rank,
@@ -143,14 +150,14 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   grasp.candidates = std::max(grasp.candidates, ranked.considered);
   // Other places of a precision grip: their scores differ by as much as the search found.
   if (!ranked.holds.empty()) {
-    const RankedHold& taken = ranked.holds[static_cast<std::size_t>(options.hold_rank) - 1];
+    const RankedHold& taken = ranked.holds[static_cast<std::size_t>(ranked.taken) - 1];
     for (GraspRunnerUp& own : grasp.runners_up) {
       own.score = taken.score - std::max(0.0, grasp.score - own.score);
     }
   }
   for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
     const RankedHold& other = ranked.holds[k];
-    if (k + 1 == static_cast<std::size_t>(options.hold_rank)) {
+    if (k + 1 == static_cast<std::size_t>(ranked.taken)) {
       grasp.candidates = std::max(grasp.candidates, other.grasp.candidates);
       grasp.score = other.score;
       grasp.hold_terms = other.terms;

@@ -3,6 +3,8 @@
 #include "palmar/grasp/joint_strength.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace palmar {
 
@@ -69,6 +71,17 @@ double strength_share(Grip grip) {
     default:
       return 1.0;
   }
+}
+
+double share_who_reach(double force, Grip grip, double age) {
+  double share = 0.0;
+  for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
+    const std::optional<double> mean = grip_strength(sex, age), sd = grip_strength_sd(sex, age);
+    if (!mean || !sd) return 0.0;
+    const double score = (force / strength_share(grip) - *mean) / *sd;
+    share += 0.25 * std::erfc(score / std::numbers::sqrt2);  // half of each sex's share above it
+  }
+  return share;
 }
 
 }  // namespace palmar

@@ -25,4 +25,9 @@ std::optional<double> grip_strength_sd(Sex sex, double age);
 /// five fingers like the palmar pinch.
 double strength_share(Grip grip);
 
+/// Share of the women and men of that age, each sex counted once, whose strength in that grip is
+/// `force` [N] or more: normal distributions with grip_strength() and grip_strength_sd(), times
+/// strength_share(). 0 where no strength is known.
+double share_who_reach(double force, Grip grip, double age);
+
 }  // namespace palmar

@@ -172,6 +172,7 @@ struct StudyBench::Impl {
     options.power.placement.axis = product.axis;
     options.precision.placement = options.power.placement;
     product.holding.apply_to(options);
+    if (!product.holding.number) options.grip_force = setting.grip_force;
     return options;
   }
 

@@ -48,7 +48,8 @@ std::vector<ProductTask> read_products(const AssessRequest& request, const Progr
     for (const std::string& text : product.notes) {
       note_to(request.note, choice.name() + ": " + text);
     }
-    const GraspOptions grasp = options_for(request.grasp, product);
+    GraspOptions grasp = options_for(request.grasp, product);
+    if (!request.grasp.holding.number) grasp.grip_force = request.rest.grip_force;
     tasks.push_back({std::move(product), grasp, friction});
   }
   return tasks;
@@ -158,6 +159,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
       note_to(request.note, fmt::format("{}: grip force {:.0f} N: {}", done.product.name,
                                         options.balance.share_of_strength->force(grip),
                                         options.balance.asked_words(grip)));
+    }
+    if (done.ways && !done.ways->why_taken.empty()) {
+      note_to(request.note,
+              fmt::format("{}: {}; held in a {} (hold {})", done.product.name, done.ways->why_taken,
+                          done.assessment.grasp.hold_words, done.ways->taken));
     }
     const std::string fallbacks = fallbacks_in_words(done.assessment.contact.fallbacks);
     if (!fallbacks.empty()) {

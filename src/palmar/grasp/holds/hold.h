@@ -53,6 +53,10 @@ struct RankedHolds {
   std::vector<RankedHold> holds;
   int considered = 0;  ///< holds that were scored by the product's shape
   int closed = 0;      ///< of these, on how many the hand was closed
+  int taken = 1;       ///< number of the one that is taken, from 1 (GraspPlace)
+  /// Why that isn't the one that the product's shape suggests, in words; empty: it is, or the hold
+  /// was asked for.
+  std::string why_taken;
 };
 
 /// Takes the product apart (find_parts()), scores the ways of holding each part by its shape,

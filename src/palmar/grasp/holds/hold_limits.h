@@ -9,4 +9,7 @@ inline constexpr double kStubShare = 1.8;
 /// Hand lengths that thumb and fingers hold between them. Choice.
 inline constexpr double kHandSpan = 0.55;
 
+/// Such a difference of two holds' scores doesn't change their order. Choice.
+inline constexpr double kNearTie = 0.2;
+
 }  // namespace palmar

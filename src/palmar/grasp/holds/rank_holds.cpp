@@ -12,6 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/holds/hold_candidates.h"
+#include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/holds/laid_holds.h"
 #include "palmar/grasp/holds/precision_holds.h"
@@ -23,7 +24,6 @@ namespace {
 constexpr std::size_t kClosed = 16;                 // holds that the hand is closed on
 constexpr std::size_t kClosedAlike = 4;             // of these with the same part and direction
 constexpr std::size_t kPrecisionOrder = 1'000'000;  // after all power holds where both are as good
-constexpr double kNearTie = 0.2;  // of the score: such a difference doesn't change the order
 // How well a closed hand holds, in the units of the scores (choices).
 constexpr double kPerMissingFinger = 0.5;
 constexpr double kPerMissingWrap = 6.0;    // per share of a turn below a third

@@ -109,7 +109,8 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
           {"friction_words", friction_verdict(hand, one.assessment)},
           {"pictures", pictures_json(pictures, name, attachments)},
           {"ways", ways_json(one)},
-          {"way_taken", one.ways ? PageJson(one.assessment.options.grasp.hold_rank) : nullptr},
+          {"way_taken", one.ways ? PageJson(one.ways->taken) : nullptr},
+          {"why_taken", one.ways ? one.ways->why_taken : std::string()},
           {"scene", attached(attachments, name + "-scene",
                              script_escaped(scene_data_json(hand, one, scale, language)))}};
 }

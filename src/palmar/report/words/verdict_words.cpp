@@ -213,7 +213,7 @@ class SetSpeaker {
     const AssessedProduct& one = set_.assessments[i];
     const std::string product = product_arguments({&one.product});
     if (product.empty() || one.ways == nullptr) return;
-    const auto rank = static_cast<std::size_t>(one.assessment.options.grasp.hold_rank);
+    const auto rank = static_cast<std::size_t>(one.ways->taken);
     if (rank >= one.ways->holds.size()) return;
     next("other_hold", "palmar assess " + product + " --hold " + std::to_string(rank + 1));
   }
@@ -223,6 +223,10 @@ class SetSpeaker {
     const ProductVerdict& verdict = verdict_.products.front();
     const ProductWords& words = words_.products.front();
     words_.sentence = words.held;
+    if (one.ways && !one.ways->why_taken.empty()) {
+      const Phrases phrases(texts_.language());
+      words_.reasons.push_back(texts_("reason.firm_hold", {{"why", phrases(one.ways->why_taken)}}));
+    }
     if (!words.hardest.empty()) words_.reasons.push_back(words.hardest);
     if (!words.strength.empty()) words_.reasons.push_back(words.strength);
     if (verdict.held != HeldVerdict::kHeld) {
