@@ -5,10 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 
 namespace palmar {
 namespace {
@@ -16,8 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string with_text(const std::string& csv) {
-  const std::string path =
-      (std::filesystem::path(::testing::TempDir()) / "palmar_curves.csv").string();
+  const std::string path = own_file("curves.csv");
   write_file(path, csv);
   return path;
 }

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 
 namespace palmar {
 namespace {
@@ -17,8 +18,6 @@ using ::testing::HasSubstr;
 
 class ProjectFile : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(test_folder); }
-  void TearDown() override { fs::remove_all(test_folder); }
   fs::path written(const std::string& text) const {
     write_file(test_folder / "project.toml", text);
     return test_folder / "project.toml";
@@ -31,7 +30,7 @@ class ProjectFile : public ::testing::Test {
     }
     return "no error";
   }
-  fs::path test_folder = fs::temp_directory_path() / "palmar-project-file-test";
+  TestFolder test_folder;
 };
 
 TEST_F(ProjectFile, HasNameAuthorNotesAndLogo) {

@@ -5,11 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
@@ -19,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string temporary_tissue(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / ("palmar_tissue_" + name)).string();
+  return own_file(name);
 }
 
 Tissue read_text(const std::string& toml) {

@@ -12,6 +12,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/formats/zip.h"
 
 namespace palmar {
@@ -71,8 +72,7 @@ TEST(Workbook, AnotherProgramReadsIt) {
   if (std::system("python3 -c 'import openpyxl' > /dev/null 2>&1") != 0) {
     GTEST_SKIP() << "Python's openpyxl (Debian: python3-openpyxl) isn't installed";
   }
-  const auto folder = std::filesystem::temp_directory_path() / "palmar-workbook-test";
-  std::filesystem::create_directories(folder);
+  const TestFolder folder;
   write_file(folder / "made.xlsx", format_workbook("T", {}, {regions()}));
   std::ofstream(folder / "read.py")
       << "import openpyxl, sys\n"
@@ -88,7 +88,6 @@ TEST(Workbook, AnotherProgramReadsIt) {
       << read_file(out);
   EXPECT_EQ(read_file(out),
             "['About', 'regions'] <A & \"B\"> 12.3456789012345 0.0 None 1000.0 A2 A1:D3 True\n");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Workbook, RefusesWhatItCannotHold) {

@@ -5,11 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/hand/skin/thumb_cmc.h"
 
@@ -66,7 +65,7 @@ Hand small_hand() {
 }
 
 std::string temporary(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / ("palmar_hand_file_" + name)).string();
+  return own_file(name);
 }
 
 std::string hand_message(const std::string& path) {

@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <numbers>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 
 namespace palmar {
 namespace {
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string temporary_hold(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / ("palmar_hold_" + name)).string();
+  return own_file(name);
 }
 
 HoldFile read_hold_text(const std::string& toml) {

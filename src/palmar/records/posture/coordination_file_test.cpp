@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/geometry/degrees.h"
 
 namespace palmar {
@@ -51,8 +51,7 @@ std::string rows(int count, int columns = kDigitDofCount) {
 }
 
 std::string written(const std::string& text) {
-  const std::string path =
-      (std::filesystem::path(::testing::TempDir()) / "palmar_natural_postures.csv").string();
+  const std::string path = own_file("natural_postures.csv");
   write_file(path, text);
   return path;
 }

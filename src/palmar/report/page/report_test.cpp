@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/pressure_thresholds.h"
 #include "palmar/report/chart/bar_chart.h"
@@ -61,14 +62,8 @@ AssessmentSet ball_set() {
 
 class ReportFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("palmar_report_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
+  TestFolder own_;
+  std::filesystem::path folder_ = own_ / "report";
 };
 
 // Elements of an HTML or SVG text that are not closed in order; scripts and styles are skipped.
