@@ -113,7 +113,7 @@ constexpr std::array kRecipes = {
            "palmar study run --product old.step --product new.step --population ansur2_women "
            "--hands 6 --out women.palmar"},
     Recipe{"shards",
-           "palmar study run examples/xie2014-chapter5/small.toml --shard 1/1 --out "
+           "palmar study run examples/three-handles/study.toml --shard 1/1 --out "
            "shards/1.palmar"},
     Recipe{"subject3/mri", "palmar phantom mri --seed 3 --out subject3"},
     Recipe{"subject3/scan/reference.ply", "palmar phantom scan --seed 3 --out subject3"},

@@ -52,6 +52,8 @@ std::string plain_name(const std::string& name) {
 
 }  // namespace
 
+std::string finger_words(Finger finger) { return digit_words(name_of(finger)); }
+
 std::string joint_words(Dof dof) {
   const DofParts parts = parts_of(dof);
   if (parts.motion == "deviation") return "bending of the wrist to the thumb's side";

@@ -11,6 +11,9 @@ namespace palmar::cli {
 
 // Parts of the hand as people call them; files keep the short names ("index_distal").
 
+/// "thumb", "index finger".
+std::string finger_words(Finger finger);
+
 /// "bending of the thumb's knuckle", "spreading of the index finger's knuckle".
 std::string joint_words(Dof dof);
 

@@ -56,6 +56,17 @@ std::string tissue_text(const Tissue& tissue) {
   return text;
 }
 
+std::string segments_text(const HandDimensions& dimensions) {
+  std::string text = fmt::format("{:<24} {:>7} {:>6} {:>10}  (mm)\n", "part of the hand", "length",
+                                 "width", "thickness");
+  for (int s = 0; s < kSegmentCount; ++s) {
+    const SegmentDimensions& size = dimensions.segment[static_cast<std::size_t>(s)];
+    text += fmt::format("{:<24} {:7.1f} {:6.1f} {:10.1f}\n", plain_words(static_cast<Segment>(s)),
+                        size.length, size.width, size.thickness);
+  }
+  return text;
+}
+
 std::string hand_text(const Hand& hand) {
   const HandDimensions& d = hand.dimensions;
   std::string text = fmt::format(
@@ -63,15 +74,10 @@ std::string hand_text(const Hand& hand) {
       "  hand length L         {:7.1f} mm\n"
       "  hand circumference C  {:7.1f} mm\n"
       "  hand width W          {:7.1f} mm\n"
-      "  hand thickness T      {:7.1f} mm\n\n"
-      "segment            length  width  thickness  (mm)\n",
+      "  hand thickness T      {:7.1f} mm\n\n",
       hand.name, name_of(hand.side), hand.skin.vertex_count(), hand.skin.triangle_count(),
       hand.bones.size(), d.hand_length, d.hand_circumference, d.hand_width, d.hand_thickness);
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions& size = d.segment[static_cast<std::size_t>(s)];
-    text += fmt::format("{:<17} {:7.1f} {:6.1f} {:10.1f}\n", name_of(static_cast<Segment>(s)),
-                        size.length, size.width, size.thickness);
-  }
+  text += segments_text(d);
   text += "\ndegree of freedom         range of motion   reference  (deg)\n";
   for (const Joint& joint : hand.skeleton.joints) {
     for (const JointDof& dof : joint.dofs) {
@@ -133,10 +139,10 @@ std::string grasp_text(const Grasp& grasp) {
   std::string text = status_text(grasp);
   if (grasp.hold) text += fmt::format("hold: {}\n", grasp.hold_words);
   if (!grasp.fingertips.empty()) {
-    text +=
-        fmt::format("grip {}; fingertip      reached (mm)       miss (mm)\n", name_of(grasp.grip));
+    text += fmt::format("grip {}; fingertip           reached (mm)       miss (mm)\n",
+                        name_of(grasp.grip));
     for (const FingertipContact& tip : grasp.fingertips) {
-      text += fmt::format("  {:<8} {:8.1f} {:8.1f} {:8.1f} {:9.2f}\n", name_of(tip.finger),
+      text += fmt::format("  {:<13} {:8.1f} {:8.1f} {:8.1f} {:9.2f}\n", finger_words(tip.finger),
                           tip.reached.x(), tip.reached.y(), tip.reached.z(), tip.miss);
     }
   }

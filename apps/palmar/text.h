@@ -15,6 +15,8 @@ namespace palmar::cli {
 
 /// Major and segment dimensions, joints with their ranges of motion.
 std::string hand_text(const Hand& hand);
+/// Length, width and thickness of every segment, one line each, mm.
+std::string segments_text(const HandDimensions& dimensions);
 /// Both tissue models per group of regions that share one, with ranges and sources.
 std::string tissue_text(const Tissue& tissue);
 /// Dimensions as CSV, one row per quantity: quantity,segment,value_mm.

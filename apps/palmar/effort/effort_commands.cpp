@@ -18,6 +18,7 @@
 #include "palmar/workflow/effort.h"
 #include "palmar/workflow/effort/effort_capacity.h"
 #include "palmar/workflow/effort/effort_fingertip.h"
+#include "plain_names.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -229,8 +230,8 @@ std::string effort_text(const EffortResult& effort) {
                       effort.contact_force, effort.tendon_force,
                       effort.with_friction ? "with friction" : "pressure alone");
   for (const DigitEffort& digit : effort.digits) {
-    text +=
-        fmt::format("\n{:<7} {:.1f} N of contact\n", name_of(digit.finger), digit.contact_force);
+    text += fmt::format("\n{:<13} {:.1f} N of contact\n", finger_words(digit.finger),
+                        digit.contact_force);
     if (digit.status == EffortStatus::kNoLoad) continue;
     text += "  tendon   force_n  strength_n  activation\n";
     for (const TendonLoad& load : digit.tendons) {

@@ -9,6 +9,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/records/reach_json.h"
 #include "palmar/workflow/grasp/grasp_reach.h"
+#include "plain_names.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -41,17 +42,18 @@ std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& butto
   std::string text = status_text(grasp);
   for (const ButtonReach& reach : buttons) {
     text += fmt::format(
-        "\n{}: {}\n  finger   reached  miss (mm)  pad tilt (deg)  margin (deg)  "
+        "\n{}: {}\n  finger        reached  miss (mm)  pad tilt (deg)  margin (deg)  "
         "grip kept\n",
-        reach.button.name, reach.message);
+        reach.button.name, with_plain_names(reach.message));
     for (const FingerReach& one : reach.fingers) {
       const char* words = one.is_reached   ? one.is_awkward ? "awkward" : "yes"
                           : one.is_blocked ? "blocked"
                                            : "no";
-      text += one.miss > 50.0 ? fmt::format("  {:<8} {:<8}    > 50\n", name_of(one.finger), words)
-                              : fmt::format("  {:<8} {:<8} {:9.1f} {:14.0f} {:13.0f}    {}\n",
-                                            name_of(one.finger), words, one.miss, degrees(one.tilt),
-                                            degrees(one.margin), one.is_grip_kept ? "yes" : "no");
+      text += one.miss > 50.0
+                  ? fmt::format("  {:<13} {:<8}    > 50\n", finger_words(one.finger), words)
+                  : fmt::format("  {:<13} {:<8} {:9.1f} {:14.0f} {:13.0f}    {}\n",
+                                finger_words(one.finger), words, one.miss, degrees(one.tilt),
+                                degrees(one.margin), one.is_grip_kept ? "yes" : "no");
     }
   }
   return text;

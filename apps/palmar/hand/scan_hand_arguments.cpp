@@ -10,25 +10,19 @@
 #include "palmar/workflow/hand/hand_output.h"
 #include "palmar/workflow/hand/posture_files.h"
 #include "product/colour_argument.h"
+#include "text.h"
 
 namespace palmar::cli {
 namespace {
 
 std::string scanned_hand_text(const HandFromScan& made) {
   const HandDimensions& d = made.scanned.hand.dimensions;
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm, thickness {:.1f} mm\n"
       "skin: {:.2f} mm from the scan in the mean, 95 % within {:.2f} mm\n",
       name_of(made.scanned.hand.side), d.hand_length, d.hand_circumference, d.hand_width,
       d.hand_thickness, made.scanned.registration_mean, made.scanned.registration_p95);
-  text +=
-      fmt::format("{:<18} {:>7} {:>6} {:>10}  (mm)\n", "segment", "length", "width", "thickness");
-  for (int k = 0; k < kSegmentCount; ++k) {
-    const SegmentDimensions& s = d.segment[static_cast<std::size_t>(k)];
-    text += fmt::format("{:<18} {:>7.1f} {:>6.1f} {:>10.1f}\n", name_of(static_cast<Segment>(k)),
-                        s.length, s.width, s.thickness);
-  }
-  return text;
+  return text + segments_text(d);
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ void add_study_run_commands(CLI::App& noun, Context& context) {
   const auto plan_options = std::make_shared<StudyArguments>();
   const auto no_sample = std::make_shared<bool>(false);
   CLI::App* plan = add_verb(noun, "plan", "Print what would run, how long and in how much memory",
-                            "palmar study plan examples/xie2014-chapter5/small.toml");
+                            "palmar study plan examples/three-handles/study.toml");
   plan_options->add_to(*plan);
   plan->add_flag("--no-sample", *no_sample, "Don't measure a few grasps for the estimate");
   plan->callback([&context, plan_options, no_sample] {

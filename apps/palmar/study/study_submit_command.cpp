@@ -51,7 +51,7 @@ void add_study_submit_command(CLI::App& noun, Context& context) {
   const auto options = std::make_shared<SubmitArguments>();
   CLI::App* verb =
       add_verb(noun, "submit", "Run a study's shards as a Slurm job array",
-               "palmar study submit examples/xie2014-chapter5/small.toml --shards 20 --out shards "
+               "palmar study submit examples/three-handles/study.toml --shards 20 --out shards "
                "--sbatch=--partition=long");
   verb->add_option("FILE", options->request.file,
                    "Study file, in a folder that is visible to all nodes")
