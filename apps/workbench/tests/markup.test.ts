@@ -5,6 +5,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { escaped, html, joined, trusted } from "../components/markup";
 import { percent, shortNumber, signedNumber } from "../components/numbers";
+import { commandParts } from "../components/first_screen";
 import { say, sayCount, sayList, sayMarkup, useLanguage } from "../texts";
 import { numberCell, numbers, table, words } from "../components/tables";
 
@@ -55,4 +56,12 @@ test("a table has a caption and heads of its columns", () => {
   const text = table({ caption: "A < B", columns: [words("What"), numbers("Force, N")], rows: [] }).text;
   assert.match(text, /<caption><span>A &lt; B<\/span><\/caption>/);
   assert.match(text, /<th scope="col" class="n">Force, N<\/th>/);
+});
+
+test("a command breaks between options, values stay with theirs, quotes stay whole", () => {
+  const line = "palmar assess 'my handle.stl' --grip-force-n 60 --mass-kg 0.4 --percentiles 5,50 --out hands";
+  const parts = commandParts(line);
+  assert.deepEqual(parts, [["palmar"], ["assess"], ["'my handle.stl'"], ["--grip-force-n", "60"], ["--mass-kg", "0.4"],
+                           ["--percentiles", "5,50"], ["--out", "hands"]]);
+  assert.equal(parts.map((part) => part.join(" ")).join(" "), line); // as it is copied
 });
