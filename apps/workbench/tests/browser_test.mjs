@@ -153,6 +153,12 @@ const narrow = `
   await wait(200);
   return document.documentElement.scrollWidth;`;
 
+// Words of the command that take more than one line: it may break between words only.
+const brokenWords = `
+  const line = parseFloat(getComputedStyle(document.querySelector(".next")).lineHeight);
+  return [...document.querySelectorAll(".next .part .part")].filter((one) => one.getBoundingClientRect().height > 1.5 * line)
+    .map((one) => one.textContent);`;
+
 const screen = [1280, 720];
 
 try {
@@ -176,6 +182,7 @@ try {
     for (const window of [500, 390]) {
       const width = await inPage(page, [window, 844], narrow);
       assert.ok(width <= window, `${page}: ${width} wide in a window of ${window}`);
+      assert.deepEqual(await inPage(page, [window, 844], brokenWords), []);
     }
     const contrast = await inPage(page, screen, contrasts);
     assert.ok(contrast.seen > 100, JSON.stringify(contrast));

@@ -14,9 +14,9 @@
 namespace palmar {
 namespace {
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
-constexpr HandDimension kWidth{DimensionKind::kHandWidth};
+constexpr HandDimension kSurveyLength{DimensionKind::kHandLength};
+constexpr HandDimension kSurveyGirth{DimensionKind::kHandCircumference};
+constexpr HandDimension kSurveyBreadth{DimensionKind::kHandWidth};
 
 struct LengthAndBreadth {
   Moment length, breadth;  // mm
@@ -45,9 +45,9 @@ Stratum length_and_breadth_stratum(Sex sex, double age, const LengthAndBreadth& 
   const double residual =
       ansur.circumference.sd / ansur.circumference.mean * std::sqrt(1.0 - r * r) * girth;
   std::vector<DimensionRegression> regressions = {
-      {.dimension = kCircumference,
+      {.dimension = kSurveyGirth,
        .intercept = girth * (1.0 - elasticity),
-       .terms = {{kWidth, elasticity * girth / breadth.mean}},
+       .terms = {{kSurveyBreadth, elasticity * girth / breadth.mean}},
        .residual_sd = residual,
        .evidence = Evidence::kRegressed,
        .source = "ratio, elasticity and residual of ANSUR II " + people_of(sex)}};
@@ -59,8 +59,8 @@ Stratum length_and_breadth_stratum(Sex sex, double age, const LengthAndBreadth& 
           .sex = sex,
           .share = 1.0,
           .age = age,
-          .driving = {{kLength, hand.mean, hand.sd, source},
-                      {kWidth, breadth.mean, breadth.sd, source}},
+          .driving = {{kSurveyLength, hand.mean, hand.sd, source},
+                      {kSurveyBreadth, breadth.mean, breadth.sd, source}},
           .correlation = Eigen::Matrix2d{{1.0, lw}, {lw, 1.0}},
           .regressions = std::move(regressions)};
 }
@@ -220,9 +220,9 @@ Population indian_women() {
         .sex = Sex::kFemale,
         .share = 1.0,
         .age = 33.0,
-        .driving = {{kLength, length.mean, length.sd, survey.source},
-                    {kCircumference, girth.mean, girth.sd, survey.source},
-                    {kWidth, breadth.mean, breadth.sd, survey.source}},
+        .driving = {{kSurveyLength, length.mean, length.sd, survey.source},
+                    {kSurveyGirth, girth.mean, girth.sd, survey.source},
+                    {kSurveyBreadth, breadth.mean, breadth.sd, survey.source}},
         .correlation = ansur_correlation(Sex::kFemale),
         .regressions = segment_regressions({Sex::kFemale, length.mean, girth.mean})}});
 }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "palmar/core/text.h"
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/report/page/plain_words.h"
+#include "palmar/report/study/study_options.h"
 #include "palmar/report/study/study_words.h"
 #include "palmar/report/words/phrases.h"
 #include "palmar/report/words/texts.h"
@@ -69,31 +69,6 @@ class StudySpeaker {
     return one != nullptr ? std::optional(one->summary.mean) : std::nullopt;
   }
 
-  /// "--product a.stl --product b.stl --unit mm"; empty if one is no file.
-  std::string products(const std::string& option) const {
-    std::string line, unit;
-    for (const StudyProduct& one : results_.plan.products) {
-      if (!is_file(one)) return "";
-      line += (line.empty() ? "" : " ") + option + shell_word(one.file);
-      if (is_mesh(one)) unit = one.unit;
-    }
-    return unit.empty() ? line : line + " --unit " + unit;
-  }
-  static std::string extension(const StudyProduct& product) {
-    return lower_case(std::filesystem::path(product.file).extension().string());
-  }
-  static bool is_mesh(const StudyProduct& product) {
-    const std::string end = extension(product);
-    return end == ".stl" || end == ".obj" || end == ".ply";
-  }
-  /// Whether it can be given to a command again as it is.
-  static bool is_file(const StudyProduct& product) {
-    const std::string end = extension(product);
-    const bool is_known = is_mesh(product) || end == ".step" || end == ".stp" || end == ".iges" ||
-                          end == ".igs" || end == ".3mf" || end == ".glb" || end == ".gltf";
-    return is_known && product.size == 1.0 && product.posture_of.empty();
-  }
-
   void next(const std::string& key, const std::string& command) {
     if (command.empty()) return;
     answer_.next = texts_("next." + key);
@@ -101,21 +76,13 @@ class StudySpeaker {
   }
 
   void run_again(const std::string& key, int hands, const std::string& added) {
-    const std::string line = products("--product ");
+    const std::string line = product_options(results_.plan);
     if (line.empty() || results_.plan.populations.size() != 1) {
       look_at_report();
       return;
     }
-    next(key, "palmar study run " + line + mass() + population() + " --hands " +
+    next(key, "palmar study run " + line + mass_option(results_.plan) + population() + " --hands " +
                   std::to_string(hands) + added + " --out again.palmar");
-  }
-  /// " --mass-kg 0.4" if all products have the same.
-  std::string mass() const {
-    const double first = results_.plan.products.front().mass;
-    for (const StudyProduct& one : results_.plan.products) {
-      if (one.mass != first) return "";
-    }
-    return first > 0.0 ? " --mass-kg " + significant(first, 4) : "";
   }
   std::string population() const {
     const std::string& name = results_.plan.populations.front().population.name;
@@ -128,13 +95,13 @@ class StudySpeaker {
 
   void redesign(int p) {
     const StudyProduct& product = results_.plan.products[as_index(p)];
-    if (!is_file(product)) {
+    if (!is_plain_file(product)) {
       look_at_report();
       return;
     }
     const bool is_one = results_.plan.populations.size() == 1;
     next("redesign", "palmar redesign press " + shell_word(product.file) +
-                         (is_mesh(product) ? " --unit " + product.unit : "") +
+                         (is_mesh_file(product) ? " --unit " + product.unit : "") +
                          (is_one ? population() : "") + " --hands " +
                          std::to_string(kHandsOfRedesign) + " --out pressed");
   }
@@ -332,10 +299,10 @@ class StudySpeaker {
                                 values);
       redesign(better);
     } else if (is_shown || is_surely_small) {
-      answer_.sentence = texts_(forces ? "study.same" : "study.same_no_force", values);
+      say_of_best_two(texts_(forces ? "study.same" : "study.same_no_force", values), values);
       look_at_report();
     } else {
-      answer_.sentence = texts_("study.not_shown", values);
+      say_of_best_two(texts_("study.not_shown", values), values);
       run_again("more_hands", std::max(kManyHands, 2 * peak.hands), "");
     }
     if (is_drawn && !(forces && forces->are_unequal())) {
@@ -350,6 +317,48 @@ class StudySpeaker {
     add_hardest_region(better);
     add_comfort(better, true);
     if (!is_drawn) answer_.reasons.push_back(texts_("study.chosen"));
+  }
+
+  /// Whether a product is shown to press by a difference that matters more than another one, at the
+  /// same grip force; in words.
+  std::optional<std::string> behind(int better, int worse) const {
+    const ProductPair peak = pair_of(kPeak, better, worse);
+    const auto forces = grip_forces(results_, condition_, worse, better);
+    if (peak.pairs < 2 || !(peak.mean_second > 0.0) || !forces || forces->are_unequal()) return {};
+    const double more = peak.mean_first / peak.mean_second - 1.0;
+    const bool is_shown = is_drawn_by_chance(results_.plan)
+                              ? peak.verdict == DifferenceVerdict::kShown
+                              : 2 * peak.lower_in_second > peak.pairs;
+    if (!is_shown || more < kToldApart) return {};
+    return texts_("study.behind", {{"worse", name(worse)},
+                                   {"better", name(better)},
+                                   {"percent", texts_.percent(more)},
+                                   {"agree", std::to_string(peak.lower_in_second)},
+                                   {"hands", std::to_string(peak.pairs)}});
+  }
+
+  /// The two best aren't told apart: that is the answer, unless there are others that fall behind.
+  void say_of_best_two(const std::string& of_two, const TextValues& values) {
+    std::string others;
+    std::optional<int> farthest;
+    for (int p = 0; p < static_cast<int>(statistics_.size()); ++p) {
+      if (p == answer_.better || p == answer_.worse) continue;
+      const auto words = behind(*answer_.better, p);
+      if (!words) continue;
+      others += (others.empty() ? "" : "; ") + *words;
+      farthest = farthest && *mean_peak(*farthest) > *mean_peak(p) ? farthest : p;
+    }
+    if (!farthest) {
+      answer_.sentence = of_two;
+      return;
+    }
+    answer_.worse = farthest;  // whose changes are drawn
+    answer_.changes = pair_of(kPeak, *answer_.better, *farthest).change;
+    TextValues all = values;
+    all["others"] = others;
+    answer_.tone = "good";
+    answer_.sentence = texts_("study.two_best", all);
+    answer_.reasons.push_back(of_two);
   }
 
   void speak_of_unequal(const TextValues& values, const GripForces& forces, bool is_kept) {

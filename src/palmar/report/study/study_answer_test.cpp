@@ -106,6 +106,29 @@ TEST(StudyAnswer, WhatChanceExplainsIsNotShown) {
   EXPECT_THAT(answer.command, HasSubstr("--hands 30"));
 }
 
+// Means 0.2967, 0.2983 and 0.40 MPa: c has 35 % more than a, and a and b are alike.
+TEST(StudyAnswer, SaysWhatFallsBehindWhereTheBestTwoAreAlike) {
+  const std::vector<std::vector<double>> peaks = {{0.30, 0.31, 0.29, 0.30, 0.28, 0.30},
+                                                  {0.31, 0.30, 0.30, 0.29, 0.29, 0.30},
+                                                  {0.40, 0.42, 0.38, 0.41, 0.39, 0.40}};
+  StudyResults results = empty_study(6, {"a", "b", "c"});
+  for (std::size_t h = 0; h < 6; ++h) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      StudyRecord record = grasp_of(static_cast<std::int64_t>(3 * h + p), peaks[p][h]);
+      record.grip_force = 60.0;
+      results.records.push_back(record);
+    }
+  }
+  const StudyAnswer answer = study_answer(results);
+  EXPECT_EQ(answer.sentence,
+            "c presses 35 % more than a (6 of 6 hands agree). Between a and b no difference that "
+            "matters is shown.");
+  EXPECT_EQ(answer.tone, "good");
+  EXPECT_THAT(answer.reasons.front(), HasSubstr("No difference that matters"));
+  EXPECT_EQ(answer.worse, 2);  // whose changes are drawn
+  EXPECT_NEAR(answer.changes.front(), 0.30 / 0.40 - 1.0, 1e-12);
+}
+
 TEST(StudyAnswer, UnequalGripsAreNotCompared) {
   const StudyAnswer answer =
       study_answer(pair_study({0.40, 0.42, 0.41}, {0.20, 0.21, 0.22}, 107.0, 74));

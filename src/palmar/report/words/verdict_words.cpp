@@ -218,11 +218,25 @@ class SetSpeaker {
     next("other_hold", "palmar assess " + product + " --hold " + std::to_string(rank + 1));
   }
 
+  /// What a measurement is laid beside the simulation for.
+  void add_measured(const PressureComparison& beside) {
+    constexpr double kKiloPascal = 1000.0;  // of an MPa
+    words_.reasons.push_back(texts_(
+        "reason.measured", {{"source", beside.source},
+                            {"r", texts_.number(beside.pearson.r, 2)},
+                            {"cells", std::to_string(beside.pearson.n)},
+                            {"simulated", texts_.number(kKiloPascal * beside.peak_simulated, 3)},
+                            {"measured", texts_.number(kKiloPascal * beside.peak_measured, 3)},
+                            {"force_simulated", texts_.number(beside.force_simulated, 3)},
+                            {"force_measured", texts_.number(beside.force_measured, 3)}}));
+  }
+
   void speak_of_one() {
     const AssessedProduct& one = set_.assessments.front();
     const ProductVerdict& verdict = verdict_.products.front();
     const ProductWords& words = words_.products.front();
     words_.sentence = words.held;
+    if (one.assessment.measured) add_measured(*one.assessment.measured);
     if (one.ways && !one.ways->why_taken.empty()) {
       const Phrases phrases(texts_.language());
       words_.reasons.push_back(texts_("reason.firm_hold", {{"why", phrases(one.ways->why_taken)}}));
