@@ -4,7 +4,7 @@
 import { Assessment, MeasuredPressure, TrustedMarkup, Vocabulary } from "../types";
 import { say } from "../texts";
 import { Markup, html } from "./markup";
-import { shortNumber } from "./numbers";
+import { shortNumber, signedNumber } from "./numbers";
 import { charts } from "./parts";
 import { numberCell, numbers, rowHead, table, valueCell, words } from "./tables";
 import { regionWords } from "./verdicts";
@@ -17,11 +17,15 @@ function partWords(name: string, vocabulary: Vocabulary): string {
   return name in vocabulary.regions ? regionWords(name, vocabulary) : name;
 }
 
+function differenceCell(difference: number): Markup {
+  return valueCell(difference, signedNumber(difference));
+}
+
 /// What was measured beside what is simulated, in numbers.
 function comparison(one: MeasuredPressure, vocabulary: Vocabulary): Markup {
   const interval = one.pearson.low !== undefined && one.pearson.high !== undefined &&
     say("sensors.interval", { low: shortNumber(one.pearson.low, fewDigits), high: shortNumber(one.pearson.high, fewDigits) });
-  const rows = one.parts.map((part) => html`<tr>${rowHead(partWords(part.name, vocabulary))}${valueCell(part.cells, String(part.cells))}${numberCell(part.measured_n)}${numberCell(part.simulated_n)}${numberCell(part.simulated_n - part.measured_n)}</tr>
+  const rows = one.parts.map((part) => html`<tr>${rowHead(partWords(part.name, vocabulary))}${valueCell(part.cells, String(part.cells))}${numberCell(part.measured_n)}${numberCell(part.simulated_n)}${differenceCell(part.simulated_n - part.measured_n)}</tr>
 `);
   return html`<p>${say("sensors.agreement", {
     pearson: shortNumber(one.pearson.r, fewDigits), spearman: shortNumber(one.spearman.r, fewDigits), cells: one.pearson.n,
@@ -32,7 +36,7 @@ ${table({
     caption: say("sensors.parts", { source: one.source }),
     columns: [words(say("regions.region")), numbers(say("sensors.cells")), numbers(say("sensors.measured")),
               numbers(say("sensors.simulated")), numbers(say("sensors.difference"))],
-    rows: html`${rows}<tr class="total">${rowHead(say("sensors.all"))}<td></td>${numberCell(one.force_measured_n)}${numberCell(one.force_simulated_n)}${numberCell(one.force_simulated_n - one.force_measured_n)}</tr>`,
+    rows: html`${rows}<tr class="total">${rowHead(say("sensors.all"))}<td></td>${numberCell(one.force_measured_n)}${numberCell(one.force_simulated_n)}${differenceCell(one.force_simulated_n - one.force_measured_n)}</tr>`,
   })}`;
 }
 
