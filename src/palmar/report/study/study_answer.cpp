@@ -208,7 +208,9 @@ class StudySpeaker {
     const std::optional<int> discomfort = add_comfort(0, false);
     if (!is_drawn_by_chance(results_.plan)) answer_.reasons.push_back(texts_("study.chosen"));
     // Where nobody finds it uncomfortable there is nothing to press.
-    if (discomfort == 0) {
+    if (discomfort == 0 && !is_drawn_by_chance(results_.plan)) {
+      run_again("drawn", kManyHands, "");
+    } else if (discomfort == 0) {
       look_at_report();
     } else {
       redesign(0);
