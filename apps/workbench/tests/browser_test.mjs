@@ -97,6 +97,29 @@ const pointing = `
   return { says, before, after, copied: view.querySelector(".view-copied code").textContent,
            scale: view.querySelector(".view-overlay text:last-of-type").textContent };`;
 
+// The plane that cuts, and the picture as a file: what the link that saves it would give.
+const cutAndSaved = `
+  document.querySelector("#product-0").open = true;
+  const view = document.querySelector("#product-0 [data-palmar-scene]");
+  view.scrollIntoView({ block: "center" });
+  await isLive(view);
+  const canvas = view.querySelector("canvas"), cut = view.querySelector("[data-cut]");
+  const drawnAt = (share) => {
+    cut.value = String(share * Number(cut.max));
+    cut.dispatchEvent(new Event("input", { bubbles: true }));
+    return canvas.toDataURL(); // of the frame that this has drawn
+  };
+  const whole = drawnAt(1), half = drawnAt(0.5);
+  let saved = null;
+  HTMLAnchorElement.prototype.click = function () { saved = { name: this.download, href: this.href }; };
+  view.querySelector("[data-save]").click();
+  for (let i = 0; i < 100 && !saved; ++i) await wait(50);
+  const picture = new Image();
+  picture.src = saved.href;
+  await picture.decode();
+  return { isCut: half !== whole, name: saved.name, isPng: saved.href.startsWith("data:image/png"),
+           hasBar: picture.width > canvas.width };`;
+
 const linked = `
   const view = document.querySelector(".pair");
   view.scrollIntoView({ block: "center" });
@@ -204,6 +227,8 @@ try {
   assert.deepEqual([pointed.before, pointed.after], [false, true], "the wheel is the page's until the view is clicked");
   assert.match(pointed.scale, /^\d+ mm$/);
   assert.deepEqual(await inPage(two, screen, linked), { canvases: 2, follows: true });
+  const kept = await inPage(two, screen, cutAndSaved);
+  assert.ok(kept.isCut && kept.isPng && kept.hasBar && /\.png$/.test(kept.name), JSON.stringify(kept));
   // On paper: the answer on one page, all of it on several.
   for (const [what, paper, width] of [["answer", "a4", 595], ["answer", "letter", 612], ["all", "a4", 595]]) {
     const text = await printed(`file://${two}#print=${what},${paper}`);
