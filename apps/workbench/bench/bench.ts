@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The workbench in a browser; `palmar serve` prints the address with its token.
-import { Api, JobKind, newKey, ServerState, ShelvedProduct } from "./api";
-import { BenchState } from "./bench_state";
+import { Api, Job, JobKind, newKey, ServerState, ShelvedProduct } from "./api";
+import { BenchState, firstState } from "./bench_state";
 import { BenchStart, BenchView } from "./bench_view";
 import { el, fill } from "./dom";
-import { JobForm } from "./job_form";
+import { HandForm } from "./hand_form";
+import { DesignJob, JobForm } from "./job_form";
 import { JobView } from "./job_view";
 import { keptHistory } from "./kept_steps";
 import { BenchLanguage, benchLanguage, chooseLanguage, say, startLanguage } from "./say";
@@ -40,8 +41,8 @@ class App {
     else this.start();
   }
 
-  private fresh(product: ShelvedProduct): BenchStart {
-    return { product, project: newKey(), state: null, history: null };
+  private fresh(product: ShelvedProduct, person = ""): BenchStart {
+    return { product, project: newKey(), state: person ? { ...firstState(product.key), holder: { person, left: false } } : null, history: null };
   }
 
   // What this tab showed when it was loaded anew; of this server alone, whose token it is.
@@ -106,12 +107,28 @@ class App {
 
   private newJob(kind: JobKind): void {
     this.keep(null);
+    if (kind === "hand") new HandForm(this.freshRoot("form", () => this.newJob(kind)), this.api, () => this.start(), (job) => this.openJob(job.key));
+    else this.newDesignJob(kind);
+  }
+
+  private newDesignJob(kind: DesignJob): void {
     new JobForm(this.freshRoot("form", () => this.newJob(kind)), this.api, this.state!, kind, this.state!.given, () => this.start(), (job) => this.openJob(job.key));
   }
 
   private openJob(key: string): void {
     this.keep({ token: this.api.token, job: key });
-    this.view = new JobView(this.freshRoot("job", () => this.openJob(key)), this.api, key, () => this.start(), (product) => this.open(this.fresh(product)));
+    this.view = new JobView(this.freshRoot("job", () => this.openJob(key)), this.api, key, () => this.start(), (product, hand) => this.open(this.fresh(product, hand)),
+      (other) => this.openJob(other), (job) => void this.changeJob(job));
+  }
+
+  // The same product with other settings: a new one.
+  private async changeJob(job: Job): Promise<void> {
+    const product = await this.api.jobProduct(job.key).catch(() => null);
+    const form = () => {
+      this.keep(null);
+      new JobForm(this.freshRoot("form", form), this.api, this.state!, job.kind as DesignJob, product ? [product] : [], () => this.openJob(job.key), (made) => this.openJob(made.key), job.request);
+    };
+    form();
   }
 
   private speak(language: BenchLanguage): void {

@@ -9,11 +9,14 @@ import { Answer } from "./live_channel";
 import { Triple } from "./live_frame";
 import { Angle } from "./pose_panel";
 import { Colours } from "./scene";
+import { ShownPart } from "./snap";
 
 export interface OpenedHold {
   number: number;
   words: string;
   against: string;
+  part: number;
+  along: number;
   score: number | null;
   grip: string;
   thumb_towards: Triple; // product frame
@@ -23,6 +26,7 @@ export interface Opened extends Answer {
   product: ShelvedProduct;
   hand: { name: string; side: string; angles: Angle[]; regions: RegionName[] };
   holds: OpenedHold[];
+  parts: ShownPart[];
   colours: Colours;
 }
 

@@ -62,6 +62,7 @@ export interface BenchParts {
   totals: HTMLElement;
   regions: HTMLElement;
   place: HTMLElement;
+  snap: HTMLElement;
   joints: HTMLElement;
   steps: HTMLElement;
 }
@@ -93,7 +94,7 @@ export function benchPage(root: HTMLElement, els: BenchElements, actions: BenchA
         el("button", { type: "button", "data-act": "close", onclick: () => actions.act("close") }, say("bench.close")),
         el("button", { type: "button", "data-act": "rest", onclick: () => actions.act("rest") }, say("bench.rest")),
         el("button", { type: "button", "data-act": "again", onclick: () => actions.again() }, say("bench.again"))),
-      parts.place, els.hint,
+      parts.place, parts.snap, els.hint,
       el("details", { class: "part", open: true }, el("summary", {}, el("h2", {}, say("bench.regions"))), parts.regions),
       el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.joints"))), parts.joints),
       el("details", { class: "part" }, el("summary", {}, el("h2", {}, say("bench.command"))), els.command)));

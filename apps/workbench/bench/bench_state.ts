@@ -26,6 +26,11 @@ export interface BenchState {
   settle: "close" | "rest" | null; // what was done from that pose: fingers closed, come to rest; null: nothing
 }
 
+/// The first hold, by the template hand.
+export function firstState(product: string): BenchState {
+  return { product, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
+}
+
 export type LiveRequest = { do: string; id?: number } & Record<string, unknown>;
 
 export function openRequest(state: BenchState, language: string): LiveRequest {

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bench: a product in a hand, moved by gizmo and numbers, with the contact as the server finds it.
-import { Api, ShelvedProduct } from "./api";
+import { Api, OwnHand, ShelvedProduct } from "./api";
 import { Autosave } from "./autosave";
 import { Opened, Result } from "./bench_answers";
 import { BenchElements, benchElements, benchPage } from "./bench_page";
-import { Pose, BenchState, needsOpening, openRequest, poseMembers, stateRequest } from "./bench_state";
+import { Pose, BenchState, firstState, needsOpening, openRequest, poseMembers, stateRequest } from "./bench_state";
 import { colourBar } from "./colour_bar";
 import { el, fill, saveText } from "./dom";
 import { FiguresPanel } from "./figures_panel";
+import { info } from "./info";
 import { HistoryStrip } from "./history_strip";
 import { History, kMostKeptSteps } from "./kept_steps";
 import { Answer, LiveChannel, measured } from "./live_channel";
@@ -17,6 +18,8 @@ import { FieldFrame, Frame, Place, Triple } from "./live_frame";
 import { PosePanel } from "./pose_panel";
 import { benchLanguage, decimal, say, sidesText } from "./say";
 import { BenchScene, Offset, Pointed } from "./scene";
+import { SnapPanel } from "./snap";
+import { stationAt } from "./part_line";
 import { projectEnding, projectText } from "./project";
 import { UndoStack } from "./undo";
 
@@ -52,6 +55,8 @@ export class BenchView {
   private readonly scene: BenchScene;
   private readonly figures = new FiguresPanel();
   private readonly posing: PosePanel;
+  private readonly snapping = new SnapPanel((at, isOver) => this.snapped(at, isOver));
+  private held: { centre: Triple; axis: Triple } | null = null; // where the hold has its part, hand frame
   private readonly product: ShelvedProduct;
   private readonly autosave: Autosave;
   private readonly steps = new HistoryStrip((index) => this.goTo(index));
@@ -62,7 +67,7 @@ export class BenchView {
   constructor(root: HTMLElement, private readonly api: Api, private readonly start: BenchStart,
               back: () => void, private readonly kept: (state: BenchState) => void) {
     this.product = start.product;
-    this.state = start.state ?? { product: start.product.key, holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null };
+    this.state = start.state ?? firstState(start.product.key);
     if (start.history) this.undo.restore(start.history.steps, start.history.at);
     this.autosave = new Autosave(api, start.project, (problem) => this.tellKept(problem));
     this.posing = new PosePanel({
@@ -77,12 +82,13 @@ export class BenchView {
     this.els = benchElements(actions);
     fill(this.els.title, el("strong", {}, this.product.file_name));
     this.section = benchPage(root, this.els, actions, {
-      totals: this.figures.totals, regions: this.figures.table, place: this.posing.place, joints: this.posing.jointsElement, steps: this.steps.element,
+      totals: this.figures.totals, regions: this.figures.table, place: this.posing.place, snap: this.snapping.element, joints: this.posing.jointsElement, steps: this.steps.element,
     });
     this.scene = new BenchScene(this.section, (isOver) => this.gizmoMoved(isOver));
     this.scene.onPointed((pointed) => this.tellPoint(pointed));
     this.section.querySelector("[data-product]")!.addEventListener("change", () => this.scene.paint());
     document.addEventListener("keydown", this.keys);
+    void api.hands().then((hands) => this.addHands(hands), () => {});
     this.status(say("bench.opening", { file: this.product.file_name }));
     const place = location.protocol === "https:" ? "wss" : "ws";
     this.channel = new LiveChannel(`${place}://${location.host}/api/live?token=${encodeURIComponent(api.token)}`, {
@@ -95,11 +101,18 @@ export class BenchView {
   close(): void {
     document.removeEventListener("keydown", this.keys);
     this.channel.close();
+    this.scene.close();
   }
 
   /// What stands on the bench, to go on elsewhere (another language).
   get current(): BenchStart {
     return { ...this.start, state: this.state, history: this.undo.steps(kMostKeptSteps) };
+  }
+
+  // Hands that were made here.
+  private addHands(hands: OwnHand[]): void {
+    this.els.person.append(...hands.map((one) => el("option", { value: `hand:${one.key}` }, say("hand.own", { name: one.name }))));
+    this.els.person.value = this.state.holder.person;
   }
 
   // --- the page
@@ -221,7 +234,8 @@ export class BenchView {
     this.figures.regions = opened.hand.regions;
     this.posing.setHand(opened.hand.angles);
     this.scene.setColours(opened.colours);
-    const isLeft = opened.hand.side === "left";
+    const isLeft = opened.hand.side === "left"; // of an own hand it wasn't known before
+    this.scene.setLeft(isLeft);
     this.els.hint.textContent = say(isLeft ? "bench.place_hint_left" : "bench.place_hint");
     const product = opened.product;
     fill(this.els.title, el("strong", {}, product.file_name),
@@ -236,6 +250,8 @@ export class BenchView {
       el("strong", {}, say("bench.hold", { number: hold.number })), el("span", {}, hold.words),
       el("span", { class: "soft" }, say("bench.thumb_towards", { direction: directionWords(hold.thumb_towards) })),
       hold.against && el("span", { class: "soft" }, hold.against)))));
+    this.snapping.show(opened.parts);
+    this.held = null;
     this.section.dataset.opened = product.key;
     if (opened.holds.length > 0 || this.state.pose) this.bring();
     else this.working(null);
@@ -252,6 +268,7 @@ export class BenchView {
     // Offsets count from where the product came to rest last.
     if (this.what !== "evaluate" || this.isNew) this.scene.setBase(place, one.contact.centre_mm);
     this.posing.setOffset(this.scene.offset());
+    if (this.what !== "evaluate" || this.held === null) this.noteHeld();
     this.scene.setUpper(result.upper_mpa);
     if (this.opened) this.els.bar.innerHTML = colourBar(this.opened.colours, 1000 * result.upper_mpa);
     if (this.isNew) this.scene.lookAtHand();
@@ -263,7 +280,7 @@ export class BenchView {
     const tone = isPlaced && one.verdict.held === "held" ? "fair"
       : { held: "good", doubtful: "fair", not_held: "bad" }[one.verdict.held] ?? "";
     this.els.verdict.className = `verdict ${tone}`;
-    fill(this.els.verdict, el("p", { class: "sentence" }, result.assessment.verdict.sentence || one.grasp.message),
+    fill(this.els.verdict, el("p", { class: "sentence" }, result.assessment.verdict.sentence || one.grasp.message, " ", info("held")),
       result.assessment.verdict.reasons.length > 0 && el("details", {}, el("summary", {}, say("bench.why")), el("ul", {}, result.assessment.verdict.reasons.map((reason) => el("li", {}, reason)))));
     this.showCommand(result);
     this.section.dataset.field = isPlaced ? "placed" : "rest";
@@ -327,7 +344,9 @@ export class BenchView {
     try {
       const bytes = await this.api.file(this.product.key);
       const name = this.product.file_name;
-      saveText(name.replace(/\.[^.]*$/, "") + projectEnding, projectText({ fileName: name, unit: this.product.unit, bytes, state: this.state }));
+      const own = this.state.holder.person.startsWith("hand:") ? await this.api.handFile(this.state.holder.person.slice(5)) : null;
+      const state = own ? { ...this.state, holder: { ...this.state.holder, person: "" } } : this.state;
+      saveText(name.replace(/\.[^.]*$/, "") + projectEnding, projectText({ fileName: name, unit: this.product.unit, bytes, state, hand: own }));
     } catch (error) {
       this.status(say("bench.failed", { message: String(error) }), "bad");
     }
@@ -418,6 +437,20 @@ export class BenchView {
   private moved(offset: Offset, isOver: boolean): void {
     if (!this.pose) return;
     this.scene.setOffset(offset);
+    this.goOn(isOver);
+  }
+
+  // Where the part that is held lies at rest; what is snapped comes there.
+  private noteHeld(): void {
+    const hold = this.opened?.holds.find((one) => one.number === this.state.hold);
+    const part = this.opened?.parts.find((one) => one.number === hold?.part && one.line.length > 0);
+    this.held = part && hold ? this.scene.inHand(stationAt(part.line, hold.along)) : null;
+  }
+
+  private snapped(at: { centre: Triple; axis: Triple }, isOver: boolean): void {
+    if (!this.pose || !this.held) return;
+    this.scene.snap(at, this.held);
+    this.posing.setOffset(this.scene.offset());
     this.goOn(isOver);
   }
 

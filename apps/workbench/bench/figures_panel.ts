@@ -3,6 +3,7 @@
 //
 // What the contact comes to: totals, and one row per region in contact. Changes with every frame.
 import { el, fill } from "./dom";
+import { info } from "./info";
 import { FieldFrame } from "./live_frame";
 import { decimal, say } from "./say";
 
@@ -25,7 +26,7 @@ export class FiguresPanel {
     const line = (key: "grip_force" | "contact_force" | "area" | "peak" | "mean") => {
       const value = el("dd", { "data-figure": key });
       this.values[key] = value;
-      return el("div", {}, el("dt", {}, say(`bench.${key}`)), value);
+      return el("div", {}, el("dt", {}, say(`bench.${key}`), " ", info(key)), value);
     };
     this.totals = el("dl", { class: "totals" }, line("grip_force"), line("contact_force"), line("area"), line("peak"), line("mean"));
     this.table = el("table", {}, el("caption", { class: "unseen" }, say("bench.regions")),

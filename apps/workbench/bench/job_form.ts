@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a study, a comparison or a redesign is to be of: designs, hands, how firmly.
-import { Api, Job, JobKind, KeptProject, ServerState, ShelvedProduct } from "./api";
+import { Api, Job, JobKind, JobSettings, KeptProject, OwnHand, ServerState, ShelvedProduct } from "./api";
 import { el, fill } from "./dom";
 import { FilePicker } from "./file_picker";
 import { people, personWords, populations } from "./people";
@@ -12,7 +12,8 @@ const verbs = ["press", "region", "fillet", "features"] as const;
 const kUsualHands = 12; // six pairs are the fewest that show anything
 
 /// How many designs each kind takes.
-const counts: Record<JobKind, { fewest: number; most: number }> = {
+export type DesignJob = Exclude<JobKind, "hand">;
+const counts: Record<DesignJob, { fewest: number; most: number }> = {
   study: { fewest: 1, most: 12 }, compare: { fewest: 2, most: 3 }, redesign: { fewest: 1, most: 1 },
 };
 
@@ -34,14 +35,19 @@ export class JobForm {
     depth: el("input", { type: "number", name: "depth", min: 0.1, max: 50, step: 0.1, placeholder: say("form.usual") }),
     low: el("input", { type: "number", name: "low", min: 0.1, max: 200, step: 0.1, value: 1 }),
     high: el("input", { type: "number", name: "high", min: 0.1, max: 200, step: 0.1, value: 15 }),
+    preview: el("input", { type: "number", name: "preview", min: 0.1, max: 200, step: 0.1, placeholder: say("form.middle") }),
+    vary: el("input", { type: "text", name: "vary", placeholder: say("form.propose"), maxlength: 100 }),
   };
   private readonly verbHint = el("p", { class: "soft" });
   private readonly depthRow: HTMLElement;
   private readonly radiusRow: HTMLElement;
   private readonly handsRow: HTMLElement;
+  private readonly previewRow: HTMLElement;
+  private readonly varyRow: HTMLElement;
 
-  constructor(root: HTMLElement, private readonly api: Api, private readonly state: ServerState, private readonly kind: JobKind,
-              begin: ShelvedProduct[], back: () => void, private readonly made: (job: Job) => void) {
+  /// `before`: what an earlier one was asked for, to be changed.
+  constructor(root: HTMLElement, private readonly api: Api, private readonly state: ServerState, private readonly kind: DesignJob,
+              begin: ShelvedProduct[], back: () => void, private readonly made: (job: Job) => void, before: JobSettings | null = null) {
     const picker = new FilePicker(api, (text) => { this.message.textContent = text; }, (product) => this.add(product), null);
     this.more = el("select", { "data-more": true, "aria-label": say("form.add_known"), onchange: () => void this.addKnown() });
     const field = (key: TextKey, ...inputs: (HTMLElement | string)[]) => el("label", { class: "field" }, el("span", {}, say(key)), el("span", { class: "inputs" }, inputs));
@@ -50,6 +56,8 @@ export class JobForm {
     this.depthRow = field("form.depth", fields.depth, "mm");
     this.radiusRow = el("div", { class: "field", role: "group", "aria-label": say("form.radius") }, el("span", {}, say("form.radius")),
       el("span", { class: "inputs" }, fields.low, "–", fields.high, "mm"));
+    this.previewRow = field("form.preview_radius", fields.preview, "mm");
+    this.varyRow = field("form.vary", fields.vary);
     fields.low.setAttribute("aria-label", `${say("form.radius")}, ${say("form.from")}, mm`);
     fields.high.setAttribute("aria-label", `${say("form.radius")}, ${say("form.to")}, mm`);
     fields.side.setAttribute("aria-label", `${say("bench.right")}, ${say("bench.left")}`);
@@ -58,7 +66,7 @@ export class JobForm {
     const own = {
       study: [...many, ...task],
       compare: [field("bench.who", fields.person, fields.side), ...task],
-      redesign: [field("form.verb", fields.verb), this.verbHint, this.depthRow, this.radiusRow, ...many],
+      redesign: [field("form.verb", fields.verb), this.verbHint, this.depthRow, this.radiusRow, this.previewRow, this.varyRow, ...many],
     }[kind];
     const form = el("form", { class: "job-form" },
       el("fieldset", {}, el("legend", {}, say(kind === "redesign" ? "form.design" : "form.designs")), this.list,
@@ -71,12 +79,31 @@ export class JobForm {
     });
     for (const select of [fields.population, fields.verb]) select.addEventListener("change", () => this.show());
     picker.takeDrops(root, form);
-    this.submit.textContent = say(kind === "study" ? "form.estimate" : "form.start");
+    fields.vary.addEventListener("input", () => this.show());
+    if (before) this.take(before);
     fill(root, el("header", { class: "top" }, el("button", { type: "button", onclick: back }, say("bench.back")), el("div", { class: "title" }, el("strong", {}, say(`job.new.${kind}`)))),
       el("div", { class: "start narrow" }, el("h1", {}, say(`job.new.${kind}`)), el("p", { class: "lead" }, say(`job.about.${kind}`)), form));
     begin.forEach((product) => this.add(product));
     this.show();
     void api.projects().then((projects) => { this.projects = projects; this.show(); }, () => {});
+    if (kind === "compare") void api.hands().then((hands) => this.addHands(hands), () => {});
+  }
+
+  private addHands(hands: OwnHand[]): void {
+    this.fields.person.append(...hands.map((one) => el("option", { value: `hand:${one.key}` }, say("hand.own", { name: one.name }))));
+  }
+
+  private take(before: JobSettings): void {
+    const { fields } = this;
+    const set = (input: HTMLInputElement | HTMLSelectElement, value: unknown) => { if (value !== null && value !== undefined) input.value = String(value); };
+    set(fields.verb, before.verb);
+    set(fields.depth, before.largest_depth_mm);
+    set(fields.low, before.radius_mm?.[0]);
+    set(fields.high, before.radius_mm?.[1]);
+    set(fields.preview, before.preview_mm);
+    set(fields.vary, before.vary?.join(" "));
+    set(fields.population, populations.find((one) => one.names.join() === before.populations?.join())?.key);
+    if (before.hands) set(fields.hands, before.hands);
   }
 
   private add(product: ShelvedProduct): void {
@@ -113,10 +140,15 @@ export class JobForm {
     const verb = this.fields.verb.value as (typeof verbs)[number];
     this.verbHint.textContent = say(`redesign.about.${verb}`);
     this.depthRow.hidden = verb !== "press" && verb !== "region";
-    this.radiusRow.hidden = verb !== "fillet";
+    this.radiusRow.hidden = this.previewRow.hidden = verb !== "fillet";
+    this.varyRow.hidden = verb !== "features";
+    const isPreviewed = this.kind === "redesign" && (verb !== "features" || this.varied().length > 0);
+    this.submit.textContent = say(this.kind === "study" ? "form.estimate" : isPreviewed ? "form.preview" : "form.start");
   }
 
   private population() { return populations.find((one) => one.key === this.fields.population.value)!; }
+
+  private varied(): string[] { return this.fields.vary.value.trim().split(/\s+/).filter(Boolean); }
 
   private async send(): Promise<void> {
     const { fields, kind } = this;
@@ -124,7 +156,7 @@ export class JobForm {
     const request: Record<string, unknown> = { kind, products: this.chosen.map((one) => one.key), language: benchLanguage() };
     if (kind === "compare") Object.assign(request, { person: fields.person.value || null, left: fields.side.value === "left" });
     else Object.assign(request, { populations: this.population().names, hands: this.population().areDrawn ? number(fields.hands) : 0 });
-    if (kind === "redesign") Object.assign(request, { verb: fields.verb.value, largest_depth_mm: number(fields.depth), radius_mm: [Number(fields.low.value), Number(fields.high.value)] });
+    if (kind === "redesign") Object.assign(request, { verb: fields.verb.value, largest_depth_mm: number(fields.depth), radius_mm: [Number(fields.low.value), Number(fields.high.value)], preview_mm: number(fields.preview), vary: this.varied() });
     else Object.assign(request, { grip_force_n: number(fields.force), mass_kg: number(fields.mass) });
     this.submit.disabled = true;
     try {

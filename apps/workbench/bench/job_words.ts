@@ -22,5 +22,7 @@ export function jobSentence(job: Job): string {
   if (job.state === "failed") return say("bench.failed", { message: job.message });
   if (job.state === "running") return say("job.running", { percent: Math.floor(100 * job.share), doing: job.doing });
   if (job.state === "stopped") return say(job.kind === "study" ? "job.stopped_study" : "job.stopped");
+  if (job.kind === "redesign" && (job.state === "estimating" || job.state === "new")) return say(`job.says.${job.state}_redesign`);
+  if (job.kind === "hand" && job.state === "done") return say("job.says.done_hand");
   return say(`job.says.${job.state}`);
 }

@@ -13,7 +13,20 @@ export interface Project {
   fileName: string;
   unit: string | null; // as the user said
   bytes: Uint8Array; // of the product's file
+  hand: { fileName: string; bytes: Uint8Array } | null; // a person's own; the state's person is then ""
   state: Omit<BenchState, "product">;
+}
+
+function fromBase64(value: unknown): Uint8Array {
+  let raw: string;
+  try {
+    raw = atob(text(value, "bytes_base64"));
+  } catch {
+    return fail("bytes_base64", "base64");
+  }
+  const bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  return bytes;
 }
 
 function toBase64(bytes: Uint8Array): string {
@@ -35,10 +48,12 @@ export function stateMembers(state: Omit<BenchState, "product">): Record<string,
 }
 
 export function projectText(project: Project): string {
+  const members = stateMembers(project.state) as { hand: object };
+  const file = project.hand && { file_name: project.hand.fileName, bytes_base64: toBase64(project.hand.bytes) };
   return JSON.stringify({
     palmar_project: kVersion,
     product: { file_name: project.fileName, unit: project.unit, bytes_base64: toBase64(project.bytes) },
-    ...stateMembers(project.state),
+    ...members, hand: { ...members.hand, ...(file ? { file } : {}) },
   }, null, 1);
 }
 
@@ -97,17 +112,12 @@ export function parseProject(content: string): Project {
   }
   const product = object(all.product, "product");
   const state = parseState(all);
-  let raw: string;
-  try {
-    raw = atob(text(product.bytes_base64, "bytes_base64"));
-  } catch {
-    return fail("bytes_base64", "base64");
-  }
-  const bytes = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  const file = (all.hand as Json).file;
+  const hand = file ? object(file, "file") : null;
   return {
     fileName: text(product.file_name, "file_name"),
     unit: product.unit === null ? null : text(product.unit, "unit"),
-    bytes, state,
+    bytes: fromBase64(product.bytes_base64), state,
+    hand: hand && { fileName: text(hand.file_name, "file_name"), bytes: fromBase64(hand.bytes_base64) },
   };
 }

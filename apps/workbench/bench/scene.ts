@@ -19,6 +19,13 @@ export interface Colours {
   product: Triple;
 }
 
+/// The colour table as scaleTexture() takes it.
+export function tableText(colours: Colours): string {
+  let bytes = "";
+  for (const colour of colours.table) bytes += String.fromCharCode(...colour);
+  return btoa(bytes);
+}
+
 export interface Pointed {
   region: number | null; // null: the product
   pressure: number | null; // MPa; null: not known here
@@ -106,6 +113,20 @@ export class BenchScene {
     this.skin.geometry.dispose();
     this.skin.geometry = geometryOf(new Float32Array(3 * frame.vertices), frame.triangles);
     this.pressure = new Float32Array(frame.vertices);
+    this.setLeft(isLeft);
+  }
+
+  close(): void {
+    this.isDrawing = true; // nothing any more
+    this.gizmo.detach();
+    this.gizmo.dispose();
+    this.plain.dispose();
+    this.texture?.dispose();
+    this.productTexture?.dispose();
+    this.stage.dispose();
+  }
+
+  setLeft(isLeft: boolean): void {
     this.stage.setSides([0, 0, 1], [0, 1, 0], [isLeft ? -1 : 1, 0, 0]);
   }
 
@@ -119,12 +140,11 @@ export class BenchScene {
 
   setColours(colours: Colours): void {
     this.colours = colours;
-    let bytes = "";
-    for (const colour of colours.table) bytes += String.fromCharCode(...colour);
+    const table = tableText(colours);
     this.texture?.dispose();
-    this.texture = scaleTexture(btoa(bytes), colours.neutral);
+    this.texture = scaleTexture(table, colours.neutral);
     this.productTexture?.dispose();
-    this.productTexture = scaleTexture(btoa(bytes), colours.product);
+    this.productTexture = scaleTexture(table, colours.product);
     this.paint();
   }
 
@@ -219,7 +239,10 @@ export class BenchScene {
 
   /// Puts the product elsewhere; base and gizmo's place in it stay.
   setPlace(place: Place): void {
-    const handFromProduct = matrixOf(place).invert();
+    this.setHandFromProduct(matrixOf(place).invert());
+  }
+
+  private setHandFromProduct(handFromProduct: Matrix4): void {
     this.pivot.matrix.copy(handFromProduct).multiply(this.product.matrix.clone().invert());
     this.pivot.matrix.decompose(this.pivot.position, this.pivot.quaternion, this.pivot.scale);
     this.pivot.scale.set(1, 1, 1);
@@ -244,6 +267,26 @@ export class BenchScene {
     const position = new Vector3(), turn = new Quaternion();
     productFromHand.decompose(position, turn, new Vector3());
     return { quaternion: [turn.w, turn.x, turn.y, turn.z], translation: position.toArray() as Triple };
+  }
+
+  /// Puts `at` (a place of the product with its direction there) to `to` (hand frame), turning the product the
+  /// least way that brings the directions into one line.
+  snap(at: { centre: Triple; axis: Triple }, to: { centre: Triple; axis: Triple }): void {
+    this.pivot.updateMatrix();
+    const now = this.pivot.matrix.clone().multiply(this.product.matrix); // hand from product
+    const axis = new Vector3(...at.axis).transformDirection(now), wanted = new Vector3(...to.axis);
+    if (axis.dot(wanted) < 0) wanted.negate();
+    const next = new Matrix4().makeRotationFromQuaternion(new Quaternion().setFromUnitVectors(axis, wanted)).multiply(now);
+    const moved = new Vector3(...to.centre).sub(new Vector3(...at.centre).applyMatrix4(next));
+    this.setHandFromProduct(new Matrix4().makeTranslation(moved).multiply(next));
+    this.draw();
+  }
+
+  /// A place of the product and its direction there in the hand's frame.
+  inHand(at: { centre: Triple; axis: Triple }): { centre: Triple; axis: Triple } {
+    this.pivot.updateMatrix();
+    const now = this.pivot.matrix.clone().multiply(this.product.matrix);
+    return { centre: new Vector3(...at.centre).applyMatrix4(now).toArray() as Triple, axis: new Vector3(...at.axis).transformDirection(now).toArray() as Triple };
   }
 
   setMode(mode: "translate" | "rotate"): void {

@@ -49,7 +49,7 @@ export class StartView {
       given.length > 0 && [el("h2", {}, say("start.given")), el("ul", { class: "cards" }, given)],
       this.recent, this.jobs,
       el("h2", {}, say("start.examples")), el("ul", { class: "cards" }, examples),
-      el("h2", {}, say("start.more")), el("ul", { class: "cards" }, task("study"), task("compare"), task("redesign")),
+      el("h2", {}, say("start.more")), el("ul", { class: "cards" }, task("study"), task("compare"), task("redesign"), task("hand")),
       el("p", { class: "soft" }, say("start.local"), ` Palmar ${state.version}`)));
   }
 
@@ -115,7 +115,9 @@ export class StartView {
       const project = parseProject(await file.text());
       const query = new URLSearchParams({ name: project.fileName, unit: project.unit ?? "" });
       const product = await this.api.get<ShelvedProduct>("POST", `/api/products?${query.toString()}`, new Blob([project.bytes]));
-      this.events.open({ product, project: newKey(), state: { ...project.state, product: product.key }, history: null });
+      const own = project.hand ? `hand:${await this.api.addHand(project.hand.fileName, project.hand.bytes)}` : null;
+      const holder = own ? { ...project.state.holder, person: own } : project.state.holder;
+      this.events.open({ product, project: newKey(), state: { ...project.state, holder, product: product.key }, history: null });
     } catch (error) {
       this.fail(`${file.name}: ${error instanceof Error ? error.message : String(error)}`);
     }

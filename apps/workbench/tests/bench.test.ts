@@ -211,10 +211,12 @@ test("a project reads back exactly and says what is wrong with it", () => {
   const bytes = new Uint8Array(70000);
   for (let i = 0; i < bytes.length; ++i) bytes[i] = (i * 7919) % 256;
   const pose = { postureDeg: Array.from({ length: 23 }, (_, k) => k / 3), place: { quaternion: [0.6, 0, 0.8, 0] as [number, number, number, number], translation: [0.1, -2.7, 3] as [number, number, number] }, grip: "medium_wrap" };
-  const project: Project = { fileName: "a b.stl", unit: "mm", bytes, state: { holder: { person: "man:P95", left: true }, gripForce: 33.3, hold: 2, pose, settle: "close" } };
+  const project: Project = { fileName: "a b.stl", unit: "mm", bytes, hand: null, state: { holder: { person: "man:P95", left: true }, gripForce: 33.3, hold: 2, pose, settle: "close" } };
   assert.deepEqual(parseProject(projectText(project)), project);
   const plain: Project = { ...project, unit: null, state: { holder: { person: "", left: false }, gripForce: null, hold: 1, pose: null, settle: null } };
   assert.deepEqual(parseProject(projectText(plain)), plain);
+  const own: Project = { ...plain, hand: { fileName: "anna.hand.glb", bytes: new Uint8Array([103, 108, 84, 70]) } };
+  assert.deepEqual(parseProject(projectText(own)), own);
   const changed = (change: (json: Record<string, any>) => void) => () => {
     const json = JSON.parse(projectText(project));
     change(json);

@@ -301,6 +301,21 @@ async function doAsPeopleDo(browser) {
   assert.equal(left.hand.side, "left");
   compared(await figures(page), left.contact);
 
+  // An "i" at every figure says what it is, by the keyboard too.
+  const figureCount = await page.value("document.querySelectorAll('[data-figure]').length");
+  assert.equal(await page.value("document.querySelectorAll('.totals .info').length"), figureCount);
+  await page.value("document.querySelector('.totals .info').focus()");
+  await page.key("Enter", 0, 13);
+  await page.until("document.querySelector('.info-text:popover-open p:nth-of-type(3)')?.checkVisibility()");
+  await page.key("Escape", 0, 27);
+  await page.until("document.querySelector('.info-text:popover-open') === null");
+  // Snapped to the middle of its only part, the handle lies along the same line as before.
+  await after(page, async () => {
+    await page.set("[data-snap=along]", 50, []);
+    await page.set("[data-snap=part]", 1, ["change"]);
+  });
+  assert.ok(Math.abs(Number((await page.value("document.querySelector('[data-offset=turn-y]').value")))) < 30);
+
   // Readable, named, in both languages.
   const looked = await page.value(contrasts);
   assert.ok(looked.seen > 60, JSON.stringify(looked));

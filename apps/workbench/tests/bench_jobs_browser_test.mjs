@@ -79,6 +79,28 @@ async function recentProjects(page, server) {
   await second.click("[data-recent]");
   await second.until(rests, minutes);
   await second.close();
+  // Nor do two servers: what was done last is kept, and both go on.
+  const beside = await serve();
+  const third = await browser.page();
+  await third.open(beside.url);
+  await third.until("document.querySelector('[data-recent]') !== null");
+  await third.click("[data-recent]");
+  await third.until(rests, minutes);
+  await after(third, () => third.set(".force input[type=number]", 55, ["change"]));
+  await third.until(`Number(${bench}.dataset.kept) >= 1`);
+  await after(page, () => page.set(".force input[type=number]", 65, ["change"]));
+  const kept = Number(await page.value(`${bench}.dataset.kept`));
+  await page.until(`Number(${bench}.dataset.kept) >= ${Math.max(1, kept)}`);
+  await wait(1500);
+  await third.send("Page.reload");
+  await third.until(rests, minutes);
+  await third.click(".top button");
+  await third.until("document.querySelectorAll('[data-recent]').length === 1");
+  await third.click("[data-recent]");
+  await third.until(rests, minutes);
+  assert.match(await third.value("document.querySelector('.force input[type=number]').value"), /^(55|65)$/);
+  await third.close();
+  await stop(beside);
   await page.click(".top button");
   await page.until("document.querySelectorAll('[data-recent]').length === 1");
   return again;
@@ -196,6 +218,24 @@ async function redesign(page) {
   assert.equal(await page.value("document.querySelector('[name=hands]').checkVisibility()"), false, "as many as were named");
   await snap(page, "workbench-redesign-form");
   await page.click(".job-form [type=submit]");
+  // First the shape, to be looked at.
+  await page.until(stands("new", "failed"), 5 * minutes);
+  assert.equal(await page.value(`${job}.dataset.state`), "new", await page.text(".status"));
+  await page.until("document.querySelector('.shape')?.dataset.ready === 'true'", minutes);
+  const most = Number(await page.value("document.querySelector('.shape').dataset.most"));
+  assert.ok(most > 0.2 && most < 3.01, `pressed by ${most} mm; at most 3 was asked for`);
+  await page.click("[data-shape=both]");
+  await snap(page, "workbench-redesign-preview");
+  // Changed, it is looked at anew: a smaller depth.
+  await page.click("[data-job-act=change]");
+  await page.until("document.querySelector('.designs strong') !== null");
+  assert.equal(await page.value("document.querySelector('[name=depth]').value"), "3");
+  await page.set("[name=depth]", "1");
+  await page.click(".job-form [type=submit]");
+  await page.until(`${stands("new", "failed")} && document.querySelector('.shape')?.dataset.ready === 'true'`, 5 * minutes);
+  const less = Number(await page.value("document.querySelector('.shape').dataset.most"));
+  assert.ok(less > 0.2 && less < 1.01, `pressed by ${less} mm; at most 1 was asked for`);
+  await page.click("[data-job-act=start]");
   await page.until(stands("done", "failed"), 5 * minutes);
   assert.equal(await page.value(`${job}.dataset.state`), "done", await page.text(".status"));
   assert.match(await page.text(".files"), /pressed\.stl/);
@@ -205,6 +245,35 @@ async function redesign(page) {
   await page.click("[data-on-bench='pressed.stl']");
   await page.until(rests, minutes);
   assert.match(await page.text(".title"), /pressed\.stl/);
+}
+
+/// A CAD file with rounder edges: shown before it is run, and the solid that comes out is what it says.
+async function stepOut(page) {
+  execFileSync(palmar, ["product", "make", "prism", "--width-mm", "40", "--depth-mm", "30", "--length-mm", "130", "--fillet-mm", "0", "--out", "bar.step", "--quiet"], { cwd: folder });
+  await page.click(".top button");
+  await page.until(startPage);
+  await page.click("[data-new=redesign]");
+  await page.until("document.querySelector('.job-form') !== null");
+  await choose(page, join(folder, "bar.step"));
+  await page.until("document.querySelectorAll('.designs strong').length === 1", minutes);
+  await page.set("[name=verb]", "features", ["change"]);
+  await page.set("[name=vary]", "fillet:long=6");
+  await page.set("[name=population]", "range", ["change"]);
+  await page.click(".job-form [type=submit]");
+  await page.until(`${stands("new", "failed")} && document.querySelector('.shape')?.dataset.ready === 'true'`, 5 * minutes);
+  // A sharp edge that gets the radius r goes back by (sqrt 2 - 1) r; the new surface lies (1 - 1 / sqrt 2) r deep.
+  const most = Number(await page.value("document.querySelector('.shape').dataset.most"));
+  assert.ok(Math.abs(most - 6 * (1 - Math.SQRT1_2)) < 0.1, `${most} mm`);
+  await snap(page, "workbench-redesign-step");
+  await page.click("[data-job-act=start]");
+  await page.until(stands("done", "failed"), 5 * minutes);
+  assert.equal(await page.value(`${job}.dataset.state`), "done", await page.text(".status"));
+  const text = await page.value("fetch([...document.querySelectorAll('.files a')].find((one) => one.download === 'redesign.step').href).then((answer) => answer.text())");
+  writeFileSync(join(folder, "redesign.step"), text);
+  const info = JSON.parse(execFileSync(palmar, ["product", "info", "redesign.step", "--json", "--quiet"], { cwd: folder, encoding: "utf8", maxBuffer: 1 << 28 }));
+  const volume = info.volume_mm3 ?? info.volume_ml * 1000;
+  const truth = (40 * 30 - (4 - Math.PI) * 36) * 130; // mm^3
+  assert.ok(Math.abs(volume - truth) < 0.003 * truth, `${volume} mm^3; a bar with edges of 6 mm has ${truth}`);
 }
 
 const browser = new Browser();
@@ -222,6 +291,7 @@ try {
     await page.until(startPage);
     await comparison(page);
     await redesign(page);
+    await stepOut(page);
   } else {
     server = await recentProjects(page, server);
     server = await smallStudy(page, server);

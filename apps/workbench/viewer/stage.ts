@@ -54,6 +54,7 @@ export class Stage {
   private radius = 100;
   private readonly overlay: SVGSVGElement;
   private readonly cut = new Plane();
+  private readonly sizes: ResizeObserver;
   private follower: Stage | null = null;
   private isFollowing = false;
 
@@ -77,9 +78,7 @@ export class Stage {
     });
     canvas.addEventListener("click", () => this.use(true));
     canvas.addEventListener("focus", () => this.use(true));
-    document.addEventListener("pointerdown", (event) => {
-      if (!section.contains(event.target as Node)) this.use(false);
-    });
+    document.addEventListener("pointerdown", this.elsewhere);
 
     this.scene.add(new HemisphereLight(0xffffff, 0xb8b4ae, 1.5), this.lights);
     const key = new DirectionalLight(0xffffff, 1.6);
@@ -103,8 +102,27 @@ export class Stage {
     for (const button of section.querySelectorAll<HTMLButtonElement>("[data-save]")) {
       button.addEventListener("click", () => void this.save(button.dataset.save || "view"));
     }
-    new ResizeObserver(() => this.resize(place)).observe(place);
+    this.sizes = new ResizeObserver(() => this.resize(place));
+    this.sizes.observe(place);
     this.resize(place);
+  }
+
+  private readonly elsewhere = (event: Event): void => {
+    if (!this.section.contains(event.target as Node)) this.use(false);
+  };
+
+  // What outlives the page's element otherwise: listeners, and the graphics memory of the canvas.
+  dispose(): void {
+    document.removeEventListener("pointerdown", this.elsewhere);
+    this.sizes.disconnect();
+    this.controls.dispose();
+    this.scene.traverse((one) => {
+      if (!(one instanceof Mesh)) return;
+      one.geometry.dispose();
+      for (const material of Array.isArray(one.material) ? one.material : [one.material]) material.dispose();
+    });
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   // Whether wheel and fingers are the view's or the page's.

@@ -120,7 +120,8 @@ StudyEstimateWords study_estimate_in(std::string_view json) {
   return words;
 }
 
-std::string job_answer(const Job& job, const std::vector<std::string>& files) {
+std::string job_answer(const Job& job, const std::vector<std::string>& files,
+                       const std::vector<std::string>& made) {
   const JobFileJson request = JobFileJson::parse(job_request_json(job.request));
   JobFileJson products = JobFileJson::array();
   for (const ShelvedProduct& one : job.products) products.push_back(one.file_name);
@@ -138,7 +139,10 @@ std::string job_answer(const Job& job, const std::vector<std::string>& files) {
                    {"doing", job.doing},
                    {"commands", job.commands},
                    {"has_report", job.has_report},
-                   {"files", files}});
+                   {"has_preview", job.has_preview},
+                   {"has_hand", job.has_hand},
+                   {"files", files},
+                   {"made", made}});
 }
 
 }  // namespace palmar

@@ -35,6 +35,8 @@ struct StudyEstimateWords {
 StudyEstimateWords study_estimate_in(std::string_view lines);
 
 /// As the API gives it: {"key", "kind", "title", "state", ...}.
-std::string job_answer(const Job& job, const std::vector<std::string>& files);
+/// `files` and `made` as JobShelf says.
+std::string job_answer(const Job& job, const std::vector<std::string>& files,
+                       const std::vector<std::string>& made);
 
 }  // namespace palmar

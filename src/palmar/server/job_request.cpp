@@ -11,6 +11,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/study/people_range.h"
+#include "palmar/server/access.h"
 #include "palmar/workflow/live/live_person.h"
 
 namespace palmar {
@@ -21,6 +22,8 @@ using JobJson = nlohmann::ordered_json;
 constexpr std::size_t kMostJobProducts = 12;  // our choice: what a report still shows side by side
 constexpr std::size_t kMostCompared = 3;      // our choice: as many pictures as one screen holds
 constexpr int kMostJobHands = 2000;           // our choice: some hours on two cores
+constexpr int kPreviewHands = 4;              // our choice: some seconds
+constexpr std::size_t kMostVaried = 8;        // features of one search
 constexpr double kReportShare = 0.15;         // of a study's time, about
 
 [[noreturn]] void refuse_job(const std::string& member, const JobJson& value,
@@ -97,8 +100,9 @@ JobKind kind_named(const std::string& name) {
   if (name == "study") return JobKind::kStudy;
   if (name == "compare") return JobKind::kCompare;
   if (name == "redesign") return JobKind::kRedesign;
+  if (name == "hand") return JobKind::kHand;
   throw UsageError("job: \"kind\" is " + in_quotes(name) +
-                   "; study, compare or redesign is allowed");
+                   "; study, compare, redesign or hand is allowed");
 }
 
 std::string kind_name(JobKind kind) {
@@ -109,6 +113,8 @@ std::string kind_name(JobKind kind) {
       return "compare";
     case JobKind::kRedesign:
       return "redesign";
+    case JobKind::kHand:
+      return "hand";
   }
   return {};
 }
@@ -144,6 +150,38 @@ void add_people(const JobRequest& request, std::vector<std::string>& words) {
   if (request.hands > 0) words.insert(words.end(), {"--hands", std::to_string(request.hands)});
 }
 
+/// "fillet:face=7=2:6", "offset:sides=-2:2", "groove:at=40=1", "diameter_mm=25:45": as `palmar
+/// redesign features --vary` takes it, but for the file of a groove's line.
+void check_vary(const std::string& words) {
+  const std::size_t equals = words.rfind('=');
+  const bool is_plain =
+      words.size() <= 100 && equals != std::string::npos && equals > 0 &&
+      std::isalpha(static_cast<unsigned char>(words.front())) != 0 &&
+      std::all_of(words.begin(), words.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_+-=:.").find(static_cast<char>(c)) != std::string_view::npos;
+      });
+  const bool is_file = words.starts_with("groove:") && !words.starts_with("groove:at=");
+  const std::string range = is_plain ? words.substr(equals + 1) : "";
+  const std::size_t colon = std::min(range.find(':'), range.size());
+  const bool has_numbers = parse_double(range.substr(0, colon)).has_value() &&
+                           (colon == range.size() || parse_double(range.substr(colon + 1)));
+  const bool has_path = words.find("..") != std::string::npos;
+  if (is_plain && !is_file && !has_path && has_numbers) return;
+  throw UsageError("job: \"vary\" has " + in_quotes(words) +
+                   "; fillet:EDGES=1:15, offset:FACES=-2:2, taper:FACES=0:4, groove:at=40=0:2 or "
+                   "a parameter as diameter_mm=25:45 is required");
+}
+
+/// "fillet:long=4" of "fillet:long=1:7"; one value stays.
+std::string middle_of_range(const std::string& words) {
+  const std::size_t equals = words.rfind('='), colon = words.find(':', equals);
+  if (colon == std::string::npos) return words;
+  const auto low = parse_double(words.substr(equals + 1, colon - equals - 1));
+  const auto high = parse_double(words.substr(colon + 1));
+  return words.substr(0, equals + 1) + shortest((low.value_or(0.0) + high.value_or(0.0)) / 2.0);
+}
+
 void add_unit(const JobPlaces& places, std::vector<std::string>& words) {
   if (places.unit) words.insert(words.end(), {"--unit", name_of(*places.unit)});
 }
@@ -157,20 +195,36 @@ std::vector<std::string> study_words(const JobRequest& request, const JobPlaces&
   return words;
 }
 
-std::vector<std::string> redesign_words(const JobRequest& request, const JobPlaces& places) {
-  std::vector<std::string> words = {"redesign", request.verb, places.products.front()};
+/// A shape that is just looked at is made with fewer hands, of one size, and held by none again.
+std::vector<std::string> redesign_words(const JobRequest& request, const JobPlaces& places,
+                                        bool is_preview) {
+  JobRequest asked = request;
+  if (is_preview) asked.hands = std::min(asked.hands, kPreviewHands);
+  std::vector<std::string> words = {"redesign", asked.verb, places.products.front()};
   add_unit(places, words);
-  add_people(request, words);
-  if (request.hold) words.insert(words.end(), {"--hold", std::to_string(*request.hold)});
-  if (request.largest_depth) {
-    words.insert(words.end(), {"--largest-depth-mm", shortest(*request.largest_depth)});
+  add_people(asked, words);
+  if (asked.hold) words.insert(words.end(), {"--hold", std::to_string(*asked.hold)});
+  if (asked.largest_depth) {
+    words.insert(words.end(), {"--largest-depth-mm", shortest(*asked.largest_depth)});
   }
-  if (request.verb == "fillet") {
+  if (asked.verb == "fillet") {
     words.insert(words.end(), {"--edges", "long"});
-    const auto [low, high] = request.radius.value_or(std::pair(1.0, 15.0));
-    words.insert(words.end(), {"--radius-mm", shortest(low) + ":" + shortest(high)});
+    const auto [low, high] = asked.radius.value_or(std::pair(1.0, 15.0));
+    words.insert(
+        words.end(),
+        {"--radius-mm", is_preview ? shortest(asked.preview_radius.value_or((low + high) / 2.0))
+                                   : shortest(low) + ":" + shortest(high)});
   }
-  if (request.verb == "features") words.emplace_back("--propose");
+  if (asked.verb == "features") {
+    if (asked.vary.empty()) words.emplace_back("--propose");
+    for (const std::string& one : asked.vary) {
+      words.insert(words.end(), {"--vary", is_preview ? middle_of_range(one) : one});
+    }
+  }
+  if (is_preview) {
+    words.emplace_back("--no-compare");
+    if (asked.verb == "press" || asked.verb == "region") words.emplace_back("--no-pictures");
+  }
   return words;
 }
 
@@ -198,7 +252,11 @@ JobRequest parse_job_request(std::string_view text) {
     case JobKind::kCompare: {
       request.products = job_texts(json, "products", 2, kMostCompared);
       request.person = job_text(json, "person");
-      if (!request.person.empty()) {
+      if (request.person.starts_with(kOwnHand)) {
+        request.own_hand = request.person.substr(kOwnHand.size());
+        request.person.clear();
+        if (!is_plain_name(request.own_hand)) refuse_job("person", json["person"], "a hand's key");
+      } else if (!request.person.empty()) {
         request.person = person_argument(parse_person_of_size(request.person));
       }
       const JobJson left = member_or_null(json, "left");
@@ -217,6 +275,13 @@ JobRequest parse_job_request(std::string_view text) {
       }
       const bool has_depth = request.verb == "press" || request.verb == "region";
       if (has_depth) request.largest_depth = job_number(json, "largest_depth_mm", 0.1, 50.0);
+      if (request.verb == "features" && !member_or_null(json, "vary").is_null()) {
+        request.vary = job_texts(json, "vary", 0, kMostVaried);
+        for (const std::string& one : request.vary) check_vary(one);
+      }
+      if (request.verb == "fillet") {
+        request.preview_radius = job_number(json, "preview_mm", 0.1, 200.0);
+      }
       const JobJson radius = member_or_null(json, "radius_mm");
       if (request.verb != "fillet" || radius.is_null()) return request;
       const bool are_two =
@@ -229,6 +294,9 @@ JobRequest parse_job_request(std::string_view text) {
       request.radius = {low, high};
       return request;
     }
+    case JobKind::kHand:
+      request.hand = parse_hand_request(json);
+      return request;
   }
   request.grip_force = job_number(json, "grip_force_n", 0.1, 2000.0);
   request.mass = job_number(json, "mass_kg", 0.001, 100.0);
@@ -243,11 +311,16 @@ std::string job_request_json(const JobRequest& request) {
                   {"products", request.products},
                   {"language", std::string(name_of(request.language))},
                   {"hold", or_null_json(request.hold)}};
+  if (request.kind == JobKind::kHand) {
+    write_hand_request(request.hand, json);
+    return json.dump(-1, ' ', false, JobJson::error_handler_t::replace);
+  }
   if (request.kind != JobKind::kCompare) {
     json["populations"] = request.populations;
     json["hands"] = request.hands;
   } else {
-    json["person"] = request.person;
+    json["person"] =
+        request.own_hand.empty() ? request.person : std::string(kOwnHand) + request.own_hand;
     json["left"] = request.is_left;
   }
   if (request.kind != JobKind::kRedesign) {
@@ -256,6 +329,8 @@ std::string job_request_json(const JobRequest& request) {
   } else {
     json["verb"] = request.verb;
     json["largest_depth_mm"] = or_null_json(request.largest_depth);
+    json["preview_mm"] = or_null_json(request.preview_radius);
+    json["vary"] = request.vary;
     if (request.radius) json["radius_mm"] = {request.radius->first, request.radius->second};
   }
   return json.dump();
@@ -279,21 +354,34 @@ std::vector<JobCommand> commands_of(const JobRequest& request, const JobPlaces& 
       append(words, places.products);
       add_unit(places, words);
       if (!request.person.empty()) append(words, {"--person", request.person});
+      if (!request.own_hand.empty()) append(words, {"--hand", places.hand});
       if (request.is_left) words.emplace_back("--left");
       add_task(request, words);
       append(words, {"--language", language, "--out", places.folder + "report"});
       return {{std::move(words), 1.0}};
     }
     case JobKind::kRedesign: {
-      std::vector<std::string> words = redesign_words(request, places);
+      std::vector<std::string> words = redesign_words(request, places, false);
       append(words, {"--language", language, "--out", places.folder + "redesign"});
       return {{std::move(words), 1.0}};
     }
+    case JobKind::kHand:
+      return {{hand_words(request.hand, places.sources, places.folder, language), 1.0}};
   }
   return {};
 }
 
+bool is_tried_first(const JobRequest& request) {
+  return request.kind == JobKind::kStudy || (request.kind == JobKind::kRedesign &&
+                                             (request.verb != "features" || !request.vary.empty()));
+}
+
 JobCommand estimate_of(const JobRequest& request, const JobPlaces& places) {
+  if (request.kind == JobKind::kRedesign) {
+    std::vector<std::string> made = redesign_words(request, places, true);
+    append(made, {"--out", places.folder + kJobPreview});
+    return {std::move(made), 1.0};
+  }
   std::vector<std::string> words = {"study", "plan"};
   append(words, study_words(request, places));
   words.emplace_back("--json");
@@ -307,10 +395,12 @@ std::string command_text(const JobCommand& command) {
 }
 
 std::filesystem::path job_report(JobKind kind) {
+  if (kind == JobKind::kHand) return std::filesystem::path(kHandFound) / "report.html";
   return kind == JobKind::kRedesign ? "redesign/report/report.html" : "report/report.html";
 }
 
 std::filesystem::path job_results(JobKind kind) {
+  if (kind == JobKind::kHand) return kHandFound;
   return kind == JobKind::kRedesign ? "redesign" : "report";
 }
 

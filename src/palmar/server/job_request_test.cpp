@@ -75,6 +75,46 @@ TEST(JobRequest, ComparisonAndRedesigns) {
   EXPECT_THAT(redesign(R"("verb": "fillet", "radius_mm": [2, 9])"),
               HasSubstr("--edges long --radius-mm 2:9"));
   EXPECT_THAT(redesign(R"("verb": "features")"), HasSubstr("--propose"));
+  EXPECT_THAT(redesign(R"("verb": "features", "vary": ["fillet:face=7=2:6", "offset:sides=-1"])"),
+              AllOf(HasSubstr("--vary fillet:face=7=2:6 --vary offset:sides=-1"),
+                    Not(HasSubstr("--propose"))));
+}
+
+TEST(JobRequest, PreviewIsMadeByFewHandsAndComparesNothing) {
+  const auto preview = [](const std::string& more) {
+    return command_text(estimate_of(
+        parse_job_request(R"({"kind": "redesign", "products": ["p1"], "populations": ["ansur2"],
+                              "hands": 30, )" +
+                          more + "}"),
+        {{"a.step"}, {}, "/j/"}));
+  };
+  EXPECT_EQ(preview(R"("verb": "press", "largest_depth_mm": 3)"),
+            "palmar redesign press a.step --population ansur2 --hands 4 --largest-depth-mm 3 "
+            "--no-compare --no-pictures --out /j/preview");
+  EXPECT_THAT(preview(R"("verb": "fillet", "radius_mm": [2, 9])"),
+              AllOf(HasSubstr("--radius-mm 5.5 "), HasSubstr("--no-compare")));
+  EXPECT_THAT(preview(R"("verb": "fillet", "radius_mm": [2, 9], "preview_mm": 8)"),
+              HasSubstr("--radius-mm 8 "));
+  EXPECT_THAT(preview(R"("verb": "features", "vary": ["fillet:long=1:7"])"),
+              HasSubstr("--vary fillet:long=4 "));
+  const auto is_tried = [](const std::string& verb) {
+    return is_tried_first(parse_job_request(
+        R"({"kind": "redesign", "products": ["p1"], "populations": ["ansur2"], "hands": 3, )" +
+        verb + "}"));
+  };
+  EXPECT_TRUE(is_tried(R"("verb": "region")"));
+  EXPECT_FALSE(is_tried(R"("verb": "features")")) << "proposals have no shape yet";
+  EXPECT_TRUE(is_tried(R"("verb": "features", "vary": ["fillet:long=3"])"));
+}
+
+TEST(JobRequest, OwnHandIsAHandOfThisServer) {
+  const std::string json = R"({"kind": "compare", "products": ["p1", "p2"], "person": "hand:j12"})";
+  JobPlaces places = two_files();
+  places.hand = "/j/j12/found/anna.hand.glb";
+  EXPECT_THAT(first_command(json, places), HasSubstr("--hand /j/j12/found/anna.hand.glb"));
+  EXPECT_EQ(job_request_json(parse_job_request(json)).find("hand:j12") == std::string::npos, false);
+  EXPECT_NE(refusal_of(R"({"kind": "compare", "products": ["p1", "p2"], "person": "hand:../x"})"),
+            "taken");
 }
 
 TEST(JobRequest, ReadsBackAsItWasWritten) {
@@ -112,6 +152,14 @@ TEST(JobRequest, RefusesWhatIsWrongByName) {
   EXPECT_THAT(refusal_of(R"({"kind": "redesign", "products": ["p1"], "populations": ["ansur2"],
                              "hands": 3, "verb": "--help"})"),
               HasSubstr("press, region, fillet or features"));
+  for (const char* vary : {"groove:/etc/passwd=1", "groove:line.csv=1", "--out=3", "fillet:long",
+                           "fillet:long=x", "fillet:a b=1", "fillet:long=1:", ""}) {
+    EXPECT_THAT(refusal_of(R"({"kind": "redesign", "products": ["p1"], "populations": ["ansur2"],
+                               "hands": 3, "verb": "features", "vary": [")" +
+                           std::string(vary) + "\"]}"),
+                HasSubstr("vary"))
+        << vary;
+  }
 }
 
 }  // namespace

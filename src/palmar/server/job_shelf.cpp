@@ -16,6 +16,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/server/access.h"
 #include "palmar/server/job_file.h"
+#include "palmar/server/upload_drawer.h"
 
 namespace palmar {
 namespace {
@@ -24,6 +25,8 @@ constexpr int kJobNiceness = 10;                     // our choice: the live cha
 constexpr double kLongestJob = 30.0 * 24 * 3600;     // s
 constexpr double kJobMemory = 1e6, kJobFiles = 1e6;  // MB; studies need what they need
 constexpr const char* kJobLog = "log.txt";
+constexpr const char* kJobSources = "sources";
+constexpr const char* kQuickFound = "quick.json";  // what `palmar hand quick` says
 
 std::string new_job_key(const std::vector<Job>& jobs) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -122,25 +125,62 @@ void JobShelf::load() {
     const bool was_running = job->state == JobState::kRunning || job->state == JobState::kWaiting;
     if (was_running) job->state = JobState::kStopped;
     if (job->state == JobState::kEstimating) job->state = JobState::kNew;
-    job->has_report = std::filesystem::exists(report(*job));
+    look(*job);
     jobs_.push_back(std::move(*job));
   }
 }
 
+void JobShelf::look(Job& job) const {
+  job.has_report = std::filesystem::exists(report(job));
+  job.has_preview = false;
+  for (const char* shape : {"/pressed.stl", "/redesign.stl", "/region.ply"}) {
+    job.has_preview = job.has_preview || made_file(job, kJobPreview + std::string(shape));
+  }
+  job.has_hand =
+      job.request.kind == JobKind::kHand && std::filesystem::is_regular_file(hand_place(job));
+}
+
+std::filesystem::path JobShelf::hand_place(const Job& job) const {
+  return place(job.key) / hand_result(job.request.hand, places(job).sources);
+}
+
 JobPlaces JobShelf::places(const Job& job) const {
   JobPlaces places;
+  if (job.request.kind == JobKind::kHand) {
+    const std::filesystem::path sources = place(job.key) / kJobSources;
+    for (const std::string& one : hand_sources(job.request.hand.method, files_under(sources))) {
+      if (!job.request.hand.uploads.empty()) {
+        places.sources.push_back((one.empty() ? sources : sources / one).string());
+      }
+    }
+  }
+  places.hand = own_hand_of(job.request);
   for (const ShelvedProduct& one : job.products) places.products.push_back(one.path.string());
   places.unit = one_unit_of(job.products);
   places.folder = place(job.key).string() + "/";
   return places;
 }
 
-Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& products) {
+std::string JobShelf::own_hand_of(const JobRequest& request) const {
+  if (request.own_hand.empty()) return {};
+  for (const Job& other : jobs_) {
+    if (other.key == request.own_hand && other.has_hand) return hand_place(other).string();
+  }
+  throw UsageError("hand " + in_quotes(request.own_hand) + " is not there (any more)");
+}
+
+JobPlaces JobShelf::locked_places(const Job& job) const {
+  const std::scoped_lock lock(mutex_);
+  return places(job);
+}
+
+Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& products,
+                  const std::filesystem::path& sources) {
   if (!folder_) throw OutputError("neither XDG_DATA_HOME nor HOME says where to keep results");
   const std::scoped_lock lock(mutex_);
   if (jobs_.size() >= kMost) {
     throw UsageError("there are " + std::to_string(kMost) +
-                     " studies, comparisons and redesigns; "
+                     " studies, comparisons, redesigns and hands; "
                      "remove one first");
   }
   Job job;
@@ -150,6 +190,7 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
   job.created = std::stoll(job.key.substr(1));
   JobPlaces shown;
   shown.unit = one_unit_of(products);
+  shown.hand = own_hand_of(request);
   for (std::size_t p = 0; p < products.size(); ++p) {
     ShelvedProduct copy = products[p];
     copy.product = nullptr;
@@ -160,10 +201,30 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
     shown.products.push_back(copy.argument);
     job.products.push_back(std::move(copy));
   }
+  if (request.kind == JobKind::kHand) {
+    const std::string name = request.hand.name.empty() ? "hand" : request.hand.name;
+    job.title = name;
+    if (!sources.empty()) {
+      create_folder(place(job.key));
+      std::error_code error;
+      std::filesystem::copy(sources, place(job.key) / kJobSources,
+                            std::filesystem::copy_options::recursive, error);
+      if (error) throw OutputError(place(job.key).string() + ": " + error.message());
+      for (const std::string& one :
+           hand_sources(request.hand.method, files_under(place(job.key) / kJobSources))) {
+        shown.sources.push_back(one.empty() ? name : one);
+      }
+      if (shown.sources.empty()) {
+        remove_place(job.key);
+        throw UsageError("hand: none of the files that were sent is one that " +
+                         name_of(request.hand.method) + " takes");
+      }
+    }
+  }
   for (const JobCommand& one : commands_of(request, shown)) {
     job.commands.push_back(command_text(one));
   }
-  job.state = request.kind == JobKind::kStudy ? JobState::kEstimating : JobState::kWaiting;
+  job.state = is_tried_first(request) ? JobState::kEstimating : JobState::kWaiting;
   save(job);
   jobs_.push_back(job);
   queue_.push_back(job.key);
@@ -214,6 +275,27 @@ void JobShelf::start(const std::string& key) {
   woken_.notify_all();
 }
 
+void JobShelf::revise(const std::string& key, const JobRequest& request) {
+  const std::scoped_lock lock(mutex_);
+  Job* const job = at(key);
+  const HandRequest& before = job->request.hand;
+  if (request.kind != JobKind::kHand || job->request.kind != JobKind::kHand ||
+      request.hand.method != before.method || request.hand.uploads != before.uploads) {
+    throw UsageError("job " + in_quotes(key) +
+                     ": only a hand's settings and corrections can be new");
+  }
+  if (running_ == key || job->state == JobState::kWaiting) {
+    throw UsageError("job " + in_quotes(key) + " is running; stop it first");
+  }
+  job->request = request;
+  job->title = request.hand.name.empty() ? "hand" : request.hand.name;
+  job->state = JobState::kWaiting;
+  job->message.clear();
+  save(*job);
+  queue_.push_back(key);
+  woken_.notify_all();
+}
+
 void JobShelf::cancel(const std::string& key) {
   const std::scoped_lock lock(mutex_);
   Job* const job = at(key);
@@ -232,11 +314,40 @@ void JobShelf::remove(const std::string& key) {
   const Job* const job = at(key);
   if (running_ == key) throw UsageError("job " + in_quotes(key) + " is running; stop it first");
   std::erase(queue_, key);
+  remove_place(job->key);
+  std::erase_if(jobs_, [&](const Job& one) { return one.key == key; });
+}
+
+void JobShelf::remove_place(const std::string& key) const {
   std::error_code ignored;
   // Without it the folder counts for nothing, whatever happens to the rest.
-  std::filesystem::remove(place(job->key) / kJobJson, ignored);
-  std::filesystem::remove_all(place(job->key), ignored);
-  std::erase_if(jobs_, [&](const Job& one) { return one.key == key; });
+  std::filesystem::remove(place(key) / kJobJson, ignored);
+  std::filesystem::remove_all(place(key), ignored);
+}
+
+std::vector<std::string> JobShelf::made(const Job& job) const {
+  const char* const folder = job.request.kind == JobKind::kHand       ? kHandFound
+                             : job.request.kind == JobKind::kRedesign ? kJobPreview
+                                                                      : nullptr;
+  std::vector<std::string> names;
+  if (folder == nullptr) return names;
+  for (const std::string& one : files_under(place(job.key) / folder)) {
+    names.push_back(std::string(folder) + "/" + one);
+  }
+  return names;
+}
+
+std::optional<std::filesystem::path> JobShelf::made_file(const Job& job,
+                                                         const std::string& name) const {
+  const std::vector<std::string> names = made(job);
+  if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
+  return place(job.key) / name;
+}
+
+std::optional<std::filesystem::path> JobShelf::hand_file(const std::string& key) const {
+  const auto job = find(key);
+  if (!job || !job->has_hand) return std::nullopt;
+  return hand_place(*job);
 }
 
 std::vector<std::string> JobShelf::files(const Job& job) const {
@@ -298,7 +409,7 @@ void JobShelf::change(const std::string& key, JobState state, const std::string&
   job->message = message;
   job->share = 0.0;
   job->doing.clear();
-  if (state == JobState::kDone) job->has_report = std::filesystem::exists(report(*job));
+  if (state == JobState::kDone || state == JobState::kNew) look(*job);
   try {
     save(*job);
   } catch (const Error& error) {  // a full disk, say
@@ -311,27 +422,40 @@ void JobShelf::work(const std::string& key) {
   if (!job) return;
   if (job->state == JobState::kEstimating) return estimate(*job);
   change(key, JobState::kRunning);
-  if (job->request.kind != JobKind::kStudy) {  // half of what an earlier run made is of no use
+  const bool is_hand = job->request.kind == JobKind::kHand;
+  if (is_hand) {  // it goes on from what earlier runs made
+    create_folder(place(key) / kHandFound);
+    write_file(place(key) / kHandCorrections, corrections_csv(job->request.hand));
+  } else if (job->request.kind !=
+             JobKind::kStudy) {  // half of what an earlier run made is of no use
     std::error_code ignored;
     std::filesystem::remove_all(place(key) / job_results(job->request.kind), ignored);
   }
   double from = 0.0;
-  for (const JobCommand& command : commands_of(job->request, places(*job))) {
-    const std::string error = run_command(key, command, from, nullptr);
+  std::string said;
+  for (const JobCommand& command : commands_of(job->request, locked_places(*job))) {
+    const std::string error = run_command(key, command, from, is_hand ? &said : nullptr);
     if (cancel_) return change(key, JobState::kStopped);
     if (!error.empty()) return change(key, JobState::kFailed, error);
     from += command.share;
+  }
+  if (is_hand && job->request.hand.method == HandMethod::kQuick) {
+    write_file(place(key) / kHandFound / kQuickFound, said);
   }
   change(key, JobState::kDone);
 }
 
 void JobShelf::estimate(const Job& job) {
   std::string said;
-  const std::string error = run_command(job.key, estimate_of(job.request, places(job)), 0.0, &said);
+  std::error_code ignored;
+  std::filesystem::remove_all(place(job.key) / kJobPreview, ignored);
+  const JobCommand command = estimate_of(job.request, locked_places(job));
+  const std::string error = run_command(job.key, command, 0.0, &said);
   {
     const std::scoped_lock lock(mutex_);
     Job* const now = at(job.key);
     if (now->state != JobState::kEstimating) return;  // it was started meanwhile
+    if (job.request.kind == JobKind::kRedesign) said.clear();
     const StudyEstimateWords words = study_estimate_in(said);
     now->estimate_seconds = words.seconds;
     now->grasps = words.grasps;

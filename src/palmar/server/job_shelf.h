@@ -23,7 +23,7 @@ namespace palmar {
 enum class JobState { kEstimating, kNew, kWaiting, kRunning, kStopped, kFailed, kDone };
 std::string_view name_of(JobState state);  ///< "estimating", "new", ...
 
-/// A study, comparison or redesign, as it stands.
+/// A study, comparison, redesign or person's hand, as it stands.
 struct Job {
   std::string key;
   std::string title;  ///< "old and new"
@@ -38,6 +38,8 @@ struct Job {
   std::string doing;
   std::vector<std::string> commands;  ///< that do the same, as people type them
   bool has_report = false;
+  bool has_preview = false;  ///< of a redesign: its shape, to be looked at before it is started
+  bool has_hand = false;     ///< of a person's hand: it can be used
 };
 
 /// Heavy jobs: one runs at a time, in a child process of low priority (`palmar study run` and the
@@ -57,9 +59,14 @@ class JobShelf {
   /// At most this many are kept; then one has to be removed.
   static constexpr std::size_t kMost = 100;
 
-  /// A study is estimated first and waits for start(); others start. `products` in the order of the
-  /// request. Throws UsageError, OutputError.
-  Job add(const JobRequest& request, const std::vector<ShelvedProduct>& products);
+  /// What is tried first (is_tried_first()) is, and waits for start(); others start. `products` in
+  /// the order of the request; `sources`: folder with the files of a person's hand, which become
+  /// the job's. Throws UsageError, OutputError.
+  Job add(const JobRequest& request, const std::vector<ShelvedProduct>& products,
+          const std::filesystem::path& sources = {});
+  /// A person's hand again, from the same files with other settings or corrections. Throws
+  /// UsageError, also while it runs.
+  void revise(const std::string& key, const JobRequest& request);
   std::vector<Job> list() const;  ///< the newest first
   std::optional<Job> find(const std::string& key) const;
   /// Starts, or goes on with, what doesn't run. Throws UsageError for an unknown key.
@@ -74,6 +81,12 @@ class JobShelf {
   std::optional<std::filesystem::path> file(const Job& job, const std::string& name) const;
   std::filesystem::path report(const Job& job) const;
   std::filesystem::path store(const Job& job) const;  ///< of a study
+  /// What can be looked at: files of a preview, and of what was found of a hand, as paths in the
+  /// job's folder with '/'; and where one of them is.
+  std::vector<std::string> made(const Job& job) const;
+  std::optional<std::filesystem::path> made_file(const Job& job, const std::string& name) const;
+  /// The *.hand.glb that job `key` made; nothing if there is none.
+  std::optional<std::filesystem::path> hand_file(const std::string& key) const;
 
  private:
   void load();
@@ -84,9 +97,14 @@ class JobShelf {
   std::string run_command(const std::string& key, const JobCommand& command, double from,
                           std::string* said);
   Job* at(const std::string& key);
+  void look(Job& job) const;  ///< what is there of it
   void change(const std::string& key, JobState state, const std::string& message = {});
   void save(const Job& job) const;
-  JobPlaces places(const Job& job) const;
+  void remove_place(const std::string& key) const;
+  std::filesystem::path hand_place(const Job& job) const;
+  std::string own_hand_of(const JobRequest& request) const;  ///< its file; with `mutex_` held
+  JobPlaces places(const Job& job) const;                    ///< the same
+  JobPlaces locked_places(const Job& job) const;
   std::filesystem::path place(const std::string& key) const { return *folder_ / key; }
 
   std::optional<std::filesystem::path> folder_;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -38,6 +39,17 @@ case "$1 $2" in
       echo "progress 0.5 holding"
     done ;;
   "study report") mkdir -p "$5" && echo page > "$5/report.html" && echo 1,2 > "$5/hands.csv" ;;
+  "redesign press")
+    out=$(last "$@")
+    mkdir -p "$out" && echo shape > "$out/pressed.stl"
+    case "$*" in
+      *--no-compare*) ;;
+      *) mkdir -p "$out/report" && echo page > "$out/report/report.html" ;;
+    esac ;;
+  "hand from-scan")
+    out=$(last "$@")
+    echo "$*" >> "$(dirname "$out")/told.txt"
+    echo glb > "$out" && echo page > "$(dirname "$out")/report.html" ;;
   "assess "*)
     echo "palmar: reading" >&2
     echo "palmar: old.stl: is no mesh" >&2
@@ -186,6 +198,65 @@ TEST_F(Jobs, EndsAtOnceWithItsChild) {
   jobs->cancel(key);
   wait_for(*jobs, key, JobState::kStopped);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TEST_F(Jobs, RedesignIsLookedAtBeforeItRuns) {
+  const auto jobs = shelf();
+  const JobRequest press = parse_job_request(R"({"kind": "redesign", "products": ["p1"],
+      "verb": "press", "populations": ["ansur2"], "hands": 12})");
+  const std::string key = jobs->add(press, {products[0]}).key;
+  Job job = wait_for(*jobs, key, JobState::kNew);
+  EXPECT_TRUE(job.has_preview);
+  EXPECT_FALSE(job.has_report);
+  EXPECT_THAT(jobs->made(job), testing::ElementsAre("preview/pressed.stl"));
+  EXPECT_EQ(read_file(*jobs->made_file(job, "preview/pressed.stl")), "shape\n");
+  for (const char* name : {"job.json", "preview/../job.json", "/etc/passwd", "preview", ""}) {
+    EXPECT_FALSE(jobs->made_file(job, name)) << name;
+  }
+  jobs->start(key);
+  job = wait_for(*jobs, key, JobState::kDone);
+  EXPECT_TRUE(job.has_report);
+  EXPECT_THAT(jobs->files(job), testing::ElementsAre("pressed.stl"));
+}
+
+TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
+  const auto jobs = shelf();
+  write_file(test_folder / "reference.ply", "a scan");
+  create_folder(test_folder / "sent");
+  fs::rename(test_folder / "reference.ply", test_folder / "sent" / "reference.ply");
+  const auto asked = [](const std::string& more) {
+    return parse_job_request(
+        R"({"kind": "hand", "method": "scan", "uploads": "k", "name": "anna")" + more + "}");
+  };
+  const std::string key = jobs->add(asked(""), {}, test_folder / "sent").key;
+  Job job = wait_for(*jobs, key, JobState::kDone);
+  EXPECT_TRUE(job.has_hand);
+  EXPECT_TRUE(job.has_report);
+  EXPECT_EQ(job.title, "anna");
+  EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply"));
+  EXPECT_EQ(read_file(*jobs->hand_file(key)), "glb\n");
+  EXPECT_FALSE(jobs->hand_file("nothing"));
+  jobs->revise(key, asked(R"(, "corrections": [{"posture": "reference", "mark": "dot",
+                              "name": "palm", "place_mm": [1, 2, 3]}])"));
+  job = wait_for(*jobs, key, JobState::kDone);
+  const std::string told = read_file(*jobs->made_file(job, "found/told.txt"));
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 2) << "what it made is still there";
+  EXPECT_THAT(told, HasSubstr("--marks"));
+  EXPECT_EQ(read_file(test_folder / "jobs" / key / "corrections.csv"),
+            "posture,mark,name,x_mm,y_mm,z_mm\nreference,dot,palm,1,2,3\n");
+  // Other files, or another job, are none of it.
+  EXPECT_THROW(jobs->revise(key, study), UsageError);
+  JobRequest other = asked("");
+  other.hand.uploads = "elsewhere";
+  EXPECT_THROW(jobs->revise(key, other), UsageError);
+  // Another server finds it.
+  JobShelf again(test_folder / "jobs", program);
+  EXPECT_TRUE(again.hand_file(key).has_value());
+  // What isn't a scan makes no hand, and leaves nothing.
+  create_folder(test_folder / "text");
+  write_file(test_folder / "text" / "notes.txt", "x");
+  EXPECT_THROW(jobs->add(asked(""), {}, test_folder / "text"), UsageError);
+  EXPECT_EQ(jobs->list().size(), 1U);
 }
 
 TEST_F(Jobs, RefusesWhatCantBe) {

@@ -128,7 +128,7 @@ std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
 }
 
 std::string command_of(const LiveRequest& request, const LiveRequest& opened,
-                       const ShelvedProduct& product) {
+                       const ShelvedProduct& product, const std::string& own_hand) {
   const bool is_hold = request.verb == LiveVerb::kHold;
   if (!is_hold && request.verb != LiveVerb::kEvaluate) return "";
   std::string command = is_hold ? "palmar assess " : "palmar grasp evaluate ";
@@ -142,6 +142,7 @@ std::string command_of(const LiveRequest& request, const LiveRequest& opened,
   } else {
     command += std::string(" --posture ") + kPostureFile;
   }
+  if (!own_hand.empty()) command += " --hand " + shell_word(own_hand);
   if (opened.person) command += " --person " + person_argument(*opened.person);
   if (opened.is_left) command += " --left";
   if (request.task.friction.mass) command += " --mass-kg " + shortest(*request.task.friction.mass);
@@ -165,6 +166,8 @@ std::string result_answer(const LiveRequest& request, const AssessmentSet& set, 
   answer["assessment"] = AnswerJson::parse(assessment_json(set, words));
   return dumped(answer);
 }
+
+std::string colours_json() { return dumped(colours_object()); }
 
 std::string shelved_product_json(const ShelvedProduct& product) {
   return dumped(product_object(product));

@@ -27,9 +27,14 @@ std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
 std::string result_answer(const LiveRequest& request, const AssessmentSet& set, Language language);
 
 /// The command line that gives the figures of a request, "" if there is none: of a hand that closes
-/// or comes to rest where the product was put by hand. `opened`: hand of the session.
+/// or comes to rest where the product was put by hand. `opened`: hand of the session; `own_hand`:
+/// its file, "" if it is the template's or a person's by size.
 std::string command_of(const LiveRequest& request, const LiveRequest& opened,
-                       const ShelvedProduct& product);
+                       const ShelvedProduct& product, const std::string& own_hand = {});
+
+/// Colours of pressure, skin and product: {"table": [[r, g, b], ...], "neutral", "skin",
+/// "product"}.
+std::string colours_json();
 
 /// What is shown of a product on the shelf: {"key", "name", "file_name", "is_read", ...}.
 std::string shelved_product_json(const ShelvedProduct& product);

@@ -27,6 +27,9 @@ enum class FrameKind : std::uint32_t {
   kFootprint = 6,
 };
 
+/// Of a product, for browsers without a good GPU.
+inline constexpr int kMostShownTriangles = 120'000;
+
 struct FrameHead {
   FrameKind kind{};
   std::uint32_t request = 0;

@@ -10,6 +10,8 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/placement_json.h"
+#include "palmar/server/access.h"
+#include "palmar/server/job_request.h"
 
 namespace palmar {
 namespace {
@@ -121,7 +123,12 @@ LiveRequest parse_live_request(std::string_view text) {
       const std::string person = json.contains("person") && !json["person"].is_null()
                                      ? text_of(json, "person", "a text")
                                      : "";
-      if (!person.empty()) request.person = parse_person_of_size(person);
+      if (person.starts_with(kOwnHand)) {
+        request.own_hand = person.substr(kOwnHand.size());
+        if (!is_plain_name(request.own_hand)) refuse("person", json["person"], "a hand's key");
+      } else if (!person.empty()) {
+        request.person = parse_person_of_size(person);
+      }
       if (json.contains("left")) {
         if (!json["left"].is_boolean()) refuse("left", json["left"], "true or false");
         request.is_left = json["left"].get<bool>();

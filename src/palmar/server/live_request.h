@@ -31,7 +31,8 @@ struct LiveRequest {
   std::uint32_t id = 0;  ///< which the answers carry
   // Of kOpen:
   std::string product;                 ///< its key on the shelf
-  std::optional<PersonOfSize> person;  ///< unset: the template hand
+  std::optional<PersonOfSize> person;  ///< unset: the template hand, or `own_hand`
+  std::string own_hand;                ///< key of a hand that was made here ("hand:KEY")
   bool is_left = false;
   Language language = Language::kEnglish;
   int number = 1;  ///< of kHold

@@ -18,7 +18,6 @@ namespace palmar {
 namespace {
 
 constexpr auto kBetweenProgress = std::chrono::milliseconds(100);
-constexpr int kMostShownTriangles = 120'000;  // of the product, for browsers without a good GPU
 
 LiveField field_of(const LivePose& pose, const ContactResult& contact, const Product& product) {
   LiveField field;
@@ -126,7 +125,8 @@ void LiveWorker::open(const LiveRequest& request, const Progress& progress) {
   progress.update(0.0, "reading the product");
   product_ = shelf_->open(request.product, progress);
   progress.update(0.1, "preparing the hand");
-  LiveHand hand = shelf_->hand(request.person, request.is_left);
+  LiveHand hand = shelf_->hand({request.person, request.own_hand, request.is_left});
+  own_hand_ = request.own_hand.empty() ? "" : shelf_->own_hand(request.own_hand).string();
   opened_ = request;
   auto session = std::make_unique<LiveSession>(std::move(hand), product_->product);
   const Product& product = session->product();
@@ -178,7 +178,7 @@ void LiveWorker::work(const LiveRequest& asked, const Progress& progress) {
 }
 
 void LiveWorker::send_result(const LiveRequest& request, AssessmentSet set) {
-  set.command_line = command_of(request, opened_, *product_);
+  set.command_line = command_of(request, opened_, *product_, own_hand_);
   const Assessment& assessment = set.assessments.front().assessment;
   LiveField field = field_of({assessment.grasp.posture, assessment.grasp.product_from_hand},
                              assessment.contact, session_->product());

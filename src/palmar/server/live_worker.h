@@ -65,7 +65,8 @@ class LiveWorker {
   // The thread's own:
   std::unique_ptr<LiveSession> session_;
   std::optional<ShelvedProduct> product_;
-  LiveRequest opened_;  ///< hand and language of the session
+  LiveRequest opened_;    ///< hand and language of the session
+  std::string own_hand_;  ///< file of the hand, if it was made here
   std::thread thread_;
 };
 

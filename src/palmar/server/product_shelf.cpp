@@ -25,16 +25,6 @@ namespace {
 
 constexpr std::size_t kMostHands = 6;  // some 60 MB each
 
-std::shared_ptr<const Product> read_product(const std::filesystem::path& path,
-                                            const std::string& name, std::optional<LengthUnit> unit,
-                                            const Progress& progress) {
-  ProductChoice choice(path, {.unit = unit});
-  auto product = std::make_shared<Product>(load_product(choice, progress));
-  add_findings(*product);
-  product->source = name;  // not our folder's
-  return product;
-}
-
 /// The sides of its box in its own unit, if the unit is all that is missing.
 std::optional<UnitQuestion> unit_question(const std::filesystem::path& path) {
   try {
@@ -70,6 +60,15 @@ const std::vector<ShelvedExample>& shelved_examples() {
       {"ball", "sphere", {{"diameter_mm", 65}}},
   };
   return examples;
+}
+
+std::shared_ptr<const Product> read_product(const ShelvedProduct& shelved,
+                                            const Progress& progress) {
+  ProductChoice choice(shelved.path, {.unit = shelved.unit});
+  auto product = std::make_shared<Product>(load_product(choice, progress));
+  add_findings(*product);
+  product->source = shelved.argument;  // not our folder's
+  return product;
 }
 
 ProductShelf::ProductShelf() {
@@ -110,8 +109,7 @@ ProductShelf::Added ProductShelf::add_bytes(const std::string& name, std::string
   added.product.path = new_folder() / added.product.file_name;
   write_file(added.product.path, bytes);
   try {
-    added.product.product =
-        read_product(added.product.path, added.product.file_name, unit, progress);
+    added.product.product = read_product(added.product, progress);
   } catch (const InputError& error) {
     if (!unit) added.question = unit_question(added.product.path);
     std::error_code ignored;
@@ -168,7 +166,7 @@ ShelvedProduct ProductShelf::open(const std::string& key, const Progress& progre
   std::optional<ShelvedProduct> found = find(key);
   if (!found) throw UsageError("product " + in_quotes(key) + " is not there (any more)");
   if (found->product) return *found;
-  found->product = read_product(found->path, found->argument, found->unit, progress);
+  found->product = read_product(*found, progress);
   const std::scoped_lock lock(mutex_);
   for (ShelvedProduct& one : products_) {
     if (one.key == key) one.product = found->product;
@@ -176,16 +174,29 @@ ShelvedProduct ProductShelf::open(const std::string& key, const Progress& progre
   return *found;
 }
 
-LiveHand ProductShelf::hand(const std::optional<PersonOfSize>& person, bool is_left) {
-  const std::string key =
-      (person ? person_argument(*person) : "template") + (is_left ? " left" : "");
+std::filesystem::path ProductShelf::own_hand(const std::string& key) const {
+  const auto path = own_hands_ ? own_hands_(key) : std::nullopt;
+  if (!path) throw UsageError("hand " + in_quotes(key) + " is not there (any more)");
+  return *path;
+}
+
+LiveHand ProductShelf::hand(const Holder& holder) {
+  HandChoice choice;
+  choice.person = holder.person;
+  choice.is_left = holder.is_left;
+  std::string key = holder.person ? person_argument(*holder.person) : "template";
+  if (!holder.own_hand.empty()) {
+    const std::filesystem::path path = own_hand(holder.own_hand);
+    choice.name = path.string();
+    // Made again with corrections it is another hand.
+    const auto changed = std::filesystem::last_write_time(path).time_since_epoch().count();
+    key = holder.own_hand + " " + std::to_string(changed);
+  }
+  if (holder.is_left) key += " left";
   const std::scoped_lock lock(hands_mutex_);
   for (const auto& [name, hand] : hands_) {
     if (name == key) return hand;
   }
-  HandChoice choice;
-  choice.person = person;
-  choice.is_left = is_left;
   hands_.emplace_back(key, prepare_live_hand(choice));
   if (hands_.size() > kMostHands) hands_.erase(hands_.begin());
   return hands_.back().second;

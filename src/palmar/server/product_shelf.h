@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -29,6 +30,10 @@ struct ShelvedProduct {
   std::string made_by;             ///< command that makes the file; empty if it was there
   std::shared_ptr<const Product> product;
 };
+
+/// Its file, with the findings of its check. Throws InputError naming the file, Cancelled.
+std::shared_ptr<const Product> read_product(const ShelvedProduct& shelved,
+                                            const Progress& progress = {});
 
 /// A finished example: made by a command that people can run, too.
 struct ShelvedExample {
@@ -76,8 +81,22 @@ class ProductShelf {
   /// As it stands there, read or not; nothing for an unknown key.
   std::optional<ShelvedProduct> find(const std::string& key) const;
 
+  /// Whose hand.
+  struct Holder {
+    std::optional<PersonOfSize> person;  ///< unset: the template, or `own_hand`
+    std::string own_hand;                ///< key of a hand that was made here
+    bool is_left = false;
+  };
   /// A hand ready for contact; made once for every choice. Throws InputError, UsageError.
-  LiveHand hand(const std::optional<PersonOfSize>& person, bool is_left);
+  LiveHand hand(const Holder& holder);
+  /// Where the file of a hand with that key is.
+  using OwnHands = std::function<std::optional<std::filesystem::path>(const std::string& key)>;
+  void set_own_hands(OwnHands own) { own_hands_ = std::move(own); }
+  /// Throws UsageError if it isn't there.
+  std::filesystem::path own_hand(const std::string& key) const;
+
+  /// That goes with the shelf.
+  const std::filesystem::path& folder() const { return folder_; }
 
  private:
   ShelvedProduct put(ShelvedProduct product);
@@ -87,6 +106,7 @@ class ProductShelf {
   std::filesystem::path folder_;
   int count_ = 0;
   std::vector<ShelvedProduct> products_;
+  OwnHands own_hands_;
   std::mutex hands_mutex_;
   std::vector<std::pair<std::string, LiveHand>> hands_;  ///< the latest last
 };

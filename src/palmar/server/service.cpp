@@ -53,7 +53,15 @@ ServiceAnswer refusal(int status, const std::string& message) {
 }
 
 Service::Service(std::string token, std::shared_ptr<ProductShelf> shelf, KeptData kept)
-    : token_(std::move(token)), shelf_(std::move(shelf)), kept_(std::move(kept)) {}
+    : token_(std::move(token)),
+      shelf_(std::move(shelf)),
+      kept_(std::move(kept)),
+      uploads_(std::make_shared<UploadDrawer>(shelf_->folder() / "uploads")) {
+  if (kept_.jobs) {
+    shelf_->set_own_hands(
+        [jobs = kept_.jobs](const std::string& key) { return jobs->hand_file(key); });
+  }
+}
 
 std::string Service::give(const std::filesystem::path& file, std::optional<LengthUnit> unit) {
   given_.push_back(shelf_->add_file(file, unit).key);
@@ -79,9 +87,9 @@ std::optional<ServiceAnswer> Service::refused(const ServiceRequest& head) const 
 }
 
 std::uint64_t Service::largest_body(const ServiceRequest& head) const {
-  return head.method == "POST" && parse_target(head.target).path == "/api/products"
-             ? kLargestUpload
-             : kLargestRequest;
+  const std::string path = parse_target(head.target).path;
+  const bool is_file = path == "/api/products" || path.starts_with("/api/uploads/");
+  return head.method == "POST" && is_file ? kLargestUpload : kLargestRequest;
 }
 
 ServiceAnswer Service::answer(const ServiceRequest& request, const Progress& progress) const {
@@ -123,8 +131,10 @@ ServiceAnswer Service::routed(const ServiceRequest& request, const Target& targe
   if (kept_.projects) {
     if (auto answer = projects_answer(request, target, *shelf_, *kept_.projects)) return *answer;
   }
+  if (auto answer = uploads_answer(request, target, *uploads_)) return *answer;
   if (kept_.jobs) {
-    if (auto answer = jobs_answer(request, target, *shelf_, *kept_.jobs)) return *answer;
+    if (auto answer = hands_answer(request, target, *kept_.jobs)) return *answer;
+    if (auto answer = jobs_answer(request, target, *shelf_, *kept_.jobs, *uploads_)) return *answer;
   }
   return refusal(404, in_quotes(request.method + " " + target.path) + " is nothing here");
 }
@@ -150,6 +160,7 @@ ServiceAnswer Service::state() const {
     }
   }
   return json_answer({{"version", version()},
+                      {"colours", ServiceJson::parse(colours_json())},
                       {"examples", std::move(examples)},
                       {"given", std::move(given)},
                       {"largest_upload_bytes", kLargestUpload}});

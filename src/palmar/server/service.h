@@ -14,6 +14,7 @@
 #include "palmar/server/job_shelf.h"
 #include "palmar/server/product_shelf.h"
 #include "palmar/server/project_drawer.h"
+#include "palmar/server/upload_drawer.h"
 
 namespace palmar {
 
@@ -36,7 +37,7 @@ struct ServiceAnswer {
 /// {"error": "..."}
 ServiceAnswer refusal(int status, const std::string& message);
 
-/// The largest file of a product that is taken; other requests are small.
+/// The largest file that is taken; other requests are small.
 inline constexpr std::uint64_t kLargestUpload = std::uint64_t{256} << 20U;
 inline constexpr std::uint64_t kLargestRequest = std::uint64_t{1} << 20U;
 
@@ -64,9 +65,16 @@ struct KeptData {
 ///     POST /api/jobs                       a new one
 ///     GET  /api/jobs/KEY                   how it stands
 ///     POST /api/jobs/KEY/start, /cancel
+///     POST /api/jobs/KEY/revise            a hand again, with other settings or corrections
 ///     POST /api/jobs/KEY/shelve?name=      a shape that a redesign made -> the product
+///     POST /api/jobs/KEY/shelve?product=1  the job's own copy of its product -> the product
 ///     DELETE /api/jobs/KEY
 ///     GET  /api/jobs/KEY/report, /dots, /files/NAME
+///     GET  /api/jobs/KEY/shape?of=preview|result&what=before|after   frames of a redesign's shapes
+///     GET  /api/jobs/KEY/made?file=        a file of a preview, or of what was found of a hand
+///     POST /api/uploads/KEY?name=          one file of those that a hand is made from
+///     GET  /api/hands                      hands that were made and can be chosen
+///     GET  /api/hands/KEY/file             the *.hand.glb of one
 ///     GET  /api/live                       the live channel (http_server.h)
 ///
 /// Everything under /api/ needs the token (401); all requests need a Host and, where a page sends
@@ -99,6 +107,7 @@ class Service {
   std::string token_;
   std::shared_ptr<ProductShelf> shelf_;
   KeptData kept_;
+  std::shared_ptr<UploadDrawer> uploads_;
   ServedAt at_;
   std::vector<std::string> given_;  ///< keys of products
 };

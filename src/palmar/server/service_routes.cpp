@@ -12,6 +12,7 @@
 #include "palmar/records/product/cad_format.h"
 #include "palmar/server/job_file.h"
 #include "palmar/server/live_answer.h"
+#include "palmar/server/shape_change.h"
 #include "palmar/server/study_dots.h"
 
 namespace palmar {
@@ -65,17 +66,18 @@ ServiceAnswer kept_project(const std::string& key, const ServiceRequest& request
 
 ServiceAnswer job_answered(const Job& job, const JobShelf& jobs) {
   ServiceAnswer answer;
-  answer.body = job_answer(job, jobs.files(job));
+  answer.body = job_answer(job, jobs.files(job), jobs.made(job));
   return answer;
 }
 
 ServiceAnswer job_list(const JobShelf& jobs) {
   RouteJson all = RouteJson::array();
-  for (const Job& one : jobs.list()) all.push_back(RouteJson::parse(job_answer(one, {})));
+  for (const Job& one : jobs.list()) all.push_back(RouteJson::parse(job_answer(one, {}, {})));
   return route_answer({{"jobs", std::move(all)}});
 }
 
-ServiceAnswer added_job(const ServiceRequest& request, ProductShelf& shelf, JobShelf& jobs) {
+ServiceAnswer added_job(const ServiceRequest& request, ProductShelf& shelf, JobShelf& jobs,
+                        UploadDrawer& uploads) {
   const JobRequest asked = parse_job_request(request.body);
   std::vector<ShelvedProduct> products;
   for (const std::string& key : asked.products) {
@@ -83,7 +85,34 @@ ServiceAnswer added_job(const ServiceRequest& request, ProductShelf& shelf, JobS
     if (!product) throw UsageError("job: product " + in_quotes(key) + " is not there (any more)");
     products.push_back(*product);
   }
-  return job_answered(jobs.add(asked, products), jobs);
+  const std::string& sent = asked.hand.uploads;
+  if (sent.empty()) return job_answered(jobs.add(asked, products), jobs);
+  try {
+    const Job job = jobs.add(asked, products, uploads.folder(sent));
+    uploads.forget(sent);
+    return job_answered(job, jobs);
+  } catch (const Error&) {
+    uploads.forget(sent);  // a client sends them again
+    throw;
+  }
+}
+
+ServiceAnswer bytes_answer(std::string bytes) {
+  return {.type = "application/octet-stream", .body = std::move(bytes)};
+}
+
+/// GET /api/jobs/KEY/shape?of=preview|result&what=before|after
+ServiceAnswer shape_of_job(const Job& job, const Target& target, const JobShelf& jobs) {
+  const bool is_preview = target.query("of").value_or("preview") == "preview";
+  const bool is_after = target.query("what").value_or("after") == "after";
+  for (const char* name : {"pressed.stl", "redesign.stl"}) {
+    const auto path = is_preview ? jobs.made_file(job, std::string(kJobPreview) + "/" + name)
+                                 : jobs.file(job, name);
+    if (path) return bytes_answer(shape_frame(job.products.front(), is_after ? *path : ""));
+  }
+  // A region alone changes nothing.
+  if (!is_after) return bytes_answer(shape_frame(job.products.front(), ""));
+  return refusal(404, "there is no new shape (yet)");
 }
 
 /// A report is a page by itself with a script of its own, shown in a frame: it may run that, reach
@@ -119,8 +148,19 @@ ServiceAnswer shelved_shape(const Job& job, const std::string& name, ProductShel
 
 /// GET /api/jobs/KEY...
 std::optional<ServiceAnswer> read_of_job(const Job& job, const std::string& rest,
-                                         const JobShelf& jobs) {
+                                         const Target& target, const JobShelf& jobs) {
   if (rest.empty()) return job_answered(job, jobs);
+  if (rest == "/shape" && job.request.kind == JobKind::kRedesign) {
+    return shape_of_job(job, target, jobs);
+  }
+  if (rest == "/made") {
+    const std::string name = target.query("file").value_or("");
+    const auto path = jobs.made_file(job, name);
+    if (!path) return refusal(404, in_quotes(name) + " is none of what this job made");
+    ServiceAnswer answer = bytes_answer(read_file(*path));
+    if (path->extension() == ".png") answer.type = "image/png";
+    return answer;
+  }
   if (rest == "/report") return job_page(job, jobs);
   if (rest == "/dots" && job.request.kind == JobKind::kStudy) {
     if (!job.has_report) return refusal(404, "there are no results yet");
@@ -163,10 +203,41 @@ std::optional<ServiceAnswer> projects_answer(const ServiceRequest& request, cons
   return done();
 }
 
+std::optional<ServiceAnswer> uploads_answer(const ServiceRequest& request, const Target& target,
+                                            UploadDrawer& uploads) {
+  const auto key = name_between(target.path, "/api/uploads/");
+  if (!key || request.method != "POST") return std::nullopt;
+  uploads.add(*key, target.query("name").value_or(""), request.body);
+  return done();
+}
+
+std::optional<ServiceAnswer> hands_answer(const ServiceRequest& request, const Target& target,
+                                          const JobShelf& jobs) {
+  if (request.method != "GET") return std::nullopt;
+  if (const auto key = name_between(target.path, "/api/hands/", "/file")) {
+    const auto path = jobs.hand_file(*key);
+    if (!path) return refusal(404, "hand " + in_quotes(*key) + " is not there (any more)");
+    return ServiceAnswer{.type = "application/octet-stream",
+                         .body = read_file(*path),
+                         .file_name = path->filename().string()};
+  }
+  if (target.path != "/api/hands") return std::nullopt;
+  RouteJson all = RouteJson::array();
+  for (const Job& one : jobs.list()) {
+    if (one.has_hand && one.state == JobState::kDone) {
+      all.push_back({{"key", one.key}, {"name", one.title}, {"created_ms", one.created}});
+    }
+  }
+  return route_answer({{"hands", std::move(all)}});
+}
+
 std::optional<ServiceAnswer> jobs_answer(const ServiceRequest& request, const Target& target,
-                                         ProductShelf& shelf, JobShelf& jobs) {
+                                         ProductShelf& shelf, JobShelf& jobs,
+                                         UploadDrawer& uploads) {
   if (target.path == kJobs && request.method == "GET") return job_list(jobs);
-  if (target.path == kJobs && request.method == "POST") return added_job(request, shelf, jobs);
+  if (target.path == kJobs && request.method == "POST") {
+    return added_job(request, shelf, jobs, uploads);
+  }
   const std::string begin = std::string(kJobs) + "/";
   if (!target.path.starts_with(begin)) return std::nullopt;
   const std::size_t slash = std::min(target.path.find('/', begin.size()), target.path.size());
@@ -174,10 +245,20 @@ std::optional<ServiceAnswer> jobs_answer(const ServiceRequest& request, const Ta
   const std::string rest = target.path.substr(slash);
   const auto job = jobs.find(key);
   if (!job) return refusal(404, "job " + in_quotes(key) + " is not there (any more)");
-  if (request.method == "GET") return read_of_job(*job, rest, jobs);
+  if (request.method == "GET") return read_of_job(*job, rest, target, jobs);
   if (request.method == "DELETE" && rest.empty()) {
     jobs.remove(key);
     return done();
+  }
+  if (request.method == "POST" && rest == "/revise") {
+    jobs.revise(key, parse_job_request(request.body));
+    return job_answered(*jobs.find(key), jobs);
+  }
+  if (request.method == "POST" && rest == "/shelve" && target.query("product")) {
+    if (job->products.empty()) return refusal(404, "this job has no product");
+    ServiceAnswer answer;
+    answer.body = shelved_product_json(shelf.add_known(job->products.front()));
+    return answer;
   }
   if (request.method == "POST" && rest == "/shelve") {
     return shelved_shape(*job, target.query("name").value_or(""), shelf, jobs);

@@ -8,6 +8,7 @@
 #include "palmar/server/job_shelf.h"
 #include "palmar/server/project_drawer.h"
 #include "palmar/server/service.h"
+#include "palmar/server/upload_drawer.h"
 
 namespace palmar {
 
@@ -17,7 +18,13 @@ namespace palmar {
 std::optional<ServiceAnswer> projects_answer(const ServiceRequest& request, const Target& target,
                                              ProductShelf& shelf, ProjectDrawer& drawer);
 std::optional<ServiceAnswer> jobs_answer(const ServiceRequest& request, const Target& target,
-                                         ProductShelf& shelf, JobShelf& jobs);
+                                         ProductShelf& shelf, JobShelf& jobs,
+                                         UploadDrawer& uploads);
+std::optional<ServiceAnswer> uploads_answer(const ServiceRequest& request, const Target& target,
+                                            UploadDrawer& uploads);
+/// Hands that were made here and can be chosen.
+std::optional<ServiceAnswer> hands_answer(const ServiceRequest& request, const Target& target,
+                                          const JobShelf& jobs);
 
 /// What stands between `begin` and `end` of a path, without a slash; nothing if it isn't so.
 std::optional<std::string> name_between(std::string_view path, std::string_view begin,

@@ -145,6 +145,12 @@ BenchProject parse_bench_project(std::string_view text) {
   project.bytes = from_base64(text_in(product, "bytes_base64"));
   const BenchJson& hand = object_in(json, "hand");
   project.person = text_or_null_in(hand, "person");
+  if (hand.contains("file") && !hand["file"].is_null()) {
+    const BenchJson& file = object_in(hand, "file");
+    project.hand_file = bench_file_name(file);
+    project.hand_bytes = from_base64(text_in(file, "bytes_base64"));
+    if (!project.person.empty()) refuse_member("person", hand["person"], "null beside a file");
+  }
   const BenchJson& left = needed(hand, "left", "true or false");
   if (!left.is_boolean()) refuse_member("left", left, "true or false");
   project.is_left = left.get<bool>();

@@ -68,6 +68,20 @@ TEST(BenchProject, NothingSaidIsTheTemplateAndTheUsualForce) {
   EXPECT_EQ(project.settle, BenchSettle::kAsPlaced);
 }
 
+TEST(BenchProject, OwnHandComesWithItsFile) {
+  ProjectJson json = whole_project();
+  json["hand"] = {{"person", nullptr},
+                  {"left", false},
+                  {"file", {{"file_name", "anna.hand.glb"}, {"bytes_base64", "Zm9vYmE="}}}};
+  const BenchProject project = parse_bench_project(json.dump());
+  EXPECT_EQ(project.hand_file, "anna.hand.glb");
+  EXPECT_EQ(project.hand_bytes, "fooba");
+  json["hand"]["person"] = "man:P50";
+  EXPECT_THAT(complaint(json), HasSubstr("person"));
+  json["hand"] = {{"person", nullptr}, {"left", false}, {"file", {{"file_name", "../x.glb"}}}};
+  EXPECT_THAT(complaint(json), AllOf(HasSubstr("file_name"), HasSubstr("without folders")));
+}
+
 TEST(BenchProject, ComplaintsNameMemberAndWhatIsRequired) {
   const auto with = [](const char* path, const ProjectJson& value) {
     ProjectJson json = whole_project();

@@ -17,6 +17,7 @@ namespace {
 
 using HoldJson = nlohmann::ordered_json;
 
+constexpr std::size_t kMostStations = 32;      // of a part's line
 constexpr double kAlongAxis = 20.0 * kDegree;  // a direction so near an axis is called by it
 
 HoldJson terms_array(const std::vector<HoldTerm>& terms) {
@@ -92,12 +93,26 @@ HoldJson hold_object(const Grasp& grasp) {
 
 std::string ranked_holds_json(const RankedHolds& ranked, const std::string& product, Side side) {
   HoldJson parts = HoldJson::array();
+  const auto rounded = [](const Vec3& v) {
+    HoldJson place = HoldJson::array();
+    for (int k = 0; k < 3; ++k) place.push_back(std::round(1000.0 * v[k]) / 1000.0 + 0.0);
+    return place;
+  };
   for (const ProductPart& part : ranked.parts.parts) {
+    HoldJson line = HoldJson::array();
+    const std::size_t step = 1 + part.line.size() / kMostStations;
+    for (std::size_t k = 0; k < part.line.size(); k += step) {
+      const PartStation& station = part.line[k];
+      line.push_back({{"along", station.along},
+                      {"centre_mm", rounded(station.centre)},
+                      {"axis", rounded(station.axis)}});
+    }
     parts.push_back({{"number", part.number},
                      {"kind", name_of(part.kind)},
                      {"name", part.name},
                      {"length_mm", part.length},
-                     {"girth_mm", part.girth}});
+                     {"girth_mm", part.girth},
+                     {"line", std::move(line)}});
   }
   HoldJson holds = HoldJson::array();
   for (const RankedHold& one : ranked.holds) {

@@ -3,6 +3,7 @@
 #include "palmar/report/picture/region_picture.h"
 
 #include <fmt/format.h>
+#include <utility>
 
 #include <algorithm>
 #include <array>
@@ -21,12 +22,13 @@ constexpr double kFine = 0.5;  // mm; edges of the painted mesh, so that borders
 constexpr Rgb kPlain{206, 208, 205};
 
 /// The map split fine, each vertex in the colour of the first region that it lies in.
-SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& regions) {
+SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
+                    double finest) {
   Box3 box;
   for (const Vec3& x : map.vertices) box.extend(x);
   SceneObject object;
   // Large products needn't be finer than pixels.
-  const double edge = std::max(kFine, box.diagonal().norm() / 400.0);
+  const double edge = std::max(finest, box.diagonal().norm() / 400.0);
   object.mesh = split_long_edges(map, edge);
   const ClosestPointQuery query(map);
   object.vertex_colours.reserve(object.mesh.vertices.size());
@@ -86,6 +88,18 @@ Rgb colour_of(std::optional<HandPart> part) {
   return kPlain;
 }
 
+ColouredMesh region_surface(const TriangleMesh& map, const std::vector<ContactRegion>& regions) {
+  constexpr double kForViews = 1.0;  // mm; for a view that is turned, not printed
+  SceneObject object = painted(map, regions, kForViews);
+  ColouredMesh surface;
+  surface.mesh = std::move(object.mesh);
+  for (const Rgb c : object.vertex_colours) {
+    surface.colour.emplace_back(static_cast<float>(c.r) / 255.0F, static_cast<float>(c.g) / 255.0F,
+                                static_cast<float>(c.b) / 255.0F);
+  }
+  return surface;
+}
+
 Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
                      const Vec3& axis, const std::string& title,
                      const RegionPictureOptions& options, const Progress& progress) {
@@ -94,7 +108,7 @@ Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& 
       throw UsageError("region picture: a region belongs to another map");
     }
   }
-  const Scene scene = {painted(map, regions)};
+  const Scene scene = {painted(map, regions, kFine)};
   const Vec3 palm = towards_palm(map, regions, axis);
   const Vec3 side = axis.cross(palm);
   const std::array<Vec3, 4> from = {palm, side, -palm, -side};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/redesign/contact_region.h"
 #include "palmar/report/picture/image.h"
 
@@ -19,6 +20,10 @@ struct RegionPictureOptions {
   int width = 1500;  ///< pixels
   int height = 900;  ///< pixels
 };
+
+/// The product's surface in those colours, where no region is in that of the pictures: for a view
+/// that can be turned. Where regions overlap, the first of `regions` is shown.
+ColouredMesh region_surface(const TriangleMesh& map, const std::vector<ContactRegion>& regions);
 
 /// A product with the regions of the parts of the hand on it, from four sides about its axis, side
 /// by side: first from the palm's. Where regions overlap, the first of `regions` is shown. `map` is

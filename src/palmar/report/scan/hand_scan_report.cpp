@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "palmar/formats/file.h"
+#include "palmar/formats/mesh/coloured_mesh_file.h"
+#include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/bones/bone_shape.h"
@@ -227,6 +229,14 @@ void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
   if (errors) write_file(base / "truth_errors.csv", format_csv(truth_error_csv(*errors)));
   write_file(base / "marks.csv", format_csv(mark_table(made.marks)));
   write_file(base / "joints_by_dots.csv", format_csv(dotted_joint_csv(made)));
+  for (const auto& [posture, scan] : scans) {
+    const std::filesystem::path shown = base / ("scan_" + std::string(name_of(posture)) + ".ply");
+    if (scan.surface.colour.empty()) {
+      write_mesh(shown, scan.surface.mesh);
+    } else {
+      write_coloured_mesh(shown, scan.surface);
+    }
+  }
   const std::vector<Picture> pictures = pictures_of(made, scans, progress);
   write_file(base / "report.html", page_of(made, scans, errors, pictures, json, language));
 }

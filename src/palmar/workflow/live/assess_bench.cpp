@@ -44,27 +44,37 @@ class UnpackingFolder {
   std::filesystem::path path_;
 };
 
-/// Messages name the project and the product in it, not the folder where it was unpacked.
-std::shared_ptr<const Product> bench_product(const std::filesystem::path& file,
-                                             const BenchProject& project,
-                                             const Progress& progress) {
+/// What a file in a project gives. Messages name the project and the file in it, not the folder
+/// where it was unpacked.
+template <typename Read>
+auto unpacked(const std::filesystem::path& project, const std::string& what,
+              const std::string& file_name, const std::string& bytes, Read read) {
   const UnpackingFolder folder;
-  const std::filesystem::path path = folder.path() / project.file_name;
-  write_file(path, project.bytes);
+  const std::filesystem::path path = folder.path() / file_name;
+  write_file(path, bytes);
   try {
-    auto product = std::make_shared<Product>(
-        load_product(ProductChoice(path, {.unit = project.unit}), progress));
-    add_findings(*product);
-    product->source = project.file_name;
-    return product;
+    return read(path);
   } catch (const InputError& error) {
     std::string message = error.what();
     for (std::size_t at = message.find(path.string()); at != std::string::npos;
          at = message.find(path.string())) {
-      message.replace(at, path.string().size(), project.file_name);
+      message.replace(at, path.string().size(), file_name);
     }
-    throw InputError(file.string() + ": its product " + message);
+    throw InputError(project.string() + ": its " + what + " " + message);
   }
+}
+
+std::shared_ptr<const Product> bench_product(const std::filesystem::path& file,
+                                             const BenchProject& project,
+                                             const Progress& progress) {
+  return unpacked(file, "product", project.file_name, project.bytes,
+                  [&](const std::filesystem::path& path) {
+                    auto product = std::make_shared<Product>(
+                        load_product(ProductChoice(path, {.unit = project.unit}), progress));
+                    add_findings(*product);
+                    product->source = project.file_name;
+                    return std::shared_ptr<const Product>(std::move(product));
+                  });
 }
 
 AssessmentSet shown_on_bench(LiveSession& session, const BenchProject& project,
@@ -106,6 +116,11 @@ AssessOutcome assess_bench_project(const BenchAssessRequest& request, const Prog
     throw InputError(request.file.string() + ": \"hand\": " + error.what());
   }
   choice.is_left = project.is_left;
+  if (!project.hand_file.empty()) {
+    choice.value =
+        unpacked(request.file, "hand", project.hand_file, project.hand_bytes,
+                 [](const std::filesystem::path& path) { return load_hand(path.string()); });
+  }
   const AssessRequest& report = request.report;
   if (!report.out.empty()) check_report_folder(report.out);
 

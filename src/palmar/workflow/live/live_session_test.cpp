@@ -95,8 +95,11 @@ TEST(LiveSession, ContactOfAMotionIsThatOfTheEvaluatedPlace) {
     const AssessmentSet there = session.evaluate_here(pose, grasp.grip, {});
     const ContactResult& still = there.assessments.front().assessment.contact;
     ASSERT_EQ(moving.pressure.size(), still.pressure.size());
-    EXPECT_NEAR(moving.total.force, still.total.force, 1e-6 * still.total.force);
-    EXPECT_NEAR(moving.total.peak_pressure, still.total.peak_pressure, 1e-6);  // MPa
+    // Moduli are settled to 1 % on the way, to 0.001 % at rest; skin that bulges is left out.
+    EXPECT_NEAR(moving.total.force, still.total.force, 0.02 * still.total.force);
+    EXPECT_NEAR(moving.total.area, still.total.area, 0.03 * still.total.area);
+    EXPECT_NEAR(moving.total.peak_pressure_cells, still.total.peak_pressure_cells,
+                0.03 * still.total.peak_pressure_cells);
   }
 }
 

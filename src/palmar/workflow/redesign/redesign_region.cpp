@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/mesh/coloured_mesh_file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/grip_axis.h"
@@ -253,6 +254,7 @@ RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
     write_file(out / "outline.dxf", dxf_of(drawing));
     write_file(out / "outline.svg", svg_of(drawing));
   }
+  write_coloured_mesh(out / "region.ply", region_surface(findings.map.mesh, parts));
   if (request.draws) {
     write_file(out / "region.png",
                encode_png(region_picture(findings.map.mesh, parts, findings.axis,

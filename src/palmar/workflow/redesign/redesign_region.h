@@ -52,9 +52,10 @@ struct RedesignRegionOutcome {
 };
 
 /// Hands hold the product; finds, exports and rounds. Writes to OUT: region.step, region.json,
-/// region.csv (CAD faces), outline.dxf and outline.svg (if the side can be unrolled), region.png,
-/// redesign.step and redesign.stl (if ridges were rounded) and what compare_redesigns() writes.
-/// Throws UsageError, InputError, NumericalError if no hand holds the original, Cancelled.
+/// region.csv (CAD faces), region.ply (the surface in the regions' colours), outline.dxf and
+/// outline.svg (if the side can be unrolled), region.png, redesign.step and redesign.stl (if ridges
+/// were rounded) and what compare_redesigns() writes. Throws UsageError, InputError, NumericalError
+/// if no hand holds the original, Cancelled.
 RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
                                       const Progress& progress = {});
 

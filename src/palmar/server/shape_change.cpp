@@ -1,0 +1,41 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/server/shape_change.h"
+
+#include <cmath>
+#include <utility>
+
+#include "palmar/formats/mesh/mesh_file.h"
+#include "palmar/report/picture/display_mesh.h"
+#include "palmar/server/live_frame.h"
+
+namespace palmar {
+
+std::vector<double> change_of(const Product& original, const TriangleMesh& changed) {
+  // Beyond it, it counts as this far: no redesign moves a surface by as much.
+  constexpr double kFarthest = 60.0;  // mm
+  std::vector<DistanceSample> samples(changed.vertices.size());
+  original.distance->sample(changed.vertices, kFarthest, samples);
+  std::vector<double> change;
+  change.reserve(samples.size());
+  for (const DistanceSample& one : samples) change.push_back(one.distance);
+  return change;
+}
+
+std::string shape_frame(const ShelvedProduct& original, const std::filesystem::path& changed) {
+  const std::shared_ptr<const Product> product = read_product(original);
+  if (changed.empty()) {
+    const std::vector<double> none(product->mesh.vertices.size(), 0.0);
+    return product_frame(display_mesh(product->mesh, none, kMostShownTriangles).mesh, 0);
+  }
+  const TriangleMesh mesh = read_mesh(changed).mesh;
+  std::vector<double> moved = change_of(*product, mesh);
+  for (double& one : moved) one = std::abs(one);
+  DisplayMesh shown = display_mesh(mesh, moved, kMostShownTriangles);
+  ProductFootprint footprint;
+  footprint.surface = std::move(shown.mesh);
+  footprint.pressure = std::move(shown.value);
+  return footprint_frame(footprint, 0);
+}
+
+}  // namespace palmar

@@ -1,0 +1,31 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "palmar/contact/contact.h"
+
+namespace palmar {
+
+/// The contact of what is dragged and watched, along a motion: from the last call's solution, with
+/// moduli of the tissue, and so forces, settled to 1 %. Loaded skin is put on the product; the rest
+/// stays where the posture has it, without its bulge. Half the time of ContactSolver, or less.
+class MovingContact {
+ public:
+  explicit MovingContact(const PreparedHand& prepared);
+  ~MovingContact();
+  MovingContact(MovingContact&&) noexcept;
+  MovingContact& operator=(MovingContact&&) noexcept;
+
+  /// Arguments as ContactSolver::solve(); `result` is overwritten, its memory reused.
+  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
+             const DistanceField& product, ContactResult& result);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace palmar
