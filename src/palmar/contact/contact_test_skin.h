@@ -78,4 +78,14 @@ inline ContactResult press_on_edge(const PreparedHand& tip, double fillet, doubl
   return solve_hand_contact(tip, tip.hand().skin.vertices, place, *bar, options);
 }
 
+/// The tip on the edge of a plate, `depth` deep from first touch.
+inline ContactResult press_on_plate(const PreparedHand& tip, double thickness, double depth,
+                                    const ContactOptions& options) {
+  constexpr double kHeight = 40.0;  // mm
+  const auto plate = make_box_distance(Vec3(thickness, kHeight, kHeight));
+  Rigid3 place;
+  place.translation = Vec3(0.0, 0.0, 0.5 * kHeight + kTipRadius - depth);
+  return solve_hand_contact(tip, tip.hand().skin.vertices, place, *plate, options);
+}
+
 }  // namespace palmar::contact_test

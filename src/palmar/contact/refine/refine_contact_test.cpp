@@ -17,6 +17,7 @@ namespace palmar {
 namespace {
 
 using contact_test::press_on_edge;
+using contact_test::press_on_plate;
 using contact_test::tip_on_bone;
 
 ContactOptions refined() {
@@ -187,6 +188,32 @@ TEST(RefineContact, LeavesThePointKernelAlone) {
   const ContactResult contact = press_on_edge(ball, 0.5, 1.5, refined());
   EXPECT_FALSE(contact.refinement);
   EXPECT_FALSE(is_resolved(contact));
+}
+
+/// Skin on the edge of a plate has its sides nearest as soon as it is deeper than half its
+/// thickness; it is the edge that presses it. A thicker plate takes more force to the same depth,
+/// and one of a millimetre still a good part of it: the force per length of a line grows with the
+/// logarithm of its width only (Johnson 1985, section 2.4).
+TEST(RefineContact, TheEdgeOfAPlatePressesTheMoreTheThickerItIs) {
+  for (const bool is_refined : {false, true}) {
+    ContactOptions options;
+    options.refine = is_refined;
+    for (const double depth : {1.0, 2.0, 3.0}) {
+      double thinner = 0.0;
+      double widest = press_on_plate(coarse_tip(), 10.0, depth, options).total.force;
+      for (const double thickness : {1.0, 2.0, 3.0}) {
+        const double force = press_on_plate(coarse_tip(), thickness, depth, options).total.force;
+        // Without refinement plates thinner than the skin's triangles meet the same vertices.
+        EXPECT_GE(force, thinner) << is_refined << " " << depth << " mm, " << thickness;
+        if (is_refined) {
+          EXPECT_GT(force, thinner) << depth << " mm, " << thickness;
+        }
+        EXPECT_GT(force, 0.2 * widest);
+        thinner = force;
+      }
+      EXPECT_LT(thinner, widest);
+    }
+  }
 }
 
 }  // namespace

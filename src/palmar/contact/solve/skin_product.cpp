@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palmar/contact/response/skin_geometry.h"
+#include "palmar/geometry/smooth_step.h"
 
 namespace palmar {
 namespace {
@@ -24,6 +25,11 @@ constexpr double kFleshShare = 0.25;  // of the hand's thickness: half a finger'
 /// From where to where the surface that the skin came through replaces the nearest one: cosine of
 /// the nearest one's normal and the skin's.
 constexpr double kTurned = 0.7;
+/// Of a plate, whose edge skin may be pressed on, sides are nearer than the end that the skin came
+/// through: that replaces them between these cosines, where the plate is not thicker than the
+/// first and ever less up to the second [mm]. Our choice.
+constexpr double kFacesEnd = -0.7, kPassesEnd = -0.2;
+constexpr double kThin = 4.0, kThick = 6.0;
 
 /// A sampler asks this far, so that skin has some way to go before it must be asked about again.
 constexpr double kWatchRange = 9.0;  // mm
@@ -61,9 +67,25 @@ std::optional<DistanceSample> surface_behind(const DistanceField& product, const
 
 /// Weight of the surface that skin came through against the nearest one, which looks the skin's own
 /// way by `cosine`. Smooth, so that forces don't jump as skin is pressed through a thin rod.
-double turned_weight(double cosine) {
-  const double t = std::clamp(cosine / kTurned, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
+double turned_weight(double cosine) { return smooth_step(cosine / kTurned); }
+
+/// Thickness of the product across the nearest surface of an inner point, at most kThick, mm.
+double thickness_at(const DistanceField& product, const DistanceSample& nearest) {
+  double t = -nearest.distance;
+  for (int step = 0; step < kMaxTraceSteps && t < kThick; ++step) {
+    const DistanceSample here = product.at(nearest.closest - t * nearest.normal);
+    if (here.distance > -kOnSurface) return t;
+    t -= here.distance;
+  }
+  return kThick;
+}
+
+/// The same as turned_weight() for skin on the edge of a plate, which looks along its sides.
+double on_edge_weight(const DistanceField& product, const DistanceSample& nearest, double cosine) {
+  const double passes = smooth_step((cosine - kFacesEnd) / (kPassesEnd - kFacesEnd));
+  if (passes == 0.0) return 0.0;
+  const double thickness = thickness_at(product, nearest);
+  return passes * smooth_step((kThick - thickness) / (kThick - kThin));
 }
 
 /// Between the nearest surface and the one that the skin came through.
@@ -222,7 +244,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   for (const int v : skin.near) {
     DistanceSample& sample = skin.sample[v];
     const double cosine = skin.normal[v].dot(sample.normal);
-    const double weight = turned_weight(cosine);
+    double weight = turned_weight(cosine);
     if (!(sample.distance < 0.0)) {
       // Skin may have gone right through a thin part of the product, which then is behind it.
       if (weight == 0.0 || !(sample.distance < std::min(flesh, kNearRange))) continue;
@@ -233,6 +255,9 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
       skin.traced.push_back(v);
       skin.collision.push_back(v);
       continue;
+    }
+    if (weight < 1.0) {
+      weight = std::max(weight, on_edge_weight(product, sample, cosine));
     }
     if (weight > 0.0) {
       const auto behind = surface_behind(product, posed[v], skin.normal[v]);

@@ -79,7 +79,8 @@ class Settling {
         has_skin_on_skin_(contact.skin_on_skin),
         closing_(hand.hand(), grasp),
         mechanics_(hand, product, contact, options.friction, start_),
-        effort_(hand.hand(), options.activation.value_or(options.strength), options.wrist) {
+        effort_(hand.hand(), options.activation.value_or(options.strength), start_.posture,
+                options.wrist) {
     const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
     has_load_ = needs_centre || !options.load.torque.isZero(0.0);
     load_ =

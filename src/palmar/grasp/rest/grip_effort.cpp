@@ -18,6 +18,14 @@ constexpr double kPlacePrice = 0.001;  // of the product's way
 constexpr double kWristPrice = 100.0;
 constexpr double kByWrist = 1.02;        // of the share of fingers alone; more is the wrist's
 constexpr double kMostGivingWay = 0.05;  // rad in one step
+constexpr double kNoWay = 1e-6;          // rad
+constexpr int kHalvings = 3;
+/// Force that a muscle gains per stretch over its fibres' length, over its force: short-range
+/// stiffness (Cui, Perreault, Maas & Sandercock 2008, J Biomech 41:1945-1952).
+constexpr double kShortRange = 23.4;
+/// The most that a stretched muscle holds above its isometric force: first dorsal interosseous of
+/// people after the stretch (Cook & McDonagh 1995, Exp Physiol 80:477-490).
+constexpr double kMostEnhanced = 0.3;
 constexpr int kSweeps = 20;              // over at most nine angles; more changed no step count
 constexpr double kWayBeyondReach = 1.1;  // of what all muscles together could add, to ask for all
 
@@ -44,8 +52,10 @@ Eigen::VectorXd bounded_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd
 
 }  // namespace
 
-GripEffort::GripEffort(const Hand& hand, double limit, const WristPosture& wrist)
+GripEffort::GripEffort(const Hand& hand, double limit, const Posture& closed,
+                       const WristPosture& wrist)
     : muscles_(hand, {.wrist = wrist}),
+      closed_(closed),
       limit_(limit),
       at_limit_(Eigen::MatrixXd::Zero(kGripJoints, muscle_count())),
       wrist_at_limit_(Eigen::RowVectorXd::Zero(muscle_count())),
@@ -63,6 +73,8 @@ void GripEffort::look(const Posture& posture, const std::array<bool, kGripJoints
   }
   at_limit_.setZero();
   wrist_at_limit_.setZero();
+  given_way_.setZero();
+  stretch_stiffness_.setZero();
   Eigen::Index column = 0;
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
@@ -71,6 +83,7 @@ void GripEffort::look(const Posture& posture, const std::array<bool, kGripJoints
     digits_[f].reset();
     if (std::any_of(first, first + kDigitDofs, [](bool is) { return is; })) {
       digits_[f] = muscles_.in(finger, posture);
+      stretch(posture, column, *digits_[f]);
       for (Eigen::Index t = 0; t < count; ++t) {
         const auto tendon = static_cast<std::size_t>(t);
         const double strength = limit_ * digits_[f]->strength[tendon];
@@ -89,6 +102,30 @@ void GripEffort::look(const Posture& posture, const std::array<bool, kGripJoints
   }
 }
 
+/// Muscles that are stretched where held angles give way hold more.
+void GripEffort::stretch(const Posture& posture, Eigen::Index first_muscle, DigitMuscles& digit) {
+  const int first = kDigitDofs * index_of(digit.finger);
+  Eigen::Vector4d way = Eigen::Vector4d::Zero();
+  for (int k = 0; k < kDigitDofs; ++k) {
+    if (is_free(first + k)) continue;
+    const Dof dof = grip_dof(first + k);
+    way[k] = posture[dof] - closed_[dof];
+  }
+  given_way_.segment<kDigitDofs>(first) = way;
+  for (std::size_t t = 0; t < digit.arm.size(); ++t) {
+    Eigen::Vector4d arm = Eigen::Map<const Eigen::Vector4d>(digit.arm[t].data());
+    const double more = -kShortRange * arm.dot(way) / digit.fibre[t];
+    const double rate = limit_ * digit.strength[t] * kShortRange / digit.fibre[t] *
+                        now_.activation[first_muscle + static_cast<Eigen::Index>(t)];
+    digit.strength[t] *= 1.0 + std::clamp(more, 0.0, kMostEnhanced);
+    if (more < -kNoWay || more > kMostEnhanced) continue;
+    for (int k = 0; k < kDigitDofs; ++k) {
+      if (is_free(first + k)) arm[k] = 0.0;
+    }
+    stretch_stiffness_.block<kDigitDofs, kDigitDofs>(first, first) += rate * arm * arm.transpose();
+  }
+}
+
 bool GripEffort::is_judged(int joint) const {
   const auto& digit = digits_[index_of(grip_finger(joint))];
   return digit && is_loaded_[joint] && std::abs(digit->stop[joint % kDigitDofs]) < 2;
@@ -101,6 +138,7 @@ void GripEffort::add_passive(GripVector& force, GripMatrix& stiffness) const {
     stiffness.block<kDigitDofs, kDigitDofs>(kDigitDofs * f, kDigitDofs * f) +=
         digits_[f]->passive.stiffness;
   }
+  stiffness.topLeftCorner<kGripJoints, kGripJoints>() += stretch_stiffness_;
   for (const ThumbPress& press : presses_) {
     force += press.force * press.moment;
     stiffness += press.stiffness * press.moment * press.moment.transpose();
@@ -141,7 +179,7 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
   }
   const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
   by_muscle = factor.solve(by_muscle).eval();
-  Eigen::VectorXd by_force = factor.solve(Eigen::VectorXd(force(free)));
+  const Eigen::VectorXd by_force = factor.solve(Eigen::VectorXd(force(free)));
   const Eigen::MatrixXd between = stiffness(held, free);
   const Eigen::VectorXd along = squeeze(free);
   const Eigen::RowVectorXd gain = along.transpose() * by_muscle;
@@ -169,38 +207,72 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
     problem.moment_at_strength.bottomRows(3) = by_muscle.middleRows(free_count - 6, 3);
     problem.price.tail<3>().setConstant(kPlacePrice);
   }
+  // Held angles go `giving`; the forces that move the free coordinates change with that.
+  const Eigen::MatrixXd follow = factor.solve(Eigen::MatrixXd(stiffness(free, held)));
   Eigen::VectorXd giving = Eigen::VectorXd::Zero(held_count);
+  Eigen::VectorXd moved_by_force = by_force;
   const auto balance = [&] {
+    moved_by_force = by_force - follow * giving;
     problem.required.head(held_count) =
-        between * by_force - Eigen::VectorXd(force(held)) + stiffness(held, held) * giving;
+        between * moved_by_force - Eigen::VectorXd(force(held)) + stiffness(held, held) * giving;
     problem.required[held_count] =
-        missing ? *missing - along.dot(by_force) - Eigen::VectorXd(squeeze(held)).dot(giving)
+        missing ? *missing - along.dot(moved_by_force) - Eigen::VectorXd(squeeze(held)).dot(giving)
                 : kWayBeyondReach * gain.cwiseMax(0.0).sum();
     problem.required[held_count + 1] = -wrist_load_;
     if (kept > 0) {
-      problem.required.tail<3>() = -*moved_before - by_force.segment<3>(free_count - 6);
+      problem.required.tail<3>() = -*moved_before - moved_by_force.segment<3>(free_count - 6);
     }
     return balance_muscles(problem);
   };
-  MuscleSolution solution = balance();
-
-  // Held angles that their muscles leave short give way, and the muscles are asked anew.
-  std::vector<int> row, joint;
-  for (Eigen::Index i = 0; i < held_count; ++i) {
-    if (solution.missing[i] == 0.0) continue;
-    row.push_back(static_cast<int>(i));
-    joint.push_back(held[static_cast<std::size_t>(i)]);
-  }
-  if (!row.empty()) {
-    const Eigen::MatrixXd follow = factor.solve(Eigen::MatrixXd(stiffness(free, joint)));
-    Eigen::MatrixXd own = stiffness(joint, joint);
+  // Those that their muscles leave short go so far that these suffice.
+  const auto give_way = [&](const Eigen::VectorXd& lacking) {
+    std::vector<int> row;
+    for (Eigen::Index i = 0; i < held_count; ++i) {
+      if (lacking[i] != 0.0) row.push_back(static_cast<int>(i));
+    }
+    if (row.empty()) return false;
+    Eigen::MatrixXd own = Eigen::MatrixXd(stiffness(held, held))(row, row);
     const Eigen::VectorXd least = 0.1 * own.diagonal().array() + 1.0;
-    own -= between(row, Eigen::all) * follow;
+    own -= between(row, Eigen::all) * follow(Eigen::all, row);
     own.diagonal() = own.diagonal().cwiseMax(least);
-    const Eigen::VectorXd way = bounded_solution(own, -solution.missing(row), kMostGivingWay);
-    giving(row) = way;
-    by_force -= follow * way;
+    giving(row) += bounded_solution(own, -lacking(row), kMostGivingWay);
+    return true;
+  };
+  MuscleSolution solution = balance();
+  const bool gives_way = give_way(solution.missing.head(held_count));
+  if (gives_way) solution = balance();
+
+  // Those that gave way before come back as far as the muscles can bring them.
+  Eigen::VectorXd back = Eigen::VectorXd::Zero(held_count);
+  for (Eigen::Index i = 0; i < held_count; ++i) {
+    back[i] =
+        std::clamp(-given_way_[held[static_cast<std::size_t>(i)]], -kMostGivingWay, kMostGivingWay);
+  }
+  if (!gives_way && !back.isZero(kNoWay)) {
+    const MuscleSolution here = solution;
+    const Eigen::VectorXi stops = problem.stop;
+    for (Eigen::Index i = 0; i < held_count; ++i) {
+      if (back[i] * problem.stop[i] > 0.0) problem.stop[i] = 0;  // leaves its stop
+    }
+    giving = back;
     solution = balance();
+    if (give_way(solution.missing.head(held_count))) {
+      giving = giving.cwiseMax(back.cwiseMin(0.0)).cwiseMin(back.cwiseMax(0.0));
+      back = giving;
+      solution = balance();
+    }
+    double share = 1.0;
+    for (int i = 0; i < kHalvings && !solution.missing.head(held_count).isZero(0.0); ++i) {
+      share *= 0.5;
+      giving = share * back;
+      solution = balance();
+    }
+    if (!solution.missing.head(held_count).isZero(0.0)) {
+      giving.setZero();
+      problem.stop = stops;
+      balance();
+      solution = here;
+    }
   }
 
   now_.activation = solution.activation;
@@ -212,7 +284,7 @@ GripEffort::Step GripEffort::solve(const std::vector<int>& free, const Eigen::Ma
     now_.stops[j] = solution.stop[i];
     step.way[j] = giving[i];
   }
-  const Eigen::VectorXd moved = by_muscle * now_.activation + by_force;
+  const Eigen::VectorXd moved = by_muscle * now_.activation + moved_by_force;
   for (Eigen::Index i = 0; i < free_count; ++i) {
     step.way[free[static_cast<std::size_t>(i)]] = moved[i];
   }

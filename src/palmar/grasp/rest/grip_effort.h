@@ -19,15 +19,19 @@ namespace palmar {
 ///
 /// with contact forces linear in the coordinates about the state last looked at. Joints that flex
 /// fingers go where muscles and product bring them. The thumb's joints and all abduction are held
-/// where they are, by whatever moments their muscles can give; where these are too weak they give
-/// way, together and within bounds, and the muscles are asked once more with that. Fingers and
-/// thumb that meet press on each other (ThumbMeeting). The wrist's muscles, with those of the
-/// digits that cross it, hold the load and what the fingers' flexors pull at the wrist. Squeeze
-/// that the muscles can't give is what is missed first; the wrist doesn't give way.
+/// where they were closed, by whatever moments their muscles can give; where these are too weak
+/// they give way, together and within bounds, and the muscles are asked once more with that; where
+/// they aren't any more, they come back. What gives way stretches its muscles, which then hold more
+/// than they can pull: by 23.4 times the stretch over the fibres' length (short-range stiffness,
+/// Cui et al. 2008), at most 30 % (Cook & McDonagh 1995). Fingers and thumb that meet press on each
+/// other (ThumbMeeting). The wrist's muscles, with those of the digits that cross it, hold the load
+/// and what the fingers' flexors pull at the wrist. Squeeze that the muscles can't give is what is
+/// missed first; the wrist doesn't give way.
 class GripEffort {
  public:
   /// `limit`: largest activation, times the muscles of HandMuscles.
-  GripEffort(const Hand& hand, double limit, const WristPosture& wrist = {});
+  /// `closed`: the posture from which held angles give way and to which they come back.
+  GripEffort(const Hand& hand, double limit, const Posture& closed, const WristPosture& wrist = {});
 
   /// Muscles and passive moments of the loaded digits in a posture; `wrist`: moment of the load
   /// in the sense of the wrist's flexion, N mm.
@@ -81,12 +85,19 @@ class GripEffort {
   void set(const Activations& activations) { now_ = activations; }
 
  private:
+  void stretch(const Posture& posture, Eigen::Index first_muscle, DigitMuscles& digit);
+
   HandMuscles muscles_;
+  Posture closed_;
   double limit_;
   std::array<std::optional<DigitMuscles>, kFingerCount> digits_;  ///< those that take part
   std::array<bool, kGripJoints> is_loaded_{};
   std::vector<ThumbPress> presses_;
   double wrist_load_ = 0.0;
+  GripVector given_way_ = GripVector::Zero();  ///< of held angles, rad
+  /// Of held angles, by the muscles that they stretch, N mm/rad.
+  Eigen::Matrix<double, kGripJoints, kGripJoints> stretch_stiffness_ =
+      Eigen::Matrix<double, kGripJoints, kGripJoints>::Zero();
   Eigen::MatrixXd at_limit_;           ///< moments at the limit, angles x muscles, N mm
   Eigen::RowVectorXd wrist_at_limit_;  ///< about the wrist, N mm
   Activations now_;

@@ -26,6 +26,7 @@ Posture bent() {
   posture[Dof::kMiddleMcpFlexion] = 50 * kDegree;
   posture[Dof::kMiddlePipFlexion] = 45 * kDegree;
   posture[Dof::kMiddleDipFlexion] = 30 * kDegree;
+  posture[Dof::kThumbIpFlexion] = 40 * kDegree;
   return posture;
 }
 
@@ -47,7 +48,7 @@ GripVector opening(double scale) {
 /// One finger whose DIP alone is loaded: FDP is the only muscle that flexes it. A spring of the
 /// product resists its flexion.
 TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
-  GripEffort effort(hand(), 1.0);
+  GripEffort effort(hand(), 1.0, bent());
   const int dip = kMiddleFirst + 3;
   effort.look(bent(), loaded({dip}));
   const DigitMuscles digit = HandMuscles(hand()).in(Finger::kMiddle, bent());
@@ -78,7 +79,7 @@ TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
 }
 
 TEST(GripEffort, SqueezeIsMissedWhereMusclesAreTooWeak) {
-  GripEffort effort(hand(), 0.1);
+  GripEffort effort(hand(), 0.1, bent());
   const int dip = kMiddleFirst + 3;
   effort.look(bent(), loaded({dip}));
   GripVector squeeze = GripVector::Zero();
@@ -94,9 +95,72 @@ TEST(GripEffort, SqueezeIsMissedWhereMusclesAreTooWeak) {
               0.01 * effort.moments()[dip]);
 }
 
+constexpr int kThumbIp = 3;
+
+/// The thumb's end has given way by `way` to a spring of 2000 N mm/rad, which now pushes with
+/// `force`; how far it goes in the next step.
+double way_of_thumb(double force, double way) {
+  Posture posture = bent();
+  posture[Dof::kThumbIpFlexion] += way;
+  GripEffort effort(hand(), 0.5, bent());
+  effort.look(posture, loaded({kThumbIp, kMiddleFirst + 3}));
+  GripVector on = GripVector::Zero();
+  on[kThumbIp] = -force;
+  GripMatrix stiffness = GripMatrix::Zero();
+  stiffness(kThumbIp, kThumbIp) = 2000.0;
+  stiffness(kMiddleFirst + 3, kMiddleFirst + 3) = 4000.0;
+  return effort
+      .solve({kMiddleFirst + 3}, Eigen::MatrixXd::Constant(1, 1, 4000.0), on, stiffness,
+             GripVector::Zero(), 0.0, nullptr)
+      .way[kThumbIp];
+}
+
+/// What flexes the thumb's end, at half activation, stretched by `way` [rad] times its arm.
+double most_of_thumb(double way) {
+  Posture posture = bent();
+  posture[Dof::kThumbIpFlexion] += way;
+  const DigitMuscles thumb = HandMuscles(hand()).in(Finger::kThumb, posture);
+  double most = 0.0;
+  for (std::size_t t = 0; t < thumb.arm.size(); ++t) {
+    const double arm = thumb.arm[t][kThumbIp];
+    const double stretch = -arm * way / thumb.fibre[t];
+    const double more = std::clamp(23.4 * stretch, 0.0, 0.3);
+    if (arm > 0.0) most += 0.5 * thumb.strength[t] * arm * (1.0 + more);
+  }
+  return most;
+}
+
+TEST(GripEffort, AThumbThatGaveWayComesBackAsFarAsItsMusclesCanBringIt) {
+  const double most = most_of_thumb(-0.04);
+  ASSERT_GT(most, 200.0);
+  EXPECT_NEAR(way_of_thumb(most - 150.0, -0.04), 0.04, 1e-6);  // 80 more than now: can
+  EXPECT_NEAR(way_of_thumb(most - 50.0, -0.04), 0.025, 1e-3);  // 50 of the 80
+  EXPECT_NEAR(way_of_thumb(most, -0.04), 0.0, 1e-3);
+  EXPECT_NEAR(way_of_thumb(most + 40.0, -0.04), -0.02, 1e-3);  // gives way further
+  EXPECT_NEAR(way_of_thumb(most - 150.0, 0.0), 0.0, 1e-12);    // never gave way
+}
+
+TEST(GripEffort, AStretchedThumbHoldsAThirdMoreAtMost) {
+  const double rest = most_of_thumb(0.0);
+  EXPECT_NEAR(way_of_thumb(rest - 1.0, 0.0), 0.0, 1e-9);
+  EXPECT_LT(way_of_thumb(rest + 20.0, 0.0), -0.005);
+  // Stretched by a tenth of a radian it holds 1.3 times the force that it has there.
+  const DigitMuscles there = HandMuscles(hand()).in(Finger::kThumb, [] {
+    Posture posture = bent();
+    posture[Dof::kThumbIpFlexion] -= 0.2;
+    return posture;
+  }());
+  double isometric = 0.0;
+  for (std::size_t t = 0; t < there.arm.size(); ++t) {
+    isometric += 0.5 * there.strength[t] * std::max(0.0, there.arm[t][kThumbIp]);
+  }
+  EXPECT_NEAR(way_of_thumb(1.299 * isometric, -0.2), 0.0, 1e-3);
+  EXPECT_LT(way_of_thumb(1.4 * isometric, -0.2), -0.01);
+}
+
 TEST(GripEffort, TwiceTheForceTakesTwiceTheStrengthInTheSamePosture) {
   // Passive moments don't grow with the force: the middle of the range, where they are small.
-  GripEffort effort(hand(), 1.0);
+  GripEffort effort(hand(), 1.0, bent());
   effort.look(bent(), loaded({kMiddleFirst, kMiddleFirst + 2, kMiddleFirst + 3}));
   const double once = effort.strength_of(opening(1.0)).share;
   const double twice = effort.strength_of(opening(2.0)).share;
@@ -106,7 +170,7 @@ TEST(GripEffort, TwiceTheForceTakesTwiceTheStrengthInTheSamePosture) {
 
 TEST(GripEffort, AWeakerHandNeedsMoreOfIts) {
   const auto share = [](double limit) {
-    GripEffort effort(hand(), limit);
+    GripEffort effort(hand(), limit, bent());
     effort.look(bent(), loaded({kMiddleFirst, kMiddleFirst + 2, kMiddleFirst + 3}));
     return effort.strength_of(opening(1.0)).share;
   };
@@ -115,7 +179,7 @@ TEST(GripEffort, AWeakerHandNeedsMoreOfIts) {
 
 TEST(GripEffort, NoStrengthHoldsWhatNoMusclePullsAgainst) {
   // MCP pushed towards flexion, PIP and DIP open: the extensors that hold MCP open PIP the more.
-  GripEffort effort(hand(), 1.0);
+  GripEffort effort(hand(), 1.0, bent());
   effort.look(bent(), loaded({kMiddleFirst + 1}));
   GripVector force = GripVector::Zero();
   force[kMiddleFirst + 1] = 1e6;
@@ -125,7 +189,7 @@ TEST(GripEffort, NoStrengthHoldsWhatNoMusclePullsAgainst) {
 TEST(GripEffort, ALoadAtALeverIsHeldByTheWrist) {
   const std::array<bool, kGripJoints> joints =
       loaded({kMiddleFirst, kMiddleFirst + 2, kMiddleFirst + 3});
-  GripEffort effort(hand(), 1.0);
+  GripEffort effort(hand(), 1.0, bent());
   effort.look(bent(), joints);
   const GripEffort::Strength free = effort.strength_of(opening(0.3));
   EXPECT_FALSE(free.is_by_wrist);
@@ -182,7 +246,7 @@ TEST(ThumbPress, CountsTheFingerThatMetTheThumb) {
   const auto [thumb, index] = thumb_and_index(posture);
   const ThumbPress press = thumb_press(hand().skeleton, posture, thumb, index, 8.0);
   const GripVector outside = -press.force * press.moment;
-  GripEffort effort(hand(), 1.0);
+  GripEffort effort(hand(), 1.0, bent());
   effort.look(posture, {}, {press});
   const GripEffort::Strength met = effort.strength_of(outside);
   EXPECT_LT(met.share, 0.01);

@@ -79,6 +79,7 @@ DigitMuscles HandMuscles::in(Finger finger, const Posture& posture) const {
     const double stretch =
         path_length(muscle.path, digit) - muscle.best_path + muscle.wrist_stretch;
     result.strength.push_back(muscle.force * force_length(stretch, muscle.best_length));
+    result.fibre.push_back(muscle.best_length);
     result.arm.push_back(moment_arms(muscle.path, digit));
     result.wrist_arm.push_back(muscle.wrist_arm);
   }

@@ -38,6 +38,7 @@ struct DigitMuscles {
   std::vector<std::array<double, kDigitDofs>> arm;  ///< mm, in the order of tendons_of(finger)
   std::vector<WristVector> wrist_arm;               ///< mm
   std::vector<double> strength;                     ///< at full activation, N
+  std::vector<double> fibre;                        ///< length at best, mm
   PassiveMoments passive;
   std::array<int, kDigitDofs> stop{};  ///< as MuscleProblem::stop
 };
