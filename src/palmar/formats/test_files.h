@@ -34,8 +34,8 @@ class TestFolder {
   std::filesystem::path path_;
 };
 
-/// Path of a file in a folder that this process has for itself, removed when it ends: two tests that
-/// run at a time in processes of their own don't meet there.
+/// Path of a file in a folder that this process has for itself, removed when it ends: two tests
+/// that run at a time in processes of their own don't meet there.
 inline std::string own_file(const std::string& name) {
   static const TestFolder folder;
   return (folder / name).string();

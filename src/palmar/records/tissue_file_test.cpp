@@ -17,9 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string temporary_tissue(const std::string& name) {
-  return own_file(name);
-}
+std::string temporary_tissue(const std::string& name) { return own_file(name); }
 
 Tissue read_text(const std::string& toml) {
   const std::string path = temporary_tissue("text.toml");

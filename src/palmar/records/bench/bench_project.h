@@ -29,15 +29,16 @@ struct BenchPose {
 ///     {"palmar_project": 1,
 ///      "product": {"file_name": "cup.stl", "unit": "mm" or null, "bytes_base64": "..."},
 ///      "hand": {"person": "woman:P5" or null, "left": false,
-///               "file": null (or absent) or {"file_name": "anna.hand.glb", "bytes_base64": "..."}},
+///               "file": null (or absent) or {"file_name": "anna.hand.glb", "bytes_base64":
+///               "..."}},
 ///      "grip_force_n": 60 or null, "hold": 1,
 ///      "pose": null or {"posture_deg": [23], "quaternion_wxyz": [4], "translation_mm": [3],
 ///      "grip"}, "settle": null, "close" or "rest"}
 struct BenchProject {
-  std::string file_name;           ///< of the product; without folders
-  std::optional<LengthUnit> unit;  ///< of the product's file, as the user said
-  std::string bytes;               ///< the product's file
-  std::string person;              ///< by sex and size, "woman:P5"; "": the template
+  std::string file_name;              ///< of the product; without folders
+  std::optional<LengthUnit> unit;     ///< of the product's file, as the user said
+  std::string bytes;                  ///< the product's file
+  std::string person;                 ///< by sex and size, "woman:P5"; "": the template
   std::string hand_file, hand_bytes;  ///< a person's own hand in place of it; "": none
   bool is_left = false;
   std::optional<double> grip_force;  ///< N; unset: the usual one

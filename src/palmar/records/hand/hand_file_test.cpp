@@ -8,8 +8,8 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/formats/test_files.h"
 #include "palmar/formats/mesh/glb.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/hand/skin/thumb_cmc.h"
 
 namespace palmar {
@@ -64,9 +64,7 @@ Hand small_hand() {
   return hand;
 }
 
-std::string temporary(const std::string& name) {
-  return own_file(name);
-}
+std::string temporary(const std::string& name) { return own_file(name); }
 
 std::string hand_message(const std::string& path) {
   try {

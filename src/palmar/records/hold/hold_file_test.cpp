@@ -19,9 +19,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string temporary_hold(const std::string& name) {
-  return own_file(name);
-}
+std::string temporary_hold(const std::string& name) { return own_file(name); }
 
 HoldFile read_hold_text(const std::string& toml) {
   const std::string path = temporary_hold("text.toml");
