@@ -6,6 +6,9 @@
 import { Box3, BufferGeometry, Color, DoubleSide, Intersection, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Raycaster, Sphere, SphereGeometry, Vector2, Vector3 } from "three";
 import { Stage, Triple } from "../viewer/stage";
 
+const kGrasp = 10; // CSS pixels round a mark
+const kBuried = 4; // mm; marks lie on the surface, and a little under it where it is rough
+
 export interface FoundBody {
   name: string;
   geometry: BufferGeometry;
@@ -124,11 +127,18 @@ export class FoundScene {
     return hit ? { name: hit.object.name, place: hit.point.toArray() as Triple } : null;
   }
 
-  // A mark behind the surface can't be taken.
+  // The mark that is nearest to the pointer; one behind the surface can't be taken.
   private markAt(event: PointerEvent): Mesh | null {
-    const hit = this.hits(event, this.marks.children)[0];
-    const before = this.hits(event, this.targets())[0];
-    return hit && (!before || hit.distance < before.distance + 4) ? (hit.object as Mesh) : null;
+    let best: Mesh | null = null, least = kGrasp;
+    for (const one of this.marks.children) {
+      const at = this.seenAt(one.position.toArray() as Triple);
+      const away = Math.hypot(at.x - event.clientX, at.y - event.clientY);
+      if (away < least) [best, least] = [one as Mesh, away];
+    }
+    if (!best) return null;
+    const at = this.seenAt(best.position.toArray() as Triple);
+    const before = this.hits({ clientX: at.x, clientY: at.y }, this.targets())[0];
+    return before && before.distance < this.stage.camera.position.distanceTo(best.position) - kBuried ? null : best;
   }
 
   private press(event: PointerEvent): void {

