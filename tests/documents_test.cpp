@@ -91,6 +91,8 @@ std::string shortened(std::string command) {
     command += many;
     // fillet, features: hands close on every candidate anew, but for a posture that is kept
     if (command.starts_with("redesign f")) command += " --evaluations 3 --hold-posture kept";
+    // shape: its own tests compare
+    if (command.starts_with("redesign shape ")) command += " --evaluations 3 --no-compare";
   }
   return command;
 }

@@ -107,5 +107,29 @@ TEST(RedesignFeatures, ARadiusThatLeavesNoRoomIsReportedWithItsValue) {
   EXPECT_THAT(run.err, HasSubstr("fillet of 18 mm on fillets"));
 }
 
+TEST(RedesignFeatures, WhatIsWorseByConstructionIsToldToBeWorse) {
+  // A round bar of 12 mm fillets made sharp: hands of another sample than the one it was made in
+  // must find it harder, held alike.
+  const ProgramRun run = run_palmar(
+      "redesign fillet \"made: prism width_mm=30 depth_mm=40 length_mm=130 fillet_mm=12\""
+      " --edges long --radius-mm 1 --hands 6 --seed 2014 --grip-force-n 60 --json --quiet"
+      " --out sharp",
+      folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json& comparison = json.at("comparison");
+  EXPECT_TRUE(comparison.at("in_other_hands").get<bool>());
+  EXPECT_FALSE(comparison.at("hold_changes").at(0).at("is_other_hold").get<bool>());
+  const Json& trial = json.at("history").at(0);
+  EXPECT_GT(trial.at("goal").get<double>(), 1.1 * json.at("original").get<double>());
+  EXPECT_NEAR(trial.at("grip_force_ratio").get<double>(), 1.0, 0.01);
+  // The sentence for people says so, too: redesign.palmar has both.
+  const ProgramRun compared = run_palmar(
+      "study compare sharp/redesign.palmar --quantity peak_pressure_cells_mpa", folder());
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr("presses"));
+  EXPECT_THAT(compared.out, ::testing::Not(HasSubstr("fillet:long 1 mm presses"))) << compared.out;
+}
+
 }  // namespace
 }  // namespace palmar::testing

@@ -11,7 +11,6 @@
 //   {feature: "groove", points_mm | ring_at_mm, is_closed?, radius_mm, depth_mm, rim_mm?}
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -20,18 +19,16 @@
 #include "palmar/cad/edits/feature_choice.h"
 #include "palmar/cad/edits/feature_edits.h"
 #include "palmar/cad/edits/surface_change.h"
-#include "palmar/cad/model/cad_check.h"
 #include "palmar/cad/model/cad_file.h"
 #include "palmar/cad/model/tessellation.h"
 #include "palmar/cad/solids/solids.h"
 #include "palmar/core/error.h"
 #include "palmar/records/product/face_mesh_file.h"
+#include "read_back.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
 namespace {
-
-constexpr double kSameVolume = 1e-3;  // of the volume; what a STEP must keep through the file
 
 CadModel model_of(const Json& source, Json& notes) {
   if (source.contains("kind")) {
@@ -92,17 +89,6 @@ FeatureEdits edits_of(const Json& list) {
   return edits;
 }
 
-/// What is written must be a closed, valid solid of the same volume when it is read again.
-void require_same(const std::filesystem::path& path, const EditedModel& edited) {
-  const CadCheck again = check_cad(read_step(path).model);
-  if (!again.is_good() || std::abs(again.volume - edited.volume) > kSameVolume * edited.volume) {
-    throw NumericalError(fmt::format(
-        "the STEP of the changed product doesn't read back as it is: {}, {:.6g} mm3 instead of "
-        "{:.6g} mm3",
-        again.findings.empty() ? "valid" : again.findings.front(), again.volume, edited.volume));
-  }
-}
-
 }  // namespace
 
 Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
@@ -146,7 +132,7 @@ Json features(const Json& request, const std::filesystem::path& folder, const Pr
   progress.update(0.7, "measured the change");
   if (request.value("step", false)) {
     write_step(folder / "product.step", edited.model);
-    require_same(folder / "product.step", edited);
+    require_same(folder / "product.step", "the changed product", edited.volume);
   }
   if (request.value("mesh", true)) {
     TessellationOptions options;

@@ -46,9 +46,9 @@ palmar::worker::Verb named_failures(const palmar::worker::Verb& verb) {
 int main(int argc, char** argv) {
   const std::map<std::string, palmar::worker::Verb> verbs = {
       {"check", palmar::cad_worker::check},       {"convert", palmar::cad_worker::convert},
-      {"features", palmar::cad_worker::features}, {"import", palmar::cad_worker::import},
-      {"make", palmar::cad_worker::make},         {"region", palmar::cad_worker::region},
-      {"version", palmar::cad_worker::version}};
+      {"features", palmar::cad_worker::features}, {"handle", palmar::cad_worker::handle},
+      {"import", palmar::cad_worker::import},     {"make", palmar::cad_worker::make},
+      {"region", palmar::cad_worker::region},     {"version", palmar::cad_worker::version}};
   if (argc != 3 || verbs.count(argv[1]) == 0) {
     std::fprintf(stderr, "palmar-cad is started by palmar; see `palmar product -h`\n");
     return 2;

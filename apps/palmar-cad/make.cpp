@@ -3,7 +3,6 @@
 //
 // make: {kind, parameters: {diameter_mm: 35, ...}, step?: true, mesh?: true, chordal_error_mm?}
 // -> product.step, mesh.bin, and what the solid is.
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,25 +13,10 @@
 #include "palmar/cad/solids/solids.h"
 #include "palmar/core/error.h"
 #include "palmar/records/product/face_mesh_file.h"
+#include "read_back.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
-
-namespace {
-
-constexpr double kSameVolume = 1e-3;  // of the volume
-
-/// What the file says is what is meant.
-void check_written(const std::filesystem::path& path, const ParametricKind& kind, double volume) {
-  const CadCheck check = check_cad(read_step(path).model);
-  if (check.is_good() && std::abs(check.volume - volume) <= kSameVolume * volume) return;
-  std::string why = check.findings.empty() ? "" : ": " + check.findings.front();
-  throw NumericalError(kind.name + ": its STEP file read back isn't the solid that was written (" +
-                       std::to_string(check.volume) + " mm3 for " + std::to_string(volume) +
-                       " mm3)" + why);
-}
-
-}  // namespace
 
 Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
   const ParametricKind& kind = parametric_kind(request.at("kind").get<std::string>());
@@ -50,7 +34,7 @@ Json make(const Json& request, const std::filesystem::path& folder, const Progre
                 {"notes", Json::array()}};
   if (request.value("step", false)) {
     write_step(folder / "product.step", model);
-    check_written(folder / "product.step", kind, volume_of(model));
+    require_same(folder / "product.step", kind.name, volume_of(model));
     progress.update(0.7, "wrote and read back " + kind.name);
   }
   if (request.value("mesh", false)) {

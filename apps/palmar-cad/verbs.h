@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 Json convert(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json check(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress);
+Json handle(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress);
 Json region(const Json& request, const std::filesystem::path& folder, const Progress& progress);

@@ -8,7 +8,7 @@
 
 #include "cli.h"
 #include "grasp/hold_arguments.h"
-#include "palmar/workflow/redesign/held_original.h"
+#include "palmar/workflow/redesign/redesign_comparison.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
 namespace palmar::cli {
@@ -17,6 +17,7 @@ namespace palmar::cli {
 void add_redesign_press_command(CLI::App& noun, Context& context);     ///< press
 void add_redesign_region_command(CLI::App& noun, Context& context);    ///< region
 void add_redesign_feature_commands(CLI::App& noun, Context& context);  ///< fillet, features
+void add_redesign_shape_command(CLI::App& noun, Context& context);     ///< shape
 
 /// What every redesign starts from, as typed.
 struct RedesignArguments {

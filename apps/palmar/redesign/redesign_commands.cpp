@@ -13,6 +13,7 @@ void add_redesign_commands(CLI::App& app, Context& context) {
   add_redesign_feature_commands(*noun, context);
   add_redesign_press_command(*noun, context);
   add_redesign_region_command(*noun, context);
+  add_redesign_shape_command(*noun, context);
 }
 
 }  // namespace palmar::cli

@@ -78,6 +78,24 @@ std::string region_text(const RedesignRegionOutcome& outcome) {
   return text;
 }
 
+std::string shape_text(const RedesignShapeOutcome& outcome) {
+  std::string text = outcome.file.string() + ":";
+  const HandleFeatures nothing{.width = 0.0, .depth = 0.0};
+  for (const HandleFeature& one : handle_features()) {
+    const double value = outcome.shape.features.*one.value;
+    if (value == nothing.*one.value) continue;
+    text += fmt::format(" {} {:.3g}{}{},", one.name, one.scale * value, one.unit.empty() ? "" : " ",
+                        one.unit);
+  }
+  text.back() = '\n';
+  text += fmt::format(
+      "  largest change {:.1f} mm, volume {:.0f} % of the original's, smallest radius round it "
+      "{:.1f} mm; a valid solid of {} faces, {} poles at most\n",
+      outcome.change.largest, 100 * outcome.change.volume_ratio, outcome.change.smallest_radius,
+      outcome.faces, outcome.poles);
+  return text;
+}
+
 std::string search_text(const SearchStory& story) {
   const SearchResult& result = story.result;
   const std::string unit = story.goal.unit.empty() ? "" : " " + story.goal.unit;
@@ -139,19 +157,27 @@ std::string search_text(const SearchStory& story) {
 }
 
 std::string proposals_text(const std::vector<TriedProposal>& tried, const FeatureGoal& goal) {
-  if (tried.empty()) return "no face has the highest pressure in a tenth of hands or more\n";
-  std::string text = goal.name + ", each change tried once:\n";
+  if (tried.empty()) return "no face is touched by a tenth of hands or more\n";
+  std::string text = goal.name + ", each change tried once, best per millimetre first:\n";
+  bool says_leave = false;
   for (const TriedProposal& one : tried) {
+    if (one.verdict != ProposalVerdict::kChange && !says_leave) {
+      says_leave = true;
+      text += &one == &tried.front() ? "no change shows a gain in these hands; nothing should "
+                                       "change for it:\n"
+                                     : "no gain is shown of these; they should stay as they are:\n";
+    }
     if (!one.outcome.failure.empty()) {
       text += fmt::format("  {:<28} {}\n", one.words, one.outcome.failure);
       continue;
     }
-    text += fmt::format("  {:<28} {:6.1f} % {}{}, grip force {:.0f} %; {}\n", one.words,
-                        100 * std::abs(one.gain), one.gain < 0.0 ? "worse" : "better",
-                        one.is_feasible ? "" : ", beyond the constraints",
-                        100 * one.grip_force_ratio, one.reason);
+    text += fmt::format(
+        "  {:<28} {:+6.1f} % (SE {:.1f}) for {:.2f} mm, {:+.1f} % per mm{}; {}\n", one.words,
+        100 * one.gain, 100 * one.gain_error, one.largest_change, 100 * one.gain_per_mm(),
+        one.verdict == ProposalVerdict::kNotAllowed ? ", beyond the constraints" : "", one.reason);
   }
-  return text + "--vary takes these words; give a range instead of the value to search it\n";
+  return text +
+         "+ is better; --vary takes these words; give a range instead of the value to search it\n";
 }
 
 }  // namespace palmar::cli

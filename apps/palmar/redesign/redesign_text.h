@@ -8,12 +8,14 @@
 #include "palmar/workflow/redesign/redesign_feature.h"
 #include "palmar/workflow/redesign/redesign_press.h"
 #include "palmar/workflow/redesign/redesign_region.h"
+#include "palmar/workflow/redesign/redesign_shape.h"
 
 namespace palmar::cli {
 
 // What redesigns found, in a few lines for people.
 std::string press_text(const RedesignPressOutcome& outcome);
 std::string region_text(const RedesignRegionOutcome& outcome);
+std::string shape_text(const RedesignShapeOutcome& outcome);
 std::string search_text(const SearchStory& story);
 std::string proposals_text(const std::vector<TriedProposal>& tried, const FeatureGoal& goal);
 

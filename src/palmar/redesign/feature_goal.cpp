@@ -149,6 +149,7 @@ GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int pro
                                                                            : value);
   }
   figure.hands = static_cast<int>(pairs.size());
+  figure.values = values;
   if (goal.statistic == FeatureGoal::Statistic::kP95) {
     std::sort(values.begin(), values.end());
     figure.value = quantile(values, kPercentile);
@@ -158,6 +159,20 @@ GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int pro
   figure.value = summary.mean;
   figure.error = summary.standard_error;
   return figure;
+}
+
+GoalChange goal_change(const GoalFigure& from, const GoalFigure& to) {
+  if (from.values.size() != to.values.size() || from.values.empty()) {
+    throw UsageError(fmt::format("goals of {} and {} hands can't be compared", from.values.size(),
+                                 to.values.size()));
+  }
+  if (from.value == 0.0) return {};
+  std::vector<double> differences;
+  for (size_t i = 0; i < from.values.size(); ++i) {
+    differences.push_back(to.values[i] - from.values[i]);
+  }
+  return {(to.value - from.value) / from.value,
+          summarise(differences).standard_error / std::abs(from.value)};
 }
 
 double mean_ratio(const StudyResults& results, const std::string& key, int product, int original) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "palmar/study/statistics/study_results.h"
 
@@ -28,9 +29,10 @@ bool needs_indices(const FeatureGoal& goal);
 
 struct GoalFigure {
   double value = 0.0;
-  double error = 0.0;  ///< standard error over hands; 0 of a percentile
-  int hands = 0;       ///< that hold the original and have a value of it
-  int lost = 0;        ///< of these don't hold this product
+  double error = 0.0;          ///< standard error over hands; 0 of a percentile
+  int hands = 0;               ///< that hold the original and have a value of it
+  int lost = 0;                ///< of these don't hold this product
+  std::vector<double> values;  ///< by hand that holds the original
 };
 
 /// The goal of product `product` over the hands that hold the original (product `original`). A hand
@@ -38,6 +40,15 @@ struct GoalFigure {
 /// falling out of hands. Throws UsageError if no hand has a value with the original.
 GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int product,
                    int original = 0);
+
+/// From one product to another in the same hands, both against the same original: the difference of
+/// the figures as a share of the first, and its standard error from the hands' own differences (of
+/// the 95th percentile that of the mean).
+struct GoalChange {
+  double share = 0.0, error = 0.0;
+};
+/// Throws UsageError if they are of different hands.
+GoalChange goal_change(const GoalFigure& from, const GoalFigure& to);
 
 /// Mean of a quantity over the hands that have it with both products: of `product` divided by that
 /// of `original`. 0 if there is no such hand.

@@ -12,6 +12,7 @@
 #include <nlopt.hpp>
 
 #include "palmar/core/error.h"
+#include "palmar/redesign/surface_search.h"
 
 namespace palmar {
 namespace {
@@ -180,30 +181,7 @@ class Candidates {
           fmt::format("{}{} {:.4g}", i == 0 ? "" : ", ", problem_.variables[i].name, values[i]);
     }
     progress_.update(static_cast<double>(history_.size()) / budget_, words);
-    SearchTrial trial;
-    trial.values = values;
-    const auto before = std::chrono::steady_clock::now();
-    try {
-      trial.outcome = problem_.evaluate(values);
-    } catch (const NumericalError& error) {
-      trial.outcome = {.failure = error.what(), .constraint = {}};
-    }
-    trial.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-    if (trial.outcome.failure.empty()) {
-      if (trial.outcome.constraint.size() != problem_.constraints.size()) {
-        throw UsageError(fmt::format("search: {} values of {} constraints",
-                                     trial.outcome.constraint.size(), problem_.constraints.size()));
-      }
-      trial.is_feasible = std::isfinite(trial.outcome.goal);
-      for (size_t i = 0; i < problem_.constraints.size(); ++i) {
-        if (!(excess(problem_.constraints[i], trial.outcome.constraint[i]) <= kExcess)) {
-          trial.is_feasible = false;
-        }
-      }
-      if (!std::isfinite(trial.outcome.goal)) trial.outcome.failure = "its goal is not finite";
-    }
-    return trial;
+    return try_candidate(problem_, values);
   }
 
   const SearchProblem& problem_;
@@ -308,16 +286,20 @@ std::string name_of(SearchMethod method) {
       return "bobyqa";
     case SearchMethod::kDirect:
       return "direct";
+    case SearchMethod::kSurface:
+      return "surface";
   }
   return "";
 }
 
 SearchMethod search_method(const std::string& name) {
-  for (const SearchMethod method : {SearchMethod::kAutomatic, SearchMethod::kCobyla,
-                                    SearchMethod::kBobyqa, SearchMethod::kDirect}) {
+  for (const SearchMethod method :
+       {SearchMethod::kAutomatic, SearchMethod::kCobyla, SearchMethod::kBobyqa,
+        SearchMethod::kDirect, SearchMethod::kSurface}) {
     if (name_of(method) == name) return method;
   }
-  throw UsageError("optimiser \"" + name + "\"; allowed are auto, cobyla, bobyqa and direct");
+  throw UsageError("optimiser \"" + name +
+                   "\"; allowed are auto, cobyla, bobyqa, direct and surface");
 }
 
 void SearchOptions::check() const {
@@ -335,10 +317,49 @@ double excess(const SearchConstraint& constraint, double value) {
   return (constraint.is_highest ? value - constraint.limit : constraint.limit - value) / scale;
 }
 
+SearchTrial try_candidate(const SearchProblem& problem, const std::vector<double>& values) {
+  SearchTrial trial;
+  trial.values = values;
+  const auto before = std::chrono::steady_clock::now();
+  try {
+    trial.outcome = problem.evaluate(values);
+  } catch (const NumericalError& error) {
+    trial.outcome = {.failure = error.what(), .constraint = {}};
+  }
+  trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  if (trial.outcome.failure.empty()) {
+    if (trial.outcome.constraint.size() != problem.constraints.size()) {
+      throw UsageError(fmt::format("search: {} values of {} constraints",
+                                   trial.outcome.constraint.size(), problem.constraints.size()));
+    }
+    trial.is_feasible = std::isfinite(trial.outcome.goal);
+    for (size_t i = 0; i < problem.constraints.size(); ++i) {
+      if (!(excess(problem.constraints[i], trial.outcome.constraint[i]) <= kExcess)) {
+        trial.is_feasible = false;
+      }
+    }
+    if (!std::isfinite(trial.outcome.goal)) trial.outcome.failure = "its goal is not finite";
+  }
+  return trial;
+}
+
+SearchResult as_given(const SearchProblem& problem) {
+  const SearchTrial only = try_candidate(problem, {});
+  SearchResult result;
+  result.history = {only};
+  if (only.is_feasible) result.best = 0;
+  result.method = "as given";
+  result.ending = "one candidate";
+  return result;
+}
+
 SearchResult search_features(const SearchProblem& problem, const SearchOptions& options,
                              const Progress& progress) {
   check_problem(problem);
   options.check();
+  if (options.method == SearchMethod::kSurface) {
+    return search_by_surface(problem, options.evaluations, progress);
+  }
   const bool has_only_bounds = problem.constraints.empty() && problem.variables.size() > 1;
   if (options.method == SearchMethod::kBobyqa && !has_only_bounds) {
     throw UsageError("optimiser bobyqa: two or more variables and no constraints are needed");

@@ -30,7 +30,7 @@ struct SearchConstraint {
 
 /// What a candidate turned out to be.
 struct SearchOutcome {
-  std::string failure;             ///< why it can't be made or held; empty if it could
+  std::string failure = {};        ///< why it can't be made or held; empty if it could
   double goal = 0.0;               ///< in its own unit
   double goal_error = 0.0;         ///< standard error over hands; 0: none
   std::vector<double> constraint;  ///< values, by SearchProblem::constraints
@@ -52,10 +52,12 @@ enum class SearchMethod {
   kAutomatic,  ///< BOBYQA for two or more variables with bounds only, else COBYLA
   kCobyla,     ///< linear models, constraints (Powell 1994)
   kBobyqa,     ///< quadratic models, bounds only (Powell 2009)
-  kDirect      ///< half of the budget by DIRECT-L over all of the range (Gablonsky, Kelley 2001),
+  kDirect,     ///< half of the budget by DIRECT-L over all of the range (Gablonsky, Kelley 2001),
                ///< then from the best of it as kAutomatic
+  kSurface     ///< a smooth surface through what was found so far (surface_search.h): for many
+               ///< variables and goals that scatter
 };
-std::string name_of(SearchMethod method);             ///< "auto", "cobyla", "bobyqa", "direct"
+std::string name_of(SearchMethod method);  ///< "auto", "cobyla", "bobyqa", "direct", "surface"
 SearchMethod search_method(const std::string& name);  ///< throws UsageError
 
 struct SearchOptions {
@@ -77,6 +79,7 @@ struct SearchTrial {
 struct SearchResult {
   std::vector<SearchTrial> history;  ///< each combination of values once; the start first
   std::optional<int> best;           ///< index of the best feasible one
+  std::optional<double> expected;    ///< its goal by the smooth surface, without its own luck
   std::string method;                ///< "COBYLA (NLopt 2.7.1)"
   std::string ending;                ///< "converged", "budget spent"
 };
@@ -91,6 +94,13 @@ struct SearchResult {
 /// no sense (field and value), Cancelled.
 SearchResult search_features(const SearchProblem& problem, const SearchOptions& options = {},
                              const Progress& progress = {});
+
+/// One candidate of `problem`, made and assessed. What throws NumericalError, and a goal that is
+/// not finite, is a failure of the trial.
+SearchTrial try_candidate(const SearchProblem& problem, const std::vector<double>& values);
+
+/// The result where nothing varies: the one candidate, assessed.
+SearchResult as_given(const SearchProblem& problem);
 
 /// How far a candidate is beyond a constraint, as a share of its limit; 0 or below within it.
 double excess(const SearchConstraint& constraint, double value);

@@ -12,9 +12,7 @@
 #include <ElSLib.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2dAPI_Interpolate.hxx>
 #include <Geom2d_BSplineCurve.hxx>
-#include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -24,8 +22,10 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <Precision.hxx>
-#include <TColgp_HArray1OfPnt.hxx>
-#include <TColgp_HArray1OfPnt2d.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -33,7 +33,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "palmar/cad/edits/closed_spline.h"
 #include "palmar/cad/edits/solid_edit.h"
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
@@ -42,22 +44,33 @@ namespace palmar {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kEnough = 0.02;  // mm; a curve through every second point that is that near
+constexpr double kOutlineNear = 0.1;  // mm; outlines themselves are known to about 1.5 mm
 
 gp_Pnt point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 gp_Dir direction(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
-Handle(Geom_BSplineCurve) curve_through(const std::vector<Vec3>& points, std::size_t step) {
-  std::vector<Vec3> some;
-  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
-  const Handle(TColgp_HArray1OfPnt) array =
-      new TColgp_HArray1OfPnt(1, static_cast<int>(some.size()));
-  for (int i = 1; i <= array->Length(); ++i) {
-    array->SetValue(i, point(some[i - 1]));
+/// Knots 0 to n, all simple: of a closed cubic B-spline of n poles.
+std::pair<TColStd_Array1OfReal, TColStd_Array1OfInteger> even_knots(int n) {
+  TColStd_Array1OfReal knots(1, n + 1);
+  TColStd_Array1OfInteger multiplicities(1, n + 1);
+  for (int i = 0; i <= n; ++i) {
+    knots.SetValue(i + 1, i);
+    multiplicities.SetValue(i + 1, 1);
   }
-  GeomAPI_Interpolate interpolate(array, Standard_True, 1e-6);
-  interpolate.Perform();
-  return interpolate.IsDone() ? interpolate.Curve() : Handle(Geom_BSplineCurve)();
+  return {knots, multiplicities};
+}
+
+Handle(Geom_BSplineCurve) curve_near(const std::vector<Vec3>& points) {
+  Eigen::MatrixXd rows(points.size(), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) rows.row(i) = points[i].transpose();
+  const ClosedSpline spline = fit_closed_spline(rows, kOutlineNear);
+  const auto n = static_cast<int>(spline.poles.rows());
+  TColgp_Array1OfPnt poles(1, n);
+  for (int i = 0; i < n; ++i) {
+    poles.SetValue(i + 1, gp_Pnt(spline.poles(i, 0), spline.poles(i, 1), spline.poles(i, 2)));
+  }
+  const auto [knots, multiplicities] = even_knots(n);
+  return new Geom_BSplineCurve(poles, knots, multiplicities, 3, Standard_True);
 }
 
 double deviation(const Handle(Geom_BSplineCurve) & curve, const std::vector<Vec3>& points) {
@@ -75,14 +88,7 @@ TopoDS_Wire make_wire(const NamedCurve& given, CurveReport& report) {
     throw UsageError("curve \"" + given.name + "\": " + std::to_string(given.points.size()) +
                      " points; at least 4 are needed");
   }
-  Handle(Geom_BSplineCurve) curve;
-  if (given.points.size() >= 4 * least) curve = curve_through(given.points, 2);
-  if (curve.IsNull() || deviation(curve, given.points) > kEnough) {
-    curve = curve_through(given.points, 1);
-  }
-  if (curve.IsNull()) {
-    throw NumericalError("curve \"" + given.name + "\": no B-spline goes through its points");
-  }
+  const Handle(Geom_BSplineCurve) curve = curve_near(given.points);
   report.poles = curve->NbPoles();
   report.length = GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve));
   report.deviation = deviation(curve, given.points);
@@ -156,22 +162,37 @@ double area_of(const TopoDS_Face& face) {
   return properties.Mass();
 }
 
+/// Millimetres on the surface per unit of its parameters.
+void lengths_at(const Handle(Geom_Surface) & surface, const gp_Pnt2d& at, double& along_u,
+                double& along_v) {
+  gp_Pnt p;
+  gp_Vec by_u, by_v;
+  surface->D1(at.X(), at.Y(), p, by_u, by_v);
+  along_u = std::max(by_u.Magnitude(), 1e-6);
+  along_v = std::max(by_v.Magnitude(), 1e-6);
+}
+
 /// The part inside of an outline, or nothing if the outline can't be projected onto the surface.
 TopoDS_Face inside_of(const Handle(Geom_Surface) & surface, const std::vector<gp_Pnt2d>& outline,
                       double largest_area) {
   if (outline.size() < 8) return {};
-  const std::size_t step = outline.size() >= 32 ? 2 : 1;
-  std::vector<gp_Pnt2d> some;
-  for (std::size_t i = 0; i < outline.size(); i += step) some.push_back(outline[i]);
-  const Handle(TColgp_HArray1OfPnt2d) array =
-      new TColgp_HArray1OfPnt2d(1, static_cast<int>(some.size()));
-  for (int i = 1; i <= array->Length(); ++i) {
-    array->SetValue(i, some[i - 1]);
+  // Fitted where lengths are those on the surface, about: parameters may be angles.
+  double along_u = 0.0, along_v = 0.0;
+  lengths_at(surface, outline.front(), along_u, along_v);
+  Eigen::MatrixXd rows(outline.size(), 2);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    rows.row(i) << outline[i].X() * along_u, outline[i].Y() * along_v;
   }
-  Geom2dAPI_Interpolate interpolate(array, Standard_True, 1e-9);
-  interpolate.Perform();
-  if (!interpolate.IsDone()) return {};
-  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(interpolate.Curve(), surface).Edge();
+  const ClosedSpline spline = fit_closed_spline(rows, kOutlineNear);
+  const auto n = static_cast<int>(spline.poles.rows());
+  TColgp_Array1OfPnt2d poles(1, n);
+  for (int i = 0; i < n; ++i) {
+    poles.SetValue(i + 1, gp_Pnt2d(spline.poles(i, 0) / along_u, spline.poles(i, 1) / along_v));
+  }
+  const auto [knots, multiplicities] = even_knots(n);
+  const Handle(Geom2d_BSplineCurve) curve =
+      new Geom2d_BSplineCurve(poles, knots, multiplicities, 3, Standard_True);
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(curve, surface).Edge();
   if (!BRepLib::BuildCurve3d(edge, 1e-4)) return {};
   for (const bool is_reversed : {false, true}) {
     BRepBuilderAPI_MakeWire wire(is_reversed ? TopoDS::Edge(edge.Reversed()) : edge);

@@ -11,11 +11,13 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <algorithm>
 
 #include "palmar/cad/model/occt_model.h"
 
@@ -157,6 +159,16 @@ CadCheck check_cad(const CadModel& model) {
                              " mm3; a solid's is positive");
   }
   return check;
+}
+
+int most_poles(const CadModel& model) {
+  int most = 0;
+  for (TopExp_Explorer it(model.impl().shape, TopAbs_FACE); it.More(); it.Next()) {
+    const Handle(Geom_BSplineSurface) surface =
+        Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(TopoDS::Face(it.Current())));
+    if (!surface.IsNull()) most = std::max(most, surface->NbUPoles() * surface->NbVPoles());
+  }
+  return most;
 }
 
 }  // namespace palmar

@@ -32,4 +32,7 @@ Box3 box_of(const CadModel& model);
 /// mm^3; of the solids, by the surface integral over the exact surfaces.
 double volume_of(const CadModel& model);
 
+/// Poles of the B-spline surface that has most of them; 0 if there is none.
+int most_poles(const CadModel& model);
+
 }  // namespace palmar

@@ -18,13 +18,6 @@ namespace {
 constexpr double kChordalError = 0.01;  // mm; finer than skin feels, the same for all candidates
 constexpr double kKept = 0.05;          // mm; surfaces are measured to about 0.02 mm
 
-/// Stops when the user asks for it, says nothing.
-Progress silent(const Progress& progress) {
-  Progress quiet;
-  quiet.cancel = progress.cancel;
-  return quiet;
-}
-
 }  // namespace
 
 void FeatureLimits::check() const {
@@ -154,6 +147,8 @@ SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory
   beside.hands = figure.hands;
   beside.lost = figure.lost;
   beside.grip_force_ratio = judged.grip_force_ratio;
+  beside.figure = figure;
+  beside.largest_change = made.largest_change;
   beside.volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
   SearchOutcome outcome{
       .failure = "", .goal = figure.value, .goal_error = figure.error, .constraint = {}};
@@ -201,23 +196,9 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   story.problem.measure = [&](const std::vector<double>& values) {
     return measure(values, progress);
   };
-  if (!story.problem.variables.empty()) {
-    story.result = search_features(story.problem, options, progress);
-    story.original = as_it_is(progress).figure;
-    return story;
-  }
-  SearchTrial only;
-  only.outcome = story.problem.evaluate({});
-  only.is_feasible = true;
-  for (size_t i = 0; i < story.problem.constraints.size(); ++i) {
-    if (excess(story.problem.constraints[i], only.outcome.constraint[i]) > 0.0) {
-      only.is_feasible = false;
-    }
-  }
-  story.result.history = {only};
-  story.result.best = only.is_feasible ? std::optional(0) : std::nullopt;
-  story.result.method = "as given";
-  story.result.ending = "one candidate";
+  story.result = story.problem.variables.empty()
+                     ? as_given(story.problem)
+                     : search_features(story.problem, options, progress);
   story.original = as_it_is(progress).figure;
   return story;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "palmar/redesign/feature_goal.h"
+#include "palmar/workflow/redesign/candidate_study.h"
 #include "palmar/workflow/redesign/feature_settings.h"
-#include "palmar/workflow/redesign/held_original.h"
 #include "palmar/workflow/redesign/search_story.h"
 
 namespace palmar {

@@ -12,7 +12,7 @@
 #include "palmar/workflow/redesign/feature_proposals.h"
 #include "palmar/workflow/redesign/feature_run.h"
 #include "palmar/workflow/redesign/feature_settings.h"
-#include "palmar/workflow/redesign/held_original.h"
+#include "palmar/workflow/redesign/redesign_comparison.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/search_story.h"
 

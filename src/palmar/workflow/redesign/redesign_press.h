@@ -10,7 +10,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/redesign/pressed_shape.h"
-#include "palmar/workflow/redesign/held_original.h"
+#include "palmar/workflow/redesign/redesign_comparison.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
 namespace palmar {

@@ -12,7 +12,7 @@
 #include "palmar/product/product.h"
 #include "palmar/redesign/contact_region.h"
 #include "palmar/redesign/ridge_relief.h"
-#include "palmar/workflow/redesign/held_original.h"
+#include "palmar/workflow/redesign/redesign_comparison.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/region_findings.h"
 

@@ -50,6 +50,7 @@ struct RedesignRequest {
   /// Called with every note as it arises (a proposed unit, say); they are in the outcome, too.
   std::function<void(const std::string& note)> on_note;
 
+  bool keeps_posture() const { return posture == RedesignPosture::kKept; }
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
 };

@@ -11,6 +11,7 @@
 
 #include "palmar/records/csv.h"
 #include "palmar/report/chart/line_chart.h"
+#include "palmar/report/chart/scatter_chart.h"
 
 namespace palmar {
 namespace {
@@ -153,6 +154,57 @@ std::string history_svg(const SearchStory& story) {
                       .series = {over}});
   }
   return svg_stack(charts);
+}
+
+std::vector<int> fair_choices(const SearchStory& story) {
+  const auto is_better = [&](double a, double b) {
+    return story.goal.is_lower_better ? a < b : a > b;
+  };
+  std::vector<int> feasible;
+  for (std::size_t i = 0; i < story.result.history.size(); ++i) {
+    if (story.result.history[i].is_feasible) feasible.push_back(static_cast<int>(i));
+  }
+  const auto change = [&](int i) {
+    return story.beside[static_cast<std::size_t>(i)].largest_change;
+  };
+  const auto goal = [&](int i) {
+    return story.result.history[static_cast<std::size_t>(i)].outcome.goal;
+  };
+  std::stable_sort(feasible.begin(), feasible.end(), [&](int a, int b) {
+    return change(a) != change(b) ? change(a) < change(b) : is_better(goal(a), goal(b));
+  });
+  std::vector<int> fair;
+  for (const int i : feasible) {
+    if (fair.empty() || is_better(goal(i), goal(fair.back()))) fair.push_back(i);
+  }
+  return fair;
+}
+
+std::string choices_svg(const SearchStory& story) {
+  ScatterSeries all{.name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
+  ScatterSeries fair{.name = "none moves less and is better", .points = {}, .line = {}};
+  ScatterSeries original{
+      .name = "the original", .points = {{0.0, story.original.value}}, .line = {}};
+  fair.colour = series_colour(1);
+  original.colour = series_colour(2);
+  const auto point = [&](std::size_t i) {
+    return Eigen::Vector2d(story.beside[i].largest_change, story.result.history[i].outcome.goal);
+  };
+  for (std::size_t i = 0; i < story.result.history.size(); ++i) {
+    if (story.result.history[i].is_feasible) all.points.push_back(point(i));
+  }
+  std::string numbers;
+  for (const int i : fair_choices(story)) {
+    fair.points.push_back(point(static_cast<std::size_t>(i)));
+    fair.line.x.push_back(fair.points.back().x());
+    fair.line.value.push_back(fair.points.back().y());
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", i + 1);
+  }
+  return to_svg(scatter_chart({.title = "What a gain costs",
+                               .x_label = "largest change of the surface, mm",
+                               .y_label = with_unit(story.goal.name, story.goal.unit),
+                               .series = {all, fair, original},
+                               .notes = {"joined, from the left: candidates " + numbers}}));
 }
 
 }  // namespace palmar

@@ -23,6 +23,8 @@ struct SearchStory {
     int hands = 0, lost = 0;
     double grip_force_ratio = 0.0;
     double volume_ratio = 0.0;
+    double largest_change = 0.0;  ///< mm, of the surface
+    GoalFigure figure;
   };
   std::vector<Beside> beside;
 };
@@ -31,6 +33,13 @@ struct SearchStory {
 std::string history_csv(const SearchStory& story);
 /// One JSON object.
 std::string history_json(const SearchStory& story);
+/// Candidates within the constraints that no other one beats both in the goal and in how little of
+/// the surface moves: indices into the history, the smallest change first.
+std::vector<int> fair_choices(const SearchStory& story);
+/// The goal over the largest change of the surface: all candidates, and the fair choices as a line
+/// with their numbers. Any of them can be picked.
+std::string choices_svg(const SearchStory& story);
+
 /// The goal over the candidates, and the best feasible one so far.
 std::string history_svg(const SearchStory& story);
 

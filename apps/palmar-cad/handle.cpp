@@ -1,0 +1,36 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// handle: {shape: as handle_shape_json(), chordal_error_mm} -> product.step, mesh.bin, and what the
+// solid is.
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/cad_file.h"
+#include "palmar/cad/model/tessellation.h"
+#include "palmar/cad/solids/handle_solid.h"
+#include "palmar/records/handle_json.h"
+#include "palmar/records/product/face_mesh_file.h"
+#include "read_back.h"
+#include "verbs.h"
+
+namespace palmar::cad_worker {
+
+Json handle(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
+  const HandleShape shape = handle_shape_from(request.at("shape"));
+  const CadModel model = make_handle_solid(shape);
+  progress.update(0.4, "made the handle");
+  write_step(folder / "product.step", model);
+  require_same(folder / "product.step", "the handle", volume_of(model));
+  progress.update(0.7, "wrote and read back the handle");
+  TessellationOptions options;
+  options.chordal_error = request.at("chordal_error_mm").get<double>();
+  Tessellation mesh = tessellate(model, options, progress);
+  Json reply = {{"volume_mm3", volume_of(model)},
+                {"faces", model.face_count()},
+                {"poles", most_poles(model)},
+                {"triangles", mesh.mesh.triangle_count()}};
+  write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  progress.update(1.0, "made the handle");
+  return reply;
+}
+
+}  // namespace palmar::cad_worker

@@ -1,0 +1,109 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Redesign 4: the handle shaped anew by few named features.
+#include <memory>
+
+#include "palmar/geometry/degrees.h"
+#include "redesign/redesign_arguments.h"
+#include "redesign/redesign_text.h"
+
+namespace palmar::cli {
+namespace {
+
+struct ShapeArguments {
+  RedesignArguments redesign;
+  RedesignShapeRequest request;
+  std::string features;
+  double spread_deg = HoldSpread{}.turn / kDegree;
+  bool no_pictures = false;
+  bool no_compare = false;
+};
+
+int run_shape(const ShapeArguments& a, const Context& context) {
+  RedesignShapeRequest request = a.request;
+  request.redesign = a.redesign.read(context);
+  request.features = a.features;
+  request.spread.turn = a.spread_deg * kDegree;
+  request.draws = !a.no_pictures;
+  request.compares = !a.no_compare;
+  request.on_shape = [&context](const RedesignShapeOutcome& outcome) {
+    finish_progress();
+    if (!context.common.json) print(search_text(outcome.story) + shape_text(outcome));
+  };
+  const RedesignShapeOutcome outcome = redesign_shape(request, make_progress(context.common));
+  print_redesign(outcome.json, outcome.comparison, context);
+  if (outcome.gains && !context.common.json) print(gains_text(*outcome.gains));
+  return 0;
+}
+
+}  // namespace
+
+void add_redesign_shape_command(CLI::App& noun, Context& context) {
+  const auto a = std::make_shared<ShapeArguments>();
+  CLI::App* verb = add_verb(
+      noun, "shape",
+      "Shape the handle anew by few named features, for hands that lie a little differently",
+      "palmar redesign shape handle.step --hands 30 --grip-force-n 60 --goal peak --out shaped");
+  a->redesign.add_to(*verb);
+  RedesignShapeRequest& r = a->request;
+  verb->add_option(
+          "--vary", r.vary,
+          "Feature that may vary, its range (width=28:40) or its value (width=34): width, "
+          "depth, squareness, taper, swell, waist, egg, palm_swell, finger_swell, "
+          "thumb_rest, turn, twist; may be repeated. Without it: the first eight, and turn")
+      ->allow_extra_args(false);
+  verb->add_option("--features", a->features,
+                   "A handle.toml that is made and judged as it is, without a search");
+  verb->add_option(
+          "--goal", r.goal,
+          "What is made better, mean over hands: peak (pressure on sensor cells), mean "
+          "(pressure), stability, discomfort or a quantity's key; peak:p95 for the worst hands")
+      ->capture_default_str();
+  verb->add_option("--spread-mm", r.spread.along,
+                   "How far hands lie from their place along the handle: standard deviation, mm")
+      ->capture_default_str();
+  verb->add_option("--spread-deg", a->spread_deg, "The same about the handle, degrees")
+      ->capture_default_str();
+  verb->add_option("--places", r.spread.places,
+                   "Places that stand for these; every hand takes one of them")
+      ->capture_default_str();
+  verb->add_option("--largest-change-mm", r.limits.largest_change,
+                   "Most that any point of the handle may move, mm");
+  verb->add_option("--smallest-volume", r.limits.smallest_volume,
+                   "Least volume of the handle as a share of the original's");
+  verb->add_option("--largest-volume", r.limits.largest_volume,
+                   "Most volume of the handle as a share of the original's");
+  verb->add_option("--smallest-radius-mm", r.limits.smallest_radius,
+                   "Smallest radius of curvature round the handle, mm")
+      ->capture_default_str();
+  verb->add_option("--lost-hands", r.limits.lost_hands,
+                   "Largest share of hands that may no longer hold the product, out of those that "
+                   "hold the original")
+      ->capture_default_str();
+  verb->add_flag("--both-hands", r.limits.suits_both_hands,
+                 "The same shape for left and right hands: nothing one-sided");
+  verb->add_option("--keep-ends-mm", r.limits.kept_ends,
+                   "Length at both flat ends that keeps its outline, mm")
+      ->capture_default_str();
+  verb->add_option("--end-radius-mm", r.end_radius,
+                   "Radius of the edges round flat ends, mm; without it as they are, at least 3");
+  verb->add_option("--evaluations", r.search.evaluations,
+                   "Largest number of candidates that are made and held")
+      ->capture_default_str();
+  verb->add_option("--pick", r.pick,
+                   "Make this candidate of the search (its number in history.csv) instead of the "
+                   "best; the same seed and options search alike");
+  verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
+  verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
+  verb->callback([a, &context] {
+    context.setting_options = {{"largest change", "--largest-change-mm"},
+                               {"kept ends", "--keep-ends-mm"},
+                               {"spread along", "--spread-mm"},
+                               {"spread of the turn", "--spread-deg"},
+                               {"suits both hands", "--both-hands"}};
+    context.run = [a, &context] { return run_shape(*a, context); };
+  });
+}
+
+}  // namespace palmar::cli

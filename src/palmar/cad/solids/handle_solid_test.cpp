@@ -1,0 +1,87 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/cad/solids/handle_solid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "palmar/cad/model/cad_check.h"
+#include "palmar/cad/model/occt_model.h"
+#include "palmar/cad/model/tessellation.h"
+#include "palmar/product/primitives.h"
+
+namespace palmar {
+namespace {
+
+using std::numbers::pi;
+
+/// A bar of 120 mm along (1, 1, 0), about (10, 0, 0).
+HandleShape bar() {
+  HandleShape shape;
+  shape.body.is_whole = true;
+  shape.body.bottom = -60.0;
+  shape.body.top = 60.0;
+  shape.body.centre = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  shape.body.product_from_handle = {
+      Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(1.0, 1.0, 0.0).normalized()), Vec3(10.0, 0.0, 0.0)};
+  shape.features = {.width = 30.0, .depth = 44.0};
+  return shape;
+}
+
+TEST(HandleSolid, OfAnEllipticBarHasItsVolumeAndItsPlace) {
+  const CadModel model = make_handle_solid(bar());
+  const double volume = pi * 15.0 * 22.0 * 120.0;
+  EXPECT_NEAR(volume_of(model), volume, 1e-3 * volume);
+  const Box3 box = box_of(model);
+  EXPECT_NEAR(box.center().x(), 10.0, 0.1);
+  EXPECT_NEAR(box.center().y(), 0.0, 0.1);
+  EXPECT_EQ(model.face_count(), 6);
+}
+
+TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature) {
+  for (const HandleFeature& feature : handle_features()) {
+    HandleShape shape = bar();
+    shape.end_radius = 3.0;
+    const double usual = feature.unit == "mm" ? 3.0 : feature.unit.empty() ? 0.15 : 8.0;
+    if (feature.name != "width" && feature.name != "depth") {
+      shape.features.*feature.value = usual / feature.scale;
+    }
+    const CadModel model = make_handle_solid(shape);
+    const CadCheck check = check_cad(model);
+    EXPECT_TRUE(check.is_good()) << feature.name << ": "
+                                 << (check.findings.empty() ? "" : check.findings.front());
+    EXPECT_LE(most_poles(model), 400) << feature.name;
+    std::set<std::string> names;
+    for (const auto& [number, name] : model.impl().face_name) names.insert(name);
+    for (const char* name : {"palm", "fingers", "left", "right", "top", "bottom"}) {
+      EXPECT_EQ(names.count(name), 1U) << feature.name << ": " << name;
+    }
+    // The solid's side against the shape that hands are to hold.
+    const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+    double farthest = 0.0;
+    for (const Vec3& vertex : tessellate(model, {.chordal_error = 0.02}).mesh.vertices) {
+      const Vec3 x = to_handle * vertex;
+      if (std::abs(x.z()) > 56.0) continue;
+      farthest = std::max(farthest, std::abs(x.head<2>().norm() -
+                                             shape.radius_at(x.z(), std::atan2(x.y(), x.x()))));
+    }
+    EXPECT_LT(farthest, 0.1) << feature.name;  // mm
+  }
+}
+
+TEST(HandleSolid, OfALeaningHandleEndsInThePlanesOfItsEnds) {
+  HandleShape shape = bar();
+  shape.body.product_from_handle = {};
+  shape.body.centre[1] = {0.0, 0.3};
+  const CadModel model = make_handle_solid(shape);
+  const double volume = pi * 15.0 * 22.0 * 120.0;  // Cavalieri
+  EXPECT_NEAR(volume_of(model), volume, 1e-3 * volume);
+  EXPECT_NEAR(box_of(model).min().z(), -60.0, 1e-3);
+  EXPECT_NEAR(box_of(model).max().z(), 60.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace palmar

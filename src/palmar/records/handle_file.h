@@ -1,0 +1,45 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "palmar/redesign/handle_shape.h"
+
+namespace palmar {
+
+inline constexpr int kHandleFileVersion = 1;
+
+/// The features of a handle as a TOML file that people can read and edit
+/// (docs/using/redesign.md).
+///
+///     version = 1
+///     product = "prism"        # for information, as [frame]
+///     [features]               # every feature by name and unit, handle_features.h; 0 if left out
+///     width_mm = 34.2
+///     twist_deg_per_100mm = 4.0
+///     [ends]
+///     end_radius_mm = 3.0
+///     kept_mm = 0.0
+///     [frame]
+///     origin_mm = [0.0, 0.0, 4.0]
+///     along = [0.0, 0.0, 1.0]  # towards the thumb
+///     palm = [0.0, 1.0, 0.0]   # towards the palm
+std::string handle_toml(const HandleShape& shape, const std::string& product);
+
+struct HandleFile {
+  HandleFeatures features;
+  double end_radius = 0.0, kept_ends = 0.0;  ///< mm
+};
+/// Width and depth are needed. Throws InputError naming file, line, key, value and what is allowed.
+HandleFile read_handle(const std::filesystem::path& path);
+
+/// "width_mm", "twist_deg_per_100mm", "egg".
+std::string key_of(const HandleFeature& feature);
+
+/// A FreeCAD macro (Python) that builds the handle of the same features as a lofted and filleted
+/// solid, with the numbers to edit on top.
+std::string freecad_macro(const HandleShape& shape, const std::string& product);
+
+}  // namespace palmar

@@ -1,0 +1,53 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/handle_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+
+namespace palmar {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::filesystem::path written(const std::string& text) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "handle_file_test.toml";
+  write_file(path, text);
+  return path;
+}
+
+TEST(HandleFile, ReadsBackWhatWasWritten) {
+  HandleShape shape;
+  shape.features.width = 34.2;
+  shape.features.depth = 41.5;
+  shape.features.egg = -0.12;
+  shape.features.twist = 0.1;  // rad per 100 mm
+  shape.end_radius = 3.0;
+  shape.kept_ends = 8.0;
+  const HandleFile file = read_handle(written(handle_toml(shape, "a \"prism\"")));
+  for (const HandleFeature& one : handle_features()) {
+    EXPECT_NEAR(one.scale * file.features.*one.value, one.scale * shape.features.*one.value, 5.1e-4)
+        << one.name;
+  }
+  EXPECT_EQ(file.end_radius, 3.0);
+  EXPECT_EQ(file.kept_ends, 8.0);
+}
+
+TEST(HandleFile, NamesWhatIsWrongWithItsLine) {
+  const auto refused = [](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { read_handle(written(text)); }, ThrowsMessage<InputError>(HasSubstr(message)))
+        << text;
+  };
+  refused("[features]\nwidth_mm = 30\ndepth_mm = 40\n", "version is needed");
+  refused("version = 1\n", "features is needed");
+  refused("version = 1\n[features]\nwidth_mm = 30\n", "depth_mm");
+  refused("version = 1\n[features]\nwidth_mm = 300\ndepth_mm = 40\n", "width_mm");
+  refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\nswel_mm = 2\n", "swell_mm");
+}
+
+}  // namespace
+}  // namespace palmar

@@ -1,0 +1,83 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/records/handle_json.h"
+
+#include "palmar/core/error.h"
+
+namespace palmar {
+
+using Json = nlohmann::ordered_json;
+
+Json features_json(const HandleFeatures& features) {
+  Json json = Json::object();
+  for (const HandleFeature& one : handle_features()) {
+    json[one.name] = one.scale * features.*one.value;
+  }
+  return json;
+}
+
+Json handle_shape_json(const HandleShape& shape) {
+  const HandleBody& body = shape.body;
+  const Quat& q = body.product_from_handle.rotation;
+  const Vec3& o = body.product_from_handle.translation;
+  Json centre = Json::array();
+  for (const Eigen::Vector2d& one : body.centre) centre.push_back({one.x(), one.y()});
+  return {{"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+          {"origin_mm", {o.x(), o.y(), o.z()}},
+          {"bottom_mm", body.bottom},
+          {"top_mm", body.top},
+          {"is_whole", body.is_whole},
+          {"old_end_radius_mm", body.end_radius},
+          {"run_out_mm", body.run_out},
+          {"is_free", body.is_free},
+          {"centre_mm", std::move(centre)},
+          {"outlines",
+           {{"z_mm", body.outlines.z},
+            {"columns", body.outlines.columns},
+            {"radius_mm", body.outlines.radius}}},
+          {"breadth_mm", body.hands.breadth},
+          {"thumb_at_mm", body.hands.thumb_at},
+          {"thumb_phi_rad", body.hands.thumb_phi},
+          {"features", features_json(shape.features)},
+          {"end_radius_mm", shape.end_radius},
+          {"kept_ends_mm", shape.kept_ends}};
+}
+
+HandleShape handle_shape_from(const Json& json) {
+  HandleShape shape;
+  HandleBody& body = shape.body;
+  const auto q = json.at("rotation_xyzw").get<std::array<double, 4>>();
+  const auto o = json.at("origin_mm").get<std::array<double, 3>>();
+  body.product_from_handle = {Quat(q[3], q[0], q[1], q[2]).normalized(), Vec3(o[0], o[1], o[2])};
+  body.bottom = json.at("bottom_mm").get<double>();
+  body.top = json.at("top_mm").get<double>();
+  body.is_whole = json.at("is_whole").get<bool>();
+  body.end_radius = json.at("old_end_radius_mm").get<double>();
+  body.run_out = json.at("run_out_mm").get<double>();
+  body.is_free = json.at("is_free").get<std::array<bool, 2>>();
+  for (std::size_t i = 0; i < body.centre.size(); ++i) {
+    const auto at = json.at("centre_mm").at(i).get<std::array<double, 2>>();
+    body.centre[i] = {at[0], at[1]};
+  }
+  const Json& outlines = json.at("outlines");
+  body.outlines.z = outlines.at("z_mm").get<std::vector<double>>();
+  body.outlines.columns = outlines.at("columns").get<int>();
+  body.outlines.radius = outlines.at("radius_mm").get<std::vector<std::vector<double>>>();
+  bool fits = body.outlines.z.size() >= 2 && body.outlines.columns >= 3 &&
+              body.outlines.radius.size() == body.outlines.z.size();
+  for (const auto& row : body.outlines.radius) {
+    fits = fits && row.size() == static_cast<std::size_t>(body.outlines.columns);
+  }
+  if (!fits) throw InputError("the handle's outlines don't fit together");
+  body.hands = {json.at("breadth_mm").get<double>(), json.at("thumb_at_mm").get<double>(),
+                json.at("thumb_phi_rad").get<double>()};
+  for (const auto& [name, value] : json.at("features").items()) {
+    const HandleFeature& one = handle_feature(name);
+    shape.features.*one.value = value.get<double>() / one.scale;
+  }
+  shape.end_radius = json.at("end_radius_mm").get<double>();
+  shape.kept_ends = json.at("kept_ends_mm").get<double>();
+  return shape;
+}
+
+}  // namespace palmar

@@ -1,0 +1,395 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/redesign/handle_body.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/section.h"
+#include "palmar/product/parts/part_outline.h"
+
+namespace palmar {
+namespace {
+
+using Point2 = Eigen::Vector2d;
+
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
+constexpr int kColumns = 144;             // 2.5 degrees apart
+constexpr double kSectionDistance = 2.0;  // mm, about
+constexpr double kInside = 0.02;          // mm; of the first section from a flat end
+constexpr double kFlatWithin = 0.05;      // mm; a plane's vertices lie within
+constexpr double kParallel = 0.9998;      // cosine of 1 degree
+constexpr double kLeanest = 0.75;         // cosine of 41 degrees, of a flat end against the axis
+constexpr double kRunOut = 14.0;          // mm
+constexpr double kHidden = 0.1;           // share of directions in which an outline is met twice
+
+/// The largest plane of a mesh that looks along `axis` and has all of the mesh behind it.
+struct FlatEnd {
+  Vec3 normal = Vec3::Zero();
+  double offset = 0.0;  ///< along the normal
+};
+std::optional<FlatEnd> flat_end(const TriangleMesh& mesh, const Vec3& axis) {
+  const std::vector<Vec3> normals = triangle_normals(mesh);
+  struct Plane {
+    FlatEnd end;
+    double area = 0.0;
+  };
+  std::vector<Plane> planes;
+  for (std::size_t t = 0; t < normals.size(); ++t) {
+    if (normals[t].dot(axis) < kLeanest) continue;
+    const Triangle& corner = mesh.triangles[t];
+    const Vec3& at = mesh.vertices[static_cast<std::size_t>(corner[0])];
+    const double area = triangle_area(at, mesh.vertices[static_cast<std::size_t>(corner[1])],
+                                      mesh.vertices[static_cast<std::size_t>(corner[2])]);
+    const auto same = std::find_if(planes.begin(), planes.end(), [&](const Plane& one) {
+      return one.end.normal.dot(normals[t]) > kParallel &&
+             std::abs(one.end.normal.dot(at) - one.end.offset) < kFlatWithin;
+    });
+    if (same != planes.end()) {
+      same->area += area;
+      continue;
+    }
+    constexpr std::size_t kMostPlanes = 64;  // a round end has no flat one
+    if (planes.size() < kMostPlanes) planes.push_back({{normals[t], normals[t].dot(at)}, area});
+  }
+  if (planes.empty()) return std::nullopt;
+  const FlatEnd end = std::max_element(planes.begin(), planes.end(), [](auto& a, auto& b) {
+                        return a.area < b.area;
+                      })->end;
+  for (const Vec3& x : mesh.vertices) {
+    if (end.normal.dot(x) > end.offset + kFlatWithin) return std::nullopt;
+  }
+  return end;
+}
+
+Point2 centroid_of(const std::vector<Point2>& polygon) {
+  double sum = 0.0;
+  Point2 moment = Point2::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+    const double c = a.x() * b.y() - a.y() * b.x();
+    sum += c;
+    moment += c * (a + b) / 3.0;
+  }
+  return sum == 0.0 ? polygon[0] : Point2(polygon[0] + moment / sum);
+}
+
+/// The outline in the plane of z that holds `near`, else the largest; none: empty.
+std::vector<Point2> outline_in(const TriangleMesh& mesh, const Rigid3& product_from_handle,
+                               double z, const Point2& near) {
+  const Rigid3 handle_from_product = product_from_handle.inverse();
+  std::vector<Point2> best;
+  double largest = 0.0;
+  bool has_held = false;
+  for (const SectionCurve& curve : plane_section(mesh, product_from_handle * Vec3(0, 0, z),
+                                                 product_from_handle.rotation * Vec3::UnitZ())) {
+    if (!curve.is_closed || curve.point.size() < 3) continue;
+    std::vector<Point2> polygon;
+    for (const Vec3& point : curve.point)
+      polygon.push_back((handle_from_product * point).head<2>());
+    const double area = std::abs(twice_area(polygon));
+    const bool is_held = holds(polygon, near);
+    if (is_held < has_held || (is_held == has_held && area <= largest)) continue;
+    has_held = is_held;
+    largest = area;
+    best = std::move(polygon);
+  }
+  return best;
+}
+
+/// Farthest crossing of the outline from a centre, by direction; counts directions in which there
+/// are several.
+std::vector<double> radii_of(const std::vector<Point2>& polygon, const Point2& centre,
+                             int& crossed_often) {
+  constexpr double kRounding = 1e-9;  // rad; a direction through a corner meets both of its edges
+  constexpr double kApart = 0.3;      // mm; crossings nearer to each other are one
+  std::vector<double> radius(kColumns, 0.0);
+  std::vector<double> nearest(kColumns, std::numeric_limits<double>::infinity());
+  const double step = kFullTurn / kColumns;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point2 a = polygon[i] - centre, b = polygon[(i + 1) % polygon.size()] - centre;
+    const double from = std::atan2(a.y(), a.x());
+    const double by = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    const double low = std::min(from, from + by) - kRounding;
+    const double high = std::max(from, from + by) + kRounding;
+    for (int k = static_cast<int>(std::ceil(low / step)); k * step <= high; ++k) {
+      const Point2 ray(std::cos(k * step), std::sin(k * step));
+      const Point2 edge = b - a;
+      const double across = ray.x() * edge.y() - ray.y() * edge.x();
+      if (std::abs(across) < 1e-12) continue;
+      const double way = (a.x() * edge.y() - a.y() * edge.x()) / across;
+      const auto column = static_cast<std::size_t>(((k % kColumns) + kColumns) % kColumns);
+      radius[column] = std::max(radius[column], way);
+      nearest[column] = std::min(nearest[column], way);
+    }
+  }
+  for (std::size_t k = 0; k < radius.size(); ++k) {
+    crossed_often += radius[k] - nearest[k] > kApart ? 1 : 0;
+  }
+  return radius;
+}
+
+Rigid3 frame_along(const Vec3& origin, const Vec3& axis, const Vec3& palm) {
+  const Vec3 across = palm - palm.dot(axis) * axis;
+  Eigen::Matrix3d axes;
+  axes.col(2) = axis;
+  axes.col(1) = across.norm() > 1e-6 ? Vec3(across.normalized()) : axis.unitOrthogonal();
+  axes.col(0) = axes.col(1).cross(axes.col(2));
+  return {Quat(axes), origin};
+}
+
+/// Sections, their centres and radii. Throws UsageError if there are none, or hidden parts.
+void take_sections(const Product& product, const ProductPart& part, HandleBody& body) {
+  const double inside = body.is_whole ? kInside : 0.0;
+  const double bottom = body.bottom + inside, top = body.top - inside;
+  const int steps = std::max(8, static_cast<int>(std::ceil((top - bottom) / kSectionDistance)));
+  std::vector<std::vector<Point2>> outlines;
+  const Rigid3 handle_from_product = body.product_from_handle.inverse();
+  Eigen::MatrixXd powers(steps + 1, 3);
+  Eigen::MatrixXd centres(steps + 1, 2);
+  body.outlines.z.clear();
+  for (int k = 0; k <= steps; ++k) {
+    const double z = bottom + (top - bottom) * k / steps;
+    // The part's own centre line where this plane meets it.
+    Point2 near = Point2::Zero();
+    double least = std::numeric_limits<double>::infinity();
+    for (const PartStation& station : part.line) {
+      const Vec3 at = handle_from_product * station.centre;
+      if (std::abs(at.z() - z) >= least) continue;
+      least = std::abs(at.z() - z);
+      near = at.head<2>();
+    }
+    outlines.push_back(outline_in(product.mesh, body.product_from_handle, z, near));
+    if (outlines.back().empty()) {
+      throw UsageError(
+          fmt::format("{}: the {} has no closed section {:.0f} mm from the middle of "
+                      "the hand; it can't be shaped anew",
+                      product.name, part.name, z));
+    }
+    body.outlines.z.push_back(z);
+    powers.row(k) << 1.0, z, z * z;
+    centres.row(k) = centroid_of(outlines.back()).transpose();
+  }
+  const Eigen::MatrixXd line = powers.colPivHouseholderQr().solve(centres);
+  for (int i = 0; i < 3; ++i) body.centre[static_cast<std::size_t>(i)] = line.row(i).transpose();
+  body.outlines.columns = kColumns;
+  int hidden = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const double z = body.outlines.z[static_cast<std::size_t>(k)];
+    body.outlines.radius.push_back(
+        radii_of(outlines[static_cast<std::size_t>(k)], body.centre_at(z), hidden));
+    const auto& radius = body.outlines.radius.back();
+    if (*std::min_element(radius.begin(), radius.end()) <= 0.0) {
+      throw UsageError(fmt::format("{}: the {} is bent too much, or too hollow, to be shaped anew",
+                                   product.name, part.name));
+    }
+  }
+  if (hidden > kHidden * kColumns * (steps + 1)) {
+    throw UsageError(fmt::format(
+        "{}: the {} has hollows that can't be seen from its centre line; it can't be shaped anew",
+        product.name, part.name));
+  }
+}
+
+double mean_value(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Radius of the rounding of the edges at flat ends, by how much the section next to the end is
+/// smaller than 12 mm inside.
+double end_radius_of(const HandleBody& body) {
+  constexpr double kWithin = 12.0, kSharp = 0.3;  // mm
+  double sum = 0.0;
+  for (const double end : {body.bottom, body.top}) {
+    const double inwards = end == body.bottom ? 1.0 : -1.0;
+    double inset = 0.0;
+    for (int k = 0; k < kColumns; ++k) {
+      const double phi = kFullTurn * k / kColumns;
+      inset += (body.outlines.at(end + inwards * kWithin, phi) -
+                body.outlines.at(end + inwards * kInside, phi)) /
+               kColumns;
+    }
+    if (inset < kSharp) continue;
+    // inset = r - sqrt(2 r e - e^2), e the distance of that section from the end.
+    double r = inset;
+    for (int i = 0; i < 50; ++i) r = inset + std::sqrt(2.0 * r * kInside - kInside * kInside);
+    sum += 0.5 * r;
+  }
+  return sum;
+}
+
+/// Share of its box that a superellipse fills; 1 for a rectangle, pi / 4 for an ellipse.
+double fill_of(double p) {
+  return std::exp(2.0 * std::lgamma(1.0 + 1.0 / p) - std::lgamma(1.0 + 2.0 / p));
+}
+
+}  // namespace
+
+double HandleOutlines::at(double height, double phi) const {
+  const auto rows = static_cast<int>(z.size());
+  const double way =
+      std::clamp((height - z.front()) / (z.back() - z.front()) * (rows - 1), 0.0, rows - 1.0);
+  const int j = std::min(static_cast<int>(way), rows - 2);
+  double column = phi / kFullTurn * columns;
+  column -= std::floor(column / columns) * columns;
+  const int i = std::min(static_cast<int>(column), columns - 1);
+  const auto next = static_cast<std::size_t>((i + 1) % columns);
+  const auto here = static_cast<std::size_t>(i);
+  const auto& low = radius[static_cast<std::size_t>(j)];
+  const auto& high = radius[static_cast<std::size_t>(j) + 1];
+  const double u = column - i, v = way - j;
+  return (1.0 - v) * ((1.0 - u) * low[here] + u * low[next]) +
+         v * ((1.0 - u) * high[here] + u * high[next]);
+}
+
+Point2 HandleBody::centre_at(double z) const { return centre[0] + z * (centre[1] + z * centre[2]); }
+
+HandleBody measure_handle(const Product& product, const ProductPart& part,
+                          const HandsOnHandle& hands) {
+  if (part.is_ring || part.line.size() < 2 ||
+      (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
+       part.kind != PartKind::kBody)) {
+    throw UsageError(fmt::format("{}: the {} is a {}; a bar or a body can be shaped anew",
+                                 product.name, part.name, name_of(part.kind)));
+  }
+  const Vec3 chord = part.line.back().centre - part.line.front().centre;
+  Vec3 axis = chord.normalized();
+  const bool is_forward = axis.dot(hands.thumb_side) >= 0.0;
+  if (!is_forward) axis = -axis;
+
+  HandleBody body;
+  body.hands.breadth = hands.breadth;
+  const std::optional<FlatEnd> top = flat_end(product.mesh, axis);
+  const std::optional<FlatEnd> bottom = flat_end(product.mesh, -axis);
+  if (top && bottom && top->normal.dot(bottom->normal) < -kParallel) {
+    constexpr double kMost = 0.6;  // of the product's length; the part is all of it
+    const double length = top->offset + bottom->offset;
+    if (part.length > kMost * length) {
+      body.is_whole = true;
+      axis = top->normal;
+      body.top = top->offset - axis.dot(hands.place);
+      body.bottom = -bottom->offset - axis.dot(hands.place);
+    }
+  }
+  body.product_from_handle = frame_along(hands.place, axis, hands.palm);
+  if (!body.is_whole) {
+    body.run_out = kRunOut;
+    const PartEnd& low = part.ends[is_forward ? 0 : 1];
+    const PartEnd& high = part.ends[is_forward ? 1 : 0];
+    body.is_free = {!low.joined, !high.joined};
+    // Free ends are round: they keep their form, as wide as the section before them.
+    constexpr double kRound = 0.35, kJoint = 2.0;  // of the thickness; mm
+    const Vec3 &first = part.line.front().centre, &last = part.line.back().centre;
+    body.bottom = axis.dot((is_forward ? first : last) - hands.place) +
+                  (low.joined ? kJoint : kRound * part.thickness);
+    body.top = axis.dot((is_forward ? last : first) - hands.place) -
+               (high.joined ? kJoint : kRound * part.thickness);
+  }
+  if (body.top - body.bottom < part.thickness) {
+    throw UsageError(
+        fmt::format("{}: the {} is too short to be shaped anew", product.name, part.name));
+  }
+  take_sections(product, part, body);
+  if (body.is_whole) body.end_radius = end_radius_of(body);
+  const Vec3 thumb = body.product_from_handle.inverse() * hands.thumb;
+  body.hands.thumb_at = thumb.z();
+  const Point2 from_centre = thumb.head<2>() - body.centre_at(thumb.z());
+  body.hands.thumb_phi = std::atan2(from_centre.y(), from_centre.x());
+  return body;
+}
+
+FittedFeatures fit_features(const HandleBody& body) {
+  // Without the ends.
+  const double margin = body.is_whole ? body.end_radius + 1.0 : 1.0;
+  const double low = body.bottom + margin, high = body.top - margin;
+  const auto radii_at = [&](double z) {
+    std::vector<double> radii;
+    for (int k = 0; k < kColumns; ++k)
+      radii.push_back(body.outlines.at(z, kFullTurn * k / kColumns));
+    return radii;
+  };
+  const std::vector<double> here = radii_at(std::clamp(0.0, low, high));
+  double second_c = 0.0, second_s = 0.0, fourth_c = 0.0, fourth_s = 0.0, area = 0.0;
+  for (int k = 0; k < kColumns; ++k) {
+    const double phi = kFullTurn * k / kColumns, r = here[static_cast<std::size_t>(k)];
+    second_c += std::pow(r, 4) * std::cos(2.0 * phi);
+    second_s += std::pow(r, 4) * std::sin(2.0 * phi);
+    fourth_c += r * std::cos(4.0 * phi);
+    fourth_s += r * std::sin(4.0 * phi);
+    area += 0.5 * r * r * kFullTurn / kColumns;
+  }
+  FittedFeatures fitted;
+  HandleFeatures& f = fitted.features;
+  const double mean = mean_value(here);
+  constexpr double kRound = 0.02;  // of the radius: below it a direction means nothing
+  const double oblong = std::hypot(second_c, second_s) / (kColumns * std::pow(mean, 4));
+  const double square = std::hypot(fourth_c, fourth_s) / (kColumns * mean);
+  if (oblong > 2.0 * kRound) {
+    // The longer axis to the nearer of x and y.
+    const double longer = 0.5 * std::atan2(second_s, second_c);
+    f.turn = std::remainder(longer, 0.5 * std::numbers::pi);
+  } else if (square > 0.5 * kRound) {
+    f.turn = std::remainder(0.25 * (std::atan2(fourth_s, fourth_c) + std::numbers::pi),
+                            0.5 * std::numbers::pi);
+  }
+  const auto extent_along = [&](const std::vector<double>& radii, double direction) {
+    double least = 0.0, most = 0.0;
+    for (int k = 0; k < kColumns; ++k) {
+      const double along =
+          radii[static_cast<std::size_t>(k)] * std::cos(kFullTurn * k / kColumns - direction);
+      least = std::min(least, along);
+      most = std::max(most, along);
+    }
+    return most - least;
+  };
+  f.width = extent_along(here, f.turn);
+  f.depth = extent_along(here, f.turn + 0.5 * std::numbers::pi);
+  const double fill = area / (f.width * f.depth);
+  double least = 0.0, most = 2.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (least + most);
+    (fill_of(2.0 + 3.0 * middle) < fill ? least : most) = middle;
+  }
+  f.squareness = least;
+  double sum_z = 0.0, sum_zz = 0.0, sum_d = 0.0, sum_zd = 0.0;
+  int count = 0;
+  for (const double z : body.outlines.z) {
+    if (z < low || z > high) continue;
+    const double diameter = 2.0 * mean_value(radii_at(z));
+    sum_z += z;
+    sum_zz += z * z;
+    sum_d += diameter;
+    sum_zd += z * diameter;
+    ++count;
+  }
+  const double spread = count * sum_zz - sum_z * sum_z;
+  if (spread > 0.0) f.taper = -100.0 * (count * sum_zd - sum_z * sum_d) / spread;
+  for (const HandleFeature& one : handle_features()) {
+    f.*one.value = std::clamp(f.*one.value, one.lowest / one.scale, one.highest / one.scale);
+  }
+  double squares = 0.0;
+  int points = 0;
+  for (const double z : body.outlines.z) {
+    if (z < low || z > high) continue;
+    for (int k = 0; k < kColumns; ++k) {
+      const Point2 point = section_point(f, body.hands, z, static_cast<double>(k) / kColumns);
+      const double off = point.norm() - body.outlines.at(z, std::atan2(point.y(), point.x()));
+      squares += off * off;
+      ++points;
+    }
+  }
+  if (points > 0) fitted.rms = std::sqrt(squares / points);
+  return fitted;
+}
+
+}  // namespace palmar

@@ -1,0 +1,236 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/redesign/handle_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "palmar/geometry/remesh/split_edges.h"
+#include "palmar/geometry/smooth_step.h"
+#include "palmar/product/make_product.h"
+
+namespace palmar {
+namespace {
+
+using Point2 = Eigen::Vector2d;
+
+constexpr double kCircle = 2.0 * std::numbers::pi;
+constexpr double kEndBlend = 14.0;    // mm; from kept ends to the features
+constexpr int kFilletRows = 6;        // of a quarter round
+constexpr double kDerivative = 1e-4;  // of a turn
+constexpr double kBeside = 1.3;       // of the handle's radius; what is farther out isn't of it
+constexpr double kOnSurface = 0.2;    // share of the radius; what is so near lies on the surface
+
+double angle_of(const Point2& p) { return std::atan2(p.y(), p.x()); }
+
+/// Parameter of the features' section in direction phi, by bisection: directions grow with it.
+double parameter_at(const HandleShape& shape, double z, double phi) {
+  const double turned = shape.features.turn + shape.features.twist * z / 100.0;
+  double low = (phi - turned) / kCircle - 0.25, high = low + 0.5;
+  for (int i = 0; i < 30; ++i) {
+    const double t = 0.5 * (low + high);
+    const double beyond = std::remainder(
+        angle_of(section_point(shape.features, shape.body.hands, z, t)) - phi, kCircle);
+    (beyond > 0.0 ? high : low) = t;
+  }
+  return 0.5 * (low + high);
+}
+
+/// The original's radius without the rounding of its flat ends.
+double radius_before(const HandleShape& shape, double z, double phi) {
+  const HandleBody& body = shape.body;
+  const double margin = body.is_whole && body.end_radius > 0.0 ? body.end_radius + 0.5 : 0.0;
+  return body.outlines.at(std::clamp(z, body.bottom + margin, body.top - margin), phi);
+}
+
+struct Row {
+  double z, inset;
+};
+std::vector<Row> rows_of(const HandleShape& shape, double distance) {
+  const double r = shape.end_radius, bottom = shape.body.bottom, top = shape.body.top;
+  std::vector<Row> rows;
+  const auto round = [&](int k) {
+    const double angle = 0.5 * std::numbers::pi * (1.0 - static_cast<double>(k) / kFilletRows);
+    return std::array{r * (1.0 - std::sin(angle)), r * (1.0 - std::cos(angle))};
+  };
+  for (int k = 0; k < kFilletRows && r > 0.0; ++k) {
+    rows.push_back({bottom + round(k)[0], round(k)[1]});
+  }
+  const double length = top - bottom - 2.0 * r;
+  const int steps = std::max(2, static_cast<int>(std::ceil(length / distance)));
+  for (int k = 0; k <= steps; ++k) rows.push_back({bottom + r + length * k / steps, 0.0});
+  for (int k = kFilletRows - 1; k >= 0 && r > 0.0; --k) {
+    rows.push_back({top - round(k)[0], round(k)[1]});
+  }
+  return rows;
+}
+
+}  // namespace
+
+double HandleShape::share_at(double z) const {
+  double share = 1.0;
+  if (body.is_whole) {
+    if (kept_ends > 0.0) {
+      share = smooth_step((std::min(z - body.bottom, body.top - z) - kept_ends) / kEndBlend);
+    }
+    return share;
+  }
+  if (!body.is_free[0]) share *= smooth_step((z - body.bottom) / body.run_out);
+  if (!body.is_free[1]) share *= smooth_step((body.top - z) / body.run_out);
+  return share;
+}
+
+Point2 HandleShape::side_point(double z, double t) const {
+  const double share = share_at(z);
+  const Point2 centre = body.centre_at(z);
+  Point2 point = section_point(features, body.hands, z, t);
+  if (share < 1.0) {
+    const double r = point.norm();
+    point *= (share * r + (1.0 - share) * radius_before(*this, z, angle_of(point))) / r;
+  }
+  return centre + point;
+}
+
+double HandleShape::radius_at(double z, double phi) const {
+  const double share = share_at(z);
+  const double before = share < 1.0 ? radius_before(*this, z, phi) : 0.0;
+  if (share == 0.0) return before;
+  const double r = section_point(features, body.hands, z, parameter_at(*this, z, phi)).norm();
+  return share * r + (1.0 - share) * before;
+}
+
+ShapeChange shape_change(const HandleShape& shape) {
+  const HandleBody& body = shape.body;
+  constexpr int kDirections = 120;
+  ShapeChange change;
+  double before = 0.0, after = 0.0;
+  change.smallest_radius = std::numeric_limits<double>::infinity();
+  const double margin = body.is_whole ? std::max(shape.end_radius, body.end_radius) + 0.5 : 0.0;
+  for (double z = body.bottom + margin; z <= body.top - margin; z += 2.0) {
+    const Point2 centre = body.centre_at(z);
+    std::vector<Point2> outline;
+    for (int k = 0; k < kDirections; ++k) {
+      outline.push_back(shape.side_point(z, static_cast<double>(k) / kDirections) - centre);
+      const Point2& at = outline.back();
+      change.largest =
+          std::max(change.largest, std::abs(at.norm() - body.outlines.at(z, angle_of(at))));
+      const double was = body.outlines.at(z, kCircle * k / kDirections);
+      before += was * was * kCircle / kDirections;
+    }
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const Point2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
+      after += a.x() * b.y() - a.y() * b.x();
+    }
+    if (shape.share_at(z) < 1.0) continue;
+    for (int k = 0; k < kDirections; ++k) {
+      // Circle through three neighbours.
+      const Point2 &a = outline[static_cast<std::size_t>(k)],
+                   &b = outline[static_cast<std::size_t>((k + 1) % kDirections)],
+                   &c = outline[static_cast<std::size_t>((k + 2) % kDirections)];
+      const Point2 u = b - a, v = c - b;
+      const double turn = u.x() * v.y() - u.y() * v.x();
+      if (turn <= 1e-9) continue;
+      change.smallest_radius =
+          std::min(change.smallest_radius, u.norm() * v.norm() * (c - a).norm() / (2.0 * turn));
+    }
+  }
+  if (before > 0.0) change.volume_ratio = after / before;
+  return change;
+}
+
+TriangleMesh handle_mesh(const HandleShape& shape, double edge_length) {
+  const std::vector<Row> rows = rows_of(shape, edge_length);
+  const double girth = std::numbers::pi * 0.5 * (shape.features.width + shape.features.depth);
+  const int columns = std::max(24, static_cast<int>(std::ceil(girth / edge_length)));
+  TriangleMesh mesh;
+  const Rigid3& from_handle = shape.body.product_from_handle;
+  for (const Row& row : rows) {
+    for (int i = 0; i < columns; ++i) {
+      const double t = static_cast<double>(i) / columns;
+      Point2 point = shape.side_point(row.z, t);
+      if (row.inset > 0.0) {
+        const Point2 along =
+            (shape.side_point(row.z, t + kDerivative) - shape.side_point(row.z, t - kDerivative))
+                .normalized();
+        point += row.inset * Point2(-along.y(), along.x());
+      }
+      mesh.vertices.push_back(from_handle * Vec3(point.x(), point.y(), row.z));
+    }
+  }
+  const auto last = static_cast<int>(rows.size()) - 1;
+  for (int j = 0; j < last; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const int a = j * columns + i, b = j * columns + (i + 1) % columns;
+      mesh.triangles.push_back({a, b, b + columns});
+      mesh.triangles.push_back({a, b + columns, a + columns});
+    }
+  }
+  for (const int j : {0, last}) {
+    const Point2 centre = shape.body.centre_at(rows[static_cast<std::size_t>(j)].z);
+    const int middle = mesh.vertex_count();
+    mesh.vertices.push_back(from_handle *
+                            Vec3(centre.x(), centre.y(), rows[static_cast<std::size_t>(j)].z));
+    for (int i = 0; i < columns; ++i) {
+      const int a = j * columns + i, b = j * columns + (i + 1) % columns;
+      mesh.triangles.push_back(j == 0 ? Triangle{middle, b, a} : Triangle{middle, a, b});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, double edge_length) {
+  const HandleBody& body = shape.body;
+  const Rigid3 to_handle = body.product_from_handle.inverse();
+  // Height on the centre line, radius and direction of a point beside the handle; nothing if it
+  // isn't of it.
+  struct Place {
+    double z = 0.0, r = 0.0, phi = 0.0, before = 0.0;
+    bool is_moved = false, is_beyond = false;
+  };
+  const auto place_of = [&](const Vec3& x) {
+    const Vec3 p = to_handle * x;
+    Place place;
+    const bool is_below = p.z()<body.bottom, is_above = p.z()> body.top;
+    if ((is_below && !body.is_free[0]) || (is_above && !body.is_free[1])) return place;
+    place.is_beyond = is_below || is_above;
+    place.z = std::clamp(p.z(), body.bottom, body.top);
+    const Point2 from_centre = p.head<2>() - body.centre_at(place.z);
+    place.r = from_centre.norm();
+    place.phi = angle_of(from_centre);
+    place.before = body.outlines.at(place.z, place.phi);
+    place.is_moved = place.r > 1e-6 && place.r < kBeside * place.before;
+    return place;
+  };
+  TriangleMesh moved =
+      split_long_edges(mesh, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return place_of(a).is_moved || place_of(b).is_moved || place_of(c).is_moved;
+      });
+  for (Vec3& x : moved.vertices) {
+    const Place place = place_of(x);
+    if (!place.is_moved) continue;
+    const double after = shape.radius_at(place.z, place.phi);
+    const bool is_on = !place.is_beyond && std::abs(place.r / place.before - 1.0) < kOnSurface;
+    // Where the shape has run out nothing moves, not even by how coarsely outlines were taken.
+    const double share = shape.share_at(place.z);
+    const double scaled = place.r * after / place.before;
+    const double onto = share * (is_on ? after : scaled) + (1.0 - share) * scaled;
+    const Vec3 p = to_handle * x;
+    const Point2 centre = body.centre_at(place.z);
+    const Point2 at = centre + (p.head<2>() - centre) * (onto / place.r);
+    x = body.product_from_handle * Vec3(at.x(), at.y(), p.z());
+  }
+  return moved;
+}
+
+Product shaped_product(const Product& original, const HandleShape& shape, const std::string& name) {
+  const TriangleMesh mesh =
+      shape.body.is_whole ? handle_mesh(shape) : moved_mesh(original.mesh, shape);
+  UnitDecision unit;
+  unit.unit = LengthUnit::kMillimetre;
+  unit.source = UnitSource::kMade;
+  return make_product(name, mesh, unit, original.source);
+}
+
+}  // namespace palmar

@@ -1,0 +1,220 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/redesign/handle_shape.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "palmar/core/error.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/product/make_product.h"
+#include "palmar/product/primitives.h"
+
+namespace palmar {
+namespace {
+
+using std::numbers::pi;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+double area_of_section(const HandleFeatures& features, double z) {
+  constexpr int kPoints = 4000;
+  double twice = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector2d a = section_point(features, {}, z, static_cast<double>(i) / kPoints);
+    const Eigen::Vector2d b = section_point(features, {}, z, (i + 1.0) / kPoints);
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+HandsOnHandle hands_at(const Vec3& place) {
+  HandsOnHandle hands;
+  hands.place = place;
+  hands.thumb_side = Vec3::UnitZ();
+  hands.palm = Vec3::UnitY();
+  hands.thumb = place + Vec3(20.0, 0.0, 30.0);
+  return hands;
+}
+
+HandleBody body_of(const Product& product, const Vec3& place = Vec3::Zero()) {
+  return measure_handle(product, find_parts(product).parts.at(0), hands_at(place));
+}
+
+Product bar(const TriangleMesh& mesh, const std::string& name) {
+  UnitDecision unit;
+  unit.unit = LengthUnit::kMillimetre;
+  unit.source = UnitSource::kMade;
+  return make_product(name, mesh, unit, name);
+}
+
+TEST(HandleFeatures, SectionsHaveTheAreasOfSuperellipses) {
+  EXPECT_NEAR(area_of_section({.width = 30.0, .depth = 40.0}, 0.0), pi * 15.0 * 20.0, 1e-2);
+  // |x|^4 + |y|^4 = 1 encloses 3.708149... (Gamma(1/4)^2 / (2 sqrt pi)).
+  const double squircle = std::pow(std::tgamma(0.25), 2) / (2.0 * std::sqrt(pi));
+  EXPECT_NEAR(area_of_section({.width = 20.0, .depth = 20.0, .squareness = 2.0 / 3.0}, 0.0),
+              100.0 * squircle, 1e-2);
+}
+
+TEST(HandleFeatures, ChangeTheHandleAsTheirNamesSay) {
+  const HandleFeatures plain{.width = 30.0, .depth = 40.0};
+  const auto width_at = [](const HandleFeatures& f, double z) {
+    return (section_point(f, {}, z, 0.0) - section_point(f, {}, z, 0.5)).norm();
+  };
+  HandleFeatures f = plain;
+  f.taper = 5.0;
+  EXPECT_NEAR(width_at(f, 40.0), 28.0, 1e-9);
+  EXPECT_NEAR(width_at(f, -40.0), 32.0, 1e-9);
+  f = plain;
+  f.swell = 4.0;
+  EXPECT_NEAR(width_at(f, 0.0), 34.0, 1e-9);
+  EXPECT_NEAR(width_at(f, 64.0), 30.0, 1e-9);  // 0.8 of a hand of 80 mm away
+  f = plain;
+  f.waist = 4.0;
+  EXPECT_NEAR(width_at(f, 0.36 * 80.0), 26.0, 1e-9);
+  f = plain;
+  f.palm_swell = 3.0;
+  EXPECT_NEAR(section_point(f, {}, 0.0, 0.25).y(), 23.0, 1e-9);
+  EXPECT_NEAR(section_point(f, {}, 0.0, 0.75).y(), -20.0, 1e-9);
+  f = plain;
+  f.finger_swell = 3.0;
+  EXPECT_NEAR(section_point(f, {}, 0.0, 0.75).y(), -23.0, 1e-9);
+  f = plain;
+  f.turn = pi / 2;
+  EXPECT_NEAR((section_point(f, {}, 0.0, 0.0) - Eigen::Vector2d(0.0, 15.0)).norm(), 0.0, 1e-9);
+  f = plain;
+  f.egg = 0.2;  // x stretched by 1 + 0.2 y / b
+  const Eigen::Vector2d up = section_point(f, {}, 0.0, 0.125);
+  const Eigen::Vector2d down = section_point(f, {}, 0.0, 0.875);
+  const double share = std::sqrt(0.5);
+  EXPECT_NEAR(up.x(), 15.0 * share * (1.0 + 0.2 * share), 1e-9);
+  EXPECT_NEAR(down.x(), 15.0 * share * (1.0 - 0.2 * share), 1e-9);
+  f = plain;
+  f.thumb_rest = 2.0;
+  const HandleHands hands{.breadth = 80.0, .thumb_at = 30.0, .thumb_phi = 0.0};
+  EXPECT_NEAR(section_point(f, hands, 30.0, 0.0).x(), 13.0, 1e-9);
+  EXPECT_NEAR(section_point(f, hands, 0.0, 0.0).x(), 15.0, 1e-9);
+}
+
+TEST(HandleFeatures, UnknownNamesAndValuesOutOfRangeAreNamed) {
+  EXPECT_THAT([] { handle_feature("widht"); },
+              ThrowsMessage<UsageError>(HasSubstr("did you mean width?")));
+  EXPECT_THAT([] { check(HandleFeatures{.width = 3.0}); },
+              ThrowsMessage<UsageError>(HasSubstr("width is 3 mm; 12 to 90 are allowed")));
+}
+
+TEST(HandleBody, ACylinderIsFoundAsWhatItIs) {
+  CylinderProductOptions options;
+  options.diameter = 45.0;
+  options.length = 130.0;
+  const HandleBody body = body_of(make_cylinder_product(options), Vec3(0, 0, 10.0));
+  EXPECT_TRUE(body.is_whole);
+  EXPECT_NEAR(body.bottom, -75.0, 0.01);
+  EXPECT_NEAR(body.top, 55.0, 0.01);
+  EXPECT_NEAR(body.end_radius, 0.0, 0.01);
+  const FittedFeatures fitted = fit_features(body);
+  EXPECT_NEAR(fitted.features.width, 45.0, 0.05);
+  EXPECT_NEAR(fitted.features.depth, 45.0, 0.05);
+  EXPECT_NEAR(fitted.features.squareness, 0.0, 0.02);
+  EXPECT_NEAR(fitted.features.taper, 0.0, 0.01);
+  EXPECT_LT(fitted.rms, 0.05);
+}
+
+TEST(HandleBody, APrismIsMeasuredAlongItsSidesHoweverTheHandIsTurned) {
+  PrismProductOptions options;
+  options.width = 30.0;
+  options.depth = 40.0;
+  options.length = 130.0;
+  options.fillet_radius = 3.0;
+  const Product product = make_prism_product(options);
+  HandsOnHandle hands = hands_at(Vec3::Zero());
+  for (const double turned : {0.0, 0.3, -0.3}) {
+    hands.palm = Vec3(-std::sin(turned), std::cos(turned), 0.0);
+    const FittedFeatures fitted =
+        fit_features(measure_handle(product, find_parts(product).parts.at(0), hands));
+    EXPECT_NEAR(fitted.features.width, 30.0, 0.15) << turned;
+    EXPECT_NEAR(fitted.features.depth, 40.0, 0.15) << turned;
+    EXPECT_NEAR(fitted.features.turn, -turned, 0.02) << turned;
+    EXPECT_GT(fitted.features.squareness, 0.9) << turned;
+  }
+}
+
+TEST(HandleBody, SectionsOfALeaningHandleAreParallelToItsEnds) {
+  CylinderProductOptions options;
+  options.diameter = 36.0;
+  options.length = 110.0;
+  TriangleMesh mesh = make_cylinder_product(options).mesh;
+  for (Vec3& x : mesh.vertices) x.y() += 0.3 * x.z();
+  const HandleBody body = body_of(bar(mesh, "leaning"));
+  ASSERT_TRUE(body.is_whole);
+  EXPECT_NEAR((body.product_from_handle.rotation * Vec3::UnitZ()).z(), 1.0, 1e-6);
+  EXPECT_NEAR(body.centre_at(50.0).y() - body.centre_at(-50.0).y(), 30.0, 0.05);
+  const FittedFeatures fitted = fit_features(body);
+  EXPECT_NEAR(fitted.features.width, 36.0, 0.1);
+  EXPECT_NEAR(fitted.features.depth, 36.0, 0.1);
+}
+
+TEST(HandleBody, WhatIsNoBarIsRefusedByName) {
+  PlaneProductOptions options;
+  options.width = 120.0;
+  options.depth = 80.0;
+  options.thickness = 6.0;
+  const Product product = make_plane_product(options);
+  EXPECT_THAT([&] { body_of(product); }, ThrowsMessage<UsageError>(HasSubstr("is a plate")));
+}
+
+TEST(HandleShape, AnEllipticBarIsClosedAndHasItsVolume) {
+  CylinderProductOptions options;
+  options.diameter = 40.0;
+  options.length = 120.0;
+  HandleShape shape{.body = body_of(make_cylinder_product(options))};
+  shape.features = {.width = 30.0, .depth = 44.0};
+  const TriangleMesh sharp = handle_mesh(shape);
+  EXPECT_TRUE(examine_topology(sharp).is_closed);
+  const double volume = pi * 15.0 * 22.0 * 120.0;
+  EXPECT_NEAR(signed_volume(sharp), volume, 2e-3 * volume);
+  // Rounded with r: the sections near both ends shrink (Steiner): perimeter r^2 (2 - pi / 2) less,
+  // to first order; the perimeter by Ramanujan.
+  shape.end_radius = 3.0;
+  const double h = std::pow((22.0 - 15.0) / 37.0, 2);
+  const double perimeter = pi * 37.0 * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h)));
+  EXPECT_NEAR(signed_volume(sharp) - signed_volume(handle_mesh(shape)),
+              perimeter * 9.0 * (2.0 - pi / 2.0), 30.0);
+  const ShapeChange change = shape_change(shape);
+  EXPECT_NEAR(change.largest, 5.0, 0.1);  // 20 to 15 mm
+  EXPECT_NEAR(change.volume_ratio, 15.0 * 22.0 / 400.0, 5e-3);
+  EXPECT_NEAR(change.smallest_radius, 15.0 * 15.0 / 22.0, 0.3);  // of an ellipse: a^2 / b
+}
+
+TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
+  CylinderProductOptions options;
+  options.diameter = 40.0;
+  options.length = 160.0;
+  const Product product = make_cylinder_product(options);
+  HandleShape shape{.body = body_of(product)};
+  shape.body.is_whole = false;
+  shape.body.run_out = 14.0;
+  shape.body.is_free = {false, false};
+  shape.body.bottom = -60.0;
+  shape.body.top = 60.0;
+  shape.features = {.width = 34.0, .depth = 34.0};
+  const TriangleMesh moved = moved_mesh(product.mesh, shape);
+  EXPECT_TRUE(examine_topology(moved).is_closed);
+  for (const Vec3& x : moved.vertices) {
+    const double r = x.head<2>().norm();
+    if (r < 16.0) continue;  // the flat ends
+    if (std::abs(x.z()) > 60.0) {
+      EXPECT_NEAR(r, 20.0, 0.02);
+    }
+    if (std::abs(x.z()) < 46.0) {
+      EXPECT_NEAR(r, 17.0, 0.02);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palmar

@@ -1,0 +1,65 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/hold_change.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "palmar/geometry/degrees.h"
+#include "palmar/statistics/summary.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kOtherTurn = 30.0 * kDegree;  // of a redesign against the original in the hand
+constexpr double kOtherShift = 10.0;           // mm, the same; our choice
+
+}  // namespace
+
+bool HoldChange::is_other_hold() const { return turn > kOtherTurn || shift > kOtherShift; }
+
+std::vector<HoldChange> hold_changes(const StudyResults& results, const Vec3& place) {
+  std::vector<HoldChange> changes;
+  const StudyCondition condition = conditions_of(results.plan).front();
+  for (std::size_t p = 1; p < results.plan.products.size(); ++p) {
+    HoldChange change{.redesign = results.plan.products[p].name};
+    std::vector<double> turns, shifts;
+    for (const int hand : hands_of(results.plan, condition)) {
+      const StudyRecord* before = record_of(results, condition, 0, hand);
+      const StudyRecord* after = record_of(results, condition, static_cast<int>(p), hand);
+      if (before == nullptr || after == nullptr || !is_in_hand(*before) || !is_in_hand(*after)) {
+        continue;
+      }
+      const Rigid3 &a = before->product_from_hand, &b = after->product_from_hand;
+      turns.push_back(a.rotation.angularDistance(b.rotation));
+      shifts.push_back((a.inverse() * place - b.inverse() * place).norm());
+    }
+    if (!turns.empty()) {
+      change.hands = static_cast<int>(turns.size());
+      std::sort(turns.begin(), turns.end());
+      std::sort(shifts.begin(), shifts.end());
+      change.turn = quantile(turns, 0.5);
+      change.largest_turn = turns.back();
+      change.shift = quantile(shifts, 0.5);
+      change.largest_shift = shifts.back();
+    }
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+std::string words_of(const HoldChange& change) {
+  if (change.hands == 0) return "";
+  std::string text = fmt::format(
+      "{} lies {:.0f} degrees and {:.1f} mm away from where the original lies in the hand "
+      "(median of {} hands; at most {:.0f} degrees, {:.1f} mm)",
+      change.redesign, change.turn / kDegree, change.shift, change.hands,
+      change.largest_turn / kDegree, change.largest_shift);
+  if (change.is_other_hold()) {
+    text += ": it is held in another way, so that a difference may be the hold's";
+  }
+  return text;
+}
+
+}  // namespace palmar

@@ -1,0 +1,114 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/redesign/hold_offsets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "palmar/core/error.h"
+#include "palmar/grasp/holds/carried_hold.h"
+#include "palmar/records/study/study_store.h"
+#include "palmar/statistics/distributions.h"
+#include "palmar/study/study_run.h"
+
+namespace palmar {
+
+std::vector<HoldOffset> spread_offsets(int count, double along_deviation, double turn_deviation) {
+  const auto n = static_cast<std::size_t>(std::max(count, 2));
+  std::vector<HoldOffset> offsets(n);
+  const auto middle = [&](std::size_t i) {
+    return normal_quantile((static_cast<double>(i) + 0.5) / static_cast<double>(n));
+  };
+  // Turns in the order (i step + first) modulo n, which visits all of them if step and n share no
+  // divisor: the order in which turns have least to do with places along.
+  std::size_t best_step = 1, best_first = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t step = 1; step < n; ++step) {
+    if (std::gcd(step, n) != 1) continue;
+    for (std::size_t first = 0; first < n; ++first) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < n; ++i) sum += middle(i) * middle((i * step + first) % n);
+      if (std::abs(sum) > least - 1e-9) continue;
+      least = std::abs(sum);
+      best_step = step;
+      best_first = first;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    offsets[i] = {along_deviation * middle(i),
+                  turn_deviation * middle((i * best_step + best_first) % n)};
+  }
+  return offsets;
+}
+
+Hold moved_hold(const Hold& hold, const ProductPart& part, const HoldOffset& offset) {
+  Hold moved = hold;
+  if (part.length > 0.0) moved.along += hold.toward * offset.along / part.length;
+  moved.turn += hold.toward * offset.turn;
+  return moved;
+}
+
+StudyPlan plan_of_two(const HeldOriginal& original) {
+  StudyPlan plan = original.study.plan;
+  plan.products.push_back(plan.products.front());
+  plan.products.back().name = plan.products.back().family = "candidate";
+  return plan;
+}
+
+std::vector<std::vector<StudyRecord>> grasp_at_offsets(const OffsetGrasps& asked,
+                                                       const Progress& progress) {
+  const std::optional<Hold> hold = asked.original.hold();
+  if (!hold) {
+    throw UsageError(asked.original.product().name +
+                     ": held at given coordinates; offsets are those of a hold");
+  }
+  const ProductParts& before = asked.original.parts();
+  const ProductPart& part = before.parts.at(static_cast<std::size_t>(hold->part - 1));
+  const ProductParts after = asked.as == 0 ? before : find_parts(asked.product);
+  LoadedStudy study = asked.original.study;
+  const StudyProduct kept = study.plan.products.front();
+  study.plan.products.clear();
+  study.inputs.products.clear();
+  for (std::size_t k = 0; k < asked.offsets.size(); ++k) {
+    StudyProduct product = kept;
+    product.name = product.family = fmt::format("offset {}", k);
+    product.content_hash = content_hash(asked.product.mesh);
+    product.holding = {};
+    product.holding.hold = carried_hold(moved_hold(*hold, part, asked.offsets[k]), before, after);
+    study.plan.products.push_back(std::move(product));
+    study.inputs.products.push_back(asked.product);
+  }
+  for (StudySetting& setting : study.plan.settings) setting.indices = asked.with_indices;
+  StudyRunOptions options;
+  for (const std::int64_t number : tasks_of(study.plan)) {
+    const StudyTask task = task_at(study.plan, number);
+    if (asked.is_wanted(task.hand, static_cast<std::size_t>(task.product))) {
+      options.tasks.push_back(number);
+    }
+  }
+  const StudyPlan two = plan_of_two(asked.original);
+  std::vector<std::vector<StudyRecord>> records(asked.offsets.size());
+  run_study(
+      study.plan, study.inputs, options,
+      [&](const StudyRecord& record) {
+        StudyTask task = task_at(study.plan, record.number);
+        auto& those = records[static_cast<std::size_t>(task.product)];
+        task.product = asked.as;
+        those.push_back(record);
+        those.back().number = number_of(two, task);
+        those.back().skin_pressure = {};
+        those.back().product_pressure = {};
+      },
+      progress);
+  for (auto& those : records) {
+    std::sort(those.begin(), those.end(),
+              [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  }
+  return records;
+}
+
+}  // namespace palmar

@@ -1,0 +1,70 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/workflow/redesign/hold_gains.h"
+#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/shape_run.h"
+
+namespace palmar {
+
+struct RedesignShapeOutcome;
+
+/// Redesign 4: the handle shaped anew by few named features (redesign/handle_features.h), chosen
+/// for hands that lie at different places on it.
+struct RedesignShapeRequest {
+  RedesignRequest redesign;
+  /// Features that may vary or are set, as shape_variable() reads them; empty: those of
+  /// usual_variables().
+  std::vector<std::string> vary;
+  std::filesystem::path features;  ///< a handle file (records/handle_file.h) that is made as it is
+  std::string goal = "peak";       ///< what is made better, as feature_goal() reads it
+  ShapeLimits limits;
+  HoldSpread spread;
+  SearchOptions search{.method = SearchMethod::kSurface, .evaluations = 40};
+  /// Candidate of the search (from 1, as in history.csv) that is made instead of the best one.
+  std::optional<int> pick;
+  std::optional<double> end_radius;  ///< mm, of flat ends; unset: as it is, at least 3 mm
+  bool draws = true;                 ///< pictures
+  bool compares = true;              ///< in the end other hands hold original and redesign
+  /// Called when the shape stands and is written, before it is held again; json, comparison and
+  /// gains of the outcome are still empty.
+  std::function<void(const RedesignShapeOutcome&)> on_shape;
+
+  /// Throws UsageError: setting, value, what is allowed.
+  void check() const;
+};
+
+/// Features that a search varies unless it is told which.
+std::vector<std::string> usual_variables(bool suits_both_hands);
+
+struct RedesignShapeOutcome {
+  SearchStory story;
+  HandleShape shape;
+  double fit_rms = 0.0;  ///< mm; of the features that are nearest to the original, to it
+  ShapeChange change;
+  std::filesystem::path file;  ///< redesign.step, or redesign.stl of a part of a product
+  double solid_volume = 0.0;   ///< mm^3, of the solid in redesign.step or handle.step
+  int faces = 0, poles = 0;    ///< of that solid; most poles of one surface
+  std::optional<RedesignComparison> comparison;
+  std::optional<HoldGains> gains;
+  std::vector<std::string> notes;
+  std::string json;  ///< all of it but the comparison, one JSON object
+};
+
+/// Searches and writes to OUT: redesign.stl; redesign.step (a product that is the handle alone) or
+/// handle.step (the handle's part of another one); handle.toml, handle.FCMacro; history.csv,
+/// history.svg, choices.svg, shape.json; pictures; gains.csv, gains.svg and what
+/// compare_redesigns() writes. Throws UsageError, InputError, NumericalError if no hand holds the
+/// original or no candidate is within the limits, Cancelled.
+RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request,
+                                    const Progress& progress = {});
+
+}  // namespace palmar

@@ -1,0 +1,71 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palmar/redesign/feature_goal.h"
+#include "palmar/redesign/handle_shape.h"
+#include "palmar/workflow/redesign/hold_offsets.h"
+#include "palmar/workflow/redesign/search_story.h"
+
+namespace palmar {
+
+/// What a shape must keep to.
+struct ShapeLimits {
+  std::optional<double> largest_change;  ///< mm; that any point of the handle may move
+  std::optional<double> smallest_volume, largest_volume;  ///< of the handle, shares of the original
+  double smallest_radius = 3.0;                           ///< mm; of curvature, round the handle
+  double lost_hands = 0.1;        ///< share of the hands that hold the original
+  bool suits_both_hands = false;  ///< the same for left and right hands: no one-sided features
+  double kept_ends = 0.0;         ///< mm at both flat ends that stay as they are
+  void check() const;             ///< throws UsageError: setting, value, allowed range
+};
+
+/// Where hands come to lie, about the hold: independent normal distributions.
+struct HoldSpread {
+  int places = 5;      ///< that stand for them, 2 to 20; a hand takes one of them
+  double along = 5.0;  ///< standard deviation along the handle, mm
+  double turn = 0.14;  ///< about it, rad; 8 degrees
+  void check() const;  ///< throws UsageError
+};
+
+/// A feature that may vary, or one that is set.
+struct ShapeVariable {
+  const HandleFeature* feature = nullptr;
+  double lowest = 0.0, highest = 0.0;  ///< in the feature's unit; equal: set
+};
+/// "width", "width=28:40" or "width=34"; without values from a range about `start` that suits the
+/// feature. Throws UsageError naming `vary`.
+ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start);
+
+/// Making and judging shapes of a handle in hands that lie at different places on it.
+struct ShapeRun {
+  const RedesignRequest& request;
+  const HeldOriginal& original;
+  FeatureGoal goal;
+  ShapeLimits limits;
+  HoldSpread spread;
+  HandleShape start;  ///< nearest to what there is
+  std::vector<ShapeVariable> variables;
+  std::vector<HoldOffset> offsets;  ///< hand h lies at the one number h modulo their count
+  std::vector<StudyRecord> before;  ///< of the original, one per hand
+
+  /// Fills in offsets and `before`.
+  void hold_original(const Progress& progress);
+  /// All features; `varying` are those of the variables that vary, in their units.
+  HandleShape shape_of(const std::vector<double>& varying) const;
+  SearchStory search(const SearchOptions& options, const Progress& progress) const;
+
+ private:
+  std::vector<SearchConstraint> constraints() const;
+  SearchOutcome assess(const HandleShape& shape, SearchStory::Beside& beside,
+                       const Progress& progress) const;
+  std::vector<double> values_of(const ShapeChange& change, double lost_share) const;
+  StudyResults results_with(std::vector<StudyRecord> after) const;
+  std::function<bool(int, std::size_t)> own_place() const;
+};
+
+}  // namespace palmar
