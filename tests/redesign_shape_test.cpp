@@ -67,7 +67,7 @@ TEST(RedesignShape, WhatCanNotBeIsRefusedWithItsName) {
     int exit_code = 2;
   };
   for (const Case& one : {
-           Case{kPrism + " --vary widht", "did you mean width?"},
+           Case{kPrism + " --vary widt", "did you mean width?"},
            Case{kPrism + " --vary width=40:30", "12 to 90 mm are allowed"},
            Case{kPrism + " --vary width=x", "\"x\" is no number"},
            Case{kPrism + " --both-hands --vary twist=3", "suits one hand only"},

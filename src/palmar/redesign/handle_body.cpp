@@ -109,26 +109,31 @@ std::vector<Point2> outline_in(const TriangleMesh& mesh, const Rigid3& product_f
 /// are several.
 std::vector<double> radii_of(const std::vector<Point2>& polygon, const Point2& centre,
                              int& crossed_often) {
+  constexpr double kRounding = 1e-9;  // rad; a direction through a corner meets both of its edges
+  constexpr double kApart = 0.3;      // mm; crossings nearer to each other are one
   std::vector<double> radius(kColumns, 0.0);
-  std::vector<int> crossings(kColumns, 0);
+  std::vector<double> nearest(kColumns, std::numeric_limits<double>::infinity());
   const double step = kFullTurn / kColumns;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point2 a = polygon[i] - centre, b = polygon[(i + 1) % polygon.size()] - centre;
     const double from = std::atan2(a.y(), a.x());
     const double by = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-    const double low = std::min(from, from + by), high = std::max(from, from + by);
-    for (int k = static_cast<int>(std::ceil(low / step)); k * step < high; ++k) {
+    const double low = std::min(from, from + by) - kRounding;
+    const double high = std::max(from, from + by) + kRounding;
+    for (int k = static_cast<int>(std::ceil(low / step)); k * step <= high; ++k) {
       const Point2 ray(std::cos(k * step), std::sin(k * step));
       const Point2 edge = b - a;
       const double across = ray.x() * edge.y() - ray.y() * edge.x();
-      if (across == 0.0) continue;
+      if (std::abs(across) < 1e-12) continue;
       const double way = (a.x() * edge.y() - a.y() * edge.x()) / across;
       const auto column = static_cast<std::size_t>(((k % kColumns) + kColumns) % kColumns);
       radius[column] = std::max(radius[column], way);
-      ++crossings[column];
+      nearest[column] = std::min(nearest[column], way);
     }
   }
-  for (int k = 0; k < kColumns; ++k) crossed_often += crossings[static_cast<std::size_t>(k)] > 1;
+  for (std::size_t k = 0; k < radius.size(); ++k) {
+    crossed_often += radius[k] - nearest[k] > kApart ? 1 : 0;
+  }
   return radius;
 }
 

@@ -120,22 +120,35 @@ struct SurfaceSearch {
 
   bool is_full() const { return static_cast<int>(history.size()) >= budget; }
 
-  /// Lower is better; what couldn't be made or is beyond a constraint counts as the worst.
-  GoalSurface surface() const {
+  /// Lower is better. With what couldn't be made or is beyond a constraint as no better and no
+  /// worse than the mean of the others, so that the search keeps away without seeing a cliff; or
+  /// without.
+  GoalSurface surface(bool with_failures) const {
     const double sign = problem.is_lower_better ? 1.0 : -1.0;
-    double worst = -INFINITY;
+    std::vector<const SearchTrial*> those;
+    double mean = 0.0;
+    int feasible = 0;
     for (const SearchTrial& trial : history) {
-      if (trial.outcome.failure.empty()) worst = std::max(worst, sign * trial.outcome.goal);
+      if (trial.is_feasible) {
+        mean += sign * trial.outcome.goal;
+        ++feasible;
+      }
+      if (trial.is_feasible || with_failures) those.push_back(&trial);
     }
-    if (!std::isfinite(worst)) worst = 0.0;
-    Eigen::MatrixXd points(variables(), history.size());
-    Eigen::VectorXd values(history.size());
-    for (std::size_t i = 0; i < history.size(); ++i) {
-      points.col(static_cast<Eigen::Index>(i)) = place_of(history[i].values);
-      values[static_cast<Eigen::Index>(i)] =
-          history[i].is_feasible ? sign * history[i].outcome.goal : worst;
+    if (feasible > 0) mean /= feasible;
+    const auto count = static_cast<Eigen::Index>(those.size());
+    Eigen::MatrixXd points(variables(), count);
+    Eigen::VectorXd values(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const SearchTrial& trial = *those[static_cast<std::size_t>(i)];
+      points.col(i) = place_of(trial.values);
+      values[i] = trial.is_feasible ? sign * trial.outcome.goal : mean;
     }
     return {points, values};
+  }
+  bool has_feasible() const {
+    return std::any_of(history.begin(), history.end(),
+                       [](const SearchTrial& trial) { return trial.is_feasible; });
   }
 
   std::optional<int> best(const GoalSurface& surface) const {
@@ -153,7 +166,7 @@ struct SurfaceSearch {
 
   /// Makes the candidate that promises most; false if none is left.
   bool make_next() {
-    const GoalSurface now = surface();
+    const GoalSurface now = surface(true);
     const bool is_careful = static_cast<double>(history.size()) > kCareful * budget;
     const std::optional<int> lead = best(now);
     std::vector<std::pair<double, Eigen::VectorXd>> pool;
@@ -245,10 +258,10 @@ SearchResult search_by_surface(const SearchProblem& problem, int evaluations,
   bool is_left = true;
   while (!search.is_full() && is_left) is_left = search.make_next();
   SearchResult result;
-  const GoalSurface surface = search.surface();
-  result.best = search.best(surface);
-  if (result.best) {
-    const auto best = static_cast<std::size_t>(*result.best);
+  if (search.has_feasible()) {
+    const GoalSurface surface = search.surface(false);
+    result.best = search.best(surface);
+    const auto best = static_cast<std::size_t>(result.best.value());
     result.expected = (problem.is_lower_better ? 1.0 : -1.0) *
                       surface.at(search.place_of(search.history[best].values)).mean;
   }
