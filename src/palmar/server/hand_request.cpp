@@ -139,7 +139,8 @@ HandRequest parse_hand_request(const HandJson& json) {
   const HandJson sizes = json.contains("sizes_mm") ? json["sizes_mm"] : HandJson();
   if (!sizes.is_null() && !sizes.is_object()) refuse_hand("sizes_mm", sizes, "an object");
   for (const auto& [name, value] : sizes.items()) {
-    if (!is_plain_name(name) || name.front() == '-') refuse_hand("sizes_mm", sizes, "names of dimensions");
+    if (!is_plain_name(name) || name.front() == '-')
+      refuse_hand("sizes_mm", sizes, "names of dimensions");
     request.sizes[name] = size_of(name, value, 1.0, kLongestSize);
   }
   const HandJson rows = json.contains("corrections") ? json["corrections"] : HandJson();
