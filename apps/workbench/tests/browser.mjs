@@ -167,7 +167,9 @@ export class Page {
   }
   async key(key, modifiers = 0, code = 0) {
     const params = { key, modifiers, windowsVirtualKeyCode: code || key.toUpperCase().charCodeAt(0), code: key.length === 1 ? `Key${key.toUpperCase()}` : key };
-    await this.send("Input.dispatchKeyEvent", { type: "rawKeyDown", ...params });
+    // Enter presses a button by the character that it types.
+    const down = key === "Enter" ? { type: "keyDown", text: "\r" } : { type: "rawKeyDown" };
+    await this.send("Input.dispatchKeyEvent", { ...down, ...params });
     await this.send("Input.dispatchKeyEvent", { type: "keyUp", ...params });
   }
   /// Chooses or types what a form's field is to hold.
