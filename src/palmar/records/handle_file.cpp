@@ -63,10 +63,11 @@ HandleFile read_handle(const std::filesystem::path& path) {
   const TomlSection file(path.string(), "", table);
   file.allow({"version", "product", "features", "ends", "frame"});
   if (!file.integer("version", 1, kHandleFileVersion)) {
-    file.fail("version", fmt::format("is needed; {} is allowed", kHandleFileVersion));
+    file.fail("version", fmt::format("version is needed; {} is allowed", kHandleFileVersion));
   }
   const auto features = file.table("features");
-  if (!features) file.fail("features", "is needed: a table with the features of the handle");
+  if (!features)
+    file.fail("features", "features is needed: a table with the features of the handle");
   std::vector<std::string> keys;
   for (const HandleFeature& one : handle_features()) keys.push_back(key_of(one));
   features->allow(keys);

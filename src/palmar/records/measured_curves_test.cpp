@@ -63,7 +63,7 @@ TEST(MeasuredCurves, SemicolonsTabsAndDeviationsAreRead) {
 
 TEST(MeasuredCurves, BadHeadersSayWhatIsNeeded) {
   EXPECT_THAT(curves_message("depth_mm,forse_n\n1,2\n"),
-              HasSubstr("palmar_curves.csv:1: column force_n (or force_mn) is missing; the header "
+              HasSubstr("/curves.csv:1: column force_n (or force_mn) is missing; the header "
                         "has depth_mm, forse_n (is forse_n meant?)"));
   EXPECT_THAT(curves_message("force_n\n2\n"), HasSubstr("column depth_mm is missing"));
   EXPECT_THAT(curves_message("depth,force_n\n1,2\n"),
@@ -78,7 +78,7 @@ TEST(MeasuredCurves, BadHeadersSayWhatIsNeeded) {
 
 TEST(MeasuredCurves, BadRowsAreNamedByLine) {
   EXPECT_THAT(curves_message("depth_mm,force_n\n1,2\n1,abc\n"),
-              HasSubstr("palmar_curves.csv:3: force_n is \"abc\"; a number is needed"));
+              HasSubstr("/curves.csv:3: force_n is \"abc\"; a number is needed"));
   EXPECT_THAT(curves_message("depth_mm,force_n\n-1,2\n"),
               HasSubstr(":2: depth_mm is -1; 0 or more is needed"));
   EXPECT_THAT(curves_message("depth_mm,force_n\n1,-2\n"), HasSubstr("force_n is -2"));

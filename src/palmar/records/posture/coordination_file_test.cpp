@@ -78,7 +78,7 @@ TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
 
 TEST(CoordinationFile, TooFewRowsAreNamed) {
   EXPECT_THAT(coordination_message(header() + rows(29)),
-              HasSubstr("palmar_natural_postures.csv: it has 29 postures; at least 30"));
+              HasSubstr("/natural_postures.csv: it has 29 postures; at least 30"));
 }
 
 TEST(CoordinationFile, MissingColumnIsNamed) {
@@ -90,7 +90,7 @@ TEST(CoordinationFile, BadValueIsNamedWithItsPlace) {
   std::string text = header() + rows(40);
   text.replace(text.find('\n') + 1, 2, "xx");
   const std::string message = coordination_message(text);
-  EXPECT_THAT(message, HasSubstr("palmar_natural_postures.csv:2"));
+  EXPECT_THAT(message, HasSubstr("/natural_postures.csv:2"));
   EXPECT_THAT(message, HasSubstr("thumb_cmc_flexion_deg"));
   EXPECT_THAT(message, HasSubstr("xx"));
 }

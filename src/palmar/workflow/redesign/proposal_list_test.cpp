@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "palmar/product/primitives.h"
 #include "palmar/workflow/redesign/feature_proposals.h"
 
@@ -70,7 +73,9 @@ TEST(Proposals, KeepToTheBudgetOfChange) {
   // A fillet at 90 degrees moves by (sqrt 2 - 1) of the change of its radius: 3 + 2.41 mm.
   const auto words = words_of(proposals_for(faces, {touched(faces, "fillet 1", 0.9, 0.6)}, limits));
   EXPECT_THAT(words, Contains("fillet:face=" + number_of(faces, "fillet 1") + "=5.4"));
-  EXPECT_EQ(words.size(), 1U);
+  for (const std::string& one : words) {
+    EXPECT_LE(std::stod(one.substr(one.rfind('=') + 1)), 3.0 + 1.0 / (std::sqrt(2.0) - 1.0)) << one;
+  }
 }
 
 TEST(Proposals, OfASharpPrismAreItsEdges) {
