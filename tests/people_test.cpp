@@ -40,7 +40,7 @@ TEST_F(People, RegressionsStandInTheTemplatesProportions) {
 TEST_F(People, HandsAsDrawnCanBeMade) {
   const HandInstanceMaker maker(hand());
   for (const char* name : {"xie2014", "ansur2", "japanese", "delhi_men", "nigerian", "indian_women",
-                           "dutch_over_80", "dutch_children_2"}) {
+                           "dutch_over_80", "dutch_children_4"}) {
     SamplingOptions options;
     options.hands = 6;
     for (const HandSample& person : sample_hands(population_named(name), options)) {

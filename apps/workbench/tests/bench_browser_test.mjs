@@ -315,6 +315,7 @@ async function doAsPeopleDo(browser) {
     await page.set("[data-snap=part]", 1, ["change"]);
   });
   assert.ok(Math.abs(Number((await page.value("document.querySelector('[data-offset=turn-y]').value")))) < 30);
+  await after(page, () => page.click("[data-hold='1']")); // at rest again
 
   // Readable, named, in both languages.
   const looked = await page.value(contrasts);
