@@ -140,11 +140,11 @@ TEST(GripEffort, AThumbThatGaveWayComesBackAsFarAsItsMusclesCanBringIt) {
   EXPECT_NEAR(way_of_thumb(most - 150.0, 0.0), 0.0, 1e-12);    // never gave way
 }
 
-TEST(GripEffort, AStretchedThumbHoldsAThirdMoreAtMost) {
+TEST(GripEffort, AStretchedThumbHoldsThreeTenthsMoreAtMost) {
   const double rest = most_of_thumb(0.0);
   EXPECT_NEAR(way_of_thumb(rest - 1.0, 0.0), 0.0, 1e-9);
   EXPECT_LT(way_of_thumb(rest + 20.0, 0.0), -0.005);
-  // Stretched by a tenth of a radian it holds 1.3 times the force that it has there.
+  // Stretched by 0.2 rad it holds 1.3 times the force that it has there.
   const DigitMuscles there = HandMuscles(hand()).in(Finger::kThumb, [] {
     Posture posture = bent();
     posture[Dof::kThumbIpFlexion] -= 0.2;
