@@ -91,6 +91,7 @@ class GripMechanics {
     std::vector<Vec3> speed;  ///< mm/rad
   };
   Column column(const Posture& posture, int joint, const std::vector<int>& vertices) const;
+  void learn_power(double accuracy);
   void add_touches(const Posture& posture);
   Squeeze squeeze_of_normals() const;
 
@@ -106,6 +107,15 @@ class GripMechanics {
   std::vector<int> loaded_;
   std::vector<Vec3> normal_, tangential_;  ///< per loaded vertex, hand frame; on the skin, N
   std::vector<double> stiff_, drag_;       ///< per loaded vertex, normal and tangential, N/mm
+  /// Skin that was loaded in the state last looked at; product frame.
+  struct LoadedSkin {
+    int vertex = 0;
+    double force = 0.0;  ///< N
+    double depth = 0.0;  ///< of its region, mm
+    Vec3 normal, place;
+  };
+  std::vector<LoadedSkin> before_;
+  std::array<double, kRegionCount> power_;  ///< of depth, with which the force of a region grows
   Quat hand_from_product_;
   GripVector force_, squeeze_;
   GripMatrix stiffness_;

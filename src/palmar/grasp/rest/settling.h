@@ -1,0 +1,92 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/rest/fingertip_closing.h"
+#include "palmar/grasp/rest/grip_effort.h"
+#include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/grasp/rest/thumb_meeting.h"
+
+namespace palmar {
+
+inline constexpr double kLongestStep = 4.0;  ///< mm, of any skin or of the product, in one step
+inline constexpr double kStepReach = 40.0;   ///< mm; arm by which turns are counted as way
+
+/// How a grasp is brought to rest.
+enum class SettlingWay {
+  kLeastEffort,  ///< by the muscles, wherever the product comes to rest
+  kInPlace,      ///< by the muscles, so that the product stays where it was taken hold of
+  kStiff         ///< joints held as they were closed
+};
+
+/// One run of the search for rest.
+class Settling {
+ public:
+  /// Keeps references. Skin sticks where it is in `grasp`.
+  Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
+           const BalanceOptions& options, const ContactOptions& contact, SettlingWay way);
+
+  Balance run(const Progress& progress);
+  const GripState& state() const { return state_; }
+
+ private:
+  struct Misfit {
+    GripVector outside = GripVector::Zero();   ///< without muscles; N, N mm
+    GripVector residual = GripVector::Zero();  ///< with them
+    GripMatrix stiffness = GripMatrix::Zero();
+    double force = 0.0, moment = 0.0;  ///< on the product, N and N mm
+    double of_product = 0.0;           ///< those over the grip force
+    double of_joints = 0.0;            ///< largest moment left over the strongest muscle moment
+    double of_level = 0.0;             ///< of the grip force against the one asked for
+    double sum() const { return of_product + of_joints + of_level; }
+    /// All but at rest.
+    bool is_near() const;
+  };
+
+  bool is_stuck(int joint, double residual) const;
+  void add_load(GripVector& residual) const;
+  double wrist_load() const;
+  std::vector<ThumbPress> presses() const;
+  double extra_grip() const;
+  Misfit misfit(double grip) const;
+  void step(const Misfit& misfit, double missing);
+  static void hold_back(const std::vector<int>& free, const Eigen::MatrixXd& k, GripVector& way);
+  GripVector step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
+                             const Eigen::MatrixXd& k, double missing);
+  GripVector step_stiff(const Misfit& misfit, const std::vector<int>& free,
+                        const Eigen::MatrixXd& k, double missing) const;
+  void step_fingertips(const Misfit& misfit, double missing);
+  double share_of(const GripVector& way, double longest);
+  void move_product(const Vec3& shift, const Vec3& turn);
+  void finish(Balance& balance);
+  bool judge_way(Balance& balance) const;
+
+  const Hand* hand_;
+  const BalanceOptions* options_;
+  SettlingWay way_;
+  bool is_by_muscles_;
+  bool squeezes_;            // fingers against the palm or the thumb: a power grip, but for a hook
+  double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
+  std::optional<double> asked_;  // grip force, N
+  bool has_level_;               // the squeeze is brought to the grip force asked for
+  GripState start_, state_;
+  ThumbMeeting meeting_;
+  bool has_skin_on_skin_;     // what fingers do to each other is in the contact
+  FingertipClosing closing_;  // how a precision grip presses
+  GripMechanics mechanics_;
+  Wrench load_;  // product frame
+  bool has_load_ = false;
+  double target_ = 0.0;  // grip force, N
+  GripEffort effort_;
+  bool is_at_limit_ = false;  // the muscles can't give the squeeze asked for
+  double relaxation_ = 1.0;   // share of a step that is taken
+  GripVector last_way_ = GripVector::Zero();
+  Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
+};
+
+}  // namespace palmar

@@ -1,0 +1,207 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+// Steps of the search for rest.
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "palmar/core/enum_index.h"
+#include "palmar/grasp/rest/settling.h"
+#include "palmar/hand/skeleton.h"
+
+namespace palmar {
+namespace {
+
+constexpr double kLeastRelaxation = 0.3;
+constexpr double kLongestPress = 0.7;                   // mm, of fingertips in one step
+constexpr double kLongestTurn = 0.06;                   // rad, of what they hold
+constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
+// mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
+constexpr double kPulpGive = 4.0;
+constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
+
+}  // namespace
+
+/// Angles that would go farther than a step may, go just so far, and the other coordinates of a
+/// step through `k` adapt to that: one soft joint doesn't hold up all others.
+void Settling::hold_back(const std::vector<int>& free, const Eigen::MatrixXd& k, GripVector& way) {
+  constexpr double kMost = kLongestStep / kStepReach;
+  Eigen::VectorXd x = way(free);
+  const Eigen::VectorXd right = k * x;
+  std::vector<int> open, held;
+  for (int i = 0; i < static_cast<int>(free.size()); ++i) open.push_back(i);
+  for (;;) {
+    const auto is_too_far = [&](int i) {
+      return free[static_cast<std::size_t>(i)] < kGripJoints && std::abs(x[i]) > kMost;
+    };
+    const auto first =
+        std::stable_partition(open.begin(), open.end(), [&](int i) { return !is_too_far(i); });
+    if (first == open.end()) break;
+    for (auto i = first; i != open.end(); ++i) {
+      x[*i] = std::copysign(kMost, x[*i]);
+      held.push_back(*i);
+    }
+    open.erase(first, open.end());
+    const Eigen::MatrixXd inner = k(open, open);
+    const Eigen::VectorXd outer = right(open) - k(open, held) * x(held);
+    const Eigen::VectorXd solved = inner.partialPivLu().solve(outer);
+    x(open) = solved;
+  }
+  way(free) = x;
+}
+
+/// One Newton step towards rest and the grip force asked for, with the activations of the muscles
+/// (GripEffort) or, where joints are stiff, the level of a common closing as unknowns beside the
+/// coordinates:
+///
+///     stiffness dx = residual + muscles,    squeeze . dx = missing sum of normal forces.
+void Settling::step(const Misfit& misfit, double missing) {
+  std::vector<int> free;
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (is_by_muscles_ && GripEffort::is_free(j) && effort_.is_judged(j) &&
+        !is_stuck(j, misfit.residual[j])) {
+      free.push_back(j);
+    }
+  }
+  const auto joints = static_cast<Eigen::Index>(free.size());
+  for (int j = kGripJoints; j < kGripCoordinates; ++j) free.push_back(j);
+  Eigen::MatrixXd k = misfit.stiffness(free, free);
+  const auto stiffen = [&](Eigen::Index begin, Eigen::Index count) {
+    if (count == 0) return;
+    k.diagonal().segment(begin, count).array() +=
+        kSoftest * k.diagonal().segment(begin, count).mean() + 1e-9;
+  };
+  stiffen(0, joints);
+  stiffen(joints, 3);
+  stiffen(joints + 3, 3);
+  GripVector way = is_by_muscles_ ? step_by_muscles(misfit, free, k, missing)
+                                  : step_stiff(misfit, free, k, missing);
+  if (is_by_muscles_) hold_back(free, k, way);
+  double longest = std::max(way.segment<3>(kGripJoints).norm(), kStepReach * way.tail<3>().norm());
+  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kStepReach * std::abs(way[j]));
+  way *= share_of(way, longest);
+
+  Posture turned = state_.posture;
+  for (int j = 0; j < kGripJoints; ++j) {
+    const JointDof& dof = hand_->skeleton.dof(grip_dof(j));
+    const double angle = state_.posture[dof.dof];
+    const double upper = dof.upper + (GripEffort::is_free(j) ? kPassiveRange : 0.0);
+    turned[dof.dof] =
+        std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(upper, angle));
+  }
+  state_.posture = turned;
+  move_product(way.segment<3>(kGripJoints), way.tail<3>());
+}
+
+GripVector Settling::step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
+                                     const Eigen::MatrixXd& k, double missing) {
+  std::optional<double> asked;
+  if (!options_->activation) {
+    const double sum = mechanics_.grip().sum_of_normals;
+    asked = has_level_ ? std::clamp(missing, -kMostLooser * sum, kMostFirmer * sum) : 0.0;
+  }
+  const GripEffort::Step step =
+      effort_.solve(free, k, misfit.outside, misfit.stiffness, mechanics_.squeeze(), asked,
+                    way_ == SettlingWay::kInPlace ? &moved_ : nullptr);
+  is_at_limit_ = step.is_short;
+  return step.way;
+}
+
+GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& free,
+                                const Eigen::MatrixXd& k, double missing) const {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
+  const auto solved = [&](const GripVector& right) {
+    const Eigen::VectorXd part = factor.solve(Eigen::VectorXd(right(free)));
+    GripVector whole = GripVector::Zero();
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      whole[free[i]] = part[static_cast<Eigen::Index>(i)];
+    }
+    return whole;
+  };
+  GripVector way = solved(misfit.residual);
+  if (!has_level_) return way;
+  GripVector closing = GripVector::Zero();
+  std::array<bool, kFingerCount> has_met{};
+  for (const ThumbPress& press : meeting_.presses(state_.posture)) {
+    if (press.overlap > kPulpGive) has_met[index_of(press.finger)] = true;
+  }
+  for (int j = 0; j < kGripJoints; ++j) {
+    const bool closes = is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
+    if (closes && !has_met[index_of(grip_finger(j))]) closing[j] = 1.0;
+  }
+  const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
+  const double rate = mechanics_.squeeze().dot(gain);
+  if (rate > 1e-12) way += (missing - mechanics_.squeeze().dot(way)) / rate * gain;
+  return way;
+}
+
+/// How much of a step is taken; `longest` is the longest way that something goes in it, mm.
+double Settling::share_of(const GripVector& way, double longest) {
+  // Going to and fro says that forces change faster than the stiffness says: shorter steps.
+  GripVector scaled = way;
+  scaled.head<kGripJoints>() *= kStepReach;
+  scaled.tail<3>() *= kStepReach;
+  const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
+  relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
+                                          : cosine > 0.2 ? 1.25
+                                                         : 1.0),
+                           kLeastRelaxation, 1.0);
+  last_way_ = scaled;
+  return relaxation_ * std::min(1.0, kLongestStep / longest);
+}
+
+void Settling::move_product(const Vec3& shift, const Vec3& turn) {
+  Rigid3 motion;
+  if (turn.norm() > 0.0) {
+    motion = Rigid3::about_axis(turn.normalized(), mechanics_.centre(), turn.norm());
+  }
+  motion.translation += shift;
+  moved_ += shift;
+  state_.product_from_hand = state_.product_from_hand * motion.inverse();
+}
+
+/// The same for a precision grip: joints are held stiff, and fingertips go straight into the
+/// product, all alike, until the grip force is there.
+void Settling::step_fingertips(const Misfit& misfit, double missing) {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, 6> k = misfit.stiffness.bottomRightCorner<6, 6>();
+  for (const int begin : {0, 3}) {
+    k.diagonal().segment<3>(begin).array() +=
+        kSoftest * k.diagonal().segment<3>(begin).mean() + 1e-9;
+  }
+  const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> factor(k);
+  const Vector6 squeeze = mechanics_.squeeze().tail<6>();
+  Vector6 force = misfit.residual.tail<6>();
+  Posture rate;
+  double level = 0.0;
+  if (has_level_) {
+    rate = closing_.rate(state_.posture, state_.product_from_hand, missing > 0.0 ? 1.0 : -1.0);
+    const GripMechanics::Closing closing = mechanics_.closing(state_.posture, rate);
+    const double per_mm = closing.squeeze + squeeze.dot(factor.solve(closing.force));
+    if (per_mm > 1e-12) {
+      level = std::clamp((missing - squeeze.dot(factor.solve(force))) / per_mm, -kLongestPress,
+                         kLongestPress);
+      force += level * closing.force;
+    }
+  }
+  // A thing between two fingertips turns much more easily than it moves: the turn is limited by
+  // itself, and the shift is that which suits it.
+  Vector6 way = factor.solve(force);
+  const double turn = way.tail<3>().norm();
+  way.tail<3>() *= std::min(1.0, kLongestTurn / std::max(turn, 1e-12));
+  const Eigen::PartialPivLU<Eigen::Matrix3d> shift(k.topLeftCorner<3, 3>());
+  way.head<3>() = shift.solve(Vec3(force.head<3>() - k.topRightCorner<3, 3>() * way.tail<3>()));
+  GripVector whole = GripVector::Zero();
+  whole.tail<6>() = way;
+  const double share = share_of(whole, std::max(way.head<3>().norm(), 1e-12));
+  for (int d = 0; d < kDofCount; ++d) {
+    const JointDof& dof = hand_->skeleton.dof(static_cast<Dof>(d));
+    double& angle = state_.posture[dof.dof];
+    angle = std::clamp(angle + share * level * rate[dof.dof], std::min(dof.lower, angle),
+                       std::max(dof.upper, angle));
+  }
+  move_product(share * way.head<3>(), share * way.tail<3>());
+}
+
+}  // namespace palmar
