@@ -76,10 +76,6 @@ void LeastSquaresOptions::check() const {
     throw UsageError("least squares: at most " + std::to_string(max_iterations) +
                      " iterations; 1 or more are required");
   }
-  if (steps_per_jacobian < 1) {
-    throw UsageError("least squares: " + std::to_string(steps_per_jacobian) +
-                     " steps per Jacobian; 1 or more are required");
-  }
   if (!(gradient_tolerance > 0.0 && step_tolerance > 0.0)) {
     throw UsageError("least squares: a tolerance is 0 or less; more than 0 is required");
   }
@@ -108,20 +104,10 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
   double damping = 1e-3;
   double growth = 2.0;
   Eigen::VectorXd trial;
-  int age = 0;  // of the Jacobian, in steps
-  const auto renew = [&] {
-    problem.evaluate(at.x, at.residual, &at.jacobian);
-    at.sum_of_squares = at.residual.squaredNorm();
-    age = 0;
-  };
   for (; at.iterations < options.max_iterations; ++at.iterations) {
     const Eigen::VectorXd gradient = at.jacobian.transpose() * at.residual;
     at.at_bound = held_by_walls(problem, at.x, gradient);
     if (largest_cosine(at, gradient) <= options.gradient_tolerance) {
-      if (age > 0) {
-        renew();
-        continue;
-      }
       at.status = LeastSquaresStatus::kConverged;
       return at;
     }
@@ -130,10 +116,6 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
     scale = scale.cwiseMax(column).cwiseMax(1e-12 * column.maxCoeff());
     const Eigen::VectorXd step = damped_step(problem, at, gradient, scale, damping);
     if (is_small(problem, at.x, step, options.step_tolerance)) {
-      if (age > 0) {
-        renew();
-        continue;
-      }
       at.status = LeastSquaresStatus::kSmallStep;
       return at;
     }
@@ -143,20 +125,12 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
     const double gain = std::isfinite(sum) ? at.sum_of_squares - sum : -1.0;
     if (gain > 0.0) {
       at.x += step;
-      if (++age < options.steps_per_jacobian) {
-        at.jacobian +=
-            (trial - at.residual - at.jacobian * step) * step.transpose() / step.squaredNorm();
-        at.residual = trial;
-        at.sum_of_squares = sum;
-      } else {
-        renew();
-      }
+      problem.evaluate(at.x, at.residual, &at.jacobian);
+      at.sum_of_squares = at.residual.squaredNorm();
       const double ratio = foretold > 0.0 ? gain / foretold : 0.5;
       damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * ratio - 1.0, 3));
       damping = std::max(damping, 1e-15);
       growth = 2.0;
-    } else if (age > 0) {
-      renew();
     } else {
       damping *= growth;
       growth *= 2.0;

@@ -23,10 +23,7 @@ struct LeastSquaresOptions {
   /// is more than this.
   double gradient_tolerance = 1e-9;
   double step_tolerance = 1e-11;  ///< of a step, relative to each variable
-  /// Steps with one Jacobian; between them it is corrected by what the residuals did along each
-  /// step (Broyden 1965, Math Comp 19:577-593). 1: a Jacobian for every step.
-  int steps_per_jacobian = 1;
-  void check() const;  ///< throws UsageError: field, value, allowed range
+  void check() const;             ///< throws UsageError: field, value, allowed range
 };
 
 enum class LeastSquaresStatus {

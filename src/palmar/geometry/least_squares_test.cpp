@@ -71,27 +71,6 @@ TEST(LeastSquares, WalksTheCurvedValleyOfRosenbrock) {
   EXPECT_LT(fit.iterations, 100);
 }
 
-/// With Jacobians that are corrected on the way: the same minimum for half of them at most.
-TEST(LeastSquares, OneJacobianServesSeveralSteps) {
-  const auto jacobians_to_minimum = [](int steps_per_jacobian) {
-    LeastSquaresProblem problem = misra();
-    int count = 0;
-    problem.evaluate = [&count, inner = problem.evaluate](const VectorXd& b, VectorXd& r,
-                                                          MatrixXd* jacobian) {
-      if (jacobian != nullptr) ++count;
-      inner(b, r, jacobian);
-    };
-    const LeastSquaresSolution fit = solve_least_squares(
-        problem, VectorXd{{500.0, 0.0001}}, {.steps_per_jacobian = steps_per_jacobian});
-    EXPECT_EQ(fit.status, LeastSquaresStatus::kConverged);
-    EXPECT_NEAR(fit.x[0], 2.3894212918e+02, 1e-6 * 239);
-    EXPECT_NEAR(fit.x[1], 5.5015643181e-04, 1e-6 * 5.5e-4);
-    return count;
-  };
-  EXPECT_LE(2 * jacobians_to_minimum(8), jacobians_to_minimum(1));
-  EXPECT_THROW(jacobians_to_minimum(0), UsageError);
-}
-
 TEST(LeastSquares, StopsAtTheWallWhereTheGradientHoldsIt) {
   // x0 <= 1/2: the least value is on the wall, at x1 = x0^2, with sum (1 - x0)^2 = 1/4.
   const LeastSquaresSolution fit = solve_least_squares(

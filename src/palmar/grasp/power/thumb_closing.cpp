@@ -51,11 +51,10 @@ constexpr std::array<std::pair<double, double>, 3> kBends = {{{10.0 * kDegree, 2
 constexpr std::size_t kSettled = 3;   // starts of either kind that are followed
 constexpr double kDifference = 0.02;  // rad, of the derivatives
 constexpr int kMostIterations = 60;
-constexpr double kSmallStep = 1e-3;  // of an angle; less and the fit has ended
+constexpr double kSmallStep = 1e-5;  // of an angle; less and the fit has ended
 // All starts are followed for the first iterations; to the end only those that may yet be the best.
-constexpr int kFirstIterations = 5;
-constexpr int kStepsPerJacobian = 8;
-constexpr double kPromising = 1.1;  // sum of squares over the least
+constexpr int kFirstIterations = 12;
+constexpr double kPromising = 1.5;  // sum of squares over the least
 constexpr double kSamePose = 0.02;  // rad, of every angle
 constexpr double kAtLimit = 1.0;    // mm; skin that near to its limit depth is there
 
@@ -321,10 +320,8 @@ ThumbCloser::Fit ThumbCloser::fitted(const ThumbPose& from, const HeldProduct& p
         r = residuals(product, limits, with(start, {x[0], x[1], x[2], x[3]}), fingers);
       },
       [](Eigen::Index, double) { return kDifference; });
-  const LeastSquaresSolution fit = solve_least_squares(problem, first,
-                                                       {.max_iterations = most_iterations,
-                                                        .step_tolerance = kSmallStep,
-                                                        .steps_per_jacobian = kStepsPerJacobian});
+  const LeastSquaresSolution fit = solve_least_squares(
+      problem, first, {.max_iterations = most_iterations, .step_tolerance = kSmallStep});
   return {{fit.x[0], fit.x[1], fit.x[2], fit.x[3]}, fit.sum_of_squares};
 }
 
