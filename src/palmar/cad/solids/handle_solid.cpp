@@ -20,7 +20,7 @@ constexpr double kRows = 7.0;        // mm between sections
 
 /// A whole number of columns for each of the four faces.
 int columns_for(const HandleShape& shape) {
-  const bool keeps = shape.kept_ends > 0.0 || !shape.body.is_whole;
+  const bool keeps = shape.kept_ends > 0.0 || !shape.kept_boxes.empty() || !shape.body.is_whole;
   const double wanted = kRoundColumns + kSquareColumns * shape.features.squareness;
   return keeps ? kOutlineColumns : 8 * static_cast<int>(std::ceil(wanted / 8.0));
 }
