@@ -72,7 +72,7 @@ def box_of(solid, low, high):
 
 def rounded_cut(solid):
     half = solid.common(box_of(solid, 0.0, 0.5))
-    height = half.BoundBox.ZMax
+    height = solid.BoundBox.ZMin + 0.5 * solid.BoundBox.ZLength
     cut = [f for f in half.Faces if f.Surface.TypeId == "Part::GeomPlane"
            and abs(f.CenterOfMass.z - height) < 1e-3]
     return half.makeFillet(1.0, cut[0].OuterWire.Edges)
