@@ -226,7 +226,9 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
     const Place place = place_of(x);
     if (!place.is_moved) continue;
     const double after = shape.radius_at(place.z, place.phi);
-    const bool is_on = !place.is_beyond && std::abs(place.r / place.before - 1.0) < kOnSurface;
+    // What lies beyond the outline does so because that was taken coarsely: scaled, it would become
+    // a spike.
+    const bool is_on = !place.is_beyond && place.r > (1.0 - kOnSurface) * place.before;
     // Where the shape has run out nothing moves, not even by how coarsely outlines were taken.
     const double share = shape.share_at(place.z, place.phi);
     const double scaled = place.r * after / place.before;
