@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -72,6 +73,7 @@ TEST(RedesignShape, WhatCanNotBeIsRefusedWithItsName) {
            Case{kPrism + " --vary width=x", "\"x\" is no number"},
            Case{kPrism + " --both-hands --vary twist=3", "suits one hand only"},
            Case{kPrism + " --features nothing.toml", "nothing.toml", 3},
+           Case{kPrism + " --keep-box 1,2,3", "two corners X0,Y0,Z0,X1,Y1,Z1"},
            Case{kPrism + " --spread-mm 99", "--spread-mm is 99; 0 to 30 mm is allowed"},
            Case{"\"made: prism\" --hold-posture kept", "--hold-posture kept"},
        }) {
@@ -79,6 +81,22 @@ TEST(RedesignShape, WhatCanNotBeIsRefusedWithItsName) {
     EXPECT_EQ(run.exit_code, one.exit_code) << one.arguments << run.err;
     EXPECT_THAT(run.err, HasSubstr(one.message)) << one.arguments;
   }
+}
+
+TEST(RedesignShape, AFileThatCanNotBeReadIsSaidBeforeAnyHandHoldsTheProduct) {
+  write_text(folder() + "/bad.toml", "version = 1\n[features]\nwidth_mm = 300\ndepth_mm = 40\n");
+  const ProgramRun run = shape(kPrism + " --features bad.toml --hands 2 --out none");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(run.err.find("palmar: "), 0U) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("bad.toml"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST(RedesignShape, StoppedInTheSearchItEndsWithItsCodeAndLeavesNothing) {
+  const ProgramRun run = shape(kPrism + " --evaluations 60 --out stopped" + kFew +
+                               " & sleep 6; kill -INT $!; wait $!");
+  EXPECT_EQ(run.exit_code, 130) << run.err;
+  EXPECT_FALSE(fs::exists(fs::path(folder()) / "stopped"));
 }
 
 TEST(RedesignShape, APlainHandleIsJudgedInOtherHandsAndWhereTheyLieElsewhere) {

@@ -8,7 +8,7 @@ void CadArguments::add_to(CLI::App& verb) {
   verb.add_option("--chordal-error-mm", chordal_error,
                   "CAD: largest gap between triangles and surface; without it from size and "
                   "smallest radius");
-  verb.add_option("--time-limit-s", limits.seconds, "CAD: most time for reading a file")
+  verb.add_option("--time-limit-s", limits.seconds, "CAD: most processor time for reading a file")
       ->capture_default_str();
   verb.add_option("--memory-limit-mb", limits.memory_mb, "CAD: most memory for reading a file")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 #include "study/study_comparison_text.h"
 
@@ -60,14 +61,36 @@ RedesignRequest RedesignArguments::read(const Context& context) const {
   return result;
 }
 
-void print_redesign(const std::string& json, const std::optional<RedesignComparison>& comparison,
-                    const Context& context) {
+void add_kept_boxes(CLI::App& verb, std::vector<std::string>& texts) {
+  verb.add_option("--keep-box", texts,
+                  "Box that must stay as it is: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in the "
+                  "product's frame; may be repeated")
+      ->allow_extra_args(false);
+}
+
+std::vector<Box3> kept_boxes(const std::vector<std::string>& texts) {
+  std::vector<Box3> boxes;
+  for (const std::string& text : texts) {
+    const std::vector<double> v = parse_list("--keep-box", text);
+    if (v.size() != 6) {
+      throw UsageError("--keep-box is \"" + text +
+                       "\"; two corners X0,Y0,Z0,X1,Y1,Z1 in mm are required");
+    }
+    boxes.emplace_back();
+    boxes.back().extend(Vec3(v[0], v[1], v[2])).extend(Vec3(v[3], v[4], v[5]));
+  }
+  return boxes;
+}
+
+void print_redesign(const RedesignOutcome& outcome, const Context& context) {
   finish_progress();
+  const std::optional<RedesignComparison>& comparison = outcome.comparison;
   StudyAnswerOptions options;
   options.command = context.command_line;
   if (comparison) options.language = comparison->language;
   if (context.common.json) {
-    nlohmann::ordered_json object = nlohmann::ordered_json::parse(json);
+    nlohmann::ordered_json object = nlohmann::ordered_json::parse(outcome.json);
+    if (outcome.gains) object["gains"] = nlohmann::ordered_json::parse(gains_json(*outcome.gains));
     if (comparison) {
       object["comparison"] = comparison_object(
           compare_results(comparison->results, comparison->quantities, options), {});
@@ -90,6 +113,7 @@ void print_redesign(const std::string& json, const std::optional<RedesignCompari
   print(comparison_text(compare_results(comparison->results, comparison->quantities, options)));
   note(context.common,
        "report: " + comparison->report.string() + "; study: " + comparison->study.string());
+  if (outcome.gains) print(gains_text(*outcome.gains));
 }
 
 }  // namespace palmar::cli

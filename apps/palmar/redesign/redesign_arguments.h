@@ -8,7 +8,7 @@
 
 #include "cli.h"
 #include "grasp/hold_arguments.h"
-#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
 namespace palmar::cli {
@@ -33,9 +33,13 @@ struct RedesignArguments {
   RedesignRequest read(const Context& context) const;
 };
 
-/// What a redesign prints in the end: the comparison in words and where it was written, or with
-/// --json the one object, with the comparison in it.
-void print_redesign(const std::string& json, const std::optional<RedesignComparison>& comparison,
-                    const Context& context);
+/// --keep-box, which may be repeated.
+void add_kept_boxes(CLI::App& verb, std::vector<std::string>& texts);
+/// Read. Throws UsageError.
+std::vector<Box3> kept_boxes(const std::vector<std::string>& texts);
+
+/// What a redesign prints in the end: comparison and gains in words and where they were written, or
+/// with --json the one object, with both in it.
+void print_redesign(const RedesignOutcome& outcome, const Context& context);
 
 }  // namespace palmar::cli

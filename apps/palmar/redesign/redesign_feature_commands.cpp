@@ -30,7 +30,7 @@ int run_features(const FeatureArguments& a, const Context& context) {
                         : proposals_text(outcome.proposals, outcome.goal));
   };
   const RedesignFeatureOutcome outcome = redesign_features(request, make_progress(context.common));
-  print_redesign(outcome.json, outcome.comparison, context);
+  print_redesign(outcome, context);
   return 0;
 }
 

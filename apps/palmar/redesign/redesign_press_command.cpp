@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "palmar/core/error.h"
 #include "redesign/redesign_arguments.h"
 #include "redesign/redesign_text.h"
 
@@ -19,23 +18,10 @@ struct PressArguments {
   bool no_compare = false;
 };
 
-Box3 box_from(const std::string& text) {
-  const std::vector<double> v = parse_list("--keep-box", text);
-  if (v.size() != 6) {
-    throw UsageError("--keep-box is \"" + text +
-                     "\"; two corners X0,Y0,Z0,X1,Y1,Z1 in mm are required");
-  }
-  Box3 box;
-  box.extend(Vec3(v[0], v[1], v[2])).extend(Vec3(v[3], v[4], v[5]));
-  return box;
-}
-
 int run_press(const PressArguments& a, const Context& context) {
   RedesignPressRequest request = a.request;
   request.shape.combine = combine_options(a.over);
-  for (const std::string& text : a.keep_boxes) {
-    request.shape.keep_out.boxes.push_back(box_from(text));
-  }
+  request.shape.keep_out.boxes = kept_boxes(a.keep_boxes);
   request.redesign = a.redesign.read(context);
   request.aligns = a.align == "axis";
   request.draws = !a.no_pictures;
@@ -45,7 +31,7 @@ int run_press(const PressArguments& a, const Context& context) {
     if (!context.common.json) print(press_text(outcome));
   };
   const RedesignPressOutcome outcome = redesign_press(request, make_progress(context.common));
-  print_redesign(outcome.json, outcome.comparison, context);
+  print_redesign(outcome, context);
   return 0;
 }
 
@@ -79,10 +65,7 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
   verb->add_option("--keep-face", a->request.keep_faces,
                    "CAD face that must stay as it is: its number or name; may be repeated")
       ->allow_extra_args(false);
-  verb->add_option("--keep-box", a->keep_boxes,
-                   "Box that must stay as it is: X0,Y0,Z0,X1,Y1,Z1, two corners in mm in the "
-                   "product's frame; may be repeated")
-      ->allow_extra_args(false);
+  add_kept_boxes(*verb, a->keep_boxes);
   verb->add_option("--keep-blend-mm", o.keep_out.blend,
                    "Width over which the depth grows beside kept faces and boxes, mm")
       ->capture_default_str();

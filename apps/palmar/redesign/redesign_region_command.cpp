@@ -51,7 +51,7 @@ int run_region(const RegionArguments& a, const Context& context) {
     if (!context.common.json) print(region_text(outcome));
   };
   const RedesignRegionOutcome outcome = redesign_region(request, make_progress(context.common));
-  print_redesign(outcome.json, outcome.comparison, context);
+  print_redesign(outcome, context);
   return 0;
 }
 

@@ -15,6 +15,7 @@ struct ShapeArguments {
   RedesignArguments redesign;
   RedesignShapeRequest request;
   std::string features;
+  std::vector<std::string> keep_boxes;
   double spread_deg = HoldSpread{}.turn / kDegree;
   bool no_pictures = false;
   bool no_compare = false;
@@ -24,6 +25,7 @@ int run_shape(const ShapeArguments& a, const Context& context) {
   RedesignShapeRequest request = a.request;
   request.redesign = a.redesign.read(context);
   request.features = a.features;
+  request.limits.kept_boxes = kept_boxes(a.keep_boxes);
   request.spread.turn = a.spread_deg * kDegree;
   request.draws = !a.no_pictures;
   request.compares = !a.no_compare;
@@ -32,8 +34,7 @@ int run_shape(const ShapeArguments& a, const Context& context) {
     if (!context.common.json) print(search_text(outcome.story) + shape_text(outcome));
   };
   const RedesignShapeOutcome outcome = redesign_shape(request, make_progress(context.common));
-  print_redesign(outcome.json, outcome.comparison, context);
-  if (outcome.gains && !context.common.json) print(gains_text(*outcome.gains));
+  print_redesign(outcome, context);
   return 0;
 }
 
@@ -86,6 +87,7 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->add_option("--keep-ends-mm", r.limits.kept_ends,
                    "Length at both flat ends that keeps its outline, mm")
       ->capture_default_str();
+  add_kept_boxes(*verb, a->keep_boxes);
   verb->add_option("--end-radius-mm", r.end_radius,
                    "Radius of the edges round flat ends, mm; without it as they are, at least 3");
   verb->add_option("--evaluations", r.search.evaluations,

@@ -127,6 +127,9 @@ std::string search_text(const SearchStory& story) {
       text += fmt::format(" {} {:.4g} {}", constraint.name, trial.outcome.constraint[k],
                           constraint.unit);
     }
+    if (trial.outcome.is_rough()) {
+      text += fmt::format(", broken off after {} hands", story.beside[i].hands);
+    }
     text += result.best && *result.best == static_cast<int>(i) ? "  best\n" : "\n";
   }
   if (failed > 0) text += fmt::format("{} candidates can't be made or held\n", failed);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "palmar/core/progress.h"
@@ -17,8 +18,10 @@ namespace palmar {
 struct GraspOptions {
   std::optional<Grip> grip;  ///< unset: as people would choose for the product's shape
   std::optional<Hold> hold;  ///< this one; unset: one of rank_holds()
-  HoldOptions holds;         ///< which holds to choose from; its grip is replaced by `grip`
-  int hold_rank = 1;         ///< the best is 1
+  /// Of the product, for `hold`, where they are known; null: found when needed.
+  std::shared_ptr<const ProductParts> parts = nullptr;
+  HoldOptions holds;  ///< which holds to choose from; its grip is replaced by `grip`
+  int hold_rank = 1;  ///< the best is 1
   /// N that it is to be gripped with, whatever the grip: of ranked holds the one that suits it
   /// (firm_hold()) in place of `hold_rank`. Unset: as usual in each grip.
   std::optional<double> grip_force;

@@ -105,7 +105,7 @@ Grasp GraspPlace::Impl::place_non_prehensile(const Hand& hand) const {
 void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   power = options.power;
   if (options.hold) {
-    ranked.parts = find_parts(*product);
+    ranked.parts = options.parts ? *options.parts : find_parts(*product);
     hold = options.hold;
   } else {
     HoldOptions asked = options.holds;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "palmar/core/text.h"
 #include "palmar/geometry/mesh/boundary_loops.h"
@@ -113,8 +115,8 @@ void judge(ProductCheck& c, const OrientResult& oriented) {
                              significant(100.0 * kTinyShare, 4) + " % of the size)");
   }
   if (c.is_closed && std::abs(c.volume) < kFlattestShare * c.area * c.extent.z()) {
-    add(Severity::kWarning, "encloses next to nothing: " + significant(c.volume, 4) +
-                                " mm^3 under " + significant(c.area, 4) + " mm^2");
+    add(Severity::kError, "encloses next to nothing: " + significant(c.volume, 4) + " mm^3 under " +
+                              significant(c.area, 4) + " mm^2");
   }
   const std::string extent = significant(c.extent.x(), 4) + " x " + significant(c.extent.y(), 4) +
                              " x " + significant(c.extent.z(), 4) + " mm";
@@ -154,10 +156,23 @@ std::string name_of(Severity severity) {
   return "";
 }
 
-ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
+std::vector<int> bodies_of_triangles(const ProductFaces& faces) {
+  std::map<std::string, int> number;
+  std::vector<int> of_face;
+  for (const ProductFace& face : faces.face) {
+    of_face.push_back(number.try_emplace(face.part, static_cast<int>(number.size())).first->second);
+  }
+  std::vector<int> bodies;
+  bodies.reserve(faces.face_of_triangle.size());
+  for (const int face : faces.face_of_triangle) bodies.push_back(of_face[face]);
+  return bodies;
+}
+
+ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings,
+                        const std::vector<int>& bodies) {
   ProductCheck c;
-  const TriangleMesh welded = weld(mesh, {.drops_duplicates = false}).mesh;
-  c.duplicate_triangles = weld(welded).dropped_duplicate;
+  const TriangleMesh welded = weld(mesh, {.drops_duplicates = false, .groups = bodies}).mesh;
+  c.duplicate_triangles = weld(mesh, {.groups = bodies}).dropped_duplicate;
   c.triangles = welded.triangle_count();
   c.vertices = welded.vertex_count();
   c.area = surface_area(welded);
@@ -204,7 +219,8 @@ ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings) {
 }
 
 ProductCheck check_product(const Product& product) {
-  ProductCheck c = check_mesh(product.mesh);
+  ProductCheck c = check_mesh(
+      product.mesh, true, product.faces ? bodies_of_triangles(*product.faces) : std::vector<int>());
   for (const std::string& text : product.notes) c.findings.push_back({Severity::kNote, text});
   rank(c);
   return c;

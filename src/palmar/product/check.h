@@ -53,12 +53,18 @@ struct ProductCheck {
   Severity verdict = Severity::kOk;  ///< the worst of the findings
 };
 
+/// Per triangle a number of the solid that its face belongs to: bodies of a CAD model that touch
+/// are different things, however near their triangles are.
+std::vector<int> bodies_of_triangles(const ProductFaces& faces);
+
 /// Examines a mesh as it is, in mm; nothing is repaired. Never throws on a bad mesh: that is a
 /// finding; throws InputError only on coordinates that are not finite and corners outside the
 /// vertex list. Limits of size: the widest grip of a power grasp is about 110 mm (a large hand's
 /// span from thumb to fingertips, both curled), the thinnest handle that a closed fist holds 4 mm.
-/// Crossing triangles take by far the longest to find and may be left out.
-ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings = true);
+/// Crossing triangles take by far the longest to find and may be left out. `bodies`, per triangle,
+/// are those of a CAD model (bodies_of_triangles()); they don't grow together where they touch.
+ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings = true,
+                        const std::vector<int>& bodies = {});
 
 /// The same for a product, whose notes (repairs, unit) are added as findings.
 ProductCheck check_product(const Product& product);

@@ -74,6 +74,14 @@ class Surroundings {
     return hit->distance + off_;
   }
 
+  /// Free way straight out of a triangle, mm; nothing if there is no end to it.
+  std::optional<double> way_across(int triangle) const {
+    const std::optional<Vec3> normal = normal_of(triangle);
+    if (!normal) return std::nullopt;
+    const auto hit = rays_.first_hit(middle(triangle) + off_ * *normal, *normal);
+    return hit ? std::optional(hit->distance + off_) : std::nullopt;
+  }
+
  private:
   const Vec3& corner(int triangle, std::size_t k) const {
     return mesh_.vertices[mesh_.triangles[triangle][k]];
@@ -276,9 +284,15 @@ ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& opt
     return body;
   }
   body.thinnest_wall = std::numeric_limits<double>::infinity();
+  std::vector<double> across;
   for (std::size_t t = 0; t < count; ++t) {
-    if (is_dropped[t] != 0) body.thinnest_wall = std::min(body.thinnest_wall, wall[t]);
+    if (is_dropped[t] == 0) continue;
+    body.thinnest_wall = std::min(body.thinnest_wall, wall[t]);
+    if (const auto way = surroundings.way_across(static_cast<int>(t))) across.push_back(*way);
   }
+  const auto half = across.begin() + static_cast<std::ptrdiff_t>(across.size() / 2);
+  std::nth_element(across.begin(), half, across.end());
+  body.width = across.empty() ? std::numeric_limits<double>::infinity() : *half;
   body.mesh = without(mesh, is_dropped);
   close_mouths(body.mesh);
   return body;

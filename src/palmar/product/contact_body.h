@@ -24,6 +24,7 @@ struct ContactBody {
   TriangleMesh mesh;           ///< the product's own if it has no thin wall round a cavity
   int dropped = 0;             ///< triangles of the product that skin can't reach
   double thinnest_wall = 0.0;  ///< round the cavity, mm
+  double width = 0.0;          ///< free way across the cavity, mm; half of its surface has less
 };
 
 /// A shelled product for contact: cavities that a hand which holds it can't reach into count as

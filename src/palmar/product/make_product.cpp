@@ -13,7 +13,9 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/orient.h"
 #include "palmar/geometry/repair/weld.h"
+#include "palmar/product/check.h"
 #include "palmar/product/contact_body.h"
+#include "palmar/product/parts/product_parts.h"
 
 namespace palmar {
 namespace {
@@ -94,8 +96,12 @@ std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const W
   }
   for (std::size_t f = 0; f < faces.face.size(); ++f) {
     if (is_left[f] || !was_there[f]) continue;
+    constexpr double kSmall = 0.01;  // mm^2
     notes.push_back(title_of(faces.face[f]) +
-                    " is too small to be kept: no triangle of it is left");
+                    (faces.face[f].area < kSmall
+                         ? " is too small to be kept: no triangle of it is left"
+                         : " lies on another face: the body is there twice, or is folded onto "
+                           "itself; one of both is left"));
   }
   faces.face_of_triangle = std::move(face_of_triangle);
   return std::make_shared<const ProductFaces>(std::move(faces));
@@ -107,7 +113,12 @@ TriangleMesh body_in_contact(const TriangleMesh& mesh, const TopologyReport& top
                              std::vector<std::string>& notes) {
   if (!topology.is_closed) return mesh;
   ContactBody body = contact_body(mesh);
-  if (body.dropped > 0) {
+  if (body.dropped > 0 && body.width < PartOptions{}.finger) {
+    notes.push_back("holes or slots of about " + tenths(body.width) +
+                    " mm, which no finger enters, count as solid for contact where walls beside "
+                    "them are thin (the thinnest " +
+                    tenths(body.thinnest_wall) + " mm)");
+  } else if (body.dropped > 0) {
     notes.push_back("walls (the thinnest " + tenths(body.thinnest_wall) +
                     " mm) part a cavity from the outside: for contact it counts as solid, as no "
                     "skin of a hand round the product reaches into it");
@@ -130,7 +141,9 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   for (const Triangle& t : in_mm.triangles) {
     for (const int v : t) box.extend(in_mm.vertices[v]);
   }
-  const WeldResult welded = weld(in_mm, {.tolerance = kWeldShare * box.sizes().maxCoeff()});
+  const WeldResult welded =
+      weld(in_mm, {.tolerance = kWeldShare * box.sizes().maxCoeff(),
+                   .groups = faces != nullptr ? bodies_of_triangles(*faces) : std::vector<int>()});
   if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
     throw InputError(source + ": its triangles have no area (size " +
                      significant(box.sizes().x(), 6) + " x " + significant(box.sizes().y(), 6) +

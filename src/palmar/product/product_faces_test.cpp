@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
+#include "palmar/product/check.h"
 #include "palmar/product/gloved.h"
 #include "palmar/product/make_product.h"
 #include "palmar/product/primitives.h"
@@ -195,6 +196,39 @@ TEST(ProductFaces, BordersAreWhereFacesMeet) {
     length += (can.mesh.vertices[a] - can.mesh.vertices[b]).norm();
   }
   EXPECT_NEAR(length, 2.0 * std::numbers::pi * 48.0, 0.5);  // chords of two circles
+}
+
+TEST(ProductFaces, OfBodiesThatTouchKeepTheirTriangles) {
+  // Two bars of 40 x 30 mm on top of each other: the faces between them lie on each other.
+  const Product prism = make_prism_product({.width = 40, .depth = 30, .length = 60});
+  ProductFaces faces = *prism.faces;
+  TriangleMesh mesh = prism.mesh;
+  const auto count = static_cast<int>(faces.face.size());
+  const int vertices = mesh.vertex_count();
+  for (int f = 0; f < count; ++f) {
+    faces.face[static_cast<std::size_t>(f)].part = "lower";
+    ProductFace upper = faces.face[static_cast<std::size_t>(f)];
+    upper.part = "upper";
+    upper.number += count;
+    faces.face.push_back(upper);
+  }
+  for (const Vec3& x : prism.mesh.vertices) mesh.vertices.push_back(x + Vec3(0.0, 0.0, 60.0));
+  for (int t = 0; t < prism.mesh.triangle_count(); ++t) {
+    Triangle triangle = prism.mesh.triangles[t];
+    for (int& v : triangle) v += vertices;
+    mesh.triangles.push_back(triangle);
+    faces.face_of_triangle.push_back(faces.face_of_triangle[t] + count);
+  }
+  const Product both = make_product("bars", mesh, kMm, "bars.step", &faces);
+  EXPECT_EQ(both.mesh.triangle_count(), mesh.triangle_count());
+  EXPECT_THAT(both.notes, testing::Not(testing::Contains(HasSubstr("too small"))));
+  const std::vector<double> areas = meshed_areas(both), one = meshed_areas(prism);
+  for (int f = 0; f < 2 * count; ++f) EXPECT_NEAR(areas[f], one[f % count], 1e-6) << f;
+  const ProductCheck check = check_product(both);
+  EXPECT_TRUE(check.is_closed);
+  EXPECT_EQ(check.parts, 2);
+  EXPECT_EQ(check.non_manifold_edges, 0);
+  EXPECT_EQ(check.duplicate_triangles, 0);
 }
 
 TEST(ProductFaces, ReportWhichFaceIsTooSmallToBeKept) {

@@ -273,6 +273,19 @@ TEST(CheckMesh, SeesCrossingAndInversion) {
   EXPECT_GT(check_mesh(two).crossing_pairs, 0);
 }
 
+TEST(CheckMesh, ASolidWithoutVolumeIsAnError) {
+  // A sheet of 60 x 40 mm with two sides and nothing between them.
+  TriangleMesh sheet;
+  sheet.vertices = {{0, 0, 0}, {60, 0, 0}, {60, 40, 0}, {0, 40, 0}, {30, 20, 0}, {30, 20, 1e-4}};
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 3}, {3, 0}}) {
+    sheet.triangles.push_back({a, b, 5});
+    sheet.triangles.push_back({b, a, 4});
+  }
+  const ProductCheck check = check_mesh(sheet);
+  EXPECT_TRUE(check.is_closed);
+  EXPECT_EQ(check.verdict, Severity::kError);
+}
+
 TEST(CheckMesh, HoldsTheSizeAgainstAHand) {
   EXPECT_TRUE(check_product(make_sphere_product({.diameter = 300.0})).is_too_big);
   EXPECT_TRUE(check_product(make_cylinder_product({.diameter = 2.0})).is_too_small);

@@ -360,7 +360,9 @@ class Repairer {
     count = static_cast<int>(crossings.size());
     add(left, "crossings", count,
         counted(count, "pair", "pairs") +
-            " of triangles go through each other: unite the solids in the program they come from",
+            " of triangles go through each other: where solids do, unite them in the program they "
+            "come "
+            "from",
         std::move(places));
     count = size_of(low_left_);
     add(left, "low triangles", count,
@@ -479,8 +481,13 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
   }
   if (check.crossing_pairs > 0) {
     fixes.push_back(
-        "crossing triangles: unite the solids in the program they come from; they are "
-        "assessed all the same, inside is where the winding number says so");
+        check.parts - check.tiny_parts > 1
+            ? "crossing triangles: unite the solids in the program they come from; they are "
+              "assessed all the same, inside is where the winding number says so"
+            : "crossing triangles of one body: finer ones if it comes from CAD "
+              "(`--chordal-error-mm`), "
+              "else remove the fold; it is assessed all the same, inside is where the winding "
+              "number says so");
   }
   if (check.parts - check.tiny_parts > 1) {
     fixes.push_back("separate parts: none if the product has several bodies; otherwise keep one");

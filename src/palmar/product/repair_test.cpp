@@ -25,7 +25,9 @@
 namespace palmar {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -256,6 +258,20 @@ TEST(Repair, ReportsWhatGoesThroughItself) {
   ASSERT_TRUE(find(repaired.left, "crossings"));
   EXPECT_EQ(find(repaired.left, "crossings")->count,
             static_cast<int>(find_self_crossings(balls).size()));
+}
+
+TEST(Repair, AsksOnlySeveralBodiesToBeUnited) {
+  TriangleMesh balls = make_icosphere(20, 3);
+  append(balls, make_icosphere(20, 3), Vec3(25, 1, 2));
+  const RepairLimits limits = repair_mesh(balls).limits;
+  EXPECT_THAT(fix_list(check_mesh(balls), limits), Contains(HasSubstr("unite the solids")));
+  // One that goes through itself: a corner drawn out through the other side.
+  TriangleMesh ball = make_icosphere(20, 3);
+  ball.vertices.front() *= -1.5;
+  const ProductCheck check = check_mesh(ball);
+  ASSERT_GT(check.crossing_pairs, 0);
+  ASSERT_EQ(check.parts, 1);
+  EXPECT_THAT(fix_list(check, limits), Not(Contains(HasSubstr("unite"))));
 }
 
 TEST(Repair, NamesWhatCannotBe) {

@@ -44,12 +44,22 @@ def smooth_step(t):
     t = min(max(t, 0.0), 1.0)
     return t * t * (3.0 - 2.0 * t)
 
-def share(z):
+def share(z, phi):
     value = 1.0
     for run_out, way in ((run_out_bottom, z - bottom), (run_out_top, top - z)):
         if run_out >= 0.0:
             value *= smooth_step((way - run_out) / 14.0)
+    if value > 0.0 and kept_boxes:
+        r = old_radius(z, phi)
+        at = placement.multVec(middle(z) + FreeCAD.Vector(r * math.cos(phi), r * math.sin(phi), 0.0))
+        for low, high in kept_boxes:
+            beyond = [max(l - a, a - h, 0.0) for l, a, h in zip(low, at, high)]
+            value *= smooth_step(math.sqrt(sum(b * b for b in beyond)) / 14.0)
     return value
+
+def middle(z):
+    return FreeCAD.Vector(centre[0][0] + z * (centre[1][0] + z * centre[2][0]),
+                          centre[0][1] + z * (centre[1][1] + z * centre[2][1]), z)
 
 def old_radius(z, phi):
     v = min(max((z - old_z[0]) / (old_z[-1] - old_z[0]), 0.0), 1.0) * (len(old_z) - 1)
@@ -63,13 +73,13 @@ def old_radius(z, phi):
 
 def side_point(z, t):
     x, y = section_point(z, t)
-    s = share(z)
+    phi = math.atan2(y, x)
+    s = share(z, phi)
     if s < 1.0:
         r = math.hypot(x, y)
-        k = (s * r + (1.0 - s) * old_radius(z, math.atan2(y, x))) / r
+        k = (s * r + (1.0 - s) * old_radius(z, phi)) / r
         x, y = x * k, y * k
-    return FreeCAD.Vector(x + centre[0][0] + z * (centre[1][0] + z * centre[2][0]),
-                          y + centre[0][1] + z * (centre[1][1] + z * centre[2][1]), z)
+    return middle(z) + FreeCAD.Vector(x, y, 0.0)
 
 def build():
     wires = []
@@ -132,13 +142,19 @@ std::string freecad_macro(const HandleShape& shape, const std::string& product) 
     return is_free ? -1.0 : 0.0;
   };
   const double low = run_out(body.is_free[0]), high = run_out(body.is_free[1]);
-  const bool keeps = low >= 0.0 || high >= 0.0;
+  const bool keeps = low >= 0.0 || high >= 0.0 || !shape.kept_boxes.empty();
   text += fmt::format(
       "run_out_bottom, run_out_top = {:.3f}, {:.3f}  # mm; below 0: none\n"
       "sections, columns = {}, {}\n",
       low, high, std::max(8, static_cast<int>((body.top - body.bottom) / kSections)),
       keeps ? kOutlineColumns
             : 8 * static_cast<int>(std::ceil((24.0 + 24.0 * shape.features.squareness) / 8.0)));
+  text += "kept_boxes = [";
+  for (const Box3& box : shape.kept_boxes) {
+    text += fmt::format("(({:.4f}, {:.4f}, {:.4f}), ({:.4f}, {:.4f}, {:.4f})), ", box.min().x(),
+                        box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z());
+  }
+  text += "]  # mm, low and high corners, product frame\n";
   text +=
       "\n# The outlines that were there, by z and direction, mm\nold_z, old = [0.0, 1.0], "
       "[[1.0], [1.0]]\n";

@@ -11,12 +11,14 @@
 
 #include "palmar/formats/file.h"
 #include "palmar/formats/toml_section.h"
+#include "palmar/records/handle_json.h"
 
 namespace palmar {
 namespace {
 
 constexpr std::uint64_t kMostHandleBytes = 1 << 16;
 constexpr double kMostEnd = 200.0;  // mm
+constexpr double kFar = 1e4;        // mm
 
 /// A value to a thousandth: finer than anything is made.
 std::string rounded(double value) {
@@ -52,6 +54,11 @@ std::string handle_toml(const HandleShape& shape, const std::string& product) {
   const Rigid3& frame = shape.body.product_from_handle;
   text += fmt::format("\n[ends]\nend_radius_mm = {}\nkept_mm = {}\n", rounded(shape.end_radius),
                       rounded(shape.kept_ends));
+  std::string boxes;
+  for (const Box3& box : shape.kept_boxes) {
+    for (const double one : corners_of(box)) boxes += (boxes.empty() ? "" : ", ") + rounded(one);
+  }
+  text += "kept_boxes_mm = [" + boxes + "]\n";
   text += fmt::format("\n[frame]  # for information\norigin_mm = {}\nalong = {}\npalm = {}\n",
                       vector_text(frame.translation), vector_text(frame.rotation * Vec3::UnitZ()),
                       vector_text(frame.rotation * Vec3::UnitY()));
@@ -81,9 +88,18 @@ HandleFile read_handle(const std::filesystem::path& path) {
     result.features.*one.value = value / one.scale;
   }
   if (const auto ends = file.table("ends")) {
-    ends->allow({"end_radius_mm", "kept_mm"});
+    ends->allow({"end_radius_mm", "kept_mm", "kept_boxes_mm"});
     result.end_radius = ends->number("end_radius_mm", "mm", 0.0, kMostEnd).value_or(0.0);
     result.kept_ends = ends->number("kept_mm", "mm", 0.0, kMostEnd).value_or(0.0);
+    const std::vector<double> corners = ends->numbers("kept_boxes_mm", "mm", -kFar, kFar);
+    if (corners.size() % 6 != 0) {
+      ends->fail("kept_boxes_mm",
+                 fmt::format("kept_boxes_mm has {} coordinates; six for each box are required",
+                             corners.size()));
+    }
+    for (std::size_t i = 0; i < corners.size(); i += 6) {
+      result.kept_boxes.push_back(box_of_corners(std::span(corners).subspan(i, 6)));
+    }
   }
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "palmar/redesign/handle_shape.h"
 
@@ -22,6 +23,7 @@ inline constexpr int kHandleFileVersion = 1;
 ///     [ends]
 ///     end_radius_mm = 3.0
 ///     kept_mm = 0.0
+///     kept_boxes_mm = []       # six coordinates for each: two corners, product frame
 ///     [frame]
 ///     origin_mm = [0.0, 0.0, 4.0]
 ///     along = [0.0, 0.0, 1.0]  # towards the thumb
@@ -31,6 +33,7 @@ std::string handle_toml(const HandleShape& shape, const std::string& product);
 struct HandleFile {
   HandleFeatures features;
   double end_radius = 0.0, kept_ends = 0.0;  ///< mm
+  std::vector<Box3> kept_boxes = {};         ///< product frame, mm
 };
 /// Width and depth are needed. Throws InputError naming file, line, key, value and what is allowed.
 HandleFile read_handle(const std::filesystem::path& path);

@@ -28,6 +28,8 @@ TEST(HandleFile, ReadsBackWhatWasWritten) {
   shape.features.twist = 0.1;  // rad per 100 mm
   shape.end_radius = 3.0;
   shape.kept_ends = 8.0;
+  shape.kept_boxes = {Box3(Vec3(-9, -8, -7), Vec3(1, 2, 3.5)),
+                      Box3(Vec3(0, 0, 40), Vec3(5, 5, 65))};
   const HandleFile file = read_handle(written(handle_toml(shape, "a \"prism\"")));
   for (const HandleFeature& one : handle_features()) {
     EXPECT_NEAR(one.scale * file.features.*one.value, one.scale * shape.features.*one.value, 5.1e-4)
@@ -35,6 +37,10 @@ TEST(HandleFile, ReadsBackWhatWasWritten) {
   }
   EXPECT_EQ(file.end_radius, 3.0);
   EXPECT_EQ(file.kept_ends, 8.0);
+  ASSERT_EQ(file.kept_boxes.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(file.kept_boxes[i].isApprox(shape.kept_boxes[i])) << i;
+  }
 }
 
 TEST(HandleFile, NamesWhatIsWrongWithItsLine) {
@@ -47,6 +53,8 @@ TEST(HandleFile, NamesWhatIsWrongWithItsLine) {
   refused("version = 1\n[features]\nwidth_mm = 30\n", "depth_mm");
   refused("version = 1\n[features]\nwidth_mm = 300\ndepth_mm = 40\n", "width_mm");
   refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\nswel_mm = 2\n", "swell_mm");
+  refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\n[ends]\nkept_boxes_mm = [1, 2]\n",
+          "kept_boxes_mm has 2 coordinates; six for each box are required");
 }
 
 }  // namespace

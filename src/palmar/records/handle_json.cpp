@@ -8,6 +8,21 @@ namespace palmar {
 
 using Json = nlohmann::ordered_json;
 
+std::vector<double> corners_of(const Box3& box) {
+  return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
+}
+
+Box3 box_of_corners(std::span<const double> corners) {
+  if (corners.size() != 6) {
+    throw InputError("a box has " + std::to_string(corners.size()) +
+                     " coordinates; 6 of two corners are required");
+  }
+  Box3 box;
+  box.extend(Vec3(corners[0], corners[1], corners[2]));
+  box.extend(Vec3(corners[3], corners[4], corners[5]));
+  return box;
+}
+
 Json features_json(const HandleFeatures& features) {
   Json json = Json::object();
   for (const HandleFeature& one : handle_features()) {
@@ -22,6 +37,8 @@ Json handle_shape_json(const HandleShape& shape) {
   const Vec3& o = body.product_from_handle.translation;
   Json centre = Json::array();
   for (const Eigen::Vector2d& one : body.centre) centre.push_back({one.x(), one.y()});
+  Json boxes = Json::array();
+  for (const Box3& box : shape.kept_boxes) boxes.push_back(corners_of(box));
   return {{"rotation_xyzw", {q.x(), q.y(), q.z(), q.w()}},
           {"origin_mm", {o.x(), o.y(), o.z()}},
           {"bottom_mm", body.bottom},
@@ -40,7 +57,8 @@ Json handle_shape_json(const HandleShape& shape) {
           {"thumb_phi_rad", body.hands.thumb_phi},
           {"features", features_json(shape.features)},
           {"end_radius_mm", shape.end_radius},
-          {"kept_ends_mm", shape.kept_ends}};
+          {"kept_ends_mm", shape.kept_ends},
+          {"kept_boxes_mm", std::move(boxes)}};
 }
 
 HandleShape handle_shape_from(const Json& json) {
@@ -77,6 +95,9 @@ HandleShape handle_shape_from(const Json& json) {
   }
   shape.end_radius = json.at("end_radius_mm").get<double>();
   shape.kept_ends = json.at("kept_ends_mm").get<double>();
+  for (const Json& one : json.at("kept_boxes_mm")) {
+    shape.kept_boxes.push_back(box_of_corners(one.get<std::vector<double>>()));
+  }
   return shape;
 }
 

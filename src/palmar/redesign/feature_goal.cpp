@@ -15,6 +15,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/grasp/indices/grasp_index.h"
+#include "palmar/statistics/distributions.h"
 #include "palmar/statistics/summary.h"
 
 namespace palmar {
@@ -173,6 +174,26 @@ GoalChange goal_change(const GoalFigure& from, const GoalFigure& to) {
   }
   return {(to.value - from.value) / from.value,
           summarise(differences).standard_error / std::abs(from.value)};
+}
+
+bool is_worse(const FeatureGoal& goal, const GoalFigure& than, const GoalFigure& figure,
+              double level) {
+  const GoalChange change = goal_change(than, figure);
+  if (figure.values.size() < 2) return false;
+  const double worse = goal.is_lower_better ? change.share : -change.share;
+  return worse >
+         student_quantile(level, static_cast<double>(figure.values.size()) - 1.0) * change.error;
+}
+
+GoalFigure first_of(const GoalFigure& figure, std::size_t count) {
+  GoalFigure first = figure;
+  first.values.resize(std::min(count, figure.values.size()));
+  first.hands = static_cast<int>(first.values.size());
+  if (first.values.empty()) return first;
+  const Summary summary = summarise(first.values);
+  first.value = summary.mean;
+  first.error = summary.standard_error;
+  return first;
 }
 
 double mean_ratio(const StudyResults& results, const std::string& key, int product, int original) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,15 @@ struct GoalChange {
 };
 /// Throws UsageError if they are of different hands.
 GoalChange goal_change(const GoalFigure& from, const GoalFigure& to);
+
+/// Whether, in the same hands, `figure` is worse than `than` beyond chance: by a paired t test,
+/// one-sided at `level`. False with fewer than two hands. Throws UsageError if they are of
+/// different hands.
+bool is_worse(const FeatureGoal& goal, const GoalFigure& than, const GoalFigure& figure,
+              double level);
+
+/// A mean over all hands in the first `count` of them alone.
+GoalFigure first_of(const GoalFigure& figure, std::size_t count);
 
 /// Mean of a quantity over the hands that have it with both products: of `product` divided by that
 /// of `original`. 0 if there is no such hand.

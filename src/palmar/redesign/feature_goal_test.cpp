@@ -86,5 +86,25 @@ TEST(FeatureGoal, WordsKnowTheirDirection) {
   EXPECT_THAT(message("peak:max"), HasSubstr("p95 or above=NUMBER"));
 }
 
+TEST(FeatureGoal, WorseIsWhatIsWorseBeyondChanceInTheSameHands) {
+  FeatureGoal goal;
+  GoalFigure lead{.value = 1.0, .hands = 4, .values = {1.0, 1.2, 0.8, 1.0}};
+  GoalFigure other = lead;
+  // Differences 0.1, 0.3, 0.1, 0.3: mean 0.2, deviation 0.1155, t = 0.2 / (0.1155 / 2) = 3.464 with
+  // 3 degrees of freedom: p = 0.0203, one-sided.
+  other.values = {1.1, 1.5, 0.9, 1.3};
+  other.value = 1.2;
+  EXPECT_TRUE(is_worse(goal, lead, other, 0.95));
+  EXPECT_TRUE(is_worse(goal, lead, other, 0.979));
+  EXPECT_FALSE(is_worse(goal, lead, other, 0.981));
+  EXPECT_FALSE(is_worse(goal, other, lead, 0.95));
+  goal.is_lower_better = false;
+  EXPECT_FALSE(is_worse(goal, lead, other, 0.95));
+  EXPECT_TRUE(is_worse(goal, other, lead, 0.95));
+  EXPECT_FALSE(is_worse(goal, first_of(lead, 1), first_of(other, 1), 0.95));
+  EXPECT_NEAR(first_of(other, 2).value, 1.3, 1e-12);
+  EXPECT_EQ(first_of(other, 2).hands, 2);
+}
+
 }  // namespace
 }  // namespace palmar

@@ -70,7 +70,8 @@ class Candidates {
       progress_.throw_if_cancelled();
       x[variable] = at;
       try {
-        const SearchOutcome outcome = problem_.measure(values_at(steps_at(x)));
+        const SearchOutcome outcome =
+            problem_.measure(values_at(problem_.variables, steps_at(problem_.variables, x)));
         if (!outcome.failure.empty()) return false;
         for (size_t i = 0; i < problem_.constraints.size(); ++i) {
           // NaN: not known without the assessment.
@@ -92,8 +93,8 @@ class Candidates {
 
   /// `x` in [0, 1] per variable.
   const SearchTrial& at(const std::vector<double>& x) {
-    const std::vector<long> key = steps_at(x);
-    const std::vector<double> values = values_at(key);
+    const SearchSteps key = steps_at(problem_.variables, x);
+    const std::vector<double> values = values_at(problem_.variables, key);
     const auto known = by_steps_.find(key);
     if (known != by_steps_.end()) return history_[known->second];
     if (static_cast<int>(history_.size()) >= limit_) throw BudgetSpent();
@@ -125,7 +126,7 @@ class Candidates {
   std::optional<int> best() const {
     std::optional<int> best;
     for (size_t i = 0; i < history_.size(); ++i) {
-      if (!history_[i].is_feasible) continue;
+      if (!history_[i].is_feasible || history_[i].outcome.is_rough()) continue;
       if (!best || signed_goal(history_[i]) < signed_goal(history_[*best])) {
         best = static_cast<int>(i);
       }
@@ -133,39 +134,7 @@ class Candidates {
     return best;
   }
 
-  /// Where a trial lies, in [0, 1] per variable.
-  std::vector<double> place(const SearchTrial& trial) const {
-    std::vector<double> x;
-    for (size_t i = 0; i < problem_.variables.size(); ++i) {
-      const SearchVariable& variable = problem_.variables[i];
-      x.push_back(std::clamp(
-          (trial.values[i] - variable.lowest) / (variable.highest - variable.lowest), 0.0, 1.0));
-    }
-    return x;
-  }
-
  private:
-  std::vector<long> steps_at(const std::vector<double>& x) const {
-    std::vector<long> steps;
-    for (size_t i = 0; i < problem_.variables.size(); ++i) {
-      const SearchVariable& variable = problem_.variables[i];
-      const double range = variable.highest - variable.lowest;
-      const long last = static_cast<long>(std::floor(range / variable.step + 1e-9));
-      steps.push_back(
-          std::clamp(std::lround(std::clamp(x[i], 0.0, 1.0) * range / variable.step), 0L, last));
-    }
-    return steps;
-  }
-
-  std::vector<double> values_at(const std::vector<long>& steps) const {
-    std::vector<double> values;
-    for (size_t i = 0; i < steps.size(); ++i) {
-      const SearchVariable& variable = problem_.variables[i];
-      values.push_back(variable.lowest + static_cast<double>(steps[i]) * variable.step);
-    }
-    return values;
-  }
-
   double signed_goal(const SearchTrial& trial) const {
     const double scale = history_.empty() || !history_.front().outcome.failure.empty() ||
                                  history_.front().outcome.goal == 0.0
@@ -175,12 +144,8 @@ class Candidates {
   }
 
   SearchTrial make(const std::vector<double>& values) const {
-    std::string words;
-    for (size_t i = 0; i < values.size(); ++i) {
-      words +=
-          fmt::format("{}{} {:.4g}", i == 0 ? "" : ", ", problem_.variables[i].name, values[i]);
-    }
-    progress_.update(static_cast<double>(history_.size()) / budget_, words);
+    progress_.update(static_cast<double>(history_.size()) / budget_,
+                     words_of(problem_.variables, values));
     return try_candidate(problem_, values);
   }
 
@@ -188,7 +153,7 @@ class Candidates {
   int budget_ = 0, limit_ = 0;
   const Progress& progress_;
   std::vector<SearchTrial> history_;
-  std::map<std::vector<long>, size_t> by_steps_;
+  std::map<SearchSteps, size_t> by_steps_;
 };
 
 /// What NLopt calls back with.
@@ -368,9 +333,9 @@ SearchResult search_features(const SearchProblem& problem, const SearchOptions& 
                               (options.method != SearchMethod::kCobyla && has_only_bounds);
 
   Candidates candidates(problem, options.evaluations, progress);
-  SearchTrial first;
-  for (const SearchVariable& variable : problem.variables) first.values.push_back(variable.start);
-  std::vector<double> x = candidates.place(first);
+  std::vector<double> start;
+  for (const SearchVariable& variable : problem.variables) start.push_back(variable.start);
+  std::vector<double> x = place_of(problem.variables, start);
   SearchResult result;
   bool has_ended = true;
   try {
@@ -390,7 +355,7 @@ SearchResult search_features(const SearchProblem& problem, const SearchOptions& 
       candidates.limit(options.evaluations);
     }
     if (const auto best = candidates.best()) {
-      x = candidates.place(candidates.history()[*best]);
+      x = place_of(problem.variables, candidates.history()[*best].values);
       for (double& one : x) one = std::clamp(one, low, high);
     }
     has_ended = run(uses_quadratic ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, problem, options,

@@ -8,17 +8,9 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/redesign/search_variable.h"
 
 namespace palmar {
-
-/// A feature's size that the search may choose, in its own unit.
-struct SearchVariable {
-  std::string name;  ///< "fillet:long", "diameter_mm"
-  std::string unit;  ///< "mm", "deg", ""
-  double lowest = 0.0, highest = 0.0;
-  double start = 0.0;
-  double step = 0.05;  ///< of the machine: values are rounded to whole steps from `lowest`
-};
 
 /// Something of a candidate that must stay on one side of a limit: value <= limit, or >= it.
 struct SearchConstraint {
@@ -34,6 +26,10 @@ struct SearchOutcome {
   double goal = 0.0;               ///< in its own unit
   double goal_error = 0.0;         ///< standard error over hands; 0: none
   std::vector<double> constraint;  ///< values, by SearchProblem::constraints
+  /// Variance of the goal by that of a whole assessment. Above 1 the assessment was broken off, as
+  /// the candidate was clearly worse than another one: it tells something, but is never the best.
+  double roughness = 1.0;
+  bool is_rough() const { return roughness > 1.0; }
 };
 
 struct SearchProblem {

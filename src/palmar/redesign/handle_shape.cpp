@@ -17,7 +17,7 @@ namespace {
 using Point2 = Eigen::Vector2d;
 
 constexpr double kCircle = 2.0 * std::numbers::pi;
-constexpr double kEndBlend = 14.0;    // mm; from kept ends to the features
+constexpr double kKeptBlend = 14.0;   // mm; from what is kept to the features
 constexpr int kFilletRows = 6;        // of a quarter round
 constexpr double kDerivative = 1e-4;  // of a turn
 constexpr double kBeside = 1.3;       // of the handle's radius; what is farther out isn't of it
@@ -45,6 +45,22 @@ double radius_before(const HandleShape& shape, double z, double phi) {
   return body.outlines.at(std::clamp(z, body.bottom + margin, body.top - margin), phi);
 }
 
+/// Share of the features in the plane of z for what is kept at its ends.
+double share_of_plane(const HandleShape& shape, double z) {
+  const HandleBody& body = shape.body;
+  double share = 1.0;
+  if (body.is_whole) {
+    if (shape.kept_ends > 0.0) {
+      const double inwards = std::min(z - body.bottom, body.top - z);
+      share = smooth_step((inwards - shape.kept_ends) / kKeptBlend);
+    }
+    return share;
+  }
+  if (!body.is_free[0]) share *= smooth_step((z - body.bottom) / body.run_out);
+  if (!body.is_free[1]) share *= smooth_step((body.top - z) / body.run_out);
+  return share;
+}
+
 struct Row {
   double z, inset;
 };
@@ -69,32 +85,31 @@ std::vector<Row> rows_of(const HandleShape& shape, double distance) {
 
 }  // namespace
 
-double HandleShape::share_at(double z) const {
-  double share = 1.0;
-  if (body.is_whole) {
-    if (kept_ends > 0.0) {
-      share = smooth_step((std::min(z - body.bottom, body.top - z) - kept_ends) / kEndBlend);
-    }
-    return share;
+double HandleShape::share_at(double z, double phi) const {
+  double share = share_of_plane(*this, z);
+  if (share == 0.0 || kept_boxes.empty()) return share;
+  const Point2 at =
+      body.centre_at(z) + radius_before(*this, z, phi) * Point2(std::cos(phi), std::sin(phi));
+  const Vec3 point = body.product_from_handle * Vec3(at.x(), at.y(), z);
+  for (const Box3& box : kept_boxes) {
+    share *= smooth_step(box.exteriorDistance(point) / kKeptBlend);
   }
-  if (!body.is_free[0]) share *= smooth_step((z - body.bottom) / body.run_out);
-  if (!body.is_free[1]) share *= smooth_step((body.top - z) / body.run_out);
   return share;
 }
 
 Point2 HandleShape::side_point(double z, double t) const {
-  const double share = share_at(z);
   const Point2 centre = body.centre_at(z);
   Point2 point = section_point(features, body.hands, z, t);
+  const double phi = angle_of(point), share = share_at(z, phi);
   if (share < 1.0) {
     const double r = point.norm();
-    point *= (share * r + (1.0 - share) * radius_before(*this, z, angle_of(point))) / r;
+    point *= (share * r + (1.0 - share) * radius_before(*this, z, phi)) / r;
   }
   return centre + point;
 }
 
 double HandleShape::radius_at(double z, double phi) const {
-  const double share = share_at(z);
+  const double share = share_at(z, phi);
   const double before = share < 1.0 ? radius_before(*this, z, phi) : 0.0;
   if (share == 0.0) return before;
   const double r = section_point(features, body.hands, z, parameter_at(*this, z, phi)).norm();
@@ -123,7 +138,7 @@ ShapeChange shape_change(const HandleShape& shape) {
       const Point2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
       after += a.x() * b.y() - a.y() * b.x();
     }
-    if (shape.share_at(z) < 1.0) continue;
+    if (share_of_plane(shape, z) < 1.0) continue;
     for (int k = 0; k < kDirections; ++k) {
       // Circle through three neighbours.
       const Point2 &a = outline[static_cast<std::size_t>(k)],
@@ -131,7 +146,7 @@ ShapeChange shape_change(const HandleShape& shape) {
                    &c = outline[static_cast<std::size_t>((k + 2) % kDirections)];
       const Point2 u = b - a, v = c - b;
       const double turn = u.x() * v.y() - u.y() * v.x();
-      if (turn <= 1e-9) continue;
+      if (turn <= 1e-9 || shape.share_at(z, angle_of(b)) < 1.0) continue;
       change.smallest_radius =
           std::min(change.smallest_radius, u.norm() * v.norm() * (c - a).norm() / (2.0 * turn));
     }
@@ -211,9 +226,11 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
     const Place place = place_of(x);
     if (!place.is_moved) continue;
     const double after = shape.radius_at(place.z, place.phi);
-    const bool is_on = !place.is_beyond && std::abs(place.r / place.before - 1.0) < kOnSurface;
+    // What lies beyond the outline does so because that was taken coarsely: scaled, it would become
+    // a spike.
+    const bool is_on = !place.is_beyond && place.r > (1.0 - kOnSurface) * place.before;
     // Where the shape has run out nothing moves, not even by how coarsely outlines were taken.
-    const double share = shape.share_at(place.z);
+    const double share = shape.share_at(place.z, place.phi);
     const double scaled = place.r * after / place.before;
     const double onto = share * (is_on ? after : scaled) + (1.0 - share) * scaled;
     const Vec3 p = to_handle * x;

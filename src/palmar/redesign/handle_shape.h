@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
@@ -16,6 +17,9 @@ struct HandleShape {
   HandleFeatures features = {};
   double end_radius = 0.0;  ///< of the edges round flat ends, mm
   double kept_ends = 0.0;   ///< mm at both flat ends with the outlines that they have now
+  /// Product frame, mm: what lies in them keeps its outline; beside them the features begin over
+  /// 14 mm.
+  std::vector<Box3> kept_boxes = {};
 
   /// Point of the side in the plane of z, handle frame, mm; `t` goes round once from 0 to 1. The
   /// original's outline where ends are kept and where the shape has run out, that of the features
@@ -23,8 +27,8 @@ struct HandleShape {
   Eigen::Vector2d side_point(double z, double t) const;
   /// Its distance from the centre line in direction phi, mm.
   double radius_at(double z, double phi) const;
-  /// Share of the features in the plane of z, 0 to 1.
-  double share_at(double z) const;
+  /// Share of the features in the plane of z in direction phi, 0 to 1.
+  double share_at(double z, double phi) const;
 };
 
 /// How a shape differs from what is there, over the length that is shaped.

@@ -216,5 +216,23 @@ TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
   }
 }
 
+TEST(HandleShape, WhatLiesInABoxStaysAsItIs) {
+  const Product prism = make_prism_product({.width = 30, .depth = 40, .length = 130});
+  HandleShape shape{.body = body_of(prism), .features = {.width = 38.0, .depth = 48.0}};
+  // The side that looks to +x, from 10 mm below the top.
+  shape.kept_boxes = {Box3(Vec3(10.0, -30.0, 55.0), Vec3(30.0, 30.0, 66.0))};
+  const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+  const auto radius_towards = [&](const Vec3& way, double z) {
+    const Vec3 p = to_handle * Vec3(0.0, 0.0, z);
+    const Vec3 d = to_handle.rotation * way;
+    return shape.radius_at(p.z(), std::atan2(d.y(), d.x()));
+  };
+  EXPECT_NEAR(radius_towards(Vec3::UnitX(), 60.0), 15.0, 0.05);   // within the box
+  EXPECT_NEAR(radius_towards(Vec3::UnitX(), 40.0), 19.0, 0.05);   // 15 mm below it
+  EXPECT_NEAR(radius_towards(-Vec3::UnitX(), 60.0), 19.0, 0.05);  // 25 mm beside it
+  const double between = radius_towards(Vec3::UnitX(), 48.0);     // half way
+  EXPECT_NEAR(between, 17.0, 0.05);
+}
+
 }  // namespace
 }  // namespace palmar

@@ -54,36 +54,13 @@ struct SurfaceSearch {
   const Progress& progress;
   int budget = 0;
   std::vector<SearchTrial> history = {};
-  std::set<std::vector<long>> known = {};
+  std::set<SearchSteps> known = {};
 
   int variables() const { return static_cast<int>(problem.variables.size()); }
 
-  std::vector<long> steps_of(const Eigen::VectorXd& x) const {
-    std::vector<long> steps;
-    for (int i = 0; i < variables(); ++i) {
-      const SearchVariable& one = problem.variables[static_cast<std::size_t>(i)];
-      const double range = one.highest - one.lowest;
-      const long last = static_cast<long>(std::floor(range / one.step + 1e-9));
-      steps.push_back(
-          std::clamp(std::lround(std::clamp(x[i], 0.0, 1.0) * range / one.step), 0L, last));
-    }
-    return steps;
-  }
-  std::vector<double> values_of(const std::vector<long>& steps) const {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      values.push_back(problem.variables[i].lowest +
-                       static_cast<double>(steps[i]) * problem.variables[i].step);
-    }
-    return values;
-  }
   Eigen::VectorXd place_of(const std::vector<double>& values) const {
-    Eigen::VectorXd x(variables());
-    for (int i = 0; i < variables(); ++i) {
-      const SearchVariable& one = problem.variables[static_cast<std::size_t>(i)];
-      x[i] = (values[static_cast<std::size_t>(i)] - one.lowest) / (one.highest - one.lowest);
-    }
-    return x;
+    const std::vector<double> place = palmar::place_of(problem.variables, values);
+    return Eigen::Map<const Eigen::VectorXd>(place.data(), variables());
   }
 
   /// By what can be said without hands.
@@ -104,16 +81,14 @@ struct SurfaceSearch {
   /// False if it was made before, or can't be within the constraints.
   bool make(const Eigen::VectorXd& x, bool is_asked_for) {
     progress.throw_if_cancelled();
-    const std::vector<long> steps = steps_of(x);
+    const SearchSteps steps =
+        steps_at(problem.variables, {x.data(), static_cast<std::size_t>(x.size())});
     if (known.count(steps) > 0) return false;
-    const std::vector<double> values = values_of(steps);
+    const std::vector<double> values = values_at(problem.variables, steps);
     if (!is_asked_for && !may_be_made(values)) return false;
     known.insert(steps);
-    std::string words;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      words += fmt::format("{}{} {:.4g}", i == 0 ? "" : ", ", problem.variables[i].name, values[i]);
-    }
-    progress.update(static_cast<double>(history.size()) / budget, words);
+    progress.update(static_cast<double>(history.size()) / budget,
+                    words_of(problem.variables, values));
     history.push_back(try_candidate(problem, values));
     return true;
   }
@@ -138,24 +113,24 @@ struct SurfaceSearch {
     if (feasible > 0) mean /= feasible;
     const auto count = static_cast<Eigen::Index>(those.size());
     Eigen::MatrixXd points(variables(), count);
-    Eigen::VectorXd values(count);
+    Eigen::VectorXd values(count), roughness(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const SearchTrial& trial = *those[static_cast<std::size_t>(i)];
       points.col(i) = place_of(trial.values);
       values[i] = trial.is_feasible ? sign * trial.outcome.goal : mean;
+      roughness[i] = trial.outcome.roughness;
     }
-    return {points, values};
+    return {points, values, roughness};
   }
-  bool has_feasible() const {
-    return std::any_of(history.begin(), history.end(),
-                       [](const SearchTrial& trial) { return trial.is_feasible; });
+  static bool may_be_best(const SearchTrial& trial) {
+    return trial.is_feasible && !trial.outcome.is_rough();
   }
 
   std::optional<int> best(const GoalSurface& surface) const {
     std::optional<int> best;
     double least = 0.0;
     for (std::size_t i = 0; i < history.size(); ++i) {
-      if (!history[i].is_feasible) continue;
+      if (!may_be_best(history[i])) continue;
       const double mean = surface.at(place_of(history[i].values)).mean;
       if (best && mean >= least) continue;
       best = static_cast<int>(i);
@@ -196,11 +171,13 @@ struct SurfaceSearch {
 
 }  // namespace
 
-GoalSurface::GoalSurface(const Eigen::MatrixXd& points, const Eigen::VectorXd& values)
+GoalSurface::GoalSurface(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+                         const Eigen::VectorXd& roughness)
     : points_(points) {
   const Eigen::Index n = points.cols();
-  if (n < 1 || n != values.size()) {
-    throw UsageError(fmt::format("goal surface: {} values of {} points", values.size(), n));
+  if (n < 1 || n != values.size() || n != roughness.size()) {
+    throw UsageError(fmt::format("goal surface: {} values with {} of their noise, of {} points",
+                                 values.size(), roughness.size(), n));
   }
   mean_ = values.mean();
   const Eigen::VectorXd centred = values.array() - mean_;
@@ -217,7 +194,7 @@ GoalSurface::GoalSurface(const Eigen::MatrixXd& points, const Eigen::VectorXd& v
     }
     for (const double noise : kNoises) {
       Eigen::MatrixXd noisy = all;
-      noisy.diagonal().array() += noise;
+      noisy.diagonal() += noise * roughness;
       const Eigen::LLT<Eigen::MatrixXd> factor(noisy);
       const Eigen::VectorXd weights = factor.solve(y);
       const Eigen::MatrixXd lower = factor.matrixL();
@@ -258,7 +235,7 @@ SearchResult search_by_surface(const SearchProblem& problem, int evaluations,
   bool is_left = true;
   while (!search.is_full() && is_left) is_left = search.make_next();
   SearchResult result;
-  if (search.has_feasible()) {
+  if (std::any_of(search.history.begin(), search.history.end(), SurfaceSearch::may_be_best)) {
     const GoalSurface surface = search.surface(false);
     result.best = search.best(surface);
     const auto best = static_cast<std::size_t>(result.best.value());

@@ -19,8 +19,10 @@ namespace palmar {
 /// additive covariances: Duvenaud et al. 2011.
 class GoalSurface {
  public:
-  /// A column per point; at least one. Throws UsageError if the counts differ.
-  GoalSurface(const Eigen::MatrixXd& points, const Eigen::VectorXd& values);
+  /// A column per point; at least one. `roughness`: of each value, how many times the variance of
+  /// the noise it has. Throws UsageError if the counts differ.
+  GoalSurface(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+              const Eigen::VectorXd& roughness);
   struct Estimate {
     double mean = 0.0, deviation = 0.0;  ///< of the smooth part, in the values' unit
   };

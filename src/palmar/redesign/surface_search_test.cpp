@@ -24,15 +24,30 @@ TEST(GoalSurface, IsTheMeanFarFromNothingAndNearWhatItWasGiven) {
     points(0, i) = i / 8.0;
     values[i] = std::pow(points(0, i) - 0.3, 2);
   }
-  const GoalSurface surface(points, values);
+  const Eigen::VectorXd even = Eigen::VectorXd::Ones(9);
+  const GoalSurface surface(points, values, even);
   for (const double x : {0.1, 0.3, 0.55, 0.9}) {
     const auto estimate = surface.at(Eigen::VectorXd::Constant(1, x));
     EXPECT_NEAR(estimate.mean, std::pow(x - 0.3, 2), 0.03) << x;
     EXPECT_GE(estimate.deviation, 0.0);
     EXPECT_LT(estimate.deviation, 0.1);
   }
-  EXPECT_THAT([&] { GoalSurface(points, Eigen::VectorXd(3)); },
-              ThrowsMessage<UsageError>(HasSubstr("3 values of 9 points")));
+  EXPECT_THAT([&] { GoalSurface(points, Eigen::VectorXd(3), even); },
+              ThrowsMessage<UsageError>(HasSubstr("3 values with 9 of their noise, of 9 points")));
+}
+
+TEST(GoalSurface, FollowsARoughValueLessThanTheOthers) {
+  // A flat line with one outlier: the surface comes the less near to it the rougher it is.
+  Eigen::MatrixXd points(1, 9);
+  for (int i = 0; i < 9; ++i) points(0, i) = i / 8.0;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(9), roughness = Eigen::VectorXd::Ones(9);
+  values[0] = -0.1;
+  values[8] = 0.1;
+  values[4] = 1.0;
+  const Eigen::VectorXd middle = Eigen::VectorXd::Constant(1, 0.5);
+  const double even = GoalSurface(points, values, roughness).at(middle).mean;
+  roughness[4] = 100.0;
+  EXPECT_LT(GoalSurface(points, values, roughness).at(middle).mean, even);
 }
 
 /// Eight variables of 0 to 10, the goal's bowl about `optimum`, and noise of the given deviation
@@ -96,6 +111,19 @@ TEST(SurfaceSearch, KeepsToConstraintsAndTriesNothingTwice) {
   ASSERT_TRUE(result.best);
   // On the line x + y = 12 nearest to (9, 9): (6, 6), where the goal is 1.18.
   EXPECT_LT(result.history[static_cast<std::size_t>(*result.best)].outcome.goal, 1.22);
+}
+
+TEST(SurfaceSearch, WhatWasBrokenOffIsNeverTheBest) {
+  SearchProblem problem = noisy_bowl({2, 2}, 0.0);
+  const auto goal = problem.evaluate;
+  problem.evaluate = [goal](const std::vector<double>& x) {
+    SearchOutcome outcome = goal(x);
+    if (x[0] < 4.0) outcome.roughness = 3.0;
+    return outcome;
+  };
+  const SearchResult result = search_by_surface(problem, 25, {});
+  ASSERT_TRUE(result.best);
+  EXPECT_GE(result.history[static_cast<std::size_t>(*result.best)].values[0], 4.0);
 }
 
 TEST(SurfaceSearch, WhatCanNotBeMadeIsNeverTheBest) {

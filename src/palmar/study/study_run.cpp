@@ -70,8 +70,14 @@ class Ledger {
 void run_study(const StudyPlan& plan, const StudyInputs& inputs, const StudyRunOptions& options,
                const std::function<void(const StudyRecord&)>& keep, const Progress& progress) {
   if (options.tasks.empty()) return;
-  const std::vector<HandTasks> hands = by_hand(plan, options.tasks);
   StudyBench bench(plan, inputs);
+  run_study(bench, plan, options, keep, progress);
+}
+
+void run_study(StudyBench& bench, const StudyPlan& plan, const StudyRunOptions& options,
+               const std::function<void(const StudyRecord&)>& keep, const Progress& progress) {
+  if (options.tasks.empty()) return;
+  const std::vector<HandTasks> hands = by_hand(plan, options.tasks);
   Ledger ledger(options.tasks.size(), keep, progress);
   ledger.report();
 

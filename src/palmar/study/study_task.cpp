@@ -86,7 +86,6 @@ void take_contact(const ContactResult& contact, StudyRecord& record) {
                               .peak_pressure_cells = region.peak_pressure_cells,
                               .mean_pressure = region.mean_pressure});
   }
-  record.skin_pressure = sparse(contact.pressure);
 }
 
 bool is_finite(const StudyRecord& record) {
@@ -115,20 +114,24 @@ struct StudyBench::Impl {
     if (inputs.base == nullptr) throw UsageError("study: has no hand to scale");
     return *inputs.base;
   }
-  Impl(const StudyPlan& the_plan, const StudyInputs& the_inputs)
-      : plan(the_plan), inputs(the_inputs), maker(base_of(the_inputs)) {
+  Impl(const StudyPlan& the_plan, const StudyInputs& the_inputs, StudyDetail the_detail)
+      : plan(the_plan), inputs(the_inputs), detail(the_detail), maker(base_of(the_inputs)) {
     plan.check();
     if (inputs.products.size() != plan.products.size()) {
       throw UsageError(fmt::format("study: {} products were given; the plan has {}",
                                    inputs.products.size(), plan.products.size()));
     }
-    for (const Product& product : inputs.products) maps.push_back(product_map(product.mesh));
+    const bool has_maps = detail == StudyDetail::kAll;
+    for (const Product& product : inputs.products) {
+      if (has_maps) maps.push_back(product_map(product.mesh));
+    }
     for (const HandProfile& profile : plan.profiles) {
       std::vector<Product> as_touched;
       std::vector<TriangleMesh> touched_maps;
       if (profile.glove_thickness > 0.0) {
-        for (std::size_t i = 0; i < maps.size(); ++i) {
+        for (std::size_t i = 0; i < inputs.products.size(); ++i) {
           as_touched.push_back(gloved(inputs.products[i], profile.glove_thickness));
+          if (!has_maps) continue;
           Product map = inputs.products[i];
           map.mesh = maps[i];
           touched_maps.push_back(gloved(map, profile.glove_thickness).mesh);
@@ -172,20 +175,25 @@ struct StudyBench::Impl {
     options.power.placement.axis = product.axis;
     options.precision.placement = options.power.placement;
     product.holding.apply_to(options);
+    const auto index = static_cast<std::size_t>(task.product);
+    // Inside a glove a product is another, thicker one.
+    const bool has_glove = plan.profiles[task.profile].glove_thickness > 0.0;
+    if (index < inputs.parts.size() && !has_glove) options.parts = inputs.parts[index];
     if (!product.holding.number) options.grip_force = setting.grip_force;
     return options;
   }
 
   const StudyPlan& plan;
   const StudyInputs& inputs;
-  std::vector<TriangleMesh> maps;
+  StudyDetail detail;
+  std::vector<TriangleMesh> maps;  ///< with StudyDetail::kAll
   // By profile and product; empty for a bare hand.
   std::vector<std::vector<Product>> gloved_products;
   std::vector<std::vector<TriangleMesh>> gloved_maps;
   std::vector<std::optional<std::size_t>> posture_source;  ///< product whose posture one keeps
   HandInstanceMaker maker;
   /// What hands of one mesh share when they are prepared, by equations.
-  std::vector<std::pair<ContactModel, std::unique_ptr<const HandFamily>>> families;
+  std::vector<std::pair<ContactModel, std::shared_ptr<const HandFamily>>> families;
 
   const HandFamily* family_of(const ContactModel& model) const {
     for (const auto& [known, family] : families) {
@@ -275,6 +283,10 @@ class StudySubject {
     record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
       record.grip_force = grip_force(contact, *product.distance).force;
+    }
+    const bool has_fields = bench_.detail == StudyDetail::kAll;
+    if (has_fields) record.skin_pressure = sparse(contact.pressure);
+    if (has_fields && contact.total.force > 0.0) {
       const TriangleMesh& map = bench_.map_for(task.profile, task.product);
       record.product_pressure = sparse(
           map_to_product(contact.refined ? *contact.refined->hand : prepared.hand(),
@@ -390,8 +402,8 @@ class StudySubject {
 
 }  // namespace
 
-StudyBench::StudyBench(const StudyPlan& plan, const StudyInputs& inputs)
-    : impl_(std::make_unique<Impl>(plan, inputs)) {}
+StudyBench::StudyBench(const StudyPlan& plan, const StudyInputs& inputs, StudyDetail detail)
+    : impl_(std::make_unique<Impl>(plan, inputs, detail)) {}
 StudyBench::~StudyBench() = default;
 
 void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& progress) {
@@ -399,9 +411,12 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
   for (const StudySetting& setting : bench.plan.settings) {
     progress.throw_if_cancelled();
     if (bench.family_of(setting.model) != nullptr) continue;
-    bench.families.emplace_back(setting.model,
-                                std::make_unique<const HandFamily>(bench.inputs.base, setting.model,
-                                                                   bench.inputs.compliance));
+    const auto& known = bench.inputs.family;
+    bench.families.emplace_back(
+        setting.model, known != nullptr && known->model() == setting.model
+                           ? known
+                           : std::make_shared<const HandFamily>(bench.inputs.base, setting.model,
+                                                                bench.inputs.compliance));
   }
   const std::size_t profiles = bench.plan.profiles.size();
   std::vector<bool> is_needed(profiles, false);

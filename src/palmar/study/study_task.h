@@ -21,7 +21,8 @@ class StudyBench {
  public:
   /// `plan` and `inputs` must outlive it. Throws UsageError: a plan that doesn't check, or other
   /// products than the plan's.
-  StudyBench(const StudyPlan& plan, const StudyInputs& inputs);
+  StudyBench(const StudyPlan& plan, const StudyInputs& inputs,
+             StudyDetail detail = StudyDetail::kAll);
   ~StudyBench();
 
   /// What hands share, to be called once before run_hand() with all of its tasks: where the mean

@@ -31,7 +31,9 @@ InspectOutcome inspect_product(const InspectRequest& request, const Progress& pr
   if (is_cad_file(request.file)) {
     CadProduct read = load_cad_product(request.file, with_progress(request.reading, progress));
     outcome.product = std::move(read.product);
-    outcome.check = check_mesh(outcome.product.mesh);
+    const auto& faces = outcome.product.faces;
+    outcome.check = check_mesh(outcome.product.mesh, true,
+                               faces ? bodies_of_triangles(*faces) : std::vector<int>());
     if (request.asks_kernel) {
       outcome.kernel = check_cad_file(request.file, read.cad.millimetres_per_unit,
                                       request.reading.limits, progress);

@@ -53,7 +53,8 @@ TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature
     const CadCheck check = check_cad(model);
     EXPECT_TRUE(check.is_good()) << feature.name << ": "
                                  << (check.findings.empty() ? "" : check.findings.front());
-    EXPECT_LE(most_poles(model), 400) << feature.name;
+    // A rounded end goes once round: up to 42 by 10.
+    EXPECT_LE(most_poles(model), 450) << feature.name;
     std::set<std::string> names;
     for (const auto& [number, name] : model.impl().face_name) names.insert(name);
     for (const char* name : {"palm", "fingers", "left", "right", "top", "bottom"}) {

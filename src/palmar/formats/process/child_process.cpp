@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
@@ -157,6 +158,32 @@ Memory memory_of(pid_t pid) {
   return memory;
 }
 
+/// Seconds of processor time that the threads of a process have used; 0 if it can't be determined.
+double processor_time_of(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t name_end = text.rfind(')');  // the name may hold anything
+  if (name_end == std::string::npos) return 0.0;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string skipped;
+  constexpr int kBeforeTimes = 11;  // fields 3 to 13 of proc(5)
+  for (int i = 0; i < kBeforeTimes; ++i) fields >> skipped;
+  double user = 0.0, system = 0.0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+/// Whether a child has had its time.
+bool is_over(const ChildLimits& limits, pid_t pid, double by_the_clock) {
+  constexpr double kPatience = 5.0;
+  if (!limits.is_processor_time) return by_the_clock > limits.seconds;
+  if (by_the_clock <= limits.seconds / std::max(1U, std::thread::hardware_concurrency())) {
+    return false;  // it can't have used that much
+  }
+  return processor_time_of(pid) > limits.seconds || by_the_clock > kPatience * limits.seconds;
+}
+
 /// Lines out of pieces as they come.
 class Lines {
  public:
@@ -238,7 +265,8 @@ ChildResult run_child(const std::filesystem::path& program,
     result.peak_memory_mb = std::max(result.peak_memory_mb, memory.peak);
     if (is_cancelled && is_cancelled()) {
       result.end = ChildResult::End::kCancelled;
-    } else if (std::chrono::duration<double>(Clock::now() - began).count() > limits.seconds) {
+    } else if (is_over(limits, child.pid(),
+                       std::chrono::duration<double>(Clock::now() - began).count())) {
       result.end = ChildResult::End::kOutOfTime;
     } else if (memory.resident > limits.memory_mb) {
       result.end = ChildResult::End::kOutOfMemory;

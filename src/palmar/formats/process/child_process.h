@@ -12,7 +12,10 @@ namespace palmar {
 
 /// What a child process may use.
 struct ChildLimits {
-  double seconds = 60.0;  ///< wall clock; kept by the parent
+  double seconds = 60.0;  ///< kept by the parent; wall clock, unless ...
+  /// ... it is the processor time of the child's threads: a machine that is busy with other work
+  /// ends nothing. By the clock five times as long is allowed, in case that the child only waits.
+  bool is_processor_time = false;
   double memory_mb =
       4096.0;               ///< address space; kept by the kernel (resident memory, by the parent,
                             ///< in builds with the address sanitizer, which reserves terabytes)

@@ -65,7 +65,8 @@ void report_line(const std::string& line, const Progress& progress, std::string&
 }
 
 [[noreturn]] void fail_time(const std::string& object, const WorkerLimits& limits) {
-  throw InputError(object + ": took longer than " + number(limits.seconds) + " s, the limit" +
+  throw InputError(object + ": took longer than " + number(limits.seconds) +
+                   " s of processor time, the limit" +
                    (limits.is_fixed ? "" : " (setting \"time limit\" raises it)"));
 }
 
@@ -137,7 +138,7 @@ std::string run_worker(const Worker& worker, const std::string& verb, const std:
   std::string activity;
   const ChildResult result = run_child(
       program_of(worker), {verb, folder.path().string()}, folder.path() / "worker.log",
-      {.seconds = limits.seconds, .memory_mb = limits.memory_mb},
+      {.seconds = limits.seconds, .is_processor_time = true, .memory_mb = limits.memory_mb},
       [&](const std::string& line) { report_line(line, progress, activity); },
       [&progress] { return progress.is_cancelled(); });
   switch (result.end) {

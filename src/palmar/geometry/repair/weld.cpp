@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <unordered_map>
 
 #include "palmar/core/error.h"
@@ -46,7 +47,8 @@ struct CellHash {
 };
 
 // Kept vertex that each vertex joins (itself if kept).
-std::vector<int> find_representatives(const TriangleMesh& mesh, double tolerance) {
+std::vector<int> find_representatives(const TriangleMesh& mesh, const std::vector<int>& group,
+                                      double tolerance) {
   const CellGrid grid(mesh, tolerance);
   const double squared = tolerance * tolerance;
   // Only looked up, never walked through, so its order doesn't matter. Per cell a chain of kept
@@ -66,7 +68,8 @@ std::vector<int> find_representatives(const TriangleMesh& mesh, double tolerance
           const auto entry = newest.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
           if (entry == newest.end()) continue;
           for (int j = entry->second; j >= 0; j = previous[j]) {
-            if (j < best && (mesh.vertices[j] - p).squaredNorm() <= squared) {
+            if (j < best && group[j] == group[i] &&
+                (mesh.vertices[j] - p).squaredNorm() <= squared) {
               best = j;
             }
           }
@@ -82,6 +85,22 @@ std::vector<int> find_representatives(const TriangleMesh& mesh, double tolerance
     }
   }
   return representative;
+}
+
+/// Group of each vertex: that of the first triangle that uses it.
+std::vector<int> vertex_groups(const TriangleMesh& mesh, const std::vector<int>& of_triangle) {
+  std::vector<int> group(mesh.vertices.size(), -1);
+  if (of_triangle.empty()) return group;
+  if (of_triangle.size() != mesh.triangles.size()) {
+    throw InputError("weld: groups of " + std::to_string(of_triangle.size()) +
+                     " triangles; there are " + std::to_string(mesh.triangles.size()));
+  }
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int v : mesh.triangles[t]) {
+      if (group[v] < 0) group[v] = of_triangle[t];
+    }
+  }
+  return group;
 }
 
 void check_mesh(const TriangleMesh& mesh) {
@@ -115,7 +134,8 @@ void WeldOptions::check() const {
 WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
   options.check();
   check_mesh(mesh);
-  const std::vector<int> representative = find_representatives(mesh, options.tolerance);
+  const std::vector<int> representative =
+      find_representatives(mesh, vertex_groups(mesh, options.groups), options.tolerance);
   WeldResult result;
 
   std::vector<Triangle> kept;

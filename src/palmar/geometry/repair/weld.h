@@ -12,7 +12,9 @@ struct WeldOptions {
   double tolerance = 0.0;             ///< mm; vertices this near become one; 0: only equal ones
   bool drops_duplicates = true;       ///< keep one of the triangles with the same three vertices
   bool drops_unused_vertices = true;  ///< forget vertices that no triangle uses
-  void check() const;                 ///< throws UsageError: field, value, allowed range
+  /// Per triangle: vertices of different groups stay apart, however near; empty: all are one.
+  std::vector<int> groups = {};
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 struct WeldResult {
@@ -30,7 +32,8 @@ struct WeldResult {
 /// the input, each vertex joins the first kept vertex within the tolerance (and takes its place),
 /// else is kept; so chains don't run together, kept vertices are farther apart than the tolerance,
 /// and a vertex moves by at most the tolerance. Order of vertices and triangles stays. Throws
-/// InputError on a coordinate that is not finite or a corner outside the vertex list.
+/// InputError on a coordinate that is not finite, a corner outside the vertex list, or groups of
+/// another number of triangles.
 WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options = {});
 
 }  // namespace palmar

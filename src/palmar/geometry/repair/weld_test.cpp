@@ -56,6 +56,26 @@ TEST(Weld, WithinTheToleranceBringsNoisyCopiesTogether) {
   }
 }
 
+TEST(Weld, KeepsGroupsApartThatTouch) {
+  // Two tetrahedra on both sides of one face, every triangle with vertices of its own.
+  const std::vector<Vec3> corners = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {2, 2, 9}, {2, 2, -9}};
+  TriangleMesh both;
+  both.vertices = corners;
+  both.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3},   // above
+                    {0, 1, 2}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};  // below
+  const TriangleMesh soup = soup_of(both);
+  const std::vector<int> groups = {0, 0, 0, 0, 1, 1, 1, 1};
+  const WeldResult apart = weld(soup, {.tolerance = 0.1, .groups = groups});
+  EXPECT_EQ(apart.mesh.vertex_count(), 8);
+  EXPECT_EQ(apart.mesh.triangle_count(), 8);
+  EXPECT_EQ(apart.dropped_duplicate, 0);
+  EXPECT_TRUE(examine_topology(apart.mesh).is_two_manifold);
+  const WeldResult together = weld(soup, {.tolerance = 0.1});
+  EXPECT_EQ(together.mesh.vertex_count(), 5);
+  EXPECT_EQ(together.dropped_duplicate, 1);
+  EXPECT_THROW(weld(soup, {.groups = {0, 1}}), InputError);
+}
+
 TEST(Weld, DoesNotRunAlongAChain) {
   // Points 0.6 apart under a tolerance of 1: 0 takes 1; 2 is farther from 0, so it is kept,
   // takes 3.

@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/holds/carried_hold.h"
 #include "palmar/records/study/study_store.h"
-#include "palmar/study/study_run.h"
+#include "palmar/study/study_task.h"
 
 namespace palmar {
 
@@ -21,6 +21,7 @@ LoadedStudy with_redesigns(const RedesignRequest& request, const HeldOriginal& o
   LoadedStudy study = original.study;
   const StudyProduct before = study.plan.products.front();
   const std::optional<Hold> hold = request.keeps_posture() ? std::nullopt : original.hold();
+  if (hold) study.inputs.parts = {original.shared_parts()};
   for (const RedesignedProduct& redesign : redesigns) {
     StudyProduct after = before;
     after.name = after.family = redesign.name;
@@ -29,7 +30,9 @@ LoadedStudy with_redesigns(const RedesignRequest& request, const HeldOriginal& o
     after.posture_of = request.keeps_posture() ? before.name : "";
     if (hold) {
       after.holding = {};
-      after.holding.hold = carried_hold(*hold, original.parts(), find_parts(redesign.product));
+      study.inputs.parts.push_back(
+          std::make_shared<const ProductParts>(find_parts(redesign.product)));
+      after.holding.hold = carried_hold(*hold, original.parts(), *study.inputs.parts.back());
     }
     study.plan.products.push_back(std::move(after));
     study.inputs.products.push_back(redesign.product);
@@ -57,14 +60,10 @@ StudyResults assess_candidate(const RedesignRequest& request, const HeldOriginal
   for (const std::int64_t number : tasks_of(study.plan)) {
     if (task_at(study.plan, number).product == 1) options.tasks.push_back(number);
   }
+  StudyBench bench(study.plan, study.inputs, StudyDetail::kFigures);
   run_study(
-      study.plan, study.inputs, options,
-      [&](const StudyRecord& record) {
-        results.records.push_back(record);
-        results.records.back().skin_pressure = {};
-        results.records.back().product_pressure = {};
-      },
-      progress);
+      bench, study.plan, options,
+      [&](const StudyRecord& record) { results.records.push_back(record); }, progress);
   std::sort(results.records.begin(), results.records.end(),
             [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
   return results;

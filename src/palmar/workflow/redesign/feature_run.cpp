@@ -21,25 +21,15 @@ constexpr double kKept = 0.05;          // mm; surfaces are measured to about 0.
 }  // namespace
 
 void FeatureLimits::check() const {
-  const auto require = [](bool holds, const char* field, double value, const char* allowed) {
-    if (holds) return;
-    throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
-  };
+  CandidateLimits::check();
   if (largest_offset) {
-    require(*largest_offset > 0.0, "largest offset", *largest_offset, "above 0");
+    require_setting(*largest_offset > 0.0, "largest offset", *largest_offset, "above 0");
   }
-  require(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 or more");
-  if (smallest_volume) {
-    require(*smallest_volume > 0.0, "smallest volume", *smallest_volume, "above 0");
-  }
-  if (largest_volume) {
-    require(*largest_volume > 0.0, "largest volume", *largest_volume, "above 0");
-  }
+  require_setting(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 or more");
   if (least_grip_force) {
-    require(*least_grip_force >= 0.0 && *least_grip_force <= 1.0, "least grip force",
-            *least_grip_force, "0 to 1");
+    require_setting(*least_grip_force >= 0.0 && *least_grip_force <= 1.0, "least grip force",
+                    *least_grip_force, "0 to 1");
   }
-  require(lost_hands >= 0.0 && lost_hands <= 1.0, "lost hands", lost_hands, "0 to 1");
 }
 
 void FeatureRun::find_starts(const Progress& progress) {
@@ -108,16 +98,11 @@ std::vector<SearchConstraint> FeatureRun::constraints() const {
     all.push_back({"largest change of the surface", "mm", *limits.largest_offset, true});
   }
   if (!limits.keep_out.empty()) all.push_back({"change of the faces to keep", "mm", kKept, true});
-  if (limits.smallest_volume) {
-    all.push_back({"volume by the original's", "", *limits.smallest_volume, false});
-  }
-  if (limits.largest_volume) {
-    all.push_back({"volume by the original's", "", *limits.largest_volume, true});
-  }
+  for (const SearchConstraint& one : limits.on_volume()) all.push_back(one);
   if (limits.least_grip_force) {
     all.push_back({"grip force by the original's", "", *limits.least_grip_force, false});
   }
-  all.push_back({"share of hands that lose hold", "", limits.lost_hands, true});
+  all.push_back(limits.on_lost_hands());
   return all;
 }
 
@@ -170,8 +155,7 @@ std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_fo
   std::vector<double> values;
   if (limits.largest_offset) values.push_back(made.largest_change);
   if (!limits.keep_out.empty()) values.push_back(made.keep_out_change);
-  if (limits.smallest_volume) values.push_back(volume_ratio);
-  if (limits.largest_volume) values.push_back(volume_ratio);
+  for (const double ratio : limits.volumes(volume_ratio)) values.push_back(ratio);
   if (limits.least_grip_force) values.push_back(grip_force_ratio);
   values.push_back(lost_share);
   return values;
@@ -189,16 +173,15 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   }
   story.problem.constraints = constraints();
   story.problem.is_lower_better = goal.is_lower_better;
-  story.problem.evaluate = [&](const std::vector<double>& values) {
-    story.beside.emplace_back();
-    return assess(values, story.beside.back(), progress);
-  };
   story.problem.measure = [&](const std::vector<double>& values) {
     return measure(values, progress);
   };
-  story.result = story.problem.variables.empty()
-                     ? as_given(story.problem)
-                     : search_features(story.problem, options, progress);
+  run_search(
+      story,
+      [&](const std::vector<double>& values, SearchStory::Beside& beside) {
+        return assess(values, beside, progress);
+      },
+      options, progress);
   story.original = as_it_is(progress).figure;
   return story;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palmar/redesign/feature_goal.h"
+#include "palmar/workflow/redesign/candidate_limits.h"
 #include "palmar/workflow/redesign/candidate_study.h"
 #include "palmar/workflow/redesign/feature_settings.h"
 #include "palmar/workflow/redesign/search_story.h"
@@ -14,14 +15,12 @@
 namespace palmar {
 
 /// What a candidate must keep to.
-struct FeatureLimits {
-  std::optional<double> largest_offset;  ///< mm; that any point of the surface may move
-  std::string keep_out;                  ///< faces that must stay, in words; "": none
-  double smallest_radius = 0.5;          ///< mm; of fillets
-  std::optional<double> smallest_volume, largest_volume;  ///< shares of the original's
-  std::optional<double> least_grip_force;                 ///< share of the original's
-  double lost_hands = 0.1;  ///< share of the hands that hold the original
-  void check() const;       ///< throws UsageError: setting, value, allowed range
+struct FeatureLimits : CandidateLimits {
+  std::optional<double> largest_offset;    ///< mm; that any point of the surface may move
+  std::string keep_out;                    ///< faces that must stay, in words; "": none
+  double smallest_radius = 0.5;            ///< mm; of fillets
+  std::optional<double> least_grip_force;  ///< share of the original's
+  void check() const;                      ///< throws UsageError: setting, value, allowed range
 };
 
 /// What hands say of one shape.

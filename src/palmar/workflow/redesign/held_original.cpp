@@ -49,6 +49,39 @@ StudyRequest study_of(const RedesignRequest& asked) {
   return request;
 }
 
+/// Grasps the original; `shared` has the hand that is scaled and what its hands share, if known.
+HeldOriginal hold_original(const RedesignRequest& request, const StudyRequest& asked,
+                           StudyInputs shared, const Progress& progress) {
+  progress.throw_if_cancelled();
+  HeldOriginal original{.study = load_study(asked, shared.base), .records = {}};
+  StudyInputs& inputs = original.study.inputs;
+  const StudyPlan& plan = original.study.plan;
+  inputs.parts = shared.parts;
+  inputs.compliance =
+      shared.compliance ? shared.compliance : tissue_on_bone(*inputs.base, plan, request.on_note);
+  inputs.family = shared.family ? shared.family
+                                : std::make_shared<const HandFamily>(
+                                      inputs.base, plan.settings.front().model, inputs.compliance);
+  if (request.on_note) {
+    for (const std::string& text : original.study.notes) request.on_note(text);
+  }
+  run_study(
+      plan, inputs, {.tasks = tasks_of(plan)},
+      [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
+  std::sort(original.records.begin(), original.records.end(),
+            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
+  if (!is_held) {
+    const std::string& reason = original.records.front().reason;
+    throw NumericalError(
+        request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
+        (reason.empty() ? "" : " (" + reason + ")") +
+        "; a redesign starts from hands that do (setting \"at\", setting \"axis\" and setting "
+        "\"grips\" say where and how it is held)");
+  }
+  return original;
+}
+
 }  // namespace
 
 RecordSource HeldOriginal::source() const {
@@ -64,37 +97,16 @@ std::optional<Hold> HeldOriginal::hold() const {
   return std::nullopt;
 }
 
-const ProductParts& HeldOriginal::parts() const {
+std::shared_ptr<const ProductParts> HeldOriginal::shared_parts() const {
   if (!found_parts) found_parts = std::make_shared<const ProductParts>(find_parts(product()));
-  return *found_parts;
+  return found_parts;
 }
 
 HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress) {
   request.check();
-  progress.throw_if_cancelled();
   const StudyRequest asked = study_of(request);
-  HeldOriginal original{.study = load_study(asked, load_hand(asked.hand)), .records = {}};
-  StudyInputs& inputs = original.study.inputs;
-  inputs.compliance = tissue_on_bone(*inputs.base, original.study.plan, request.on_note);
-  if (request.on_note) {
-    for (const std::string& text : original.study.notes) request.on_note(text);
-  }
-  const StudyPlan& plan = original.study.plan;
-  run_study(
-      plan, original.study.inputs, {.tasks = tasks_of(plan)},
-      [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
-  std::sort(original.records.begin(), original.records.end(),
-            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-  const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
-  if (!is_held) {
-    const std::string& reason = original.records.front().reason;
-    throw NumericalError(
-        request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
-        (reason.empty() ? "" : " (" + reason + ")") +
-        "; a redesign starts from hands that do (setting \"at\", setting \"axis\" and setting "
-        "\"grips\" say where and how it is held)");
-  }
-  return original;
+  StudyInputs shared{.base = load_hand(asked.hand), .products = {}};
+  return hold_original(request, asked, std::move(shared), progress);
 }
 
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original) {
@@ -120,7 +132,11 @@ JudgingHands judging_hands(const RedesignRequest& request, const HeldOriginal& m
     other.holding = {};
     other.holding.hold = hold;
   }
-  return {.original = grasp_original(other, progress), .are_others = true};
+  other.check();
+  StudyInputs shared = made_for.study.inputs;
+  if (made_for.hold()) shared.parts = {made_for.shared_parts()};
+  return {.original = hold_original(other, study_of(other), std::move(shared), progress),
+          .are_others = true};
 }
 
 }  // namespace palmar

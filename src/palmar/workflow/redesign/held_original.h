@@ -23,8 +23,9 @@ struct HeldOriginal {
   /// The hold in which it is held, if its place wasn't given by coordinates.
   std::optional<Hold> hold() const;
   /// Parts of the product, found when first asked for.
-  const ProductParts& parts() const;
-  mutable std::shared_ptr<const ProductParts> found_parts = nullptr;  ///< by parts()
+  const ProductParts& parts() const { return *shared_parts(); }
+  std::shared_ptr<const ProductParts> shared_parts() const;
+  mutable std::shared_ptr<const ProductParts> found_parts = nullptr;  ///< by shared_parts()
 };
 /// Loads, draws and grasps; the place is that of the populations' mean hand. Throws as
 /// RedesignRequest::check() and load_study(), NumericalError if no hand holds the product: no

@@ -101,14 +101,12 @@ HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
   std::vector<StudyResults> at(offsets.size(),
                                {.plan = plan_of_two(judges.original), .records = {}});
   for (const int product : {0, 1}) {
+    OffsetGrasps grasps({.original = judges.original,
+                         .product = product == 0 ? judges.original.product() : redesign,
+                         .offsets = offsets,
+                         .as = product});
     const auto records =
-        grasp_at_offsets({.original = judges.original,
-                          .product = product == 0 ? judges.original.product() : redesign,
-                          .offsets = offsets,
-                          .is_wanted = [&](int hand, std::size_t) { return hand % every == 0; },
-                          .with_indices = false,
-                          .as = product},
-                         progress);
+        grasps.of([&](int hand, std::size_t) { return hand % every == 0; }, progress);
     for (std::size_t k = 0; k < records.size(); ++k) {
       at[k].records.insert(at[k].records.end(), records[k].begin(), records[k].end());
     }

@@ -59,8 +59,8 @@ StudyPlan plan_of_two(const HeldOriginal& original) {
   return plan;
 }
 
-std::vector<std::vector<StudyRecord>> grasp_at_offsets(const OffsetGrasps& asked,
-                                                       const Progress& progress) {
+OffsetGrasps::OffsetGrasps(const Asked& asked)
+    : study_(asked.original.study), two_(plan_of_two(asked.original)), as_(asked.as) {
   const std::optional<Hold> hold = asked.original.hold();
   if (!hold) {
     throw UsageError(asked.original.product().name +
@@ -68,40 +68,46 @@ std::vector<std::vector<StudyRecord>> grasp_at_offsets(const OffsetGrasps& asked
   }
   const ProductParts& before = asked.original.parts();
   const ProductPart& part = before.parts.at(static_cast<std::size_t>(hold->part - 1));
-  const ProductParts after = asked.as == 0 ? before : find_parts(asked.product);
-  LoadedStudy study = asked.original.study;
-  const StudyProduct kept = study.plan.products.front();
-  study.plan.products.clear();
-  study.inputs.products.clear();
+  const auto after = asked.as == 0
+                         ? asked.original.shared_parts()
+                         : std::make_shared<const ProductParts>(find_parts(asked.product));
+  StudyPlan& plan = study_.plan;
+  const StudyProduct kept = plan.products.front();
+  plan.products.clear();
+  study_.inputs.products.clear();
   for (std::size_t k = 0; k < asked.offsets.size(); ++k) {
     StudyProduct product = kept;
     product.name = product.family = fmt::format("offset {}", k);
     product.content_hash = content_hash(asked.product.mesh);
     product.holding = {};
-    product.holding.hold = carried_hold(moved_hold(*hold, part, asked.offsets[k]), before, after);
-    study.plan.products.push_back(std::move(product));
-    study.inputs.products.push_back(asked.product);
+    product.holding.hold = carried_hold(moved_hold(*hold, part, asked.offsets[k]), before, *after);
+    plan.products.push_back(std::move(product));
+    study_.inputs.products.push_back(asked.product);
   }
-  for (StudySetting& setting : study.plan.settings) setting.indices = asked.with_indices;
+  study_.inputs.parts.assign(asked.offsets.size(), after);
+  for (StudySetting& setting : plan.settings) setting.indices = asked.with_indices;
+  bench_ = std::make_unique<StudyBench>(plan, study_.inputs, StudyDetail::kFigures);
+}
+
+std::vector<std::vector<StudyRecord>> OffsetGrasps::of(const Wanted& is_wanted,
+                                                       const Progress& progress) {
+  const StudyPlan& plan = study_.plan;
   StudyRunOptions options;
-  for (const std::int64_t number : tasks_of(study.plan)) {
-    const StudyTask task = task_at(study.plan, number);
-    if (asked.is_wanted(task.hand, static_cast<std::size_t>(task.product))) {
+  for (const std::int64_t number : tasks_of(plan)) {
+    const StudyTask task = task_at(plan, number);
+    if (is_wanted(task.hand, static_cast<std::size_t>(task.product))) {
       options.tasks.push_back(number);
     }
   }
-  const StudyPlan two = plan_of_two(asked.original);
-  std::vector<std::vector<StudyRecord>> records(asked.offsets.size());
+  std::vector<std::vector<StudyRecord>> records(plan.products.size());
   run_study(
-      study.plan, study.inputs, options,
+      *bench_, plan, options,
       [&](const StudyRecord& record) {
-        StudyTask task = task_at(study.plan, record.number);
+        StudyTask task = task_at(plan, record.number);
         auto& those = records[static_cast<std::size_t>(task.product)];
-        task.product = asked.as;
+        task.product = as_;
         those.push_back(record);
-        those.back().number = number_of(two, task);
-        those.back().skin_pressure = {};
-        those.back().product_pressure = {};
+        those.back().number = number_of(two_, task);
       },
       progress);
   for (auto& those : records) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/study/study_task.h"
 #include "palmar/workflow/redesign/candidate_study.h"
 
 namespace palmar {
@@ -26,20 +28,32 @@ std::vector<HoldOffset> spread_offsets(int count, double along_deviation, double
 /// The hold with the hand so far elsewhere.
 Hold moved_hold(const Hold& hold, const ProductPart& part, const HoldOffset& offset);
 
-/// Grasps of one product at several offsets of one hold of the original, in one study: records
-/// without fields, by offset, numbered as those of product `as` (0: the original, 1: the candidate)
-/// in a plan of two products. Only hands for which `is_wanted` says so.
-struct OffsetGrasps {
-  const HeldOriginal& original;
-  const Product& product;
-  std::vector<HoldOffset> offsets;
-  std::function<bool(int hand, std::size_t offset)> is_wanted;
-  bool with_indices = false;
-  int as = 0;
+/// One product held at several offsets of the hold of the original. Places are found once, for
+/// however many hands.
+class OffsetGrasps {
+ public:
+  struct Asked {
+    const HeldOriginal& original;
+    const Product& product;
+    std::vector<HoldOffset> offsets;
+    bool with_indices = false;
+    int as = 0;  ///< number of the product in plan_of_two(): 0 the original, 1 the candidate
+  };
+  /// Throws UsageError if the original isn't held by a hold.
+  explicit OffsetGrasps(const Asked& asked);
+  OffsetGrasps(const OffsetGrasps&) = delete;
+  OffsetGrasps& operator=(const OffsetGrasps&) = delete;
+
+  using Wanted = std::function<bool(int hand, std::size_t offset)>;
+  /// Records without fields, by offset, numbered as in plan_of_two(), ascending. Throws Cancelled.
+  std::vector<std::vector<StudyRecord>> of(const Wanted& is_wanted, const Progress& progress);
+
+ private:
+  LoadedStudy study_;  // a product per offset
+  StudyPlan two_;
+  int as_ = 0;
+  std::unique_ptr<StudyBench> bench_;
 };
-/// Throws UsageError if the original isn't held by a hold; Cancelled.
-std::vector<std::vector<StudyRecord>> grasp_at_offsets(const OffsetGrasps& asked,
-                                                       const Progress& progress);
 
 /// The plan that those records are numbered in.
 StudyPlan plan_of_two(const HeldOriginal& original);

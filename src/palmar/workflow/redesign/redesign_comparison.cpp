@@ -19,6 +19,15 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kCompared = {"peak_pressure_cells_mpa", "mean_pressure_mpa",
                                             "contact_area_mm2", "grip_force_n"};
 
+/// What is still under a temporary name when a comparison ends, finished or stopped.
+struct RemovedInTheEnd {
+  fs::path path;
+  ~RemovedInTheEnd() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
 std::vector<std::string> notes_on(const RedesignComparison& comparison, std::size_t hands) {
   std::vector<std::string> notes;
   notes.push_back(comparison.is_in_other_hands
@@ -42,6 +51,7 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
   // Beside the old one until it is finished: a redesign that is stopped leaves the old one whole.
   const fs::path store_path = folder / "redesign.palmar", fresh = folder / "redesign.new.palmar";
   fs::remove(fresh);
+  const RemovedInTheEnd rest{fresh};
   StudyStore::create(fresh, study.plan, study.inputs);
   RedesignComparison comparison{.results = {.plan = study.plan, .records = {}},
                                 .quantities = {},
@@ -85,13 +95,6 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
     comparison.quantities.push_back(quantity_named(results, key));
   }
   return comparison;
-}
-
-RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldOriginal& made_for,
-                                     const std::vector<RedesignedProduct>& redesigns,
-                                     const Progress& progress) {
-  return compare_redesigns(request, judging_hands(request, made_for, progress), redesigns,
-                           progress);
 }
 
 }  // namespace palmar

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,6 @@ struct RedesignComparison {
 /// held as the original is: the same hold, the same grip force, or the posture kept. Writes
 /// OUT/redesign.palmar and OUT/report/.
 RedesignComparison compare_redesigns(const RedesignRequest& request, const JudgingHands& judges,
-                                     const std::vector<RedesignedProduct>& redesigns,
-                                     const Progress& progress);
-/// The same, in the judging_hands() of those that it was made for.
-RedesignComparison compare_redesigns(const RedesignRequest& request, const HeldOriginal& made_for,
                                      const std::vector<RedesignedProduct>& redesigns,
                                      const Progress& progress);
 

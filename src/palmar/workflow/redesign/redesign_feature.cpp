@@ -101,10 +101,7 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& request,
   const CadSource source = source_of(request.redesign);
   RedesignFeatureOutcome outcome;
   outcome.goal = feature_goal(request.goal);
-  const auto note = [&](const std::string& text) {
-    outcome.notes.push_back(text);
-    if (request.redesign.on_note) request.redesign.on_note(text);
-  };
+  const auto note = [&](const std::string& text) { outcome.add_note(request.redesign, text); };
   FeatureRun run{.request = request.redesign,
                  .source = source,
                  .settings = settings_of(request, source),
@@ -174,8 +171,8 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& request,
                       {"largest_change_mm", made.largest_change}};
   outcome.json = json.dump();
   if (request.compares) {
-    outcome.comparison = compare_redesigns(
-        request.redesign, original, {{product, redesign.name, redesign.step.string()}}, progress);
+    outcome.judge(request.redesign, original, {product, redesign.name, redesign.step.string()},
+                  progress);
   }
   return outcome;
 }

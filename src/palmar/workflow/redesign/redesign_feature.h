@@ -12,7 +12,7 @@
 #include "palmar/workflow/redesign/feature_proposals.h"
 #include "palmar/workflow/redesign/feature_run.h"
 #include "palmar/workflow/redesign/feature_settings.h"
-#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/search_story.h"
 
@@ -50,14 +50,11 @@ struct MadeRedesign {
   double largest_change = 0.0;               ///< mm, of the surface
 };
 
-struct RedesignFeatureOutcome {
+struct RedesignFeatureOutcome : RedesignOutcome {
   FeatureGoal goal;
   std::optional<SearchStory> story;      ///< nothing with `proposes`
   std::vector<TriedProposal> proposals;  ///< with `proposes`, best first
   std::optional<MadeRedesign> redesign;  ///< nothing if the best changes nothing
-  std::optional<RedesignComparison> comparison;
-  std::vector<std::string> notes;
-  std::string json;  ///< all of it but the comparison, one JSON object
 };
 
 /// Searches (or proposes) and writes to OUT: history.csv, history.svg, search.json, redesign.step,

@@ -180,13 +180,11 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
   const HandsOnProduct hands = hands_on(original, request.redesign.axis, progress);
   PressedShapeOptions options = shape_options(request);
   if (request.aligns) options.align_along = hands.axis;
-  RedesignPressOutcome outcome{
-      .shape = press_shape(product, hands.skins, options, progress),
-      .volume_before = signed_volume(product.mesh),
-      .file = request.redesign.out / ("pressed." + request.formats.front()),
-      .comparison = {},
-      .notes = original.study.notes,
-      .json = ""};
+  RedesignPressOutcome outcome;
+  outcome.shape = press_shape(product, hands.skins, options, progress);
+  outcome.volume_before = signed_volume(product.mesh);
+  outcome.file = request.redesign.out / ("pressed." + request.formats.front());
+  outcome.notes = original.study.notes;
   const PressedShape& shape = outcome.shape;
 
   const fs::path& folder = request.redesign.out;
@@ -207,15 +205,13 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
   if (shape.deepest <= 0.0) {
-    outcome.notes.emplace_back("nothing was pressed: there is nothing to compare");
-    if (request.redesign.on_note) request.redesign.on_note(outcome.notes.back());
+    outcome.add_note(request.redesign, "nothing was pressed: there is nothing to compare");
   }
   if (request.compares && shape.deepest > 0.0) {
-    outcome.comparison =
-        compare_redesigns(request.redesign, original,
-                          {{pressed_product(product, shape, product.name + " pressed"), "pressed",
-                            outcome.file.string()}},
-                          progress);
+    outcome.judge(request.redesign, original,
+                  {pressed_product(product, shape, product.name + " pressed"), "pressed",
+                   outcome.file.string()},
+                  progress);
   }
   return outcome;
 }

@@ -10,7 +10,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/redesign/pressed_shape.h"
-#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
 namespace palmar {
@@ -35,13 +35,11 @@ struct RedesignPressRequest {
   void check() const;
 };
 
-struct RedesignPressOutcome {
+/// `json` is what pressed.json holds.
+struct RedesignPressOutcome : RedesignOutcome {
   PressedShape shape;
   double volume_before = 0.0;  ///< mm^3, of the original
   std::filesystem::path file;  ///< the shape in the first of the formats
-  std::optional<RedesignComparison> comparison;
-  std::vector<std::string> notes;
-  std::string json;  ///< all of it but the comparison, one JSON object: what pressed.json holds
 };
 
 /// "mean", "75" (percentile), "mean-of-touching", "75-of-touching".

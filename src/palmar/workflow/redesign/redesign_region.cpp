@@ -193,29 +193,24 @@ Json run_region_cad(const RedesignRegionRequest& asked, const RegionFindings& fi
 }  // namespace
 
 void RedesignRegionRequest::check() const {
-  const auto require = [](bool holds, const char* field, double value, const char* allowed) {
-    if (holds) return;
-    throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
-  };
   redesign.check();
   region.check();
   relief.check();
-  require(threshold >= 0.0, "threshold", threshold, "0 MPa or more");
-  require(pressed_share >= 0.0 && pressed_share <= 1.0, "pressed share", pressed_share, "0 to 1");
-  require(smallest_patch >= 0.0, "smallest patch", smallest_patch, "0 mm2 or more");
-  require(relief_share >= 0.0 && relief_share <= 1.0, "relief share", relief_share, "0 to 1");
-  require(junction_radius >= 0.0 && junction_radius <= 50.0, "junction radius", junction_radius,
-          "0 to 50 mm");
+  require_setting(threshold >= 0.0, "threshold", threshold, "0 MPa or more");
+  require_setting(pressed_share >= 0.0 && pressed_share <= 1.0, "pressed share", pressed_share,
+                  "0 to 1");
+  require_setting(smallest_patch >= 0.0, "smallest patch", smallest_patch, "0 mm2 or more");
+  require_setting(relief_share >= 0.0 && relief_share <= 1.0, "relief share", relief_share,
+                  "0 to 1");
+  require_setting(junction_radius >= 0.0 && junction_radius <= 50.0, "junction radius",
+                  junction_radius, "0 to 50 mm");
 }
 
 RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
                                       const Progress& progress) {
   request.check();
   RedesignRegionOutcome outcome;
-  const auto note = [&](const std::string& text) {
-    outcome.notes.push_back(text);
-    if (request.redesign.on_note) request.redesign.on_note(text);
-  };
+  const auto note = [&](const std::string& text) { outcome.add_note(request.redesign, text); };
   const HeldOriginal original = grasp_original(request.redesign, progress);
   outcome.notes = original.study.notes;
   outcome.product = std::make_shared<const Product>(original.product());
@@ -263,7 +258,7 @@ RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
   if (request.on_region) request.on_region(outcome);
   outcome.json = json.dump();
   if (redesign && request.compares) {
-    outcome.comparison = compare_redesigns(request.redesign, original, {*redesign}, progress);
+    outcome.judge(request.redesign, original, *redesign, progress);
   }
   return outcome;
 }

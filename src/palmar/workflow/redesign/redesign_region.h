@@ -12,7 +12,7 @@
 #include "palmar/product/product.h"
 #include "palmar/redesign/contact_region.h"
 #include "palmar/redesign/ridge_relief.h"
-#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/region_findings.h"
 
@@ -43,12 +43,10 @@ struct RedesignRegionRequest {
   void check() const;
 };
 
-struct RedesignRegionOutcome {
+/// `json` is what region.json holds.
+struct RedesignRegionOutcome : RedesignOutcome {
   std::shared_ptr<const Product> product;  ///< the original
   RegionFindings findings;
-  std::optional<RedesignComparison> comparison;
-  std::vector<std::string> notes;
-  std::string json;  ///< all of it but the comparison, one JSON object: what region.json holds
 };
 
 /// Hands hold the product; finds, exports and rounds. Writes to OUT: region.step, region.json,

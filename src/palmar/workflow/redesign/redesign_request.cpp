@@ -19,6 +19,11 @@ RedesignPosture redesign_posture(const std::string& name) {
   throw UsageError("setting \"posture\" is \"" + name + "\"; kept or new is allowed");
 }
 
+void require_setting(bool holds, const char* field, double value, const char* allowed) {
+  if (holds) return;
+  throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
+}
+
 void RedesignRequest::check() const {
   if (product.empty()) {
     throw UsageError(

@@ -55,4 +55,7 @@ struct RedesignRequest {
   void check() const;
 };
 
+/// Throws UsageError 'setting "FIELD" is VALUE; ALLOWED is allowed' unless it holds.
+void require_setting(bool holds, const char* field, double value, const char* allowed);
+
 }  // namespace palmar

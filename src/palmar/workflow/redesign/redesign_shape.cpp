@@ -109,19 +109,21 @@ std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
   return variables;
 }
 
-/// Where the search begins: what is nearest to the original, within what a search may vary.
+/// Where the search begins: what is `given`, or else nearest to the original, within what a search
+/// may vary.
 HandleShape start_of(const RedesignShapeRequest& request, const HandleBody& body,
-                     const FittedFeatures& fitted) {
+                     const FittedFeatures& fitted, const std::optional<HandleFile>& given) {
   HandleShape start{.body = body, .features = fitted.features};
   start.kept_ends = request.limits.kept_ends;
+  start.kept_boxes = request.limits.kept_boxes;
   if (body.is_whole) {
     start.end_radius = request.end_radius.value_or(std::max(kLeastEndRadius, body.end_radius));
   }
-  if (!request.features.empty()) {
-    const HandleFile file = read_handle(request.features);
-    start.features = file.features;
-    start.kept_ends = file.kept_ends;
-    if (body.is_whole) start.end_radius = file.end_radius;
+  if (given) {
+    start.features = given->features;
+    start.kept_ends = given->kept_ends;
+    start.kept_boxes = given->kept_boxes;
+    if (body.is_whole) start.end_radius = given->end_radius;
   } else if (request.limits.suits_both_hands) {
     for (const HandleFeature& one : handle_features()) {
       if (one.is_one_sided) start.features.*one.value = 0.0;
@@ -224,6 +226,7 @@ void RedesignShapeRequest::check() const {
         "setting \"posture\" kept: a shape is made for hands that take it in hand; new is "
         "allowed");
   }
+  for (const std::string& words : vary) handle_feature(words.substr(0, words.find('=')));
   if (pick && *pick < 1) {
     throw UsageError(fmt::format("setting \"pick\" is {}; 1 or more is allowed", *pick));
   }
@@ -239,11 +242,10 @@ void RedesignShapeRequest::check() const {
 RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const Progress& progress) {
   request.check();
   RedesignShapeOutcome outcome;
-  const auto note = [&](const std::string& text) {
-    outcome.notes.push_back(text);
-    if (request.redesign.on_note) request.redesign.on_note(text);
-  };
   const FeatureGoal goal = feature_goal(request.goal);
+  // Before anything is said of the hold.
+  const std::optional<HandleFile> given =
+      request.features.empty() ? std::nullopt : std::optional(read_handle(request.features));
   const HeldOriginal original = grasp_original(request.redesign, progress);
   outcome.notes = original.study.notes;
   const Product& product = original.product();
@@ -259,7 +261,7 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
                .goal = goal,
                .limits = request.limits,
                .spread = request.spread,
-               .start = start_of(request, body, fitted),
+               .start = start_of(request, body, fitted, given),
                .variables = {},
                .offsets = {},
                .before = {}};
@@ -280,23 +282,24 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
   outcome.change = shape_change(outcome.shape);
   const Product redesign = write_shape(request, product, outcome, progress);
   if (!outcome.shape.body.is_whole) {
-    note(product.name +
-         " goes on beyond its handle: redesign.stl has all of it, handle.step the handle alone");
+    outcome.add_note(
+        request.redesign,
+        product.name +
+            " goes on beyond its handle: redesign.stl has all of it, handle.step the handle alone");
   }
   Json json = json_of(request, outcome);
   if (request.draws) write_shape_pictures(request, product, redesign, outcome.shape, progress);
-  if (request.on_shape) request.on_shape(outcome);
-  if (request.compares) {
-    const JudgingHands judges = judging_hands(request.redesign, original, progress);
-    outcome.comparison = compare_redesigns(request.redesign, judges,
-                                           {{redesign, "shaped", outcome.file.string()}}, progress);
-    outcome.gains = hold_gains(judges, redesign, *outcome.comparison, progress);
-    write_file(request.redesign.out / "gains.csv", gains_csv(*outcome.gains));
-    write_file(request.redesign.out / "gains.svg", gains_svg(*outcome.gains));
-    json["gains"] = Json::parse(gains_json(*outcome.gains));
-  }
   write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
+  if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
+  if (request.compares) {
+    outcome.judge(request.redesign, original, {redesign, "shaped", outcome.file.string()},
+                  progress);
+  }
+  if (outcome.gains) {
+    json["gains"] = Json::parse(gains_json(*outcome.gains));
+    write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
+  }
   return outcome;
 }
 

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
-#include "palmar/workflow/redesign/hold_gains.h"
-#include "palmar/workflow/redesign/redesign_comparison.h"
+#include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/shape_run.h"
 
 namespace palmar {
@@ -45,7 +44,7 @@ struct RedesignShapeRequest {
 /// Features that a search varies unless it is told which.
 std::vector<std::string> usual_variables(bool suits_both_hands);
 
-struct RedesignShapeOutcome {
+struct RedesignShapeOutcome : RedesignOutcome {
   SearchStory story;
   HandleShape shape;
   double fit_rms = 0.0;  ///< mm; of the features that are nearest to the original, to it
@@ -53,10 +52,6 @@ struct RedesignShapeOutcome {
   std::filesystem::path file;  ///< redesign.step, or redesign.stl of a part of a product
   double solid_volume = 0.0;   ///< mm^3, of the solid in redesign.step or handle.step
   int faces = 0, poles = 0;    ///< of that solid; most poles of one surface
-  std::optional<RedesignComparison> comparison;
-  std::optional<HoldGains> gains;
-  std::vector<std::string> notes;
-  std::string json;  ///< all of it but the comparison, one JSON object
 };
 
 /// Searches and writes to OUT: redesign.stl; redesign.step (a product that is the handle alone) or

@@ -38,7 +38,24 @@ std::string heading(const std::string& name, const std::string& unit) {
 
 std::string cell(double value) { return fmt::format("{:.6g}", value); }
 
+bool may_be_chosen(const SearchTrial& trial) {
+  return trial.is_feasible && !trial.outcome.is_rough();
+}
+
 }  // namespace
+
+void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
+                const Progress& progress) {
+  SearchProblem& problem = story.problem;
+  problem.evaluate = [&](const std::vector<double>& values) {
+    story.beside.emplace_back();
+    return judge(values, story.beside.back());
+  };
+  story.result =
+      problem.variables.empty() ? as_given(problem) : search_features(problem, options, progress);
+  problem.evaluate = nullptr;  // what they refer to ends with the search
+  problem.measure = nullptr;
+}
 
 std::string history_csv(const SearchStory& story) {
   CsvTable table;
@@ -52,7 +69,7 @@ std::string history_csv(const SearchStory& story) {
     table.header.push_back(heading(constraint.name, constraint.unit));
   }
   for (const char* const name :
-       {"grip_force_ratio", "volume_ratio", "is_feasible", "failure", "seconds"}) {
+       {"hands", "grip_force_ratio", "volume_ratio", "is_feasible", "failure", "seconds"}) {
     table.header.emplace_back(name);
   }
   for (size_t i = 0; i < story.result.history.size(); ++i) {
@@ -65,6 +82,7 @@ std::string history_csv(const SearchStory& story) {
     for (size_t k = 0; k < story.problem.constraints.size(); ++k) {
       row.push_back(is_made ? cell(trial.outcome.constraint[k]) : "");
     }
+    row.push_back(is_made ? std::to_string(story.beside[i].hands) : "");
     row.push_back(is_made ? cell(story.beside[i].grip_force_ratio) : "");
     row.push_back(is_made ? cell(story.beside[i].volume_ratio) : "");
     row.push_back(trial.is_feasible ? "yes" : "no");
@@ -97,6 +115,7 @@ std::string history_json(const SearchStory& story) {
       one["goal"] = trial.outcome.goal;
       one["standard_error"] =
           trial.outcome.goal_error > 0.0 ? Json(trial.outcome.goal_error) : Json();
+      one["is_broken_off"] = trial.outcome.is_rough();
       one["constraints"] = trial.outcome.constraint;
       one["hands"] = story.beside[i].hands;
       one["lost_hands"] = story.beside[i].lost;
@@ -130,8 +149,9 @@ std::string history_svg(const SearchStory& story) {
     const SearchTrial& trial = story.result.history[i];
     const double x = static_cast<double>(i + 1);
     if (trial.outcome.failure.empty()) all.points.emplace_back(x, trial.outcome.goal);
-    if (trial.is_feasible && (!lead || (story.goal.is_lower_better ? trial.outcome.goal < *lead
-                                                                   : trial.outcome.goal > *lead))) {
+    if (may_be_chosen(trial) &&
+        (!lead ||
+         (story.goal.is_lower_better ? trial.outcome.goal < *lead : trial.outcome.goal > *lead))) {
       lead = trial.outcome.goal;
     }
     if (lead) best.points.emplace_back(x, *lead);
@@ -162,7 +182,7 @@ std::vector<int> fair_choices(const SearchStory& story) {
   };
   std::vector<int> feasible;
   for (std::size_t i = 0; i < story.result.history.size(); ++i) {
-    if (story.result.history[i].is_feasible) feasible.push_back(static_cast<int>(i));
+    if (may_be_chosen(story.result.history[i])) feasible.push_back(static_cast<int>(i));
   }
   const auto change = [&](int i) {
     return story.beside[static_cast<std::size_t>(i)].largest_change;

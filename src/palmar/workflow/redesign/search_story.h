@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "palmar/core/progress.h"
 #include "palmar/redesign/feature_goal.h"
 #include "palmar/redesign/feature_search.h"
 #include "palmar/workflow/redesign/feature_settings.h"
@@ -28,6 +30,16 @@ struct SearchStory {
   };
   std::vector<Beside> beside;
 };
+
+/// Makes a candidate from the values of its variables, assesses it and says what is beside the
+/// goal.
+using CandidateJudge =
+    std::function<SearchOutcome(const std::vector<double>&, SearchStory::Beside&)>;
+
+/// Searches the problem of a story, or assesses the one candidate if nothing varies: `result` and
+/// `beside`. Throws as search_features().
+void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
+                const Progress& progress);
 
 /// One row per candidate, in the order in which they were tried.
 std::string history_csv(const SearchStory& story);

@@ -37,32 +37,25 @@ double read_number(const std::string& text, const std::string& words) {
       words, text));
 }
 
-void require(bool holds, const char* field, double value, const char* allowed) {
-  if (holds) return;
-  throw UsageError(fmt::format("setting \"{}\" is {:g}; {} is allowed", field, value, allowed));
-}
+constexpr int kFirstOfPlace = 2;        // hands that hold a candidate before it may be given up
+constexpr double kSure = 0.95;          // one-sided; that a candidate is worse
+constexpr double kWorthStopping = 1.5;  // times as many hands have to be there in all
 
 }  // namespace
 
 void ShapeLimits::check() const {
+  CandidateLimits::check();
   if (largest_change) {
-    require(*largest_change > 0.0, "largest change", *largest_change, "above 0 mm");
+    require_setting(*largest_change > 0.0, "largest change", *largest_change, "above 0 mm");
   }
-  if (smallest_volume) {
-    require(*smallest_volume > 0.0, "smallest volume", *smallest_volume, "above 0");
-  }
-  if (largest_volume) {
-    require(*largest_volume > 0.0, "largest volume", *largest_volume, "above 0");
-  }
-  require(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 mm or more");
-  require(lost_hands >= 0.0 && lost_hands <= 1.0, "lost hands", lost_hands, "0 to 1");
-  require(kept_ends >= 0.0 && kept_ends <= 200.0, "kept ends", kept_ends, "0 to 200 mm");
+  require_setting(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 mm or more");
+  require_setting(kept_ends >= 0.0 && kept_ends <= 200.0, "kept ends", kept_ends, "0 to 200 mm");
 }
 
 void HoldSpread::check() const {
-  require(places >= 2 && places <= 20, "places", places, "2 to 20");
-  require(along >= 0.0 && along <= 30.0, "spread along", along, "0 to 30 mm");
-  require(turn >= 0.0 && turn <= 1.0, "spread of the turn", turn, "0 to 1 rad");
+  require_setting(places >= 2 && places <= 20, "places", places, "2 to 20");
+  require_setting(along >= 0.0 && along <= 30.0, "spread along", along, "0 to 30 mm");
+  require_setting(turn >= 0.0 && turn <= 1.0, "spread of the turn", turn, "0 to 1 rad");
 }
 
 ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start) {
@@ -94,24 +87,25 @@ ShapeVariable shape_variable(const std::string& words, const HandleFeatures& sta
   return variable;
 }
 
-std::function<bool(int, std::size_t)> ShapeRun::own_place() const {
-  return [n = offsets.size()](int hand, std::size_t offset) {
-    return static_cast<std::size_t>(hand) % n == offset;
+void ShapeRun::grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
+                     const Progress& progress) const {
+  const auto is_wanted = [&](int hand, std::size_t offset) {
+    return hand >= from && hand < to && static_cast<std::size_t>(hand) % offsets.size() == offset;
   };
+  for (const auto& those : grasps.of(is_wanted, progress)) {
+    records.insert(records.end(), those.begin(), those.end());
+  }
 }
 
 void ShapeRun::hold_original(const Progress& progress) {
   offsets = spread_offsets(spread.places, spread.along, spread.turn);
+  OffsetGrasps grasps({.original = original,
+                       .product = original.product(),
+                       .offsets = offsets,
+                       .with_indices = needs_indices(goal),
+                       .as = 0});
   before.clear();
-  for (auto& those : grasp_at_offsets({.original = original,
-                     .product = original.product(),
-                     .offsets = offsets,
-                     .is_wanted = own_place(),
-                     .with_indices = needs_indices(goal),
-                     .as = 0},
-                                      progress)) {
-    before.insert(before.end(), those.begin(), those.end());
-  }
+  grasp(grasps, 0, hand_count(), before, progress);
 }
 
 HandleShape ShapeRun::shape_of(const std::vector<double>& varying) const {
@@ -131,48 +125,67 @@ std::vector<SearchConstraint> ShapeRun::constraints() const {
   if (limits.largest_change) {
     all.push_back({"largest change of the surface", "mm", *limits.largest_change, true});
   }
-  if (limits.smallest_volume) {
-    all.push_back({"volume by the original's", "", *limits.smallest_volume, false});
-  }
-  if (limits.largest_volume) {
-    all.push_back({"volume by the original's", "", *limits.largest_volume, true});
-  }
-  all.push_back({"share of hands that lose hold", "", limits.lost_hands, true});
+  for (const SearchConstraint& one : limits.on_volume()) all.push_back(one);
+  all.push_back(limits.on_lost_hands());
   return all;
 }
 
 std::vector<double> ShapeRun::values_of(const ShapeChange& change, double lost_share) const {
   std::vector<double> values = {change.smallest_radius};
   if (limits.largest_change) values.push_back(change.largest);
-  if (limits.smallest_volume) values.push_back(change.volume_ratio);
-  if (limits.largest_volume) values.push_back(change.volume_ratio);
+  for (const double ratio : limits.volumes(change.volume_ratio)) values.push_back(ratio);
   values.push_back(lost_share);
   return values;
 }
 
-StudyResults ShapeRun::results_with(std::vector<StudyRecord> after) const {
-  StudyResults results{.plan = plan_of_two(original), .records = before};
-  results.records.insert(results.records.end(), after.begin(), after.end());
+StudyResults ShapeRun::results_with(const std::vector<StudyRecord>& after, int hands) const {
+  StudyResults results{.plan = plan_of_two(original), .records = {}};
+  for (const auto* const those : {&before, &after}) {
+    for (const StudyRecord& record : *those) {
+      if (task_at(results.plan, record.number).hand < hands) results.records.push_back(record);
+    }
+  }
   std::sort(results.records.begin(), results.records.end(),
             [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
   return results;
 }
 
-SearchOutcome ShapeRun::assess(const HandleShape& shape, SearchStory::Beside& beside,
-                               const Progress& progress) const {
+SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
+                               SearchStory::Beside& beside, const Progress& progress) const {
   const Product candidate = shaped_product(original.product(), shape, "candidate");
+  OffsetGrasps grasps({.original = original,
+                       .product = candidate,
+                       .offsets = offsets,
+                       .with_indices = needs_indices(goal),
+                       .as = 1});
+  const Progress quiet = silent(progress);
+  const int all = hand_count(), first = kFirstOfPlace * static_cast<int>(offsets.size());
+  const bool may_stop =
+      lead && goal.statistic == FeatureGoal::Statistic::kMean && all >= kWorthStopping * first;
   std::vector<StudyRecord> after;
-  for (auto& those : grasp_at_offsets({.original = original,
-                     .product = candidate,
-                     .offsets = offsets,
-                     .is_wanted = own_place(),
-                     .with_indices = needs_indices(goal),
-                     .as = 1},
-                                      silent(progress))) {
-    after.insert(after.end(), those.begin(), those.end());
+  int hands = may_stop ? first : all;
+  grasp(grasps, 0, hands, after, quiet);
+  StudyResults results = results_with(after, hands);
+  GoalFigure figure = goal_of(results, goal, 1);
+  SearchOutcome outcome;
+  if (may_stop) {
+    const GoalFigure of_lead = first_of(*lead, figure.values.size());
+    if (is_worse(goal, of_lead, figure, kSure)) {
+      const GoalChange change = goal_change(of_lead, figure);
+      outcome.goal = lead->value * (1.0 + change.share);
+      outcome.goal_error = std::abs(lead->value) * change.error;
+      outcome.roughness = static_cast<double>(all) / hands;
+    } else {
+      grasp(grasps, hands, all, after, quiet);
+      hands = all;
+      results = results_with(after, hands);
+      figure = goal_of(results, goal, 1);
+    }
   }
-  const StudyResults results = results_with(std::move(after));
-  const GoalFigure figure = goal_of(results, goal, 1);
+  if (!outcome.is_rough()) {
+    outcome.goal = figure.value;
+    outcome.goal_error = figure.error;
+  }
   const ShapeChange change = shape_change(shape);
   beside = {.hands = figure.hands,
             .lost = figure.lost,
@@ -180,10 +193,12 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, SearchStory::Beside& be
             .volume_ratio = change.volume_ratio,
             .largest_change = change.largest,
             .figure = figure};
-  return {.failure = "",
-          .goal = figure.value,
-          .goal_error = figure.error,
-          .constraint = values_of(change, static_cast<double>(figure.lost) / figure.hands)};
+  const double lost_share = static_cast<double>(figure.lost) / figure.hands;
+  outcome.constraint = values_of(change, lost_share);
+  const bool is_better =
+      !lead || (goal.is_lower_better ? figure.value < lead->value : figure.value > lead->value);
+  if (!outcome.is_rough() && is_better && lost_share <= limits.lost_hands) lead = figure;
+  return outcome;
 }
 
 SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progress) const {
@@ -204,19 +219,19 @@ SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progr
   }
   story.problem.constraints = constraints();
   story.problem.is_lower_better = goal.is_lower_better;
-  story.problem.evaluate = [&](const std::vector<double>& values) {
-    story.beside.emplace_back();
-    return assess(shape_of(values), story.beside.back(), progress);
-  };
   story.problem.measure = [&](const std::vector<double>& values) {
     return SearchOutcome{.failure = "",
                          .constraint = values_of(shape_change(shape_of(values)),
                                                  std::numeric_limits<double>::quiet_NaN())};
   };
-  story.original = goal_of(results_with({}), goal, 0);
-  story.result = story.problem.variables.empty()
-                     ? as_given(story.problem)
-                     : search_features(story.problem, options, progress);
+  story.original = goal_of(results_with({}, hand_count()), goal, 0);
+  std::optional<GoalFigure> lead;
+  run_search(
+      story,
+      [&](const std::vector<double>& values, SearchStory::Beside& beside) {
+        return assess(shape_of(values), lead, beside, progress);
+      },
+      options, progress);
   return story;
 }
 

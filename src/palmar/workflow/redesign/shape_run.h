@@ -8,20 +8,20 @@
 
 #include "palmar/redesign/feature_goal.h"
 #include "palmar/redesign/handle_shape.h"
+#include "palmar/workflow/redesign/candidate_limits.h"
 #include "palmar/workflow/redesign/hold_offsets.h"
 #include "palmar/workflow/redesign/search_story.h"
 
 namespace palmar {
 
-/// What a shape must keep to.
-struct ShapeLimits {
+/// What a shape must keep to; volumes are those of the handle.
+struct ShapeLimits : CandidateLimits {
   std::optional<double> largest_change;  ///< mm; that any point of the handle may move
-  std::optional<double> smallest_volume, largest_volume;  ///< of the handle, shares of the original
-  double smallest_radius = 3.0;                           ///< mm; of curvature, round the handle
-  double lost_hands = 0.1;        ///< share of the hands that hold the original
-  bool suits_both_hands = false;  ///< the same for left and right hands: no one-sided features
-  double kept_ends = 0.0;         ///< mm at both flat ends that stay as they are
-  void check() const;             ///< throws UsageError: setting, value, allowed range
+  double smallest_radius = 3.0;          ///< mm; of curvature, round the handle
+  bool suits_both_hands = false;      ///< the same for left and right hands: no one-sided features
+  double kept_ends = 0.0;             ///< mm at both flat ends that stay as they are
+  std::vector<Box3> kept_boxes = {};  ///< product frame, mm: what lies in them stays as it is
+  void check() const;                 ///< throws UsageError: setting, value, allowed range
 };
 
 /// Where hands come to lie, about the hold: independent normal distributions.
@@ -42,6 +42,10 @@ struct ShapeVariable {
 ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start);
 
 /// Making and judging shapes of a handle in hands that lie at different places on it.
+///
+/// A candidate is held by the first two hands of every place; if it is worse there than the best
+/// one so far, beyond chance (95 %, paired), the others don't take it: its goal is that of the best
+/// one times the ratio in these hands (SearchOutcome::roughness).
 struct ShapeRun {
   const RedesignRequest& request;
   const HeldOriginal& original;
@@ -61,11 +65,16 @@ struct ShapeRun {
 
  private:
   std::vector<SearchConstraint> constraints() const;
-  SearchOutcome assess(const HandleShape& shape, SearchStory::Beside& beside,
-                       const Progress& progress) const;
+  /// `lead`: the best candidate so far, which this one may take the place of.
+  SearchOutcome assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
+                       SearchStory::Beside& beside, const Progress& progress) const;
   std::vector<double> values_of(const ShapeChange& change, double lost_share) const;
-  StudyResults results_with(std::vector<StudyRecord> after) const;
-  std::function<bool(int, std::size_t)> own_place() const;
+  /// In the first `hands` hands, with `after` of the candidate.
+  StudyResults results_with(const std::vector<StudyRecord>& after, int hands) const;
+  /// Grasps of hands `from` to before `to`, each at its own place, added to `records`.
+  void grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
+             const Progress& progress) const;
+  int hand_count() const { return static_cast<int>(original.study.plan.hands.size()); }
 };
 
 }  // namespace palmar
