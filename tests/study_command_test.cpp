@@ -150,10 +150,10 @@ TEST_F(StudyCommand, KilledAgainAndAgainEndsWithTheSameBytes) {
 }
 
 TEST_F(StudyCommand, CtrlCKeepsWhatIsFinished) {
-  // Before the first grasp begins there is nothing to keep and nothing is said.
+  // Before the first grasp begins there is nothing to keep, and no store.
   std::string said;
   const auto has = [&](const char* words) { return said.find(words) != said.npos; };
-  for (double seconds = 0.5; !has("cancelled") && !has("grasps in"); seconds *= 1.5) {
+  for (double seconds = 0.5; !has("grasps are kept") && !has("grasps in"); seconds *= 1.5) {
     ASSERT_LT(seconds, 60.0);
     run_killed("study run study.toml --threads 1 --out stopped.palmar", "INT", seconds);
     said = bytes("killed.err");

@@ -16,9 +16,9 @@ constexpr double kHeldPrice = 0.01;    // of what is missing, against that of th
 constexpr double kPlacePrice = 0.001;  // of the product's way
 // A wrist that can't hold fells the grip: it goes before everything.
 constexpr double kWristPrice = 100.0;
-constexpr double kByWrist = 1.02;       // of the share of fingers alone; more is the wrist's
-constexpr double kMostGivingWay = 0.1;  // rad in one step
-constexpr double kNoWay = 1e-6;         // rad
+constexpr double kByWrist = 1.02;        // of the share of fingers alone; more is the wrist's
+constexpr double kMostGivingWay = 0.05;  // rad in one step
+constexpr double kNoWay = 1e-6;          // rad
 constexpr int kHalvings = 3;
 /// Force that a muscle gains per stretch over its fibres' length, over its force: short-range
 /// stiffness (Cui, Perreault, Maas & Sandercock 2008, J Biomech 41:1945-1952).

@@ -12,9 +12,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kPower = 2.0;  // of depth, with which forces grow, until it is known better
-constexpr double kLeastPower = 1.0, kMostPower = 5.0;
-constexpr double kLeastChange = 0.02;    // of depth, that says anything of the power
+constexpr double kPower = 2.0;           // of depth, with which forces grow
 constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mindlin 1949
 constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
 constexpr double kTurn = 1e-3;           // rad; of the differences
@@ -50,7 +48,6 @@ GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
     if (id != JointId::kThumbCmc) continue;
     for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
   }
-  power_.fill(kPower);
   anchor_ = pose_skin(h, start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
 }
@@ -109,32 +106,11 @@ void GripMechanics::add_touches(const Posture& posture) {
   }
 }
 
-/// Per region, the power of depth with which its force grew from the state before to this one.
-void GripMechanics::learn_power(double accuracy) {
-  std::array<double, kRegionCount> before{}, now{}, growth{};
-  for (const LoadedSkin& at : before_) {
-    const std::size_t r = index_of(hand_->hand().region[at.vertex]);
-    const double deeper = -at.normal.dot(contact_.undeformed[at.vertex] - at.place);
-    before[r] += at.force;
-    growth[r] += at.force * deeper / at.depth;
-  }
-  for (const RegionContact& region : contact_.regions) now[index_of(region.region)] = region.force;
-  const double least = std::max(kLeastChange, accuracy);
-  for (std::size_t r = 0; r < kRegionCount; ++r) {
-    if (before[r] <= 0.0 || now[r] <= 0.0) continue;
-    const double depth = 1.0 + growth[r] / before[r];
-    if (depth < 0.2 || std::abs(depth - 1.0) < least) continue;
-    power_[r] = std::clamp(std::log(now[r] / before[r]) / std::log(depth), kLeastPower, kMostPower);
-  }
-}
-
 bool GripMechanics::look(const GripState& state, double accuracy) {
   const Hand& hand = hand_->hand();
   posed_ = pose_skin(hand, state.posture);
   solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, accuracy, contact_);
   fallbacks_ += contact_.fallbacks;
-  if (contact_.status != ContactStatus::kNotConverged) learn_power(accuracy);
-  before_.clear();
   force_.setZero();
   squeeze_.setZero();
   stiffness_.setZero();
@@ -189,19 +165,16 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
       moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     const double p = contact_.force[v];
-    const double power = power_[index_of(hand.region[v])];
-    const double deep = depth[index_of(hand.region[v])];
-    const double stiff = power * p / deep;
-    before_.push_back({v, p, deep, hand_from_product_.conjugate() * n, contact_.undeformed[v]});
+    const double stiff = kPower * p / depth[index_of(hand.region[v])];
     // Tangential way since the start, of the skin over the product.
     Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
     way -= n * n.dot(way);
     const double most = friction_ * p;
-    double drag = friction_ > 0.0 ? kTangential * kPower * p / deep : 0.0;
+    double drag = friction_ > 0.0 ? kTangential * stiff : 0.0;
     Vec3 pull = -drag * way;
-    double with_normal = 1.0 - 1.0 / power;  // share of the change of p that friction takes part in
-    Vec3 slip = Vec3::Zero();                // direction in which the skin slips
-    double across = drag;                    // resists ways across that
+    double with_normal = 0.5;  // share of the change of p that friction takes part in
+    Vec3 slip = Vec3::Zero();  // direction in which the skin slips
+    double across = drag;      // resists ways across that
     if (pull.norm() > most) {
       const double share = most / pull.norm();
       pull *= share;

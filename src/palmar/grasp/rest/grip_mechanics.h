@@ -34,19 +34,18 @@ struct GripState {
 /// Contact and friction of a hand and a product in one state, in generalised coordinates.
 ///
 /// Normal forces p_v come from the contact solver. With J_v = d(gap of vertex v) / dx their
-/// generalised force is sum p_v J_v, and their stiffness sum k_v J_v^T J_v with k_v = n_r p_v /
-/// d_r, d_r the largest penetration of the vertex' region, n_r the power of depth with which its
-/// force grew from the state looked at before (at first 2: skin stiffens). The stiffness only
-/// steers the search.
+/// generalised force is sum p_v J_v, and their stiffness sum k_v J_v^T J_v with k_v = 2 p_v / d_r,
+/// d_r the largest penetration of the vertex' region: a force that grows with the square of the
+/// depth, as those of stiffening skin do. The stiffness only steers the search.
 ///
 /// Skin on skin of the same hand pushes the angles of both apart in the same way, and the product
 /// not at all: f_k J_k, J_k = d(gap of touch k) / dx.
 ///
 /// Friction: skin that has gone a tangential way s_v over the product since the start pulls with
-/// t_v = -(2/3) (2 p_v / d_r) s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v. It changes with p_v,
-/// too: all of it where the skin slips, 1 - 1 / n_r of it where it sticks (as p_v / d_r changes
-/// with depth), so the stiffness isn't symmetric. Skin that slips resists ways across its slip by
-/// |t_v| / |s_v|, and none along it.
+/// t_v = -(2/3) k_v s_v (Mindlin 1949, nu = 0.5), |t_v| <= mu p_v. It changes with p_v, too: all of
+/// it where the skin slips, half of it where it sticks (p_v grows with the square of the depth, the
+/// denominator of k_v with the depth), so the stiffness isn't symmetric. Skin that slips resists
+/// ways across its slip by |t_v| / |s_v|, and none along it.
 class GripMechanics {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -92,7 +91,6 @@ class GripMechanics {
     std::vector<Vec3> speed;  ///< mm/rad
   };
   Column column(const Posture& posture, int joint, const std::vector<int>& vertices) const;
-  void learn_power(double accuracy);
   void add_touches(const Posture& posture);
   Squeeze squeeze_of_normals() const;
 
@@ -108,15 +106,6 @@ class GripMechanics {
   std::vector<int> loaded_;
   std::vector<Vec3> normal_, tangential_;  ///< per loaded vertex, hand frame; on the skin, N
   std::vector<double> stiff_, drag_;       ///< per loaded vertex, normal and tangential, N/mm
-  /// Skin that was loaded in the state last looked at; product frame.
-  struct LoadedSkin {
-    int vertex = 0;
-    double force = 0.0;  ///< N
-    double depth = 0.0;  ///< of its region, mm
-    Vec3 normal, place;
-  };
-  std::vector<LoadedSkin> before_;
-  std::array<double, kRegionCount> power_;  ///< of depth, with which the force of a region grows
   Quat hand_from_product_;
   GripVector force_, squeeze_;
   GripMatrix stiffness_;

@@ -55,7 +55,6 @@ class Settling {
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
-  static void hold_back(const std::vector<int>& free, const Eigen::MatrixXd& k, GripVector& way);
   GripVector step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
                              const Eigen::MatrixXd& k, double missing);
   GripVector step_stiff(const Misfit& misfit, const std::vector<int>& free,

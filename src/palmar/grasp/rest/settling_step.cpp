@@ -23,34 +23,6 @@ constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the
 
 }  // namespace
 
-/// Angles that would go farther than a step may, go just so far, and the other coordinates of a
-/// step through `k` adapt to that: one soft joint doesn't hold up all others.
-void Settling::hold_back(const std::vector<int>& free, const Eigen::MatrixXd& k, GripVector& way) {
-  constexpr double kMost = kLongestStep / kStepReach;
-  Eigen::VectorXd x = way(free);
-  const Eigen::VectorXd right = k * x;
-  std::vector<int> open, held;
-  for (int i = 0; i < static_cast<int>(free.size()); ++i) open.push_back(i);
-  for (;;) {
-    const auto is_too_far = [&](int i) {
-      return free[static_cast<std::size_t>(i)] < kGripJoints && std::abs(x[i]) > kMost;
-    };
-    const auto first =
-        std::stable_partition(open.begin(), open.end(), [&](int i) { return !is_too_far(i); });
-    if (first == open.end()) break;
-    for (auto i = first; i != open.end(); ++i) {
-      x[*i] = std::copysign(kMost, x[*i]);
-      held.push_back(*i);
-    }
-    open.erase(first, open.end());
-    const Eigen::MatrixXd inner = k(open, open);
-    const Eigen::VectorXd outer = right(open) - k(open, held) * x(held);
-    const Eigen::VectorXd solved = inner.partialPivLu().solve(outer);
-    x(open) = solved;
-  }
-  way(free) = x;
-}
-
 /// One Newton step towards rest and the grip force asked for, with the activations of the muscles
 /// (GripEffort) or, where joints are stiff, the level of a common closing as unknowns beside the
 /// coordinates:
@@ -77,7 +49,6 @@ void Settling::step(const Misfit& misfit, double missing) {
   stiffen(joints + 3, 3);
   GripVector way = is_by_muscles_ ? step_by_muscles(misfit, free, k, missing)
                                   : step_stiff(misfit, free, k, missing);
-  if (is_by_muscles_) hold_back(free, k, way);
   double longest = std::max(way.segment<3>(kGripJoints).norm(), kStepReach * way.tail<3>().norm());
   for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kStepReach * std::abs(way[j]));
   way *= share_of(way, longest);
