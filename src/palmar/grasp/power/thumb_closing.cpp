@@ -51,12 +51,7 @@ constexpr std::array<std::pair<double, double>, 3> kBends = {{{10.0 * kDegree, 2
 constexpr std::size_t kSettled = 3;   // starts of either kind that are followed
 constexpr double kDifference = 0.02;  // rad, of the derivatives
 constexpr int kMostIterations = 60;
-constexpr double kSmallStep = 1e-5;  // of an angle; less and the fit has ended
-// All starts are followed for the first iterations; to the end only those that may yet be the best.
-constexpr int kFirstIterations = 12;
-constexpr double kPromising = 1.5;  // sum of squares over the least
-constexpr double kSamePose = 0.02;  // rad, of every angle
-constexpr double kAtLimit = 1.0;    // mm; skin that near to its limit depth is there
+constexpr double kAtLimit = 1.0;  // mm; skin that near to its limit depth is there
 
 /// Surely not inside: outside a ball around the cone.
 bool is_clear_of(const Obstacle& finger, const Vec3& point) {
@@ -265,45 +260,22 @@ ThumbPose ThumbCloser::find_pose(const HeldProduct& product, const DepthLimits& 
     starts.push_back(reaching[k].second);
     starts.push_back(crossing[k].second);
   }
-  std::vector<Fit> fits;
+  ThumbPose best{};
+  double most = -std::numeric_limits<double>::infinity();
   for (const ThumbPose& from : starts) {
-    fits.push_back(fitted(from, product, limits, start, fingers, kFirstIterations));
+    const ThumbPose pose = settled(from, product, limits, start, grip_axis_in_hand);
+    const double here = rated(pose);
+    if (here <= most) continue;
+    most = here;
+    best = pose;
   }
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const Fit& a, const Fit& b) { return a.sum < b.sum; });
-  std::vector<Fit> promising;
-  const auto is_known = [&](const Fit& fit) {
-    return std::any_of(promising.begin(), promising.end(), [&](const Fit& other) {
-      double apart = 0.0;
-      for (std::size_t i = 0; i < fit.pose.size(); ++i) {
-        apart = std::max(apart, std::abs(fit.pose[i] - other.pose[i]));
-      }
-      return apart < kSamePose;
-    });
-  };
-  for (const Fit& fit : fits) {
-    if (fit.sum <= kPromising * fits.front().sum && !is_known(fit)) promising.push_back(fit);
-  }
-  Fit best;
-  best.sum = std::numeric_limits<double>::infinity();
-  for (const Fit& fit : promising) {
-    const Fit end = fitted(fit.pose, product, limits, start, fingers, kMostIterations);
-    if (end.sum < best.sum) best = end;
-  }
-  return best.pose;
+  return best;
 }
 
 ThumbPose ThumbCloser::settled(const ThumbPose& from, const HeldProduct& product,
                                const DepthLimits& limits, const Posture& start,
                                const Vec3& grip_axis_in_hand) const {
-  return fitted(from, product, limits, start, opposed(product, start, grip_axis_in_hand),
-                kMostIterations)
-      .pose;
-}
-
-ThumbCloser::Fit ThumbCloser::fitted(const ThumbPose& from, const HeldProduct& product,
-                                     const DepthLimits& limits, const Posture& start,
-                                     const Opposed& fingers, int most_iterations) const {
+  const Opposed fingers = opposed(product, start, grip_axis_in_hand);
   LeastSquaresProblem problem;
   Eigen::VectorXd first(4);
   problem.lower.resize(4);
@@ -320,9 +292,11 @@ ThumbCloser::Fit ThumbCloser::fitted(const ThumbPose& from, const HeldProduct& p
         r = residuals(product, limits, with(start, {x[0], x[1], x[2], x[3]}), fingers);
       },
       [](Eigen::Index, double) { return kDifference; });
-  const LeastSquaresSolution fit = solve_least_squares(
-      problem, first, {.max_iterations = most_iterations, .step_tolerance = kSmallStep});
-  return {{fit.x[0], fit.x[1], fit.x[2], fit.x[3]}, fit.sum_of_squares};
+  const Eigen::VectorXd x =
+      solve_least_squares(problem, first,
+                          {.max_iterations = kMostIterations, .step_tolerance = 1e-5})
+          .x;
+  return {x[0], x[1], x[2], x[3]};
 }
 
 Posture ThumbCloser::closed(const HeldProduct& product, const DepthLimits& limits,

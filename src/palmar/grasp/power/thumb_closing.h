@@ -58,12 +58,6 @@ class ThumbCloser {
   };
   Opposed opposed(const HeldProduct& product, const Posture& posture,
                   const Vec3& grip_axis_in_hand) const;
-  struct Fit {
-    ThumbPose pose{};
-    double sum = 0.0;  ///< of squares
-  };
-  Fit fitted(const ThumbPose& from, const HeldProduct& product, const DepthLimits& limits,
-             const Posture& start, const Opposed& fingers, int most_iterations) const;
   std::vector<Obstacle> obstacles(const Posture& posture) const;
   Eigen::VectorXd residuals(const HeldProduct& product, const DepthLimits& limits,
                             const Posture& posture, const Opposed& fingers) const;
