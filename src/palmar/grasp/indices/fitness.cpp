@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
@@ -104,7 +105,10 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   points.reserve(posed_skin.size());
   for (const Vec3& p : posed_skin) points.push_back(product_from_hand * p);
   const std::vector<double> areas = vertex_areas(hand.skin);
-  const std::vector<Vec3> normals = vertex_normals(points, hand.skin.triangles);
+  // Of spans, weighted by angles: beside contact/response/skin_geometry.h vectors would get that
+  // header's normals, weighted by area.
+  const std::vector<Vec3> normals =
+      vertex_normals(std::span<const Vec3>(points), std::span<const Triangle>(hand.skin.triangles));
   std::vector<DistanceSample> samples(points.size());
   product.sample(points, options.reach, samples);
 
