@@ -14,9 +14,6 @@
 
 namespace palmar {
 
-inline constexpr double kLongestStep = 4.0;  ///< mm, of any skin or of the product, in one step
-inline constexpr double kStepReach = 40.0;   ///< mm; arm by which turns are counted as way
-
 /// How a grasp is brought to rest.
 enum class SettlingWay {
   kLeastEffort,  ///< by the muscles, wherever the product comes to rest

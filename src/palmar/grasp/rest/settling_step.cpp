@@ -13,6 +13,8 @@
 namespace palmar {
 namespace {
 
+constexpr double kLongestStep = 4.0;  // mm, of any skin or of the product
+constexpr double kReach = 40.0;       // mm; arm by which turns are counted as way
 constexpr double kLeastRelaxation = 0.3;
 constexpr double kLongestPress = 0.7;                   // mm, of fingertips in one step
 constexpr double kLongestTurn = 0.06;                   // rad, of what they hold
@@ -49,8 +51,8 @@ void Settling::step(const Misfit& misfit, double missing) {
   stiffen(joints + 3, 3);
   GripVector way = is_by_muscles_ ? step_by_muscles(misfit, free, k, missing)
                                   : step_stiff(misfit, free, k, missing);
-  double longest = std::max(way.segment<3>(kGripJoints).norm(), kStepReach * way.tail<3>().norm());
-  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kStepReach * std::abs(way[j]));
+  double longest = std::max(way.segment<3>(kGripJoints).norm(), kReach * way.tail<3>().norm());
+  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
   way *= share_of(way, longest);
 
   Posture turned = state_.posture;
@@ -111,8 +113,8 @@ GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& fr
 double Settling::share_of(const GripVector& way, double longest) {
   // Going to and fro says that forces change faster than the stiffness says: shorter steps.
   GripVector scaled = way;
-  scaled.head<kGripJoints>() *= kStepReach;
-  scaled.tail<3>() *= kStepReach;
+  scaled.head<kGripJoints>() *= kReach;
+  scaled.tail<3>() *= kReach;
   const double cosine = scaled.dot(last_way_) / (scaled.norm() * last_way_.norm() + 1e-300);
   relaxation_ = std::clamp(relaxation_ * (cosine < -0.2  ? 0.6
                                           : cosine > 0.2 ? 1.25
