@@ -375,7 +375,7 @@ TEST(Assess, PresetXie2014RunsAndSaysSo) {
               HasSubstr("Regions are solved one by one"));
 }
 
-TEST(Assess, ErrorBudgetChangesOneThingAtATime) {
+TEST(Assess, ThoroughErrorBudgetChangesOneThingAtATime) {
   const Json one = assessed("--error-budget --no-error-band --grip-force-n 60");
   const Json& budget = one.at("error_budget");
   EXPECT_EQ(budget.at("nominal").at("force_n"), one.at("contact").at("force_n"));
@@ -440,7 +440,7 @@ TEST(Assess, SleeveSpreadsThePressure) {
   EXPECT_GT(skin, 0.5 * contact.at("force_n").get<double>());
 }
 
-TEST(Assess, SleeveInABoxCoversThatPartAlone) {
+TEST(Assess, ThoroughSleeveInABoxCoversThatPartAlone) {
   // The first box holds no surface, the second all of it; the corners may be given in any order.
   const Json nowhere =
       assessed("--no-error-band --coating 3,100,0.5,300,300,300,310,310,310").at("contact");
@@ -517,7 +517,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class ScannedProduct : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(ScannedProduct, IsHeldByThreeFingersOrSaysWhatStoppedIt) {
+TEST_P(ScannedProduct, ThoroughIsHeldByThreeFingersOrSaysWhatStoppedIt) {
   const std::string path = std::string(PALMAR_SHARED_DIR) + "/products/" + GetParam() + ".obj";
   if (!fs::exists(path)) GTEST_SKIP() << "the scanned products are not beside the checkout";
   const ProgramRun run =

@@ -131,7 +131,7 @@ class EverydayGrasps : public TemplateTest {
   }
 };
 
-TEST_F(EverydayGrasps, TenProductsAreHeldAsPeopleHoldThem) {
+TEST_F(EverydayGrasps, ThoroughTenProductsAreHeldAsPeopleHoldThem) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
   for (const EverydayThing& thing : everyday_things()) {
     SCOPED_TRACE(thing.file);

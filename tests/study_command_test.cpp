@@ -81,7 +81,7 @@ TEST_F(StudyCommand, ThreadsDontMatter) {
   }
 }
 
-TEST_F(StudyCommand, FoldersDontMatter) {
+TEST_F(StudyCommand, ThoroughFoldersDontMatter) {
   const std::string parent = fs::path(folder_).parent_path().string();
   const std::string name = fs::path(folder_).filename().string();
   ASSERT_EQ(run_palmar("study run " + name + "/study.toml --quiet --out " + name + "/above.palmar",
@@ -100,7 +100,7 @@ TEST_F(StudyCommand, FoldersDontMatter) {
             0);
 }
 
-TEST_F(StudyCommand, PathsAsTypedDontMatter) {
+TEST_F(StudyCommand, ThoroughPathsAsTypedDontMatter) {
   const std::string rest =
       " --unit mm --population ansur2_men --hands 2 --grip medium_wrap --quiet --json ";
   fs::create_directory(folder_ + "/typed");
@@ -124,7 +124,7 @@ TEST_F(StudyCommand, PathsAsTypedDontMatter) {
   EXPECT_EQ(digest(run("study merge b.palmar a.palmar --out ab.palmar --json")), plain);
 }
 
-TEST_F(StudyCommand, KilledAgainAndAgainEndsWithTheSameBytes) {
+TEST_F(StudyCommand, ThoroughKilledAgainAndAgainEndsWithTheSameBytes) {
   double seconds = 0.3;
   std::size_t last = 0;
   int kills = 0;

@@ -120,6 +120,9 @@ export class ShapeView {
       before.material.transparent = what === "both";
       before.material.opacity = what === "both" ? 0.3 : 1;
       before.material.depthWrite = what !== "both";
+      // Where both lie on each other, the new one is seen.
+      before.material.polygonOffset = what === "both";
+      before.material.polygonOffsetFactor = before.material.polygonOffsetUnits = 2;
       before.material.color = what === "both" ? new Color(0x3f6fb5) : before.material.color;
       before.material.needsUpdate = true;
     }

@@ -7,7 +7,7 @@ import { GraspIndex, Vocabulary } from "../types";
 import { say, sayName } from "../texts";
 import { term } from "./glossary";
 import { Markup, html } from "./markup";
-import { nothing, shortNumber, signedNumber } from "./numbers";
+import { localised, nothing, shortNumber, signedNumber } from "./numbers";
 import { folded } from "./parts";
 import { regionWords } from "./verdicts";
 import { emptyCell, numbers, rowHead, table, valueCell, words } from "./tables";
@@ -34,7 +34,7 @@ function withUnit(text: string, index: GraspIndex): string {
 
 /// Whole numbers without decimals: counts, and ends of ranges.
 function briefly(value: number): string {
-  return value === Math.round(value) ? String(value) : shortNumber(value);
+  return value === Math.round(value) ? localised(String(value)) : shortNumber(value);
 }
 
 function indexCell(index: GraspIndex | undefined): Markup {

@@ -5,9 +5,10 @@ import { language } from "../texts";
 
 export const nothing = "–";
 
-/// With the decimal sign of the language.
+/// With a minus sign, not a hyphen, and with the decimal sign of the language.
 export function localised(text: string): string {
-  return language() === "de" ? text.replace(".", ",") : text;
+  const signed = text.replace(/^-/, "−");
+  return language() === "de" ? signed.replace(".", ",") : signed;
 }
 
 /// "0.182", "1235", "0": rounded for reading, at most five decimals; digits before the point stay.

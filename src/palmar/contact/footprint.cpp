@@ -12,6 +12,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/closest_point.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/split_edges.h"
 
 namespace palmar {
@@ -137,7 +138,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   box.min().array() -= kBridge;
   box.max().array() += kBridge;
   const ClosestPointQuery query(skin);
-  const std::vector<Vec3> normals = vertex_normals(surface.vertices, surface.triangles);
+  const std::vector<Vec3> normals = area_weighted_normals(surface.vertices, surface.triangles);
   std::vector<Landing> landings;
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!box.contains(surface.vertices[i])) continue;

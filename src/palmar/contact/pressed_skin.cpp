@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/pressed_skin.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ SkinGeometry pressed_skin(const PreparedHand::Impl& prepared, const SkinOnProduc
     // Skin faces the product.
     result.normal[v] = -sample.normal;
   }
-  result.area = voronoi_areas(on_product);
+  result.area = vertex_areas(on_product);
   result.position = std::move(on_product.vertices);
   result.radius.reserve(result.area.size());
   for (std::size_t v = 0; v < result.area.size(); ++v) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "palmar/contact/response/skin_geometry.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
@@ -126,7 +127,7 @@ void SkinDivision::close() {
       triangles_.push_back({t[across], edge[k], edge[k + 1]});
     }
   }
-  for (Shape& shape : shape_) vertex_normals(shape.position, triangles_, shape.normal);
+  for (Shape& shape : shape_) area_weighted_normals(shape.position, triangles_, shape.normal);
 }
 
 std::vector<std::vector<std::pair<int, double>>> SkinDivision::shares() const {

@@ -11,6 +11,7 @@
 
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/prepared_hand.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
 namespace palmar {
@@ -104,7 +105,7 @@ TEST(ArcDistance, IsExactOnSphereAndCylinder) {
 
 TEST(VoronoiAreas, SumToTheSurface) {
   double sum = 0.0;
-  for (const double a : voronoi_areas(make_icosphere(10.0, 4))) sum += a;
+  for (const double a : vertex_areas(make_icosphere(10.0, 4))) sum += a;
   EXPECT_NEAR(sum, 400.0 * std::numbers::pi,
               0.004 * 400.0 * std::numbers::pi);  // facets of an inscribed polyhedron
 }

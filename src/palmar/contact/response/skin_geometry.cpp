@@ -12,66 +12,17 @@
 #include <utility>
 
 #include "palmar/contact/response/response.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
-
-std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
-                                 const std::vector<Triangle>& triangles) {
-  std::vector<Vec3> normals;
-  vertex_normals(positions, triangles, normals);
-  return normals;
-}
-
-void vertex_normals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-                    std::vector<Vec3>& normals) {
-  normals.assign(positions.size(), Vec3::Zero());
-  for (const Triangle& t : triangles) {
-    const Vec3 n = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
-    for (const int corner : t) normals[corner] += n;
-  }
-  for (Vec3& n : normals) {
-    const double length = n.norm();
-    n = length > 0.0 ? Vec3(n / length) : Vec3::UnitZ();
-  }
-}
-
-std::vector<double> voronoi_areas(const TriangleMesh& mesh) {
-  std::vector<double> area(mesh.vertices.size(), 0.0);
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 edge[3] = {mesh.vertices[t[2]] - mesh.vertices[t[1]],
-                          mesh.vertices[t[0]] - mesh.vertices[t[2]],
-                          mesh.vertices[t[1]] - mesh.vertices[t[0]]};
-    const double twice_area = edge[0].cross(edge[1]).norm();
-    if (!(twice_area > 0.0)) continue;
-    // Cotangent of the angle at corner k, opposite edge k.
-    double cotangent[3];
-    for (int k = 0; k < 3; ++k)
-      cotangent[k] = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / twice_area;
-    int obtuse = -1;
-    for (int k = 0; k < 3; ++k) {
-      if (cotangent[k] < 0.0) obtuse = k;
-    }
-    for (int k = 0; k < 3; ++k) {
-      if (obtuse >= 0) {
-        area[t[k]] += twice_area * (k == obtuse ? 0.25 : 0.125);
-      } else {
-        const int a = (k + 1) % 3;
-        const int b = (k + 2) % 3;
-        area[t[k]] +=
-            0.125 * (edge[a].squaredNorm() * cotangent[a] + edge[b].squaredNorm() * cotangent[b]);
-      }
-    }
-  }
-  return area;
-}
 
 namespace {
 
 /// Everything but the neighbours, which `result` has.
 void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
   result.position = skin.vertices;
-  result.normal = vertex_normals(skin.vertices, skin.triangles);
-  result.area = voronoi_areas(skin);
+  result.normal = area_weighted_normals(skin.vertices, skin.triangles);
+  result.area = vertex_areas(skin);
   result.radius.clear();
   result.radius.reserve(result.area.size());
   for (const double a : result.area) result.radius.push_back(std::sqrt(a / std::numbers::pi));

@@ -44,17 +44,6 @@ SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& ot
 SensorCells sensor_cells(const SkinGeometry& skin, std::span<const int> centres,
                          std::span<const double> cell_area);
 
-/// Area-weighted unit vertex normals of a mesh whose vertices have moved.
-std::vector<Vec3> vertex_normals(const std::vector<Vec3>& positions,
-                                 const std::vector<Triangle>& triangles);
-/// The same into `normals`, whose memory is reused.
-void vertex_normals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
-                    std::vector<Vec3>& normals);
-
-/// Voronoi area of every vertex, mm^2; in obtuse triangles the mixed rule, so that they sum to the
-/// surface. Source: Meyer, Desbrun, Schroeder, Barr 2003, section 3.3.
-std::vector<double> voronoi_areas(const TriangleMesh& mesh);
-
 /// Distance on the skin between two vertices, from their positions and normals alone:
 ///
 ///     r^2 = |c|^2 + (c . t)^2 ((phi/2)^2 / sin^2(phi/2) - 1)

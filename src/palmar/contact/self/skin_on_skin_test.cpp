@@ -15,6 +15,7 @@
 #include "palmar/contact/self/skin_meetings.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {
@@ -98,7 +99,7 @@ TEST(SkinMeetings, FindCrossingOfTwoBallsAndItsDepth) {
   const auto hand = two_tips();
   const SkinMeetings meetings(*hand);
   const std::vector<Vec3> posed = approached(*hand, 2.0);
-  const auto found = meetings.find(posed, vertex_normals(posed, hand->skin.triangles), 0.0);
+  const auto found = meetings.find(posed, area_weighted_normals(posed, hand->skin.triangles), 0.0);
   ASSERT_FALSE(found.empty());
   EXPECT_NEAR(deepest_crossing(found), 2.0, 0.1);  // flat triangles lie 0.02 mm under the ball
   for (const SkinMeeting& one : found) {
@@ -112,7 +113,8 @@ TEST(SkinMeetings, FindCrossingOfTwoBallsAndItsDepth) {
     EXPECT_NEAR(one.distance, -2.0 * x.x(), 0.1);
   }
   EXPECT_TRUE(
-      meetings.find(approached(*hand, -0.5), vertex_normals(posed, hand->skin.triangles), 0.0)
+      meetings
+          .find(approached(*hand, -0.5), area_weighted_normals(posed, hand->skin.triangles), 0.0)
           .empty());
 }
 
@@ -127,7 +129,7 @@ TEST(SkinMeetings, LeaveOutWhatAJointFolds) {
   }
   // The index finger isn't beside the joint that folds the middle finger's skin: they still meet.
   const std::vector<Vec3> posed = approached(*hand, 2.0);
-  const auto normal = vertex_normals(posed, hand->skin.triangles);
+  const auto normal = area_weighted_normals(posed, hand->skin.triangles);
   EXPECT_FALSE(SkinMeetings(*hand).find(posed, normal, 0.0).empty());
   // The middle phalanx of the same finger is beside it.
   for (Segment& segment : hand->segment) {
@@ -183,7 +185,7 @@ TEST(SkinOnSkin, ResponsesAreSymmetricAndPositive) {
   const SkinCompliance& compliance = *prepared().impl().compliance;
   MeetingLoads loads(prepared().impl().skin, compliance, {});
   const std::vector<Vec3> posed = approached(hand, 2.0);
-  const std::vector<Vec3> normal = vertex_normals(posed, hand.skin.triangles);
+  const std::vector<Vec3> normal = area_weighted_normals(posed, hand.skin.triangles);
   loads.set(SkinMeetings(hand).find(posed, normal, 0.0), posed, normal);
   ASSERT_FALSE(loads.is_empty());
   // One vertex on a product besides, next to the meetings.

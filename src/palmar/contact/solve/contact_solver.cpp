@@ -16,6 +16,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
@@ -499,7 +500,7 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
 
   if (!by_skin.empty()) {
     const std::vector<Vec3> normal =
-        vertex_normals(result.deformed, prepared->hand->skin.triangles);
+        area_weighted_normals(result.deformed, prepared->hand->skin.triangles);
     result.residual_crossing =
         deepest_crossing(prepared->meetings->find(result.deformed, normal, 0.0));
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "palmar/contact/response/skin_geometry.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/smooth_step.h"
 
 namespace palmar {
@@ -109,7 +110,7 @@ std::string one_decimal(double value) {
 }  // namespace
 
 void SkinOnProduct::begin(const Hand& hand, const std::vector<Vec3>& posed) {
-  vertex_normals(posed, hand.skin.triangles, normal);
+  area_weighted_normals(posed, hand.skin.triangles, normal);
   sample.resize(posed.size());
   near.clear();
   collision.clear();

@@ -118,6 +118,26 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return vertex_normals(mesh.vertices, mesh.triangles);
 }
 
+std::vector<Vec3> area_weighted_normals(std::span<const Vec3> vertices,
+                                        std::span<const Triangle> triangles) {
+  std::vector<Vec3> normals;
+  area_weighted_normals(vertices, triangles, normals);
+  return normals;
+}
+
+void area_weighted_normals(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                           std::vector<Vec3>& normals) {
+  normals.assign(vertices.size(), Vec3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vec3 n = (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
+    for (const int corner : t) normals[corner] += n;
+  }
+  for (Vec3& n : normals) {
+    const double length = n.norm();
+    n = length > 0.0 ? Vec3(n / length) : Vec3::UnitZ();
+  }
+}
+
 std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   std::vector<double> areas(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {

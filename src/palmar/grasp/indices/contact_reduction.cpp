@@ -10,6 +10,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
@@ -38,7 +39,7 @@ std::array<std::vector<LoadedVertex>, kRegionCount> loaded_by_region(const Hand&
       one.normal = -way.normalized();
     } else {
       if (skin_normal.empty()) {
-        skin_normal = vertex_normals(contact.deformed, hand.skin.triangles);
+        skin_normal = area_weighted_normals(contact.deformed, hand.skin.triangles);
       }
       one.normal = skin_normal[v];
     }

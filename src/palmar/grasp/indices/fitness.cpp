@@ -105,10 +105,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   points.reserve(posed_skin.size());
   for (const Vec3& p : posed_skin) points.push_back(product_from_hand * p);
   const std::vector<double> areas = vertex_areas(hand.skin);
-  // Of spans, weighted by angles: beside contact/response/skin_geometry.h vectors would get that
-  // header's normals, weighted by area.
-  const std::vector<Vec3> normals =
-      vertex_normals(std::span<const Vec3>(points), std::span<const Triangle>(hand.skin.triangles));
+  const std::vector<Vec3> normals = vertex_normals(points, hand.skin.triangles);
   std::vector<DistanceSample> samples(points.size());
   product.sample(points, options.reach, samples);
 

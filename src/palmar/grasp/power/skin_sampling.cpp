@@ -10,7 +10,8 @@
 namespace palmar {
 namespace {
 
-std::vector<double> vertex_areas(const TriangleMesh& mesh) {
+/// A third of the triangles round each vertex, mm^2.
+std::vector<double> thirds_of_area(const TriangleMesh& mesh) {
   std::vector<double> area(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -25,7 +26,7 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh) {
 }  // namespace
 
 SkinSample sample_skin(const Hand& hand, double spacing) {
-  const std::vector<double> area = vertex_areas(hand.skin);
+  const std::vector<double> area = thirds_of_area(hand.skin);
   SkinSample sample;
   if (spacing <= 0.0) {
     for (int v = 0; v < hand.skin.vertex_count(); ++v) sample.vertex.push_back(v);

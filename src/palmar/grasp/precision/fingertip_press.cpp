@@ -9,6 +9,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/solve/skin_product.h"
 #include "palmar/core/enum_index.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
@@ -31,7 +32,7 @@ std::vector<int> all_vertices(const Hand& hand) {
 
 FingertipPress::FingertipPress(const FingertipIk& ik)
     : ik_(&ik), skin_(ik.hand(), all_vertices(ik.hand())) {
-  vertex_normals(ik.hand().skin.vertices, ik.hand().skin.triangles, normal_);
+  area_weighted_normals(ik.hand().skin.vertices, ik.hand().skin.triangles, normal_);
 }
 
 SkinDepth FingertipPress::look(const DistanceField& product, const Posture& posture,

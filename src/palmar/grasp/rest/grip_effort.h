@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palmar/grasp/rest/grip_mechanics.h"
+#include "palmar/grasp/rest/muscle_step.h"
 #include "palmar/grasp/rest/thumb_meeting.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
@@ -57,14 +58,8 @@ class GripEffort {
     GripVector way = GripVector::Zero();  ///< of the coordinates
     bool is_short = false;                ///< the squeeze asked for can't be reached
   };
-  /// Solves for the activations. `free`: coordinates that move, ascending; `k`: their stiffness,
-  /// made definite; `force` and `stiffness` with passive moments, without muscles. `missing`:
-  /// change of the sum of normal forces that is asked for, N; nothing: as much as the muscles can
-  /// give. `moved`: how far the product has gone, hand frame, mm; given, it is kept where it was
-  /// taken hold of, as far as the muscles can at the squeeze asked for.
-  Step solve(const std::vector<int>& free, const Eigen::MatrixXd& k, const GripVector& force,
-             const GripMatrix& stiffness, const GripVector& squeeze, std::optional<double> missing,
-             const Vec3* moved);
+  /// Solves for the activations in the state last looked at (MuscleStep).
+  Step solve(const GripEquations& equations);
 
   /// What the contact forces of the state last looked at take of the muscles, all digits and the
   /// wrist in one problem.

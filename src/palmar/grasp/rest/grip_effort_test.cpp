@@ -45,6 +45,8 @@ GripVector opening(double scale) {
   return force;
 }
 
+const Eigen::MatrixXd kOneAngle = Eigen::MatrixXd::Constant(1, 1, 4000.0);  // N mm/rad
+
 /// One finger whose DIP alone is loaded: FDP is the only muscle that flexes it. A spring of the
 /// product resists its flexion.
 TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
@@ -59,8 +61,12 @@ TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
   GripVector squeeze = GripVector::Zero();
   squeeze[dip] = 30.0;  // N/rad
   // At rest with no more squeeze: the muscle's moment is the load's, the wrist's extensors hold it.
-  const GripEffort::Step step = effort.solve({dip}, Eigen::MatrixXd::Constant(1, 1, 4000.0), force,
-                                             stiffness, squeeze, 0.0, nullptr);
+  const GripEffort::Step step = effort.solve({.free = {dip},
+                                              .k = kOneAngle,
+                                              .force = force,
+                                              .stiffness = stiffness,
+                                              .squeeze = squeeze,
+                                              .missing = 0.0});
   EXPECT_FALSE(step.is_short);
   EXPECT_NEAR(step.way[dip], 0.0, 1e-6);
   EXPECT_NEAR(effort.moments()[dip], 150.0, 0.01);
@@ -72,8 +78,12 @@ TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
   }
   EXPECT_NEAR(fdp, (150.0 - opened) / (digit.strength[0] * digit.arm[0][3]), 1e-4);
   // More squeeze: 1.5 N need 0.05 rad, 200 N mm more.
-  const GripEffort::Step more = effort.solve({dip}, Eigen::MatrixXd::Constant(1, 1, 4000.0), force,
-                                             stiffness, squeeze, 1.5, nullptr);
+  const GripEffort::Step more = effort.solve({.free = {dip},
+                                              .k = kOneAngle,
+                                              .force = force,
+                                              .stiffness = stiffness,
+                                              .squeeze = squeeze,
+                                              .missing = 1.5});
   EXPECT_NEAR(more.way[dip], 0.05, 1e-6);
   EXPECT_NEAR(effort.moments()[dip], 350.0, 0.05);
 }
@@ -86,8 +96,12 @@ TEST(GripEffort, SqueezeIsMissedWhereMusclesAreTooWeak) {
   squeeze[dip] = 30.0;
   GripMatrix stiffness = GripMatrix::Zero();
   stiffness(dip, dip) = 4000.0;
-  const GripEffort::Step step = effort.solve({dip}, Eigen::MatrixXd::Constant(1, 1, 4000.0),
-                                             GripVector::Zero(), stiffness, squeeze, 50.0, nullptr);
+  const GripEffort::Step step = effort.solve({.free = {dip},
+                                              .k = kOneAngle,
+                                              .force = GripVector::Zero(),
+                                              .stiffness = stiffness,
+                                              .squeeze = squeeze,
+                                              .missing = 50.0});
   EXPECT_TRUE(step.is_short);
   const DigitMuscles digit = HandMuscles(hand()).in(Finger::kMiddle, bent());
   EXPECT_LT(30.0 * step.way[dip], 50.0);
@@ -110,8 +124,12 @@ double way_of_thumb(double force, double way) {
   stiffness(kThumbIp, kThumbIp) = 2000.0;
   stiffness(kMiddleFirst + 3, kMiddleFirst + 3) = 4000.0;
   return effort
-      .solve({kMiddleFirst + 3}, Eigen::MatrixXd::Constant(1, 1, 4000.0), on, stiffness,
-             GripVector::Zero(), 0.0, nullptr)
+      .solve({.free = {kMiddleFirst + 3},
+              .k = kOneAngle,
+              .force = on,
+              .stiffness = stiffness,
+              .squeeze = GripVector::Zero(),
+              .missing = 0.0})
       .way[kThumbIp];
 }
 

@@ -75,8 +75,13 @@ GripVector Settling::step_by_muscles(const Misfit& misfit, const std::vector<int
     asked = has_level_ ? std::clamp(missing, -kMostLooser * sum, kMostFirmer * sum) : 0.0;
   }
   const GripEffort::Step step =
-      effort_.solve(free, k, misfit.outside, misfit.stiffness, mechanics_.squeeze(), asked,
-                    way_ == SettlingWay::kInPlace ? &moved_ : nullptr);
+      effort_.solve({.free = free,
+                     .k = k,
+                     .force = misfit.outside,
+                     .stiffness = misfit.stiffness,
+                     .squeeze = mechanics_.squeeze(),
+                     .missing = asked,
+                     .moved = way_ == SettlingWay::kInPlace ? &moved_ : nullptr});
   is_at_limit_ = step.is_short;
   return step.way;
 }

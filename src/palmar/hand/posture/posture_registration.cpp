@@ -13,6 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/least_squares.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
 
@@ -24,21 +25,6 @@ constexpr double kStep = 1e-4;         // rad; of the numeric Jacobian
 constexpr double kPriorSd = 2.0;       // rad; decides only what the mesh doesn't
 constexpr double kOneOf = 25.0;        // so many neighbouring points show as much as one
 constexpr double kLargestSd = 0.35;    // rad; as in PostureFitOptions
-
-std::vector<Vec3> vertex_normals(const std::vector<Vec3>& vertices,
-                                 const std::vector<Triangle>& triangles) {
-  std::vector<Vec3> normal(vertices.size(), Vec3::Zero());
-  for (const Triangle& t : triangles) {
-    const auto a = static_cast<std::size_t>(t[0]), b = static_cast<std::size_t>(t[1]),
-               c = static_cast<std::size_t>(t[2]);
-    const Vec3 n = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
-    normal[a] += n;
-    normal[b] += n;
-    normal[c] += n;
-  }
-  for (Vec3& n : normal) n.stableNormalize();
-  return normal;
-}
 
 /// Robust squared distance: grows no more than to c^2.
 double bounded(double squared, double c) { return squared / (1.0 + squared / (c * c)); }
@@ -77,7 +63,7 @@ Frame frame_of(const std::vector<Vec3>& points) {
 }  // namespace
 
 Target::Target(const TriangleMesh& mesh)
-    : mesh_(mesh), normal_(vertex_normals(mesh.vertices, mesh.triangles)), query_(mesh) {
+    : mesh_(mesh), normal_(area_weighted_normals(mesh.vertices, mesh.triangles)), query_(mesh) {
   std::map<std::pair<int, int>, int> count;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -176,7 +162,7 @@ SkinPoints::SkinPoints(const Hand& hand, int stride)
     const double third = (b - a).cross(c - a).norm() / 6.0;
     for (const int v : t) area[v] += third;
   }
-  const std::vector<Vec3> normal = vertex_normals(hand.skin.vertices, hand.skin.triangles);
+  const std::vector<Vec3> normal = area_weighted_normals(hand.skin.vertices, hand.skin.triangles);
   const double wrist = hand.skeleton.joint(JointId::kWrist).centre.y();
   for (const int vertex : vertex_) {
     const bool is_proximal = hand.skin.vertices[vertex].y() < wrist;
@@ -189,7 +175,7 @@ SkinPoints::SkinPoints(const Hand& hand, int stride)
 
 PosedSkin SkinPoints::pose(const Pose& pose) const {
   const std::vector<Vec3> skin = pose_skin(*hand_, pose.posture);
-  const std::vector<Vec3> normal = vertex_normals(skin, hand_->skin.triangles);
+  const std::vector<Vec3> normal = area_weighted_normals(skin, hand_->skin.triangles);
   PosedSkin posed;
   posed.point.reserve(vertex_.size());
   posed.normal.reserve(vertex_.size());

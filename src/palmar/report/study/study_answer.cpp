@@ -95,7 +95,7 @@ class StudySpeaker {
 
   void redesign(int p) {
     const StudyProduct& product = results_.plan.products[as_index(p)];
-    if (!is_plain_file(product)) {
+    if (!is_plain_product(product)) {
       look_at_report();
       return;
     }

@@ -199,6 +199,13 @@ TEST(StudyAnswer, SaysInHowManyHandsItHurtsOrIsUncomfortable) {
   EXPECT_EQ(answer.command, "palmar redesign press a.stl --unit mm --hands 12 --out pressed");
 }
 
+TEST(StudyAnswer, AMadeProductIsRedesignedByItsWords) {
+  StudyResults results = one_product_with_comfort(120.0);
+  results.plan.products.front().file = "made: prism width_mm=40";
+  EXPECT_EQ(study_answer(results).command,
+            "palmar redesign press 'made: prism width_mm=40' --hands 12 --out pressed");
+}
+
 TEST(StudyAnswer, WhereNobodyIsUncomfortableNothingIsPressed) {
   StudyAnswerOptions options;
   options.store = "a.palmar";

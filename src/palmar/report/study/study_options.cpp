@@ -20,18 +20,18 @@ bool is_mesh_file(const StudyProduct& product) {
   return end == ".stl" || end == ".obj" || end == ".ply";
 }
 
-bool is_plain_file(const StudyProduct& product) {
+bool is_plain_product(const StudyProduct& product) {
   const std::string end = file_ending(product);
   const bool is_known = is_mesh_file(product) || end == ".step" || end == ".stp" ||
                         end == ".iges" || end == ".igs" || end == ".3mf" || end == ".glb" ||
-                        end == ".gltf";
+                        end == ".gltf" || product.file.starts_with("made: ");
   return is_known && product.size == 1.0 && product.posture_of.empty();
 }
 
 std::string product_options(const StudyPlan& plan) {
   std::string line, unit;
   for (const StudyProduct& one : plan.products) {
-    if (!is_plain_file(one)) return "";
+    if (!is_plain_product(one)) return "";
     line += (line.empty() ? "" : " ") + ("--product " + shell_word(one.file));
     if (is_mesh_file(one)) unit = one.unit;
   }

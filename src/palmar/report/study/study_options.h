@@ -12,10 +12,10 @@ namespace palmar {
 
 /// Whether the product's file is a mesh without a unit: STL, OBJ, PLY.
 bool is_mesh_file(const StudyProduct& product);
-/// Whether it can be given to a command again as it is: a file, neither resized nor in another
-/// product's posture.
-bool is_plain_file(const StudyProduct& product);
-/// "--product a.stl --product b.stl --unit mm"; empty if one is no plain file.
+/// Whether it can be given to a command again as it is: a file or the words of a made product,
+/// neither resized nor in another product's posture.
+bool is_plain_product(const StudyProduct& product);
+/// "--product a.stl --product b.stl --unit mm"; empty if one is no plain product.
 std::string product_options(const StudyPlan& plan);
 /// " --mass-kg 0.4" if all products have the same; else empty.
 std::string mass_option(const StudyPlan& plan);
