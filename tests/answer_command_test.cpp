@@ -93,7 +93,7 @@ TEST_F(AnswerCommand, SpeaksGerman) {
   EXPECT_THAT(wrong.err, HasSubstr("--language is \"fr\"; en or de"));
 }
 
-TEST_F(AnswerCommand, TheHandIsThatOfThePersonAskedFor) {
+TEST_F(AnswerCommand, ThoroughTheHandIsThatOfThePersonAskedFor) {
   const Json small = assessed("--person woman:P5");
   const Json large = assessed("--person man:P95,age=30");
   const auto length = [](const Json& json) {
@@ -109,7 +109,7 @@ TEST_F(AnswerCommand, TheHandIsThatOfThePersonAskedFor) {
   EXPECT_EQ(given.at("assessments").at(0).at("settings").at("grip_force_asked_n"), 30.0);
 }
 
-TEST_F(AnswerCommand, ALeftHandIsTheMirrorImage) {
+TEST_F(AnswerCommand, ThoroughALeftHandIsTheMirrorImage) {
   const Json right = assessed("--grip-force-n 40"), left = assessed("--grip-force-n 40 --left");
   const Json &a = right.at("assessments").at(1), &b = left.at("assessments").at(1);
   EXPECT_EQ(b.at("hand").at("side"), "left");

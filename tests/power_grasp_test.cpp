@@ -259,7 +259,7 @@ TEST_F(PowerGrasp, DrillIsHeldAtItsPistolHandle) {
   EXPECT_GT(grasp.grip_axis.y(), 0.7);  // the gearbox lies beyond the thumb
 }
 
-TEST_F(PowerGrasp, TheThumbFollowsTheDiameterAndNotTheMesh) {
+TEST_F(PowerGrasp, ThoroughTheThumbFollowsTheDiameterAndNotTheMesh) {
   const std::array<Dof, 4> thumb = {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction,
                                     Dof::kThumbMpFlexion, Dof::kThumbIpFlexion};
   const auto angles_on = [&](double diameter, double edge) {

@@ -107,7 +107,7 @@ TEST(RedesignFeatures, ARadiusThatLeavesNoRoomIsReportedWithItsValue) {
   EXPECT_THAT(run.err, HasSubstr("fillet of 18 mm on fillets"));
 }
 
-TEST(RedesignFeatures, WhatIsWorseByConstructionIsToldToBeWorse) {
+TEST(RedesignFeatures, ThoroughWhatIsWorseByConstructionIsToldToBeWorse) {
   // A round bar of 12 mm fillets made sharp: hands of another sample than the one it was made in
   // must find it harder, held alike.
   const ProgramRun run = run_palmar(

@@ -27,7 +27,7 @@ int occurrences(const std::string& text, const std::string& word) {
 
 const std::string kPrism = "\"made: prism width_mm=35 depth_mm=35 length_mm=130 fillet_mm=3\"";
 
-TEST(RedesignRegion, OfAPrismGivesCadFilesThatHoldWhatTheySayAndAShapeThatPressesLess) {
+TEST(RedesignRegion, ThoroughOfAPrismGivesCadFilesThatHoldWhatTheySayAndAShapeThatPressesLess) {
   const std::string folder = temporary_folder();
   const ProgramRun run =
       run_palmar("redesign region " + kPrism + " --hands 6 --out region --json", folder);

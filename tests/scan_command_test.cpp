@@ -141,7 +141,7 @@ class RingedHand : public ::testing::Test {
   }
 };
 
-TEST_F(RingedHand, IsMeasuredWithoutTheRing) {
+TEST_F(RingedHand, ThoroughIsMeasuredWithoutTheRing) {
   ASSERT_EQ(made().exit_code, 0) << made().err;
   EXPECT_THAT(made().err, HasSubstr("A ring on ring_proximal"));
   // 1.2 mm thick: taken for skin it would make the phalanx 2 mm broader.

@@ -36,7 +36,7 @@ ContactResult press_edge(double fillet, int subdivisions, bool refine = false) {
   return solve_hand_contact(hand, hand.hand().skin.vertices, place, *bar, options);
 }
 
-TEST(Resolution, WhatIsResolvedMovesByLessThan5PercentWhenTheMeshIsHalved) {
+TEST(Resolution, ThoroughWhatIsResolvedMovesByLessThan5PercentWhenTheMeshIsHalved) {
   int resolved = 0;
   for (const double fillet : {2.0, 4.0, 8.0}) {
     const ContactResult finest = press_edge(fillet, 5);

@@ -106,7 +106,7 @@ TEST(RefineContact, BarsThinnerThanTheMeshAreHertzLineContacts) {
   }
 }
 
-TEST(RefineContact, TwoMeshesAgreeOnceTheyAreRefined) {
+TEST(RefineContact, ThoroughTwoMeshesAgreeOnceTheyAreRefined) {
   const PreparedHand finer = tip_on_bone(4);  // edges of 0.7 mm
   for (const double fillet : {0.0, 2.0}) {
     const ContactResult one = press_on_edge(coarse_tip(), fillet, 2.0, refined());

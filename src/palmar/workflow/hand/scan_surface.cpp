@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "palmar/core/error.h"
+#include "palmar/core/text.h"
 #include "palmar/formats/mesh/coloured_mesh_file.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
@@ -203,7 +204,9 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
   const OrientResult oriented = orient_outwards(result.surface.mesh);
   if (!oriented.flipped_triangles.empty()) {
     result.notes.push_back(
-        fmt::format("{}: {} triangles turned outwards", path, oriented.flipped_triangles.size()));
+        path + ": " +
+        counted(static_cast<int>(oriented.flipped_triangles.size()), "triangle", "triangles") +
+        " turned outwards");
   }
   result.surface.mesh = oriented.mesh;
   return result;
