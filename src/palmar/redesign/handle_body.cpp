@@ -15,6 +15,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/product/parts/part_outline.h"
+#include "palmar/redesign/handle_ends.h"
 
 namespace palmar {
 namespace {
@@ -199,6 +200,16 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   }
 }
 
+/// Takes what isn't the handle from a part's body.
+void leave_other_ends(const Product& product, const ProductPart& part, HandleBody& body) {
+  const std::array<double, 2> other = other_ends(body);
+  const double within = 0.5 * body.run_out;  // the shape runs out about the end of the grip
+  if (other[0] > within) body.bottom += other[0] - within;
+  if (other[1] > within) body.top -= other[1] - within;
+  for (const std::size_t end : {0, 1}) body.is_free[end] = body.is_free[end] && other[end] == 0.0;
+  if (other[0] > within || other[1] > within) take_sections(product, part, body);
+}
+
 double mean_value(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
@@ -255,7 +266,7 @@ double HandleOutlines::at(double height, double phi) const {
 Point2 HandleBody::centre_at(double z) const { return centre[0] + z * (centre[1] + z * centre[2]); }
 
 HandleBody measure_handle(const Product& product, const ProductPart& part,
-                          const HandsOnHandle& hands) {
+                          const HandsOnHandle& hands, bool takes_all) {
   if (part.is_ring || part.line.size() < 2 ||
       (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
        part.kind != PartKind::kBody)) {
@@ -301,6 +312,11 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   }
   take_sections(product, part, body);
   if (body.is_whole) body.end_radius = end_radius_of(body);
+  body.gripped = gripped_length(body, hands);
+  // Of a solid the ends stay as they are: rest and handle meet in the outlines that were there.
+  if (!body.is_whole && product.faces != nullptr) body.is_free = {false, false};
+  if (!body.is_whole && !takes_all) leave_other_ends(product, part, body);
+  if (!body.is_whole && product.faces == nullptr) body.outlines = smoothed(body.outlines);
   const Vec3 thumb = body.product_from_handle.inverse() * hands.thumb;
   body.hands.thumb_at = thumb.z();
   const Point2 from_centre = thumb.head<2>() - body.centre_at(thumb.z());

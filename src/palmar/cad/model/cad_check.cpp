@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/cad/model/cad_check.h"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListIteratorOfListOfStatus.hxx>
@@ -18,8 +19,10 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
 
 #include "palmar/cad/model/occt_model.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -130,7 +133,9 @@ CadCheck check_cad(const CadModel& model) {
   check.faces = model.face_count();
   check.edges = model.edge_count();
   const BRepCheck_Analyzer analyzer(impl.shape);
-  check.is_valid = analyzer.IsValid();
+  const std::string crossing = self_crossing(model);
+  check.is_valid = analyzer.IsValid() && crossing.empty();
+  if (!crossing.empty()) check.findings.push_back(crossing);
   if (!check.is_valid) {
     add_findings(analyzer, impl.faces, "face", check.findings);
     add_findings(analyzer, impl.edges, "edge", check.findings);
@@ -159,6 +164,31 @@ CadCheck check_cad(const CadModel& model) {
                              " mm3; a solid's is positive");
   }
   return check;
+}
+
+std::string self_crossing(const CadModel& model) {
+  constexpr double kTouching = 1e-3;  // mm; a tube that only touches the axis
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const BRepAdaptor_Surface surface(TopoDS::Face(model.impl().faces(f)), Standard_True);
+    if (surface.GetType() != GeomAbs_Torus) continue;
+    const double ring = surface.Torus().MajorRadius(), tube = surface.Torus().MinorRadius();
+    if (tube <= ring + kTouching) continue;
+    // Distance from the axis, below 0 on the inner part: ring + tube cos v.
+    double nearest = ring + tube, farthest = ring - tube;
+    constexpr int kSteps = 360;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double v = surface.FirstVParameter() +
+                       (surface.LastVParameter() - surface.FirstVParameter()) * k / kSteps;
+      nearest = std::min(nearest, ring + tube * std::cos(v));
+      farthest = std::max(farthest, ring + tube * std::cos(v));
+    }
+    if (nearest > -kTouching || farthest < kTouching) continue;
+    return "face " + std::to_string(f) + " passes through itself: a torus with a ring of radius " +
+           significant(ring, 4) + " mm and a tube of " + significant(tube, 4) +
+           " mm crosses its own axis; a surface of a solid doesn't. Make the tube thinner than the "
+           "ring, or trim the face where it meets the axis";
+  }
+  return "";
 }
 
 int most_poles(const CadModel& model) {

@@ -37,18 +37,18 @@ struct Row {
 };
 
 /// Rows of one end's rounding, from the flat end inwards, without the row where the side begins.
-std::vector<Row> rows_of_fillet(double end, double inwards, double fillet) {
+std::vector<Row> rows_of_fillet(double end, double inwards, double fillet, double whole_angle) {
   std::vector<Row> rows;
   for (int k = 0; k < kFilletRows && fillet > 0.0; ++k) {
-    const double angle = 0.5 * std::numbers::pi * (1.0 - static_cast<double>(k) / kFilletRows);
-    rows.push_back(
-        {end + inwards * fillet * (1.0 - std::sin(angle)), fillet * (1.0 - std::cos(angle))});
+    const double angle = whole_angle * (1.0 - static_cast<double>(k) / kFilletRows);
+    rows.push_back({end + inwards * fillet * (std::sin(whole_angle) - std::sin(angle)),
+                    fillet * (1.0 - std::cos(angle))});
   }
   return rows;
 }
 
 std::vector<Row> rows_of(const LoftOptions& o) {
-  std::vector<Row> rows = rows_of_fillet(o.bottom, 1.0, o.end_fillet);
+  std::vector<Row> rows = rows_of_fillet(o.bottom, 1.0, o.end_fillet, o.end_angle);
   // Rows at the borders of bands, and evenly between.
   std::vector<double> borders;
   for (const LoftBand& band : o.bands) borders.push_back(band.begin);
@@ -59,7 +59,7 @@ std::vector<Row> rows_of(const LoftOptions& o) {
     for (int k = 0; k < steps; ++k) rows.push_back({borders[b] + length * k / steps, 0.0});
   }
   rows.push_back({borders.back(), 0.0});
-  std::vector<Row> top = rows_of_fillet(o.top, -1.0, o.end_fillet);
+  std::vector<Row> top = rows_of_fillet(o.top, -1.0, o.end_fillet, o.end_angle);
   rows.insert(rows.end(), top.rbegin(), top.rend());
   return rows;
 }
@@ -194,6 +194,13 @@ NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& s
         {BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1)), wire.Wire()).Face(),
          name});
   };
+  const auto fillet_band = [&](const LoftBand& beside, const std::string& name) {
+    LoftBand band = beside;
+    for (std::string& one : band.names) one = name + ", " + one;
+    if (!options.splits_fillets) band.splits.clear();
+    if (!options.splits_fillets) band.names = {name};
+    return band;
+  };
   for (const LoftBand& band : options.bands) {
     add_band(parameter_at(band.begin), parameter_at(band.end), band);
   }
@@ -202,8 +209,8 @@ NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& s
   if (options.end_fillet > 0.0) {
     const LoftBand& first = options.bands.front();
     const LoftBand& last = options.bands.back();
-    add_patch(0.0, 1.0, v.front(), parameter_at(first.begin), "bottom fillet");
-    add_patch(0.0, 1.0, parameter_at(last.end), v.back(), "top fillet");
+    add_band(v.front(), parameter_at(first.begin), fillet_band(first, "bottom fillet"));
+    add_band(parameter_at(last.end), v.back(), fillet_band(last, "top fillet"));
   }
 
   BRepBuilderAPI_Sewing sewing(kSewing);

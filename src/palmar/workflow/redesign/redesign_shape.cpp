@@ -18,6 +18,7 @@
 #include "palmar/records/handle_json.h"
 #include "palmar/records/product/cad_handle.h"
 #include "palmar/redesign/contact_region.h"
+#include "palmar/redesign/handle_ends.h"
 #include "palmar/redesign/held_hand.h"
 #include "palmar/report/picture/depth_pictures.h"
 
@@ -29,15 +30,68 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLeastEndRadius = 3.0;  // mm; so that an end isn't felt as an edge; our choice
 
+std::vector<HandPressure> pressures_of(const HeldHand& held) {
+  std::vector<HandPressure> pressures;
+  for (std::size_t i = 0; i < held.pressure.size(); ++i) {
+    if (held.pressure[i] > 0.0) pressures.push_back({held.skin.vertices[i], held.pressure[i]});
+  }
+  return pressures;
+}
+
+/// All uses with their hands on the original, weights as shares.
+std::vector<ShapeUse> hold_originals(const RedesignShapeRequest& request,
+                                     const Progress& progress) {
+  std::vector<ShapeUseRequest> asked;
+  for (const std::string& words : request.uses) asked.push_back(shape_use(words, request.redesign));
+  if (asked.empty()) asked.push_back({.name = "", .asked = request.redesign});
+  double sum = 0.0;
+  for (const ShapeUseRequest& one : asked) sum += one.weight;
+  std::vector<ShapeUse> uses;
+  for (ShapeUseRequest& one : asked) {
+    if (!uses.empty()) {
+      // Files of its own; notes on product and populations were said.
+      one.asked.out = request.redesign.out / fmt::format("use-{}", uses.size() + 1);
+      one.asked.on_note = nullptr;
+    }
+    HeldOriginal original = grasp_original(one.asked, progress);
+    uses.push_back({.name = one.name,
+                    .weight = one.weight / sum,
+                    .request = one.asked,
+                    .original = std::move(original)});
+  }
+  return uses;
+}
+
+/// The search in the report.
+std::vector<StudyFigure> search_figures(const SearchStory& story) {
+  if (story.result.history.size() < 2) return {};
+  std::vector<StudyFigure> figures;
+  for (Figure& one : uses_figures(story)) {
+    figures.push_back({.name = fmt::format("uses_{}", figures.size() + 2),
+                       .description =
+                           "Candidates of the search in two uses, and those that no other "
+                           "one beats in every use",
+                       .figure = std::move(one)});
+  }
+  figures.push_back({.name = "choices",
+                     .description = "Candidates of the search: the goal over how far the surface "
+                                    "moves, and those that no other one beats in both",
+                     .figure = choices_figure(story)});
+  return figures;
+}
+
 /// How the hands lie: by the hold, which is the same for all; thumb and breadth as means over them.
-HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
+/// Where hands press it, in all uses.
+HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hold, double spread,
                               const Progress& progress) {
+  const HeldOriginal& original = uses.front().original;
   const ProductPart& part = original.parts().parts.at(static_cast<std::size_t>(hold.part - 1));
   const Rigid3 place = part_frame(part, hold.along, hold.turn);
   HandsOnHandle result;
   result.place = place.translation;
   result.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
   result.palm = place.rotation * Vec3::UnitZ();
+  result.spread = spread;
   Vec3 thumb = Vec3::Zero();
   double pressed = 0.0, breadth = 0.0;
   int hands = 0;
@@ -46,6 +100,7 @@ HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
       [&](const HeldHand& held) {
         breadth += held.who->dimensions.hand_width;
         ++hands;
+        result.pressures.push_back(pressures_of(held));
         for (std::size_t i = 0; i < held.pressure.size(); ++i) {
           if (!(held.pressure[i] > 0.0) || part_of(held.who->region[i]) != HandPart::kThumb) {
             continue;
@@ -55,6 +110,12 @@ HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
         }
       },
       progress);
+  for (std::size_t u = 1; u < uses.size(); ++u) {
+    const LoadedStudy& study = uses[u].original.study;
+    for_each_held_hand(
+        study.plan, study.inputs, uses[u].original.source(), {}, 0,
+        [&](const HeldHand& held) { result.pressures.push_back(pressures_of(held)); }, progress);
+  }
   result.breadth = breadth / hands;
   result.thumb = pressed > 0.0 ? Vec3(thumb / pressed)
                                : Vec3(result.place + 0.36 * result.breadth * result.thumb_side);
@@ -111,11 +172,19 @@ std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
 
 /// Where the search begins: what is `given`, or else nearest to the original, within what a search
 /// may vary.
-HandleShape start_of(const RedesignShapeRequest& request, const HandleBody& body,
-                     const FittedFeatures& fitted, const std::optional<HandleFile>& given) {
+HandleShape start_of(const RedesignShapeRequest& request, const Product& product,
+                     const HandleBody& body, const FittedFeatures& fitted,
+                     const std::optional<HandleFile>& given) {
   HandleShape start{.body = body, .features = fitted.features};
-  start.kept_ends = request.limits.kept_ends;
+  if (body.is_whole) {
+    constexpr double kHalfBlend = 7.0;  // mm; the features begin about the end of the grip
+    for (const std::size_t end : {0, 1}) {
+      start.kept_ends[end] =
+          request.limits.kept_ends.value_or(std::max(0.0, other_ends(body)[end] - kHalfBlend));
+    }
+  }
   start.kept_boxes = request.limits.kept_boxes;
+  start.kept_faces = request.limits.kept_faces;
   if (body.is_whole) {
     start.end_radius = request.end_radius.value_or(std::max(kLeastEndRadius, body.end_radius));
   }
@@ -123,13 +192,60 @@ HandleShape start_of(const RedesignShapeRequest& request, const HandleBody& body
     start.features = given->features;
     start.kept_ends = given->kept_ends;
     start.kept_boxes = given->kept_boxes;
+    start.kept_faces = given->kept_faces;
     if (body.is_whole) start.end_radius = given->end_radius;
   } else if (request.limits.suits_both_hands) {
     for (const HandleFeature& one : handle_features()) {
       if (one.is_one_sided) start.features.*one.value = 0.0;
     }
   }
+  KeepOut faces;
+  for (const std::string& one : start.kept_faces) faces.add_face(one);
+  start.to_kept_faces = distances_to_faces(body, product, faces);
   return start;
+}
+
+/// Largest distance [mm] from the original of what a whole product's solid keeps of it; nothing
+/// kept: none.
+std::optional<double> kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
+                                     const Product& original) {
+  if (!shape.body.is_whole || !shape.keeps()) return std::nullopt;
+  constexpr double kFar = 20.0;  // mm
+  const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+  // Roundings of the ends are made anew with the end radius.
+  const double margin = std::max(shape.end_radius, shape.body.end_radius);
+  std::vector<Vec3> kept;
+  for (const Vec3& x : solid.vertices) {
+    const Vec3 p = to_handle * x;
+    if (p.z() < shape.body.bottom + margin || p.z() > shape.body.top - margin) continue;
+    const Eigen::Vector2d across = p.head<2>() - shape.body.centre_at(p.z());
+    if (shape.share_at(p.z(), std::atan2(across.y(), across.x())) == 0.0) kept.push_back(x);
+  }
+  std::vector<DistanceSample> samples(kept.size());
+  original.distance->sample(kept, kFar, samples);
+  double largest = 0.0;
+  for (const DistanceSample& one : samples) largest = std::max(largest, std::abs(one.distance));
+  return largest;
+}
+
+/// What of the original is replaced, in a sentence.
+std::string replaced_words(const HandleShape& shape) {
+  const HandleBody& body = shape.body;
+  const auto at = [&](double z) { return fmt::format("{:.0f}", z - body.bottom); };
+  if (!body.is_whole) {
+    return fmt::format(
+        "shaped anew: {:.0f} mm of the handle, where hands grip it; the rest of the product stays",
+        body.top - body.bottom);
+  }
+  if (shape.kept_ends[0] == 0.0 && shape.kept_ends[1] == 0.0) {
+    return "shaped anew: the whole handle from end to end" +
+           std::string(shape.keeps() ? ", but for what is kept" : "");
+  }
+  return fmt::format(
+      "shaped anew: from {} to {} mm of its {:.0f} mm, counted from the little finger's end; what "
+      "lies beyond keeps its outline, into which the features run out over 14 mm",
+      at(body.bottom + shape.kept_ends[0]), at(body.top - shape.kept_ends[1]),
+      body.top - body.bottom);
 }
 
 /// The shape as files, and as the product that hands hold.
@@ -137,20 +253,32 @@ Product write_shape(const RedesignShapeRequest& request, const Product& original
                     RedesignShapeOutcome& outcome, const Progress& progress) {
   const fs::path& folder = request.redesign.out;
   const HandleShape& shape = outcome.shape;
-  const HandleSolid solid = make_handle(shape, original.name, 0.01, {}, progress);
+  const bool is_whole = shape.body.is_whole;
+  std::optional<CadSource> source;
+  if (!is_whole && original.faces != nullptr) source = cad_source_of(request.redesign);
+  const MadeHandle made = make_handle(shape, original.name, source, 0.01, {}, progress);
+  const HandleSolid& solid = made.handle;
   outcome.solid_volume = solid.volume;
   outcome.faces = solid.faces;
   outcome.poles = solid.poles;
+  if (!made.failure.empty()) {
+    outcome.add_note(
+        request.redesign,
+        original.name +
+            ": the product with its new handle is written as a mesh only: " + made.failure);
+  }
   UnitDecision unit;
   unit.unit = LengthUnit::kMillimetre;
   unit.source = UnitSource::kMade;
+  outcome.kept_deviation = kept_deviation(shape, solid.mesh.mesh, original);
   const std::string name = original.name + " shaped";
-  const bool is_whole = shape.body.is_whole;
-  Product product =
-      is_whole ? make_product(name, solid.mesh.mesh, unit, "redesign.step", &solid.mesh.faces)
-               : shaped_product(original, shape, name);
-  outcome.file = folder / (is_whole ? "redesign.step" : "redesign.stl");
-  write_file(folder / (is_whole ? "redesign.step" : "handle.step"), solid.step);
+  const HandleSolid* const step = is_whole ? &solid : made.whole ? &*made.whole : nullptr;
+  Product product = step != nullptr ? make_product(name, step->mesh.mesh, unit, "redesign.step",
+                                                   &step->mesh.faces)
+                                    : shaped_product(original, shape, name);
+  outcome.file = folder / (step != nullptr ? "redesign.step" : "redesign.stl");
+  if (step != nullptr) write_file(folder / "redesign.step", step->step);
+  if (!is_whole) write_file(folder / "handle.step", solid.step);
   write_mesh(folder / "redesign.stl", product.mesh);
   write_file(folder / "handle.toml", handle_toml(shape, original.name));
   write_file(folder / "handle.FCMacro", freecad_macro(shape, original.name));
@@ -162,6 +290,10 @@ void write_search(const RedesignShapeRequest& request, const RedesignShapeOutcom
   write_file(folder / "history.csv", history_csv(outcome.story));
   write_file(folder / "history.svg", history_svg(outcome.story));
   write_file(folder / "choices.svg", choices_svg(outcome.story));
+  int use = 2;
+  for (const Figure& one : uses_figures(outcome.story)) {
+    write_file(folder / fmt::format("uses-{}.svg", use++), to_svg(one));
+  }
 }
 
 void write_shape_pictures(const RedesignShapeRequest& request, const Product& original,
@@ -196,6 +328,11 @@ Json json_of(const RedesignShapeRequest& request, const RedesignShapeOutcome& ou
         {"turn_deg", handle_feature("turn").scale * request.spread.turn}}},
       {"features", features_json(outcome.shape.features)},
       {"is_whole", outcome.shape.body.is_whole},
+      {"gripped_mm", outcome.shape.body.gripped},
+      {"length_mm", {outcome.shape.body.bottom, outcome.shape.body.top}},
+      {"kept_ends_mm", outcome.shape.kept_ends},
+      {"kept_faces", outcome.shape.kept_faces},
+      {"kept_deviation_mm", outcome.kept_deviation ? Json(*outcome.kept_deviation) : Json()},
       {"end_radius_mm", outcome.shape.end_radius},
       {"fit_rms_mm", outcome.fit_rms},
       {"largest_change_mm", outcome.change.largest},
@@ -226,6 +363,7 @@ void RedesignShapeRequest::check() const {
         "setting \"posture\" kept: a shape is made for hands that take it in hand; new is "
         "allowed");
   }
+  for (const std::string& words : uses) shape_use(words, redesign).asked.check();
   for (const std::string& words : vary) handle_feature(words.substr(0, words.find('=')));
   if (pick && *pick < 1) {
     throw UsageError(fmt::format("setting \"pick\" is {}; 1 or more is allowed", *pick));
@@ -239,39 +377,38 @@ void RedesignShapeRequest::check() const {
   }
 }
 
-RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const Progress& progress) {
-  request.check();
+RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Progress& progress) {
+  asked.check();
   RedesignShapeOutcome outcome;
-  const FeatureGoal goal = feature_goal(request.goal);
+  const FeatureGoal goal = feature_goal(asked.goal);
+  RedesignShapeRequest request = asked;
+  request.redesign.goal_key = goal.key;
   // Before anything is said of the hold.
   const std::optional<HandleFile> given =
       request.features.empty() ? std::nullopt : std::optional(read_handle(request.features));
-  const HeldOriginal original = grasp_original(request.redesign, progress);
+  ShapeRun run{.uses = hold_originals(request, progress),
+               .goal = goal,
+               .limits = request.limits,
+               .start = {},
+               .variables = {}};
+  const HeldOriginal& original = run.uses.front().original;
   outcome.notes = original.study.notes;
   const Product& product = original.product();
   const Hold hold = hold_for_shape(original);
   const HandleBody body =
       measure_handle(product, original.parts().parts.at(static_cast<std::size_t>(hold.part - 1)),
-                     hands_on_handle(original, hold, progress));
+                     hands_on_handle(run.uses, hold, request.spread.along, progress),
+                     request.limits.kept_ends.has_value());
   const FittedFeatures fitted = fit_features(body);
   outcome.fit_rms = fitted.rms;
-
-  ShapeRun run{.request = request.redesign,
-               .original = original,
-               .goal = goal,
-               .limits = request.limits,
-               .spread = request.spread,
-               .start = start_of(request, body, fitted, given),
-               .variables = {},
-               .offsets = {},
-               .before = {}};
+  run.start = start_of(request, product, body, fitted, given);
   run.variables = variables_of(request, run.start.features);
-  run.hold_original(progress);
+  run.hold_original(request.spread, progress);
   outcome.story = run.search(request.search, progress);
   create_folder(request.redesign.out);
-  write_search(request, outcome);
   SearchResult& found = outcome.story.result;
   if (request.pick) found.best = picked(*request.pick, found);
+  write_search(request, outcome);
   if (!found.best) {
     throw NumericalError(
         fmt::format("{}: no candidate is within the limits; {} has all that were "
@@ -281,11 +418,12 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
   outcome.shape = run.shape_of(found.history[static_cast<std::size_t>(*found.best)].values);
   outcome.change = shape_change(outcome.shape);
   const Product redesign = write_shape(request, product, outcome, progress);
+  outcome.add_note(request.redesign, replaced_words(outcome.shape));
   if (!outcome.shape.body.is_whole) {
     outcome.add_note(
         request.redesign,
-        product.name +
-            " goes on beyond its handle: redesign.stl has all of it, handle.step the handle alone");
+        fmt::format("{} goes on beyond its handle: {} has all of it, handle.step the handle alone",
+                    product.name, outcome.file.filename().string()));
   }
   Json json = json_of(request, outcome);
   if (request.draws) write_shape_pictures(request, product, redesign, outcome.shape, progress);
@@ -293,8 +431,14 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
   if (request.compares) {
-    outcome.judge(request.redesign, original, {redesign, "shaped", outcome.file.string()},
-                  progress);
+    const RedesignedProduct judged{redesign, "shaped", outcome.file.string()};
+    const std::vector<StudyFigure> figures = search_figures(outcome.story);
+    outcome.judge(run.uses.front().request, original, judged, progress, figures);
+    for (std::size_t u = 1; u < run.uses.size(); ++u) {
+      const ShapeUse& use = run.uses[u];
+      outcome.other_uses.push_back({.name = use.name, .weight = use.weight, .outcome = {}});
+      outcome.other_uses.back().outcome.judge(use.request, use.original, judged, progress, figures);
+    }
   }
   if (outcome.gains) {
     json["gains"] = Json::parse(gains_json(*outcome.gains));
