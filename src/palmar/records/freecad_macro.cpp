@@ -81,7 +81,10 @@ def build():
     low, high = bottom + height, top - height
     steps = max(2, math.ceil((high - low) / row_distance))
     rows = rounding(bottom, 1.0) + [(low + (high - low) * j / steps, 0.0) for j in range(steps + 1)]
-    rows += reversed(rounding(top, -1.0))
+    if end_radius > 0.0:  # without these the side bulges beside its roundings
+        rows += [(z, 0.0) for s in (1.0 / 6.0, 0.5)
+                 for z in (low + s * end_radius, high - s * end_radius)]
+    rows = sorted(rows) + list(reversed(rounding(top, -1.0)))
     points = [[inset_point(z, 0.125 + i / columns, inset) for i in range(columns)]
               for z, inset in rows]
     # One bicubic surface through all of them: splines round, then splines through their poles.

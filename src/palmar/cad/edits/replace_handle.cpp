@@ -24,7 +24,7 @@ namespace palmar {
 namespace {
 
 constexpr double kBeyond = 0.5;       // mm; what is cut out is so much wider than the outlines
-constexpr double kMeeting = 0.1;      // mm; outlines from triangles and the faces themselves
+constexpr double kStep = 0.1;         // mm; outlines are off the faces by less
 constexpr double kSameVolume = 2e-3;  // of the volume
 constexpr int kToolColumns = 48;
 constexpr double kToolRows = 4.0;  // mm
@@ -69,7 +69,13 @@ CadModel replace_handle(const CadModel& product, const HandleShape& shape) {
     throw NumericalError(fmt::format("{}: the product has {} bodies and {} solids; one is required",
                                      feature, before.bodies.size(), product.solid_count()));
   }
-  const CadModel handle = make_handle_solid(shape), old = old_handle(shape);
+  // Outlines that nearly are those of the faces give slivers where they cross, or, made one, edges
+  // off their faces: within them they meet in a clear step.
+  HandleShape within = shape;
+  for (std::vector<double>& row : within.body.outlines.radius) {
+    for (double& one : row) one -= kStep;
+  }
+  const CadModel handle = make_handle_solid(within), old = old_handle(shape);
   NamedSolid made;
   try_feature(feature, [&] {
     BRepAlgoAPI_Cut cut(before.shape, old.impl().shape);
@@ -80,7 +86,6 @@ CadModel replace_handle(const CadModel& product, const HandleShape& shape) {
     BRepAlgoAPI_Fuse fuse;
     fuse.SetArguments(rest);
     fuse.SetTools(fresh);
-    fuse.SetFuzzyValue(kMeeting);
     fuse.Build();
     if (!fuse.IsDone()) throw NumericalError(feature + ": it can't be united with the rest");
     made.shape = checked_solid(fuse.Shape(), feature);

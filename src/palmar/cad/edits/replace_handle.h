@@ -9,7 +9,7 @@ namespace palmar {
 
 /// The product with its handle shaped anew: what lies within the handle's outlines between its ends
 /// (HandleBody::bottom, top) is cut out, and make_handle_solid() united with the rest, which it
-/// meets in planes with the outlines that were there (edges within 0.1 mm become one). Names of
+/// meets in planes, 0.1 mm within the outlines that were there: in a step as high. Names of
 /// faces that remain are kept; those of the handle are its own.
 ///
 /// Throws NumericalError saying why there is no such solid: several bodies, or no valid closed

@@ -32,6 +32,8 @@ constexpr double kSewing = 1e-5;  // mm; faces share their borders to rounding
 constexpr int kFilletRows = 9;    // of a quarter round; beside it the spline is off by 0.002 radii
 constexpr double kDerivative = 1e-4;  // of a turn, for normals of sections
 
+constexpr double kBesideFillet[] = {1.0 / 6.0, 0.5};  // radii beside it
+
 struct Row {
   double z, inset;
 };
@@ -59,6 +61,14 @@ std::vector<Row> rows_of(const LoftOptions& o) {
     for (int k = 0; k < steps; ++k) rows.push_back({borders[b] + length * k / steps, 0.0});
   }
   rows.push_back({borders.back(), 0.0});
+  if (o.splits_fillets && o.end_fillet > 0.0) {
+    for (const double share : kBesideFillet) {
+      rows.push_back({borders.front() + share * o.end_fillet, 0.0});
+      rows.push_back({borders.back() - share * o.end_fillet, 0.0});
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Row& a, const Row& b) { return a.z < b.z; });
+  }
   std::vector<Row> top = rows_of_fillet(o.top, -1.0, o.end_fillet, o.end_angle);
   rows.insert(rows.end(), top.rbegin(), top.rend());
   return rows;

@@ -54,7 +54,8 @@ struct LoftOptions {
   /// Over which the roundings turn, up to the flat ends: a quarter of a turn meets these without an
   /// edge, less at an angle. The height of a rounding is end_fillet sin(end_angle).
   double end_angle = 0.5 * std::numbers::pi;
-  /// Whether roundings are parted as the bands beside them: "bottom fillet, palm".
+  /// Whether roundings are parted as the bands beside them ("bottom fillet, palm") and have two
+  /// more rows beside them, without which the side bulges there by a hundredth of their radius.
   bool splits_fillets = false;
   int columns = 40;
   double row_distance = 5.0;  ///< mm, about
