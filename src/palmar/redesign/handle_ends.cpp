@@ -56,6 +56,11 @@ struct StraightOutlines {
       at_zero.push_back(n > 0.0 ? (r1 - slope.back() * z1) / n : 0.0);
     }
   }
+  double mean(double z) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < slope.size(); ++k) sum += at_zero[k] + slope[k] * z;
+    return sum / static_cast<double>(slope.size());
+  }
   double rms_off(double z, const std::vector<double>& radius) const {
     double squares = 0.0;
     for (std::size_t k = 0; k < radius.size(); ++k) {
@@ -64,6 +69,27 @@ struct StraightOutlines {
     return std::sqrt(squares / static_cast<double>(radius.size()));
   }
 };
+
+/// Length of the top (or the bottom) over which the handle is a quarter thinner or thicker than its
+/// middle continued: a neck, even if fingers lie on it.
+double neck_length(const HandleBody& body, bool at_top) {
+  constexpr double kAnother = 0.25;  // of the mean radius
+  const auto& [low, high] = body.gripped;
+  const double quarter = 0.25 * (high - low);
+  const StraightOutlines straight(body.outlines, low + quarter, high - quarter);
+  const double margin = body.is_whole ? body.end_radius + 0.5 : 0.0;
+  const auto rows = static_cast<int>(body.outlines.z.size());
+  double length = 0.0;
+  for (int k = 0; k < rows; ++k) {  // from the end inwards
+    const auto j = static_cast<std::size_t>(at_top ? rows - 1 - k : k);
+    const double z = body.outlines.z[j];
+    if (z < body.bottom + margin || z > body.top - margin) continue;
+    if (z > low + quarter && z < high - quarter) break;
+    if (straight.rms_off(z, body.outlines.radius[j]) < kAnother * straight.mean(z)) break;
+    length = at_top ? body.top - z : z - body.bottom;
+  }
+  return length < kLeastEnd ? 0.0 : length;
+}
 
 }  // namespace
 
@@ -84,12 +110,14 @@ std::array<double, 2> gripped_length(const HandleBody& body, const HandsOnHandle
 }
 
 std::array<double, 2> other_ends(const HandleBody& body) {
-  const auto& [low, high] = body.gripped;
+  const std::array<double, 2> necks = {neck_length(body, false), neck_length(body, true)};
+  const double low = std::max(body.gripped[0], body.bottom + necks[0]);
+  const double high = std::min(body.gripped[1], body.top - necks[1]);
   const StraightOutlines straight(body.outlines, low, high);
   // Roundings of flat ends are no other thing.
   const double margin = body.is_whole ? body.end_radius + 0.5 : 0.0;
   std::array<double, 2> lengths = {low - body.bottom, body.top - high};
-  std::array<bool, 2> are_other = {false, false};
+  std::array<bool, 2> are_other = {necks[0] > 0.0, necks[1] > 0.0};
   for (std::size_t j = 0; j < body.outlines.z.size(); ++j) {
     const double z = body.outlines.z[j];
     if (z < body.bottom + margin || z > body.top - margin || (z >= low && z <= high)) continue;
@@ -146,13 +174,15 @@ HandleOutlines smoothed(const HandleOutlines& outlines) {
     for (std::size_t wave = 0; wave < std::size(kShare); ++wave) {
       double c = 0.0, s = 0.0;
       for (std::size_t k = 0; k < n; ++k) {
-        const double angle = kOnceRound * static_cast<double>(wave * k % n) / static_cast<double>(n);
+        const double angle =
+            kOnceRound * static_cast<double>(wave * k % n) / static_cast<double>(n);
         c += row[k] * std::cos(angle);
         s += row[k] * std::sin(angle);
       }
       const double weight = kShare[wave] * (wave == 0 ? 1.0 : 2.0) / static_cast<double>(n);
       for (std::size_t k = 0; k < n; ++k) {
-        const double angle = kOnceRound * static_cast<double>(wave * k % n) / static_cast<double>(n);
+        const double angle =
+            kOnceRound * static_cast<double>(wave * k % n) / static_cast<double>(n);
         kept[k] += weight * (c * std::cos(angle) + s * std::sin(angle));
       }
     }

@@ -17,7 +17,8 @@ std::array<double, 2> gripped_length(const HandleBody& body, const HandsOnHandle
 /// Beyond the gripped length, at the bottom and at the top, how much [mm] is something else than
 /// the handle: a tang, a foot, a guard, a neck. 0 where the handle goes on alike: where outlines
 /// differ by no more than 1 mm (root mean square round the section) from those of the gripped
-/// length, continued straight in every direction; and of ends below 3 mm.
+/// length, continued straight in every direction; and of ends below 3 mm. What is a quarter thinner
+/// or thicker than the middle half of the grip continued is something else even where hands press.
 std::array<double, 2> other_ends(const HandleBody& body);
 
 /// Distance from every place of the body's outlines to the faces of `keep_out`, in place of radii,

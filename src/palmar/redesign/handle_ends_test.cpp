@@ -73,6 +73,9 @@ TEST(OtherEnds, AFootAndAWaistedNeckAreNotTheHandle) {
   EXPECT_EQ(foot, (std::array<double, 2>{20.0, 0.0}));
   const auto neck = other_ends(bar([](double z, double) { return z > 50.0 ? 8.0 : 15.0; }));
   EXPECT_EQ(neck, (std::array<double, 2>{0.0, 20.0}));
+  // From 30 mm on, where fingers still lie (up to 40): outlines are 2 mm apart.
+  const auto held_neck = other_ends(bar([](double z, double) { return z > 29.0 ? 8.0 : 15.0; }));
+  EXPECT_EQ(held_neck, (std::array<double, 2>{0.0, 30.0}));
 }
 
 TEST(KeptEnds, KeepTheOutlinesThatTheyHave) {

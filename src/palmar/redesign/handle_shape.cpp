@@ -238,9 +238,19 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
     place.is_moved = place.r > 1e-6 && place.r < kBeside * place.before;
     return place;
   };
+  // A triangle of CAD may go from end to end of a handle whose vertices all lie beyond what moves.
+  const auto is_beside = [&](const Vec3& x) {
+    const Vec3 p = to_handle * x;
+    const double z = std::clamp(p.z(), body.bottom, body.top);
+    const Point2 from_centre = p.head<2>() - body.centre_at(z);
+    return from_centre.norm() < kBeside * body.outlines.at(z, angle_of(from_centre));
+  };
   TriangleMesh moved =
       split_long_edges(mesh, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return place_of(a).is_moved || place_of(b).is_moved || place_of(c).is_moved;
+        const double za = (to_handle * a).z(), zb = (to_handle * b).z(), zc = (to_handle * c).z();
+        const bool is_below = std::max({za, zb, zc}) < body.bottom && !body.is_free[0];
+        const bool is_above = std::min({za, zb, zc}) > body.top && !body.is_free[1];
+        return !is_below && !is_above && (is_beside(a) || is_beside(b) || is_beside(c));
       });
   for (Vec3& x : moved.vertices) {
     const Place place = place_of(x);

@@ -218,6 +218,46 @@ TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
   }
 }
 
+TEST(HandleShape, APartOfLongTrianglesMovesAsWell) {
+  // A bar of 24 walls from end to end, two triangles each.
+  constexpr int kWalls = 24;
+  TriangleMesh bar;
+  for (const double z : {-80.0, 80.0}) {
+    for (int k = 0; k < kWalls; ++k) {
+      const double phi = 2.0 * pi * k / kWalls;
+      bar.vertices.emplace_back(15.0 * std::cos(phi), 15.0 * std::sin(phi), z);
+    }
+    bar.vertices.emplace_back(0.0, 0.0, z);
+  }
+  for (int k = 0; k < kWalls; ++k) {
+    const int next = (k + 1) % kWalls, above = kWalls + 1;
+    bar.triangles.push_back({k, next, next + above});
+    bar.triangles.push_back({k, next + above, k + above});
+    bar.triangles.push_back({kWalls, next, k});
+    bar.triangles.push_back({kWalls + above, k + above, next + above});
+  }
+  CylinderProductOptions options;
+  options.diameter = 30.0;
+  options.length = 160.0;
+  HandleShape shape{.body = body_of(make_cylinder_product(options))};
+  shape.body.is_whole = false;
+  shape.body.run_out = 14.0;
+  shape.body.is_free = {false, false};
+  shape.body.bottom = -60.0;
+  shape.body.top = 60.0;
+  shape.features = {.width = 40.0, .depth = 40.0};
+  ASSERT_TRUE(examine_topology(bar).is_closed);
+  const TriangleMesh moved = moved_mesh(bar, shape);
+  EXPECT_TRUE(examine_topology(moved).is_closed);
+  int middle = 0;
+  for (const Vec3& x : moved.vertices) {
+    if (std::abs(x.z()) > 45.0) continue;
+    ++middle;
+    EXPECT_NEAR(x.head<2>().norm(), 20.0, 0.05);
+  }
+  EXPECT_GT(middle, 100);
+}
+
 TEST(HandleShape, WhatLiesInABoxStaysAsItIs) {
   const Product prism = make_prism_product({.width = 30, .depth = 40, .length = 130});
   HandleShape shape{.body = body_of(prism), .features = {.width = 38.0, .depth = 48.0}};
