@@ -157,6 +157,7 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   Eigen::MatrixXd powers(steps + 1, 3);
   Eigen::MatrixXd centres(steps + 1, 2);
   body.outlines.z.clear();
+  body.outlines.radius.clear();
   for (int k = 0; k <= steps; ++k) {
     const double z = bottom + (top - bottom) * k / steps;
     // The part's own centre line where this plane meets it.
