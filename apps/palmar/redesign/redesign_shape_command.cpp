@@ -115,8 +115,10 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
                    "CAD face that keeps its outline: its number or name; may be repeated")
       ->allow_extra_args(false);
   add_kept_boxes(*verb, a->keep_boxes);
-  verb->add_option("--end-radius-mm", r.end_radius,
-                   "Radius of the edges round flat ends, mm; without it as they are, at least 3");
+  verb->add_option(
+      "--end-radius-mm", r.end_radius,
+      "Radius of the edges round flat ends, mm; without it as they are, and at least 3 where "
+      "no end is kept");
   verb->add_option("--evaluations", r.search.evaluations,
                    "Largest number of candidates that are made and held")
       ->capture_default_str();

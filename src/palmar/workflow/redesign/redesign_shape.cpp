@@ -164,7 +164,10 @@ HandleShape start_of(const RedesignShapeRequest& request, const Product& product
   start.kept_boxes = request.limits.kept_boxes;
   start.kept_faces = request.limits.kept_faces;
   if (body.is_whole) {
-    start.end_radius = request.end_radius.value_or(std::max(kLeastEndRadius, body.end_radius));
+    // An outline that is kept, with its own corners, needn't take a larger rounding than it has.
+    const bool keeps_ends = start.kept_ends[0] > 0.0 || start.kept_ends[1] > 0.0;
+    start.end_radius = request.end_radius.value_or(
+        keeps_ends ? body.end_radius : std::max(kLeastEndRadius, body.end_radius));
   }
   if (given) {
     start.features = given->features;

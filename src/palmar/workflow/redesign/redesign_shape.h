@@ -33,9 +33,10 @@ struct RedesignShapeRequest {
   SearchOptions search{.method = SearchMethod::kSurface, .evaluations = 40};
   /// Candidate of the search (from 1, as in history.csv) that is made instead of the best one.
   std::optional<int> pick;
-  std::optional<double> end_radius;  ///< mm, of flat ends; unset: as it is, at least 3 mm
-  bool draws = true;                 ///< pictures
-  bool compares = true;              ///< in the end other hands hold original and redesign
+  std::optional<double>
+      end_radius;        ///< mm, of flat ends; unset: as it is, and 3 mm at least if none is kept
+  bool draws = true;     ///< pictures
+  bool compares = true;  ///< in the end other hands hold original and redesign
   /// Called when the shape stands and is written, before it is held again; json, comparison and
   /// gains of the outcome are still empty.
   std::function<void(const RedesignShapeOutcome&)> on_shape;
