@@ -136,16 +136,11 @@ TEST(RedesignShape, TheTorqueThatFrictionHoldsIsAGoal) {
 }
 
 TEST(RedesignShape, AFaceOfCadThatIsKeptStays) {
-  ASSERT_EQ(run_palmar("product make prism width_mm=30 depth_mm=40 length_mm=130 --out prism.step",
-                       folder())
-                .exit_code,
-            0);
-  const ProgramRun info = run_palmar("product info prism.step --json", folder());
-  ASSERT_EQ(info.exit_code, 0) << info.err;
-  const ProgramRun run = shape(
-      "prism.step --grip-force-n 60 --vary width=34 --vary depth=44 --vary squareness=0.2 --vary "
-      "turn=0 --keep-face 1 --json --out face" +
-      kFew);
+  const ProgramRun run =
+      shape(kPrism +
+            " --vary width=34 --vary depth=44 --vary squareness=0.2 --vary turn=0 --keep-face 1"
+            " --json --out face" +
+            kFew);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json.at("kept_faces").at(0), "1");
