@@ -261,21 +261,19 @@ std::vector<Figure> uses_figures(const SearchStory& story) {
     front.colour = series_colour(1);
     original.colour = series_colour(2);
     best.colour = series_colour(3);
+    // Every candidate once, as points that lie on one another take each other's colour.
     for (std::size_t i = 0; i < story.result.history.size(); ++i) {
-      if (may_be_chosen(story.result.history[i]) && !story.beside[i].by_use.empty()) {
-        all.points.push_back(point(i));
-      }
+      if (!may_be_chosen(story.result.history[i]) || story.beside[i].by_use.empty()) continue;
+      const int number = static_cast<int>(i);
+      const bool is_fair = std::find(fair.begin(), fair.end(), number) != fair.end();
+      const bool is_best = story.result.best && *story.result.best == number;
+      (is_best ? best : is_fair ? front : all).points.push_back(point(i));
     }
-    for (const int i : fair) {
-      front.points.push_back(point(static_cast<std::size_t>(i)));
-      // With more than two uses the front is no line in this picture.
-      if (story.uses.size() > 2) continue;
-      front.line.x.push_back(front.points.back().x());
-      front.line.value.push_back(front.points.back().y());
-    }
-    if (story.result.best &&
-        !story.beside[static_cast<std::size_t>(*story.result.best)].by_use.empty()) {
-      best.points.push_back(point(static_cast<std::size_t>(*story.result.best)));
+    // With more than two uses the front is no line in this picture.
+    for (const int i : story.uses.size() == 2 ? fair : std::vector<int>{}) {
+      const Eigen::Vector2d at = point(static_cast<std::size_t>(i));
+      front.line.x.push_back(at.x());
+      front.line.value.push_back(at.y());
     }
     figures.push_back(scatter_chart({.title = "What one use costs the other",
                                      .x_label = story.uses.front() + ": goal, % of the original's",
