@@ -66,11 +66,6 @@ void write_story(const RedesignFeatureRequest& request, const SearchStory& story
   write_file(folder / "search.json", json.dump(2) + "\n");
 }
 
-bool is_better_than_original(const SearchStory& story) {
-  const double best = story.result.history[static_cast<size_t>(*story.result.best)].outcome.goal;
-  return story.goal.is_lower_better ? best < story.original.value : best > story.original.value;
-}
-
 }  // namespace
 
 void RedesignFeatureRequest::check() const {

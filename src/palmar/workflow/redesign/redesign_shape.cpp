@@ -261,6 +261,12 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
   outcome.change = shape_change(outcome.shape);
   const Product redesign = write_shape(request, product, outcome, progress);
   outcome.add_note(request.redesign, replaced_words(outcome.shape));
+  if (!is_better_than_original(outcome.story)) {
+    outcome.add_note(request.redesign,
+                     product.name +
+                         ": no gain was found: what is made is not better than the original in the "
+                         "hands that it was made for");
+  }
   if (!outcome.shape.body.is_whole) {
     outcome.add_note(
         request.redesign,

@@ -64,6 +64,11 @@ void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOpt
   problem.measure = nullptr;
 }
 
+bool is_better_than_original(const SearchStory& story) {
+  const double best = story.result.history[static_cast<size_t>(*story.result.best)].outcome.goal;
+  return story.goal.is_lower_better ? best < story.original.value : best > story.original.value;
+}
+
 std::string history_csv(const SearchStory& story) {
   CsvTable table;
   table.header = {"candidate"};

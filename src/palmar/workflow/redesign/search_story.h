@@ -44,6 +44,9 @@ using CandidateJudge =
 void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
                 const Progress& progress);
 
+/// Whether the goal of the best candidate, which there must be, is better than the original's.
+bool is_better_than_original(const SearchStory& story);
+
 /// One row per candidate, in the order in which they were tried.
 std::string history_csv(const SearchStory& story);
 /// One JSON object.
