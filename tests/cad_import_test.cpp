@@ -179,6 +179,34 @@ TEST_F(CadImport, BallInMetresOrInchesIsTheSameBall) {
   }
 }
 
+/// A torus about z as one face, mm.
+std::string torus_step(double ring, double tube) {
+  std::string text = ball_step("LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.)", ring + tube);
+  const std::string r = std::to_string(ring + tube);
+  const auto put = [&](const std::string& old, const std::string& fresh) {
+    const std::size_t at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    text.replace(at, old.size(), fresh);
+  };
+  put("SPHERICAL_SURFACE('',#4," + r + ")",
+      "TOROIDAL_SURFACE('',#4," + std::to_string(ring) + "," + std::to_string(tube) + ")");
+  put("(0.,0.,-" + r + ")", "(" + r + ",0.,0.)");
+  return text;
+}
+
+TEST_F(CadImport, ATorusThatCrossesItsAxisIsRefusedWithTheCause) {
+  const std::string message = message_of(file("apple.step", torus_step(12.0, 20.0)));
+  EXPECT_THAT(message, HasSubstr("apple.step: face 1 passes through itself"));
+  EXPECT_THAT(message, HasSubstr("ring of radius 12 mm and a tube of 20 mm"));
+  // Pappus: 2 pi R pi r^2.
+  const double exact = 2.0 * std::pow(std::numbers::pi, 2) * 20.0 * 144.0;
+  const ImportedCad ring = import_cad(file("ring.step", torus_step(20.0, 12.0)));
+  EXPECT_NEAR(ring.volume, exact, 1e-4 * exact);
+  const testing::ProgramRun run = testing::run_palmar("product info apple.step", folder_.string());
+  EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+  EXPECT_THAT(run.err, HasSubstr("passes through itself"));
+}
+
 TEST_F(CadImport, UnitOfTheUserWinsAndTheContradictionIsReported) {
   const Product product = load_product(file("bar.step", step()), {.unit = LengthUnit::kCentimetre});
   Box3 box;

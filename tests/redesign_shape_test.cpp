@@ -52,8 +52,8 @@ TEST(RedesignShape, GivenFeaturesAreMadeAsTheyAreAndTheFileMakesThemAgain) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(run.out);
   const double length = 130.0, r = json.at("end_radius_mm").get<double>();
-  // An elliptic bar; rounding both ends takes about perimeter x r^2 (2 - pi / 2) away.
-  const double volume = M_PI * 16.0 * 21.0 * length - M_PI * 37.0 * r * r * (2.0 - M_PI / 2.0);
+  // An elliptic bar; rounding both ends over 75 degrees takes about perimeter x r^2 x 0.37 away.
+  const double volume = M_PI * 16.0 * 21.0 * length - M_PI * 37.0 * r * r * 0.373;
   EXPECT_NEAR(json.at("solid").at("volume_mm3").get<double>(), volume, 2e-3 * volume);
   EXPECT_LE(json.at("solid").at("poles").get<int>(), 600);
   const ProgramRun again = shape(kPrism + " --features made/handle.toml --json --out again" + kFew);
@@ -76,11 +76,95 @@ TEST(RedesignShape, WhatCanNotBeIsRefusedWithItsName) {
            Case{kPrism + " --keep-box 1,2,3", "two corners X0,Y0,Z0,X1,Y1,Z1"},
            Case{kPrism + " --spread-mm 99", "--spread-mm is 99; 0 to 30 mm is allowed"},
            Case{"\"made: prism\" --hold-posture kept", "--hold-posture kept"},
+           Case{kPrism + " --use \"hand=up\"", "\"hand=up\" is not known"},
+           Case{kPrism + " --use \"grip-force-n=0\"", "1 to 500 is allowed"},
+           Case{kPrism + " --draft-deg 40 --pull 1,0,0", "--draft-deg is 40; 0 to 30 degrees"},
+           Case{kPrism + " --pull 0,0,1", "90 degrees off the sections of the handle"},
+           Case{kPrism + " --keep-face 99", "no face 99"},
+           Case{kPrism + " --goal torqe", "did you mean torque?"},
        }) {
     const ProgramRun run = shape(one.arguments + " --out none" + kFew);
     EXPECT_EQ(run.exit_code, one.exit_code) << one.arguments << run.err;
     EXPECT_THAT(run.err, HasSubstr(one.message)) << one.arguments;
   }
+}
+
+TEST(RedesignShape, SeveralUsesAreSearchedDrawnAndJudgedEach) {
+  const ProgramRun run = run_palmar(
+      "redesign shape " + kPrism +
+          " --use \"weight=3\" --use \"hand=left weight=1 grip-force-n=30\" --evaluations 3"
+          " --hands 2 --seed 2014 --no-pictures --quiet --json --out uses",
+      folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json& search = json.at("search");
+  ASSERT_EQ(search.at("uses").size(), 2U);
+  EXPECT_NEAR(search.at("original").get<double>(), 1.0, 1e-9);
+  int whole = 0;
+  for (const Json& one : search.at("history")) {
+    if (!one.contains("by_use")) continue;
+    ++whole;
+    const auto by_use = one.at("by_use").get<std::vector<double>>();
+    EXPECT_NEAR(one.at("goal").get<double>(), 0.75 * by_use[0] + 0.25 * by_use[1], 1e-9);
+  }
+  EXPECT_GT(whole, 0);
+  const fs::path out = fs::path(folder()) / "uses";
+  EXPECT_TRUE(fs::is_regular_file(out / "uses-2.svg"));
+  EXPECT_TRUE(fs::is_regular_file(out / "report" / "report.html"));
+  EXPECT_TRUE(fs::is_regular_file(out / "report" / "figures" / "uses_2.svg"));
+  EXPECT_TRUE(fs::is_regular_file(out / "use-2" / "report" / "report.html"));
+  const Json& other = json.at("other_uses").at(0);
+  EXPECT_NEAR(other.at("weight").get<double>(), 0.25, 1e-12);
+  EXPECT_TRUE(other.contains("comparison"));
+}
+
+TEST(RedesignShape, TheTorqueThatFrictionHoldsIsAGoal) {
+  const ProgramRun run =
+      run_palmar("redesign shape " + kPrism +
+                     " --goal torque --evaluations 2 --hands 2 --seed 2014 --no-pictures --quiet"
+                     " --json --out torque",
+                 folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json.at("search").at("goal").at("key"), "held_torque_n_mm");
+  // 60 N of grip force with friction of 0.5 on arms of 15 to 25 mm: sums of normal forces are 2 to
+  // pi times the grip force.
+  const double torque = json.at("search").at("original").get<double>();
+  EXPECT_GT(torque, 0.5 * 2.0 * 60.0 * 0.5 * 15.0);
+  EXPECT_LT(torque, 3.2 * 60.0 * 0.5 * 25.0);
+  EXPECT_THAT(json.at("comparison").dump(), HasSubstr("held_torque_n_mm"));
+}
+
+TEST(RedesignShape, AFaceOfCadThatIsKeptStays) {
+  const ProgramRun run =
+      shape(kPrism +
+            " --vary width=34 --vary depth=44 --vary squareness=0.2 --vary turn=0 --keep-face 1"
+            " --json --out face" +
+            kFew);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json.at("kept_faces").at(0), "1");
+  // Its outline is the original's within what a spline through 72 points makes of it.
+  EXPECT_LT(json.at("kept_deviation_mm").get<double>(), 0.6);
+  EXPECT_THAT(read_text(folder() + "/face/handle.toml"), HasSubstr("kept_faces = [\"1\"]"));
+}
+
+TEST(RedesignShape, FootAndTangOfAPistolGripStayAsTheyAre) {
+  ASSERT_EQ(run_palmar("product make pistol_grip --out pistol.step", folder()).exit_code, 0);
+  const ProgramRun run =
+      shape("pistol.step --grip-force-n 60 --evaluations 2 --json --out pistol" + kFew);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const auto kept = json.at("kept_ends_mm").get<std::array<double, 2>>();
+  EXPECT_GT(kept[0] + kept[1], 3.0) << json.at("kept_ends_mm");
+  EXPECT_LT(json.at("kept_deviation_mm").get<double>(), 0.5);
+  EXPECT_THAT(run.err + json.dump(), HasSubstr("kept_ends_mm"));
+  const ProgramRun all = shape(
+      "pistol.step --grip-force-n 60 --evaluations 2 --keep-ends-mm 0 "
+      "--json --out whole" +
+      kFew);
+  ASSERT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_TRUE(Json::parse(all.out).at("kept_deviation_mm").is_null());
 }
 
 TEST(RedesignShape, AFileThatCanNotBeReadIsSaidBeforeAnyHandHoldsTheProduct) {

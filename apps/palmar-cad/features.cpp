@@ -25,34 +25,11 @@
 #include "palmar/core/error.h"
 #include "palmar/records/product/face_mesh_file.h"
 #include "read_back.h"
+#include "source_model.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
 namespace {
-
-CadModel model_of(const Json& source, Json& notes) {
-  if (source.contains("kind")) {
-    const ParametricKind& kind = parametric_kind(source.at("kind").get<std::string>());
-    std::vector<std::pair<std::string, double>> given;
-    const Json parameters = source.value("parameters", Json::object());
-    for (const auto& [name, value] : parameters.items()) {
-      given.emplace_back(name, value.get<double>());
-    }
-    return make_kind_solid(kind, complete_values(kind, given));
-  }
-  ReadCadOptions options;
-  if (source.contains("millimetres_per_unit")) {
-    options.millimetres_per_unit = source.at("millimetres_per_unit").get<double>();
-  }
-  const std::string file = source.at("file").get<std::string>();
-  CadFile read = read_cad(file, options);
-  if (read.solids == 0) {
-    throw InputError(
-        fmt::format("{}: no solid, only open surfaces; features of a solid can change", file));
-  }
-  for (const std::string& note : read.notes) notes.push_back(note);
-  return read.model;
-}
 
 FeatureEdits edits_of(const Json& list) {
   FeatureEdits edits;

@@ -1,15 +1,19 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// handle: {shape: as handle_shape_json(), chordal_error_mm} -> product.step, mesh.bin, and what the
-// solid is.
+// handle: {shape: as handle_shape_json(), chordal_error_mm, source?} -> product.step, mesh.bin, and
+// what the solid is. With a source, the product that goes on beyond the handle, also whole.step and
+// whole.bin: the product with the new handle, or why there is none.
+#include "palmar/cad/edits/replace_handle.h"
 #include "palmar/cad/model/cad_check.h"
 #include "palmar/cad/model/cad_file.h"
 #include "palmar/cad/model/tessellation.h"
 #include "palmar/cad/solids/handle_solid.h"
+#include "palmar/core/error.h"
 #include "palmar/records/handle_json.h"
 #include "palmar/records/product/face_mesh_file.h"
 #include "read_back.h"
+#include "source_model.h"
 #include "verbs.h"
 
 namespace palmar::cad_worker {
@@ -29,6 +33,19 @@ Json handle(const Json& request, const std::filesystem::path& folder, const Prog
                 {"poles", most_poles(model)},
                 {"triangles", mesh.mesh.triangle_count()}};
   write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  if (request.contains("source")) {
+    try {
+      Json notes = Json::array();
+      const CadModel whole = replace_handle(model_of(request.at("source"), notes), shape);
+      write_step(folder / "whole.step", whole);
+      require_same(folder / "whole.step", "the product", volume_of(whole));
+      Tessellation of_whole = tessellate(whole, {}, progress);
+      write_face_mesh(folder / "whole.bin", {std::move(of_whole.mesh), std::move(of_whole.faces)});
+      reply["whole"] = {{"volume_mm3", volume_of(whole)}, {"faces", whole.face_count()}};
+    } catch (const NumericalError& error) {
+      reply["whole_failure"] = error.what();
+    }
+  }
   progress.update(1.0, "made the handle");
   return reply;
 }

@@ -69,6 +69,8 @@ Json import(const Json& request, const std::filesystem::path& folder, const Prog
   const CadFile file = read_request(request, part_of(progress, 0.0, 0.5));
   Tessellation mesh = on_file(object, [&] {
     check_size(file, object);
+    const std::string crossing = self_crossing(file.model);
+    if (!crossing.empty()) throw InputError(object + ": " + crossing);
     try {
       return tessellate(file.model, options, part_of(progress, 0.5, 0.95));
     } catch (const InputError& error) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "redesign/redesign_arguments.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/error.h"
@@ -9,6 +11,41 @@
 #include "study/study_comparison_text.h"
 
 namespace palmar::cli {
+namespace {
+
+/// Comparison and gains, as JSON.
+void add_judgement(const RedesignOutcome& outcome, const StudyAnswerOptions& options,
+                   nlohmann::ordered_json& object) {
+  if (outcome.gains) object["gains"] = nlohmann::ordered_json::parse(gains_json(*outcome.gains));
+  const std::optional<RedesignComparison>& comparison = outcome.comparison;
+  if (!comparison) return;
+  object["comparison"] =
+      comparison_object(compare_results(comparison->results, comparison->quantities, options), {});
+  object["comparison"]["in_other_hands"] = comparison->is_in_other_hands;
+  for (const HoldChange& change : comparison->changes) {
+    object["comparison"]["hold_changes"].push_back(
+        {{"redesign", change.redesign},
+         {"hands", change.hands},
+         {"turn_deg", change.turn * kDegreesPerRadian},
+         {"largest_turn_deg", change.largest_turn * kDegreesPerRadian},
+         {"shift_mm", change.shift},
+         {"largest_shift_mm", change.largest_shift},
+         {"is_other_hold", change.is_other_hold()}});
+  }
+}
+
+/// The same as text.
+void print_judgement(const RedesignOutcome& outcome, const StudyAnswerOptions& options,
+                     const Context& context) {
+  const std::optional<RedesignComparison>& comparison = outcome.comparison;
+  if (!comparison) return;
+  print(comparison_text(compare_results(comparison->results, comparison->quantities, options)));
+  note(context.common,
+       "report: " + comparison->report.string() + "; study: " + comparison->study.string());
+  if (outcome.gains) print(gains_text(*outcome.gains));
+}
+
+}  // namespace
 
 void RedesignArguments::add_to(CLI::App& verb) {
   verb.add_option("PRODUCT", request.product,
@@ -26,6 +63,7 @@ void RedesignArguments::add_to(CLI::App& verb) {
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   verb.add_option("--hand", request.hand, "Hand that is scaled: template or a *.hand.glb file");
+  verb.add_flag("--left", request.is_left, "Left hands");
   verb.add_option("--grip", grips, "any (as people would choose), medium_wrap, tripod ...")
       ->expected(1);
   holds.add_hold_to(verb);
@@ -82,38 +120,28 @@ std::vector<Box3> kept_boxes(const std::vector<std::string>& texts) {
   return boxes;
 }
 
-void print_redesign(const RedesignOutcome& outcome, const Context& context) {
+void print_redesign(const RedesignOutcome& outcome, const Context& context,
+                    const std::vector<NamedOutcome>& others) {
   finish_progress();
-  const std::optional<RedesignComparison>& comparison = outcome.comparison;
   StudyAnswerOptions options;
   options.command = context.command_line;
-  if (comparison) options.language = comparison->language;
+  if (outcome.comparison) options.language = outcome.comparison->language;
   if (context.common.json) {
     nlohmann::ordered_json object = nlohmann::ordered_json::parse(outcome.json);
-    if (outcome.gains) object["gains"] = nlohmann::ordered_json::parse(gains_json(*outcome.gains));
-    if (comparison) {
-      object["comparison"] = comparison_object(
-          compare_results(comparison->results, comparison->quantities, options), {});
-      object["comparison"]["in_other_hands"] = comparison->is_in_other_hands;
-      for (const HoldChange& change : comparison->changes) {
-        object["comparison"]["hold_changes"].push_back(
-            {{"redesign", change.redesign},
-             {"hands", change.hands},
-             {"turn_deg", change.turn * kDegreesPerRadian},
-             {"largest_turn_deg", change.largest_turn * kDegreesPerRadian},
-             {"shift_mm", change.shift},
-             {"largest_shift_mm", change.largest_shift},
-             {"is_other_hold", change.is_other_hold()}});
-      }
+    add_judgement(outcome, options, object);
+    for (const NamedOutcome& one : others) {
+      nlohmann::ordered_json use = {{"name", one.name}, {"weight", one.weight}};
+      add_judgement(one.outcome, options, use);
+      object["other_uses"].push_back(std::move(use));
     }
     print(object.dump(2) + "\n");
     return;
   }
-  if (!comparison) return;
-  print(comparison_text(compare_results(comparison->results, comparison->quantities, options)));
-  note(context.common,
-       "report: " + comparison->report.string() + "; study: " + comparison->study.string());
-  if (outcome.gains) print(gains_text(*outcome.gains));
+  print_judgement(outcome, options, context);
+  for (const NamedOutcome& one : others) {
+    print(fmt::format("use \"{}\", {:.0f} % of the weight:\n", one.name, 100.0 * one.weight));
+    print_judgement(one.outcome, options, context);
+  }
 }
 
 }  // namespace palmar::cli

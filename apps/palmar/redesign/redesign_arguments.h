@@ -38,8 +38,16 @@ void add_kept_boxes(CLI::App& verb, std::vector<std::string>& texts);
 /// Read. Throws UsageError.
 std::vector<Box3> kept_boxes(const std::vector<std::string>& texts);
 
+/// What hands say of a redesign in another use than the first.
+struct NamedOutcome {
+  std::string name;
+  double weight = 0.0;  ///< share
+  const RedesignOutcome& outcome;
+};
+
 /// What a redesign prints in the end: comparison and gains in words and where they were written, or
-/// with --json the one object, with both in it.
-void print_redesign(const RedesignOutcome& outcome, const Context& context);
+/// with --json the one object, with both in it; those of `others`, too.
+void print_redesign(const RedesignOutcome& outcome, const Context& context,
+                    const std::vector<NamedOutcome>& others = {});
 
 }  // namespace palmar::cli

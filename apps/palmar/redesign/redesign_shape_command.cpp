@@ -16,6 +16,8 @@ struct ShapeArguments {
   RedesignShapeRequest request;
   std::string features;
   std::vector<std::string> keep_boxes;
+  std::string pull;
+  double draft_deg = 2.0;
   double spread_deg = HoldSpread{}.turn / kDegree;
   bool no_pictures = false;
   bool no_compare = false;
@@ -27,6 +29,8 @@ int run_shape(const ShapeArguments& a, const Context& context) {
   request.features = a.features;
   request.limits.kept_boxes = kept_boxes(a.keep_boxes);
   request.spread.turn = a.spread_deg * kDegree;
+  if (!a.pull.empty()) request.limits.pull = parse_vector("--pull", a.pull);
+  request.limits.draft = a.draft_deg * kDegree;
   request.draws = !a.no_pictures;
   request.compares = !a.no_compare;
   request.on_shape = [&context](const RedesignShapeOutcome& outcome) {
@@ -34,7 +38,11 @@ int run_shape(const ShapeArguments& a, const Context& context) {
     if (!context.common.json) print(search_text(outcome.story) + shape_text(outcome));
   };
   const RedesignShapeOutcome outcome = redesign_shape(request, make_progress(context.common));
-  print_redesign(outcome, context);
+  std::vector<NamedOutcome> others;
+  for (const JudgedUse& one : outcome.other_uses) {
+    others.push_back({one.name, one.weight, one.outcome});
+  }
+  print_redesign(outcome, context, others);
   return 0;
 }
 
@@ -59,13 +67,20 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->add_option(
           "--goal", r.goal,
           "What is made better, mean over hands: peak (pressure on sensor cells), mean "
-          "(pressure), stability, discomfort or a quantity's key; peak:p95 for the worst hands")
+          "(pressure), discomfort, torque (that friction holds), strength (needed), effort (of the "
+          "muscles), stability or a quantity's key; peak:p95 for the worst hands")
       ->capture_default_str();
   verb->add_option("--spread-mm", r.spread.along,
                    "How far hands lie from their place along the handle: standard deviation, mm")
       ->capture_default_str();
   verb->add_option("--spread-deg", a->spread_deg, "The same about the handle, degrees")
       ->capture_default_str();
+  verb->add_option(
+          "--use", r.uses,
+          "One of several uses, as \"hand=left weight=0.1\": weight=, grip-force-n=, grip=, "
+          "population=, hands=, hand=left; what isn't said is as in the other options; may "
+          "be repeated. The goal then is the mean over uses, by the original's")
+      ->allow_extra_args(false);
   verb->add_option("--places", r.spread.places,
                    "Places that stand for these; every hand takes one of them")
       ->capture_default_str();
@@ -78,6 +93,15 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->add_option("--smallest-radius-mm", r.limits.smallest_radius,
                    "Smallest radius of curvature round the handle, mm")
       ->capture_default_str();
+  verb->add_option(
+      "--pull", a->pull,
+      "Direction x,y,z along which a mould of two halves opens, product frame: nothing "
+      "may be undercut against it, and walls must lean against it");
+  verb->add_option("--draft-deg", a->draft_deg, "Angle by which walls must lean, with --pull")
+      ->capture_default_str();
+  verb->add_option("--draft-land-mm", r.limits.land,
+                   "Height at the parting line over which they may lean less, mm")
+      ->capture_default_str();
   verb->add_option("--lost-hands", r.limits.lost_hands,
                    "Largest share of hands that may no longer hold the product, out of those that "
                    "hold the original")
@@ -85,11 +109,16 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->add_flag("--both-hands", r.limits.suits_both_hands,
                  "The same shape for left and right hands: nothing one-sided");
   verb->add_option("--keep-ends-mm", r.limits.kept_ends,
-                   "Length at both flat ends that keeps its outline, mm")
-      ->capture_default_str();
+                   "Length at both flat ends that keeps its outline, mm; without it what isn't "
+                   "the handle (a foot, a tang, a neck) stays beyond where hands grip");
+  verb->add_option("--keep-face", r.limits.kept_faces,
+                   "CAD face that keeps its outline: its number or name; may be repeated")
+      ->allow_extra_args(false);
   add_kept_boxes(*verb, a->keep_boxes);
-  verb->add_option("--end-radius-mm", r.end_radius,
-                   "Radius of the edges round flat ends, mm; without it as they are, at least 3");
+  verb->add_option(
+      "--end-radius-mm", r.end_radius,
+      "Radius of the edges round flat ends, mm; without it as they are, and at least 3 where "
+      "no end is kept");
   verb->add_option("--evaluations", r.search.evaluations,
                    "Largest number of candidates that are made and held")
       ->capture_default_str();
@@ -101,6 +130,8 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->callback([a, &context] {
     context.setting_options = {{"largest change", "--largest-change-mm"},
                                {"kept ends", "--keep-ends-mm"},
+                               {"draft", "--draft-deg"},
+                               {"draft land", "--draft-land-mm"},
                                {"spread along", "--spread-mm"},
                                {"spread of the turn", "--spread-deg"},
                                {"suits both hands", "--both-hands"}};

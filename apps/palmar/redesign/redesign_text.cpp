@@ -93,6 +93,10 @@ std::string shape_text(const RedesignShapeOutcome& outcome) {
       "{:.1f} mm; a valid solid of {} faces, {} poles at most\n",
       outcome.change.largest, 100 * outcome.change.volume_ratio, outcome.change.smallest_radius,
       outcome.faces, outcome.poles);
+  if (outcome.kept_deviation) {
+    text += fmt::format("  what is kept lies within {:.2f} mm of the original\n",
+                        *outcome.kept_deviation);
+  }
   return text;
 }
 

@@ -11,8 +11,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kSections = 10.0;    // mm between them, about
-constexpr double kOutlineStep = 4.0;  // mm, of the original's outlines
+constexpr double kOutlineStep = 2.0;  // mm, of the original's outlines
 constexpr int kOutlineColumns = 72;
 
 /// The functions of handle_features.h and handle_shape.h, in Python.
@@ -40,62 +39,87 @@ def section_point(z, t):
     k = 1.0 + out / math.hypot(x, y)
     return x * k, y * k
 
-def smooth_step(t):
-    t = min(max(t, 0.0), 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-def share(z, phi):
-    value = 1.0
-    for run_out, way in ((run_out_bottom, z - bottom), (run_out_top, top - z)):
-        if run_out >= 0.0:
-            value *= smooth_step((way - run_out) / 14.0)
-    if value > 0.0 and kept_boxes:
-        r = old_radius(z, phi)
-        at = placement.multVec(middle(z) + FreeCAD.Vector(r * math.cos(phi), r * math.sin(phi), 0.0))
-        for low, high in kept_boxes:
-            beyond = [max(l - a, a - h, 0.0) for l, a, h in zip(low, at, high)]
-            value *= smooth_step(math.sqrt(sum(b * b for b in beyond)) / 14.0)
-    return value
-
 def middle(z):
     return FreeCAD.Vector(centre[0][0] + z * (centre[1][0] + z * centre[2][0]),
                           centre[0][1] + z * (centre[1][1] + z * centre[2][1]), z)
 
-def old_radius(z, phi):
+def between(table, z, phi):
     v = min(max((z - old_z[0]) / (old_z[-1] - old_z[0]), 0.0), 1.0) * (len(old_z) - 1)
     j = min(int(v), len(old_z) - 2)
-    n = len(old[0])
+    n = len(table[0])
     u = (phi / (2.0 * math.pi) * n) % n
     i = int(u) % n
-    low = old[j][i] + (u - int(u)) * (old[j][(i + 1) % n] - old[j][i])
-    high = old[j + 1][i] + (u - int(u)) * (old[j + 1][(i + 1) % n] - old[j + 1][i])
+    low = table[j][i] + (u - int(u)) * (table[j][(i + 1) % n] - table[j][i])
+    high = table[j + 1][i] + (u - int(u)) * (table[j + 1][(i + 1) % n] - table[j + 1][i])
     return low + (v - j) * (high - low)
 
 def side_point(z, t):
     x, y = section_point(z, t)
     phi = math.atan2(y, x)
-    s = share(z, phi)
+    s = between(share, z, phi)
     if s < 1.0:
         r = math.hypot(x, y)
-        k = (s * r + (1.0 - s) * old_radius(z, phi)) / r
+        k = (s * r + (1.0 - s) * between(old, z, phi)) / r
         x, y = x * k, y * k
     return middle(z) + FreeCAD.Vector(x, y, 0.0)
 
+def rounding(end, inwards):
+    rows = []
+    for k in range(9 if end_radius > 0.0 else 0):
+        angle = end_angle * (1.0 - k / 9.0)
+        rows.append((end + inwards * end_radius * (math.sin(end_angle) - math.sin(angle)),
+                     end_radius * (1.0 - math.cos(angle))))
+    return rows
+
+def inset_point(z, t, inset):
+    way = side_point(z, t + 1e-4) - side_point(z, t - 1e-4)
+    return side_point(z, t) + FreeCAD.Vector(-way.y, way.x, 0.0) * (inset / way.Length)
+
 def build():
-    wires = []
-    for j in range(sections + 1):
-        z = bottom + (top - bottom) * j / sections
-        curve = Part.BSplineCurve()
-        curve.interpolate(Points=[side_point(z, i / columns) for i in range(columns)],
-                          PeriodicFlag=True)
-        wires.append(Part.Wire([curve.toShape()]))
-    solid = Part.makeLoft(wires, True)
-    if end_radius > 0.0:
-        ends = [e for e in solid.Edges
-                if all(abs(v.Point.z - bottom) < 1e-6 or abs(v.Point.z - top) < 1e-6
-                       for v in e.Vertexes)
-                and abs(e.BoundBox.ZLength) < 1e-6]
-        solid = solid.makeFillet(end_radius, ends)
+    # Points round every section, the sections of the roundings among them.
+    height = end_radius * math.sin(end_angle)
+    low, high = bottom + height, top - height
+    steps = max(2, math.ceil((high - low) / row_distance))
+    rows = rounding(bottom, 1.0) + [(low + (high - low) * j / steps, 0.0) for j in range(steps + 1)]
+    if end_radius > 0.0:  # without these the side bulges beside its roundings
+        rows += [(z, 0.0) for s in (1.0 / 6.0, 0.5)
+                 for z in (low + s * end_radius, high - s * end_radius)]
+    rows = sorted(rows) + list(reversed(rounding(top, -1.0)))
+    points = [[inset_point(z, 0.125 + i / columns, inset) for i in range(columns)]
+              for z, inset in rows]
+    # One bicubic surface through all of them: splines round, then splines through their poles.
+    v = [0.0]
+    for before, after in zip(points, points[1:]):
+        v.append(v[-1] + sum(a.distanceToPoint(b) for a, b in zip(before, after)) / columns)
+    rounds = []
+    for row in points:
+        rounds.append(Part.BSplineCurve())
+        rounds[-1].interpolate(Points=row, PeriodicFlag=True,
+                               Parameters=[i / columns for i in range(columns + 1)])
+    poles = []
+    for column in zip(*[curve.getPoles() for curve in rounds]):
+        along = Part.BSplineCurve()
+        along.interpolate(Points=list(column), Parameters=v)
+        poles.append(along.getPoles())
+    surface = Part.BSplineSurface()
+    surface.buildFromPolesMultsKnots(poles, rounds[0].getMultiplicities(), along.getMultiplicities(),
+                                     rounds[0].getKnots(), along.getKnots(), True, False, 3, 3)
+    # Palm, left, fingers and right, each with its roundings, and the flat ends.
+    ends = len(rounding(bottom, 1.0))
+    borders = [v[0], v[ends], v[-1 - ends], v[-1]] if ends else [v[0], v[-1]]
+    faces = []
+    for first, last in zip(borders, borders[1:]):
+        for quarter in range(4):
+            patch = surface.copy()
+            patch.segment(0.25 * quarter, 0.25 * (quarter + 1), first, last)
+            faces.append(patch.toShape())
+    for border in (v[0], v[-1]):
+        faces.append(Part.Face(Part.Wire([surface.vIso(border).toShape()])))
+    shell = Part.Shell(faces)
+    shell.sewShape()
+    solid = Part.Solid(shell)
+    if solid.Volume < 0.0:
+        solid.reverse()
     solid.Placement = placement
     return solid
 
@@ -107,6 +131,29 @@ document.recompute()
 print("handle: valid %s, volume %.1f mm3, faces %d"
       % (solid.isValid(), solid.Volume, len(solid.Faces)))
 )PY";
+
+/// The original's outlines and the share of the features, as Python lists.
+std::string outline_tables(const HandleShape& shape) {
+  const HandleBody& body = shape.body;
+  const double length = body.top - body.bottom;
+  const int steps = std::max(2, static_cast<int>(std::ceil(length / kOutlineStep)));
+  std::string heights, radii, shares;
+  for (int j = 0; j <= steps; ++j) {
+    const double z = body.bottom + length * j / steps;
+    heights += fmt::format("{}{:.3f}", j == 0 ? "" : ", ", z);
+    radii += "    [";
+    shares += "    [";
+    for (int i = 0; i < kOutlineColumns; ++i) {
+      const double phi = 2.0 * std::numbers::pi * i / kOutlineColumns;
+      const char* const comma = i == 0 ? "" : ", ";
+      radii += fmt::format("{}{:.2f}", comma, shape.radius_before(z, phi));
+      shares += fmt::format("{}{:.3g}", comma, shape.share_at(z, phi));
+    }
+    radii += "],\n";
+    shares += "],\n";
+  }
+  return "old_z = [" + heights + "]\nold = [\n" + radii + "]\nshare = [\n" + shares + "]\n";
+}
 
 }  // namespace
 
@@ -136,45 +183,16 @@ std::string freecad_macro(const HandleShape& shape, const std::string& product) 
       "placement = FreeCAD.Placement(FreeCAD.Vector({:.6f}, {:.6f}, {:.6f}),\n"
       "                              FreeCAD.Rotation({:.12f}, {:.12f}, {:.12f}, {:.12f}))\n",
       o.x(), o.y(), o.z(), q.x(), q.y(), q.z(), q.w());
-  // Below 0: the features go to the end.
-  const auto run_out = [&](bool is_free) {
-    if (body.is_whole) return shape.kept_ends > 0.0 ? shape.kept_ends : -1.0;
-    return is_free ? -1.0 : 0.0;
-  };
-  const double low = run_out(body.is_free[0]), high = run_out(body.is_free[1]);
-  const bool keeps = low >= 0.0 || high >= 0.0 || !shape.kept_boxes.empty();
+  const HandleRows rows = rows_for(shape);
   text += fmt::format(
-      "run_out_bottom, run_out_top = {:.3f}, {:.3f}  # mm; below 0: none\n"
-      "sections, columns = {}, {}\n",
-      low, high, std::max(8, static_cast<int>((body.top - body.bottom) / kSections)),
-      keeps ? kOutlineColumns
-            : 8 * static_cast<int>(std::ceil((24.0 + 24.0 * shape.features.squareness) / 8.0)));
-  text += "kept_boxes = [";
-  for (const Box3& box : shape.kept_boxes) {
-    text += fmt::format("(({:.4f}, {:.4f}, {:.4f}), ({:.4f}, {:.4f}, {:.4f})), ", box.min().x(),
-                        box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z());
-  }
-  text += "]  # mm, low and high corners, product frame\n";
+      "end_angle = math.radians({:.1f})  # over which the edges at both ends turn\n"
+      "columns, row_distance = {}, {:.2f}  # points round a section; mm between sections\n",
+      kEndAngle * 180.0 / std::numbers::pi, rows.columns, rows.distance);
   text +=
-      "\n# The outlines that were there, by z and direction, mm\nold_z, old = [0.0, 1.0], "
-      "[[1.0], [1.0]]\n";
-  if (keeps) {
-    const double margin = body.is_whole && body.end_radius > 0.0 ? body.end_radius + 0.5 : 0.0;
-    const double from = body.bottom + margin, to = body.top - margin;
-    const int steps = std::max(2, static_cast<int>(std::ceil((to - from) / kOutlineStep)));
-    std::string heights, rows;
-    for (int j = 0; j <= steps; ++j) {
-      const double z = from + (to - from) * j / steps;
-      heights += fmt::format("{}{:.3f}", j == 0 ? "" : ", ", z);
-      rows += "    [";
-      for (int i = 0; i < kOutlineColumns; ++i) {
-        rows += fmt::format("{}{:.2f}", i == 0 ? "" : ", ",
-                            body.outlines.at(z, 2.0 * std::numbers::pi * i / kOutlineColumns));
-      }
-      rows += "],\n";
-    }
-    text += "old_z = [" + heights + "]\nold = [\n" + rows + "]\n";
-  }
+      "\n# What is kept: the outlines that were there, by z and direction, mm, and the share of "
+      "the\n"
+      "# features there.\nold_z, old, share = [0.0, 1.0], [[1.0], [1.0]], [[1.0], [1.0]]\n";
+  if (shape.keeps()) text += outline_tables(shape);
   return text + kBody;
 }
 

@@ -52,13 +52,19 @@ std::string handle_toml(const HandleShape& shape, const std::string& product) {
                         rounded(one.scale * shape.features.*one.value), one.meaning);
   }
   const Rigid3& frame = shape.body.product_from_handle;
-  text += fmt::format("\n[ends]\nend_radius_mm = {}\nkept_mm = {}\n", rounded(shape.end_radius),
-                      rounded(shape.kept_ends));
+  text += fmt::format(
+      "\n[ends]\nend_radius_mm = {}\nkept_mm = [{}, {}]  # at the bottom, the top\n",
+      rounded(shape.end_radius), rounded(shape.kept_ends[0]), rounded(shape.kept_ends[1]));
   std::string boxes;
   for (const Box3& box : shape.kept_boxes) {
     for (const double one : corners_of(box)) boxes += (boxes.empty() ? "" : ", ") + rounded(one);
   }
   text += "kept_boxes_mm = [" + boxes + "]\n";
+  std::string faces;
+  for (const std::string& one : shape.kept_faces) {
+    faces += (faces.empty() ? "" : ", ") + toml_string(one);
+  }
+  text += "kept_faces = [" + faces + "]\n";
   text += fmt::format("\n[frame]  # for information\norigin_mm = {}\nalong = {}\npalm = {}\n",
                       vector_text(frame.translation), vector_text(frame.rotation * Vec3::UnitZ()),
                       vector_text(frame.rotation * Vec3::UnitY()));
@@ -88,9 +94,21 @@ HandleFile read_handle(const std::filesystem::path& path) {
     result.features.*one.value = value / one.scale;
   }
   if (const auto ends = file.table("ends")) {
-    ends->allow({"end_radius_mm", "kept_mm", "kept_boxes_mm"});
+    ends->allow({"end_radius_mm", "kept_mm", "kept_boxes_mm", "kept_faces"});
     result.end_radius = ends->number("end_radius_mm", "mm", 0.0, kMostEnd).value_or(0.0);
-    result.kept_ends = ends->number("kept_mm", "mm", 0.0, kMostEnd).value_or(0.0);
+    if (ends->has("kept_mm") && ends->values()["kept_mm"].is_array()) {
+      const std::vector<double> both = ends->numbers("kept_mm", "mm", 0.0, kMostEnd);
+      if (both.size() != 2) {
+        ends->fail("kept_mm", fmt::format("kept_mm has {} lengths; one for the bottom and one for "
+                                          "the top are required",
+                                          both.size()));
+      }
+      result.kept_ends = {both[0], both[1]};
+    } else {
+      const double both = ends->number("kept_mm", "mm", 0.0, kMostEnd).value_or(0.0);
+      result.kept_ends = {both, both};
+    }
+    result.kept_faces = ends->texts("kept_faces");
     const std::vector<double> corners = ends->numbers("kept_boxes_mm", "mm", -kFar, kFar);
     if (corners.size() % 6 != 0) {
       ends->fail("kept_boxes_mm",

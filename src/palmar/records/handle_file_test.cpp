@@ -27,7 +27,8 @@ TEST(HandleFile, ReadsBackWhatWasWritten) {
   shape.features.egg = -0.12;
   shape.features.twist = 0.1;  // rad per 100 mm
   shape.end_radius = 3.0;
-  shape.kept_ends = 8.0;
+  shape.kept_ends = {8.0, 12.5};
+  shape.kept_faces = {"tang", "7"};
   shape.kept_boxes = {Box3(Vec3(-9, -8, -7), Vec3(1, 2, 3.5)),
                       Box3(Vec3(0, 0, 40), Vec3(5, 5, 65))};
   const HandleFile file = read_handle(written(handle_toml(shape, "a \"prism\"")));
@@ -36,7 +37,8 @@ TEST(HandleFile, ReadsBackWhatWasWritten) {
         << one.name;
   }
   EXPECT_EQ(file.end_radius, 3.0);
-  EXPECT_EQ(file.kept_ends, 8.0);
+  EXPECT_EQ(file.kept_ends, shape.kept_ends);
+  EXPECT_EQ(file.kept_faces, shape.kept_faces);
   ASSERT_EQ(file.kept_boxes.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(file.kept_boxes[i].isApprox(shape.kept_boxes[i])) << i;
@@ -55,6 +57,14 @@ TEST(HandleFile, NamesWhatIsWrongWithItsLine) {
   refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\nswel_mm = 2\n", "swell_mm");
   refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\n[ends]\nkept_boxes_mm = [1, 2]\n",
           "kept_boxes_mm has 2 coordinates; six for each box are required");
+  refused("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\n[ends]\nkept_mm = [1, 2, 3]\n",
+          "kept_mm has 3 lengths; one for the bottom and one for the top");
+}
+
+TEST(HandleFile, OneLengthKeptIsThatOfBothEnds) {
+  const HandleFile file = read_handle(
+      written("version = 1\n[features]\nwidth_mm = 30\ndepth_mm = 40\n[ends]\nkept_mm = 6.5\n"));
+  EXPECT_EQ(file.kept_ends, (std::array<double, 2>{6.5, 6.5}));
 }
 
 }  // namespace

@@ -23,6 +23,28 @@ Box3 box_of_corners(std::span<const double> corners) {
   return box;
 }
 
+namespace {
+
+Json outlines_json(const HandleOutlines& outlines) {
+  return {{"z_mm", outlines.z}, {"columns", outlines.columns}, {"radius_mm", outlines.radius}};
+}
+
+HandleOutlines outlines_from(const Json& json) {
+  const HandleOutlines outlines{
+      .z = json.at("z_mm").get<std::vector<double>>(),
+      .columns = json.at("columns").get<int>(),
+      .radius = json.at("radius_mm").get<std::vector<std::vector<double>>>()};
+  bool fits = outlines.z.size() >= 2 && outlines.columns >= 3 &&
+              outlines.radius.size() == outlines.z.size();
+  for (const auto& row : outlines.radius) {
+    fits = fits && row.size() == static_cast<std::size_t>(outlines.columns);
+  }
+  if (!fits) throw InputError("the handle's outlines don't fit together");
+  return outlines;
+}
+
+}  // namespace
+
 Json features_json(const HandleFeatures& features) {
   Json json = Json::object();
   for (const HandleFeature& one : handle_features()) {
@@ -48,17 +70,16 @@ Json handle_shape_json(const HandleShape& shape) {
           {"run_out_mm", body.run_out},
           {"is_free", body.is_free},
           {"centre_mm", std::move(centre)},
-          {"outlines",
-           {{"z_mm", body.outlines.z},
-            {"columns", body.outlines.columns},
-            {"radius_mm", body.outlines.radius}}},
+          {"outlines", outlines_json(body.outlines)},
           {"breadth_mm", body.hands.breadth},
           {"thumb_at_mm", body.hands.thumb_at},
           {"thumb_phi_rad", body.hands.thumb_phi},
           {"features", features_json(shape.features)},
           {"end_radius_mm", shape.end_radius},
           {"kept_ends_mm", shape.kept_ends},
-          {"kept_boxes_mm", std::move(boxes)}};
+          {"kept_boxes_mm", std::move(boxes)},
+          {"to_kept_faces",
+           shape.to_kept_faces.z.empty() ? Json() : outlines_json(shape.to_kept_faces)}};
 }
 
 HandleShape handle_shape_from(const Json& json) {
@@ -77,16 +98,7 @@ HandleShape handle_shape_from(const Json& json) {
     const auto at = json.at("centre_mm").at(i).get<std::array<double, 2>>();
     body.centre[i] = {at[0], at[1]};
   }
-  const Json& outlines = json.at("outlines");
-  body.outlines.z = outlines.at("z_mm").get<std::vector<double>>();
-  body.outlines.columns = outlines.at("columns").get<int>();
-  body.outlines.radius = outlines.at("radius_mm").get<std::vector<std::vector<double>>>();
-  bool fits = body.outlines.z.size() >= 2 && body.outlines.columns >= 3 &&
-              body.outlines.radius.size() == body.outlines.z.size();
-  for (const auto& row : body.outlines.radius) {
-    fits = fits && row.size() == static_cast<std::size_t>(body.outlines.columns);
-  }
-  if (!fits) throw InputError("the handle's outlines don't fit together");
+  body.outlines = outlines_from(json.at("outlines"));
   body.hands = {json.at("breadth_mm").get<double>(), json.at("thumb_at_mm").get<double>(),
                 json.at("thumb_phi_rad").get<double>()};
   for (const auto& [name, value] : json.at("features").items()) {
@@ -94,9 +106,12 @@ HandleShape handle_shape_from(const Json& json) {
     shape.features.*one.value = value.get<double>() / one.scale;
   }
   shape.end_radius = json.at("end_radius_mm").get<double>();
-  shape.kept_ends = json.at("kept_ends_mm").get<double>();
+  shape.kept_ends = json.at("kept_ends_mm").get<std::array<double, 2>>();
   for (const Json& one : json.at("kept_boxes_mm")) {
     shape.kept_boxes.push_back(box_of_corners(one.get<std::vector<double>>()));
+  }
+  if (!json.at("to_kept_faces").is_null()) {
+    shape.to_kept_faces = outlines_from(json.at("to_kept_faces"));
   }
   return shape;
 }

@@ -17,6 +17,7 @@
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/statistics/distributions.h"
 #include "palmar/statistics/summary.h"
+#include "palmar/study/assessment/held_torque.h"
 
 namespace palmar {
 namespace {
@@ -25,10 +26,10 @@ constexpr double kPercentile = 0.95;
 
 const std::map<std::string, std::string>& short_names() {
   static const std::map<std::string, std::string> names = {
-      {"peak", "peak_pressure_cells_mpa"},
-      {"mean", "mean_pressure_mpa"},
-      {"stability", "epsilon_l1"},
-      {"discomfort", "discomfort_onset_percent"}};
+      {"peak", "peak_pressure_cells_mpa"},  {"mean", "mean_pressure_mpa"},
+      {"stability", "epsilon_l1"},          {"discomfort", "discomfort_onset_percent"},
+      {"torque", kHeldTorqueKey},           {"strength", "grip_strength_needed_n"},
+      {"effort", "flexion_strength_in_use"}};
   return names;
 }
 
@@ -89,8 +90,8 @@ FeatureGoal feature_goal(const std::string& words) {
   if (!quantity) {
     const std::string nearest = nearest_name(what, names);
     throw UsageError(
-        fmt::format("goal \"{}\" is not known{}; peak, mean, stability, discomfort or "
-                    "the key of a quantity",
+        fmt::format("goal \"{}\" is not known{}; peak, mean, discomfort, torque, strength, "
+                    "effort, stability or the key of a quantity",
                     what, nearest.empty() ? "" : "; did you mean " + nearest + "?"));
   }
   if (quantity->better == Better::kNeither) {
@@ -124,10 +125,12 @@ FeatureGoal feature_goal(const std::string& words) {
       fmt::format("goal \"{}\": behind the colon p95 or above=NUMBER is allowed", words));
 }
 
-bool needs_indices(const FeatureGoal& goal) {
+bool is_index(const std::string& key) {
   return std::none_of(hand_quantities().begin(), hand_quantities().end(),
-                      [&](const StudyQuantity& one) { return one.key == goal.key; });
+                      [&](const StudyQuantity& one) { return one.key == key; });
 }
+
+bool needs_indices(const FeatureGoal& goal) { return is_index(goal.key); }
 
 GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int product,
                    int original) {

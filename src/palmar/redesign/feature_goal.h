@@ -20,11 +20,15 @@ struct FeatureGoal {
   bool is_lower_better = true;
 };
 
-/// From words: "peak" (pressure on sensor cells), "mean" (pressure), "stability" (largest wrench
-/// that every direction resists), "discomfort" (largest pressure of a region over its onset of
-/// discomfort), or the key of any quantity that has a better direction; with ":p95" the 95th
+/// From words: "peak" (pressure on sensor cells), "mean" (pressure), "discomfort" (largest pressure
+/// of a region over its onset of discomfort), "torque" (the largest about the grip axis that
+/// friction holds), "strength" (least grip strength of a person who holds the task's force),
+/// "effort" (share of the muscles' strength in use), "stability" (largest wrench that every
+/// direction resists), or the key of any quantity that has a better direction; with ":p95" the 95th
 /// percentile over hands, with ":above=0.3" the share of hands above that. Throws UsageError.
 FeatureGoal feature_goal(const std::string& words);
+/// Whether a quantity is an index of grasps, not one that every grasp has.
+bool is_index(const std::string& key);
 /// Whether grasps need their indices for it.
 bool needs_indices(const FeatureGoal& goal);
 

@@ -15,6 +15,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/product/parts/part_outline.h"
+#include "palmar/redesign/handle_ends.h"
 
 namespace palmar {
 namespace {
@@ -156,6 +157,7 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   Eigen::MatrixXd powers(steps + 1, 3);
   Eigen::MatrixXd centres(steps + 1, 2);
   body.outlines.z.clear();
+  body.outlines.radius.clear();
   for (int k = 0; k <= steps; ++k) {
     const double z = bottom + (top - bottom) * k / steps;
     // The part's own centre line where this plane meets it.
@@ -199,10 +201,14 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   }
 }
 
-double mean_value(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
+/// Takes what isn't the handle from a part's body.
+void leave_other_ends(const Product& product, const ProductPart& part, HandleBody& body) {
+  const std::array<double, 2> other = other_ends(body);
+  const double within = 0.5 * body.run_out;  // the shape runs out about the end of the grip
+  if (other[0] > within) body.bottom += other[0] - within;
+  if (other[1] > within) body.top -= other[1] - within;
+  for (const std::size_t end : {0, 1}) body.is_free[end] = body.is_free[end] && other[end] == 0.0;
+  if (other[0] > within || other[1] > within) take_sections(product, part, body);
 }
 
 /// Radius of the rounding of the edges at flat ends, by how much the section next to the end is
@@ -228,11 +234,6 @@ double end_radius_of(const HandleBody& body) {
   return sum;
 }
 
-/// Share of its box that a superellipse fills; 1 for a rectangle, pi / 4 for an ellipse.
-double fill_of(double p) {
-  return std::exp(2.0 * std::lgamma(1.0 + 1.0 / p) - std::lgamma(1.0 + 2.0 / p));
-}
-
 }  // namespace
 
 double HandleOutlines::at(double height, double phi) const {
@@ -255,7 +256,7 @@ double HandleOutlines::at(double height, double phi) const {
 Point2 HandleBody::centre_at(double z) const { return centre[0] + z * (centre[1] + z * centre[2]); }
 
 HandleBody measure_handle(const Product& product, const ProductPart& part,
-                          const HandsOnHandle& hands) {
+                          const HandsOnHandle& hands, bool takes_all) {
   if (part.is_ring || part.line.size() < 2 ||
       (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
        part.kind != PartKind::kBody)) {
@@ -301,95 +302,16 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   }
   take_sections(product, part, body);
   if (body.is_whole) body.end_radius = end_radius_of(body);
+  body.gripped = gripped_length(body, hands);
+  // Of a solid the ends stay as they are: rest and handle meet in the outlines that were there.
+  if (!body.is_whole && product.faces != nullptr) body.is_free = {false, false};
+  if (!body.is_whole && !takes_all) leave_other_ends(product, part, body);
+  if (!body.is_whole && product.faces == nullptr) body.outlines = smoothed(body.outlines);
   const Vec3 thumb = body.product_from_handle.inverse() * hands.thumb;
   body.hands.thumb_at = thumb.z();
   const Point2 from_centre = thumb.head<2>() - body.centre_at(thumb.z());
   body.hands.thumb_phi = std::atan2(from_centre.y(), from_centre.x());
   return body;
-}
-
-FittedFeatures fit_features(const HandleBody& body) {
-  // Without the ends.
-  const double margin = body.is_whole ? body.end_radius + 1.0 : 1.0;
-  const double low = body.bottom + margin, high = body.top - margin;
-  const auto radii_at = [&](double z) {
-    std::vector<double> radii;
-    for (int k = 0; k < kColumns; ++k)
-      radii.push_back(body.outlines.at(z, kFullTurn * k / kColumns));
-    return radii;
-  };
-  const std::vector<double> here = radii_at(std::clamp(0.0, low, high));
-  double second_c = 0.0, second_s = 0.0, fourth_c = 0.0, fourth_s = 0.0, area = 0.0;
-  for (int k = 0; k < kColumns; ++k) {
-    const double phi = kFullTurn * k / kColumns, r = here[static_cast<std::size_t>(k)];
-    second_c += std::pow(r, 4) * std::cos(2.0 * phi);
-    second_s += std::pow(r, 4) * std::sin(2.0 * phi);
-    fourth_c += r * std::cos(4.0 * phi);
-    fourth_s += r * std::sin(4.0 * phi);
-    area += 0.5 * r * r * kFullTurn / kColumns;
-  }
-  FittedFeatures fitted;
-  HandleFeatures& f = fitted.features;
-  const double mean = mean_value(here);
-  constexpr double kRound = 0.02;  // of the radius: below it a direction means nothing
-  const double oblong = std::hypot(second_c, second_s) / (kColumns * std::pow(mean, 4));
-  const double square = std::hypot(fourth_c, fourth_s) / (kColumns * mean);
-  if (oblong > 2.0 * kRound) {
-    // The longer axis to the nearer of x and y.
-    const double longer = 0.5 * std::atan2(second_s, second_c);
-    f.turn = std::remainder(longer, 0.5 * std::numbers::pi);
-  } else if (square > 0.5 * kRound) {
-    f.turn = std::remainder(0.25 * (std::atan2(fourth_s, fourth_c) + std::numbers::pi),
-                            0.5 * std::numbers::pi);
-  }
-  const auto extent_along = [&](const std::vector<double>& radii, double direction) {
-    double least = 0.0, most = 0.0;
-    for (int k = 0; k < kColumns; ++k) {
-      const double along =
-          radii[static_cast<std::size_t>(k)] * std::cos(kFullTurn * k / kColumns - direction);
-      least = std::min(least, along);
-      most = std::max(most, along);
-    }
-    return most - least;
-  };
-  f.width = extent_along(here, f.turn);
-  f.depth = extent_along(here, f.turn + 0.5 * std::numbers::pi);
-  const double fill = area / (f.width * f.depth);
-  double least = 0.0, most = 2.0;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (least + most);
-    (fill_of(2.0 + 3.0 * middle) < fill ? least : most) = middle;
-  }
-  f.squareness = least;
-  double sum_z = 0.0, sum_zz = 0.0, sum_d = 0.0, sum_zd = 0.0;
-  int count = 0;
-  for (const double z : body.outlines.z) {
-    if (z < low || z > high) continue;
-    const double diameter = 2.0 * mean_value(radii_at(z));
-    sum_z += z;
-    sum_zz += z * z;
-    sum_d += diameter;
-    sum_zd += z * diameter;
-    ++count;
-  }
-  const double spread = count * sum_zz - sum_z * sum_z;
-  if (spread > 0.0) f.taper = -100.0 * (count * sum_zd - sum_z * sum_d) / spread;
-  for (const HandleFeature& one : handle_features()) {
-    f.*one.value = std::clamp(f.*one.value, one.lowest / one.scale, one.highest / one.scale);
-  }
-  double squares = 0.0;
-  int points = 0;
-  for (const double z : body.outlines.z) {
-    if (z < low || z > high) continue;
-    for (int k = 0; k < kColumns; ++k) {
-      const Point2 point = section_point(f, body.hands, z, static_cast<double>(k) / kColumns);
-      const double off = point.norm() - body.outlines.at(z, std::atan2(point.y(), point.x()));
-      squares += off * off;
-      ++points;
-    }
-  }
-  if (points > 0) fitted.rms = std::sqrt(squares / points);
-  return fitted;
 }
 
 }  // namespace palmar

@@ -35,12 +35,19 @@ struct HandleBody {
   double end_radius = 0.0;         ///< of the edges round flat ends, mm; about, 0 if sharp
   double run_out = 0.0;            ///< mm; 0 at flat ends
   std::array<bool, 2> is_free = {true, true};  ///< nothing goes on beyond the bottom, the top
+  std::array<double, 2> gripped = {0.0, 0.0};  ///< z between which hands press (handle_ends.h), mm
   /// Centre line (x, y) = c0 + c1 z + c2 z^2, mm.
   std::array<Eigen::Vector2d, 3> centre{};
   HandleOutlines outlines;  ///< now
   HandleHands hands;
 
   Eigen::Vector2d centre_at(double z) const;
+};
+
+/// Where a hand presses: product frame, mm, MPa.
+struct HandPressure {
+  Vec3 at = Vec3::Zero();
+  double pressure = 0.0;
 };
 
 /// How hands lie on a product: means over them, product frame.
@@ -50,12 +57,16 @@ struct HandsOnHandle {
   Vec3 palm = Vec3::UnitY();        ///< unit, from the handle towards the palm
   Vec3 thumb = Vec3::Zero();        ///< where the thumb presses, mm
   double breadth = 80.0;            ///< of the four fingers, mm
+  std::vector<std::vector<HandPressure>> pressures = {};  ///< by hand; may be empty
+  double spread = 0.0;  ///< mm; how far along the handle hands lie from there
 };
 
+/// Of a part of a product only the gripped length is shaped, and 7 mm more: where its ends are
+/// something else (other_ends()) they are left to the product; with `takes_all` they are not.
 /// Throws UsageError naming the product if the part can't be shaped: no bar, a ring, bent by more
 /// than its own thickness, or with sections that aren't seen whole from the centre line.
 HandleBody measure_handle(const Product& product, const ProductPart& part,
-                          const HandsOnHandle& hands);
+                          const HandsOnHandle& hands, bool takes_all = false);
 
 /// The features that come nearest to what the handle is now: half axes and taper by extents,
 /// squareness by area, turn by principal axes; all swells 0. Root mean square of the distance to

@@ -18,7 +18,7 @@ using Point2 = Eigen::Vector2d;
 
 constexpr double kCircle = 2.0 * std::numbers::pi;
 constexpr double kKeptBlend = 14.0;   // mm; from what is kept to the features
-constexpr int kFilletRows = 6;        // of a quarter round
+constexpr int kFilletRows = 6;        // of the rounding of an end
 constexpr double kDerivative = 1e-4;  // of a turn
 constexpr double kBeside = 1.3;       // of the handle's radius; what is farther out isn't of it
 constexpr double kOnSurface = 0.2;    // share of the radius; what is so near lies on the surface
@@ -38,21 +38,15 @@ double parameter_at(const HandleShape& shape, double z, double phi) {
   return 0.5 * (low + high);
 }
 
-/// The original's radius without the rounding of its flat ends.
-double radius_before(const HandleShape& shape, double z, double phi) {
-  const HandleBody& body = shape.body;
-  const double margin = body.is_whole && body.end_radius > 0.0 ? body.end_radius + 0.5 : 0.0;
-  return body.outlines.at(std::clamp(z, body.bottom + margin, body.top - margin), phi);
-}
-
 /// Share of the features in the plane of z for what is kept at its ends.
 double share_of_plane(const HandleShape& shape, double z) {
   const HandleBody& body = shape.body;
   double share = 1.0;
   if (body.is_whole) {
-    if (shape.kept_ends > 0.0) {
-      const double inwards = std::min(z - body.bottom, body.top - z);
-      share = smooth_step((inwards - shape.kept_ends) / kKeptBlend);
+    for (const std::size_t end : {0, 1}) {
+      if (shape.kept_ends[end] <= 0.0) continue;
+      const double inwards = end == 0 ? z - body.bottom : body.top - z;
+      share *= smooth_step((inwards - shape.kept_ends[end]) / kKeptBlend);
     }
     return share;
   }
@@ -66,17 +60,18 @@ struct Row {
 };
 std::vector<Row> rows_of(const HandleShape& shape, double distance) {
   const double r = shape.end_radius, bottom = shape.body.bottom, top = shape.body.top;
+  const double height = r * std::sin(kEndAngle);
   std::vector<Row> rows;
   const auto round = [&](int k) {
-    const double angle = 0.5 * std::numbers::pi * (1.0 - static_cast<double>(k) / kFilletRows);
-    return std::array{r * (1.0 - std::sin(angle)), r * (1.0 - std::cos(angle))};
+    const double angle = kEndAngle * (1.0 - static_cast<double>(k) / kFilletRows);
+    return std::array{height - r * std::sin(angle), r * (1.0 - std::cos(angle))};
   };
   for (int k = 0; k < kFilletRows && r > 0.0; ++k) {
     rows.push_back({bottom + round(k)[0], round(k)[1]});
   }
-  const double length = top - bottom - 2.0 * r;
+  const double length = top - bottom - 2.0 * height;
   const int steps = std::max(2, static_cast<int>(std::ceil(length / distance)));
-  for (int k = 0; k <= steps; ++k) rows.push_back({bottom + r + length * k / steps, 0.0});
+  for (int k = 0; k <= steps; ++k) rows.push_back({bottom + height + length * k / steps, 0.0});
   for (int k = kFilletRows - 1; k >= 0 && r > 0.0; --k) {
     rows.push_back({top - round(k)[0], round(k)[1]});
   }
@@ -85,11 +80,36 @@ std::vector<Row> rows_of(const HandleShape& shape, double distance) {
 
 }  // namespace
 
+double HandleShape::radius_before(double z, double phi) const {
+  const double margin = body.is_whole && body.end_radius > 0.0 ? body.end_radius + 0.5 : 0.0;
+  return body.outlines.at(std::clamp(z, body.bottom + margin, body.top - margin), phi);
+}
+
+bool HandleShape::keeps() const {
+  return !body.is_whole || kept_ends[0] > 0.0 || kept_ends[1] > 0.0 || !kept_boxes.empty() ||
+         !to_kept_faces.z.empty();
+}
+
+HandleRows rows_for(const HandleShape& shape) {
+  constexpr int kRoundColumns = 24;   // through which an elliptic section passes within 0.01 mm
+  constexpr int kSquareColumns = 24;  // more per unit of squareness
+  constexpr int kKeptColumns = 72;    // where the original's outlines are kept
+  constexpr double kRows = 7.0, kKeptRows = 3.5;  // mm
+  const double wanted = kRoundColumns + kSquareColumns * shape.features.squareness;
+  const bool is_whole = shape.body.is_whole;
+  return {.columns = shape.keeps() ? kKeptColumns : 8 * static_cast<int>(std::ceil(wanted / 8.0)),
+          .distance = shape.keeps() && is_whole ? kKeptRows : kRows,
+          .end_radius = is_whole ? shape.end_radius : 0.0};
+}
+
 double HandleShape::share_at(double z, double phi) const {
   double share = share_of_plane(*this, z);
+  if (share > 0.0 && !to_kept_faces.z.empty()) {
+    share *= smooth_step(to_kept_faces.at(z, phi) / kKeptBlend);
+  }
   if (share == 0.0 || kept_boxes.empty()) return share;
   const Point2 at =
-      body.centre_at(z) + radius_before(*this, z, phi) * Point2(std::cos(phi), std::sin(phi));
+      body.centre_at(z) + radius_before(z, phi) * Point2(std::cos(phi), std::sin(phi));
   const Vec3 point = body.product_from_handle * Vec3(at.x(), at.y(), z);
   for (const Box3& box : kept_boxes) {
     share *= smooth_step(box.exteriorDistance(point) / kKeptBlend);
@@ -103,14 +123,14 @@ Point2 HandleShape::side_point(double z, double t) const {
   const double phi = angle_of(point), share = share_at(z, phi);
   if (share < 1.0) {
     const double r = point.norm();
-    point *= (share * r + (1.0 - share) * radius_before(*this, z, phi)) / r;
+    point *= (share * r + (1.0 - share) * radius_before(z, phi)) / r;
   }
   return centre + point;
 }
 
 double HandleShape::radius_at(double z, double phi) const {
   const double share = share_at(z, phi);
-  const double before = share < 1.0 ? radius_before(*this, z, phi) : 0.0;
+  const double before = share < 1.0 ? radius_before(z, phi) : 0.0;
   if (share == 0.0) return before;
   const double r = section_point(features, body.hands, z, parameter_at(*this, z, phi)).norm();
   return share * r + (1.0 - share) * before;
@@ -218,9 +238,19 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
     place.is_moved = place.r > 1e-6 && place.r < kBeside * place.before;
     return place;
   };
+  // A triangle of CAD may go from end to end of a handle whose vertices all lie beyond what moves.
+  const auto is_beside = [&](const Vec3& x) {
+    const Vec3 p = to_handle * x;
+    const double z = std::clamp(p.z(), body.bottom, body.top);
+    const Point2 from_centre = p.head<2>() - body.centre_at(z);
+    return from_centre.norm() < kBeside * body.outlines.at(z, angle_of(from_centre));
+  };
   TriangleMesh moved =
       split_long_edges(mesh, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return place_of(a).is_moved || place_of(b).is_moved || place_of(c).is_moved;
+        const double za = (to_handle * a).z(), zb = (to_handle * b).z(), zc = (to_handle * c).z();
+        const bool is_below = std::max({za, zb, zc}) < body.bottom && !body.is_free[0];
+        const bool is_above = std::min({za, zb, zc}) > body.top && !body.is_free[1];
+        return !is_below && !is_above && (is_beside(a) || is_beside(b) || is_beside(c));
       });
   for (Vec3& x : moved.vertices) {
     const Place place = place_of(x);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "palmar/geometry/types.h"
@@ -11,15 +13,24 @@
 
 namespace palmar {
 
+/// Roundings of flat ends turn by 75 degrees and meet the ends at the remaining 15: where a
+/// rounding meets a flat end without an edge, OpenCASCADE opens shells there wrongly.
+inline constexpr double kEndAngle = 75.0 / 180.0 * std::numbers::pi;
+
 /// A handle shaped anew: features on the place of what is there.
 struct HandleShape {
   HandleBody body = {};
   HandleFeatures features = {};
-  double end_radius = 0.0;  ///< of the edges round flat ends, mm
-  double kept_ends = 0.0;   ///< mm at both flat ends with the outlines that they have now
-  /// Product frame, mm: what lies in them keeps its outline; beside them the features begin over
-  /// 14 mm.
-  std::vector<Box3> kept_boxes = {};
+  double end_radius = 0.0;  ///< of the edges round flat ends, over kEndAngle, mm
+  std::array<double, 2> kept_ends = {0.0, 0.0};  ///< mm at the flat bottom and top that keep the
+                                                 ///< outlines that they have now
+  // Kept, too; beside them the features begin over 14 mm.
+  std::vector<Box3> kept_boxes = {};         ///< product frame, mm: what lies in them
+  std::vector<std::string> kept_faces = {};  ///< CAD faces, by number or name
+  HandleOutlines to_kept_faces = {};         ///< distance to those in place of radii, mm; or empty
+
+  /// Whether some of the original's outlines are in the shape.
+  bool keeps() const;
 
   /// Point of the side in the plane of z, handle frame, mm; `t` goes round once from 0 to 1. The
   /// original's outline where ends are kept and where the shape has run out, that of the features
@@ -27,9 +38,21 @@ struct HandleShape {
   Eigen::Vector2d side_point(double z, double t) const;
   /// Its distance from the centre line in direction phi, mm.
   double radius_at(double z, double phi) const;
+  /// The original's distance there, without the rounding of its flat ends, mm.
+  double radius_before(double z, double phi) const;
   /// Share of the features in the plane of z in direction phi, 0 to 1.
   double share_at(double z, double phi) const;
 };
+
+/// Through which points the shape's surface goes: in planes `distance` [mm] apart, about, `columns`
+/// round each, from kFirstTurn on.
+struct HandleRows {
+  static constexpr double kFirstTurn = 0.125;  ///< half of a face, so that none has its seam within
+  int columns = 0;                             ///< a multiple of eight
+  double distance = 0.0;
+  double end_radius = 0.0;  ///< mm; 0 of a part of a product
+};
+HandleRows rows_for(const HandleShape& shape);
 
 /// How a shape differs from what is there, over the length that is shaped.
 struct ShapeChange {

@@ -21,6 +21,18 @@
 #include "palmar/redesign/surface_diffusion.h"
 
 namespace palmar {
+
+void KeepOut::add_face(const std::string& word) {
+  constexpr std::size_t kMostDigits = 8;
+  const bool is_number =
+      !word.empty() && word.size() <= kMostDigits &&
+      std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (is_number) {
+    faces.push_back(std::stoi(word));
+  } else {
+    names.push_back(word);
+  }
+}
 namespace {
 
 // Over which the direction of pressing turns at an edge. Vertices beside a sharp one meet at about

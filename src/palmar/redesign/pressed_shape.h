@@ -21,6 +21,7 @@ struct KeepOut {
   std::vector<Box3> boxes;         ///< product frame, mm: triangles whose box meets one
   double blend = 6.0;  ///< mm, 0 to 100: from nothing there to the full depth at this distance
   bool is_empty() const { return faces.empty() && names.empty() && boxes.empty(); }
+  void add_face(const std::string& word);  ///< its number ("4") or name
 };
 
 struct PressedShapeOptions {

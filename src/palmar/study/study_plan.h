@@ -67,6 +67,8 @@ struct StudySetting {
   bool indices = true;
   /// Whether the indices have the volume of the wrench space, too: a tenth of a study's time.
   bool wrench_volume = false;
+  /// Whether the indices have the largest torque about the grip axis (held_torque.h), too.
+  bool torque = false;
   /// Whether the skin is refined on sharp edges of the product (ContactOptions::refine).
   bool refine = false;
   /// Where a product is held: found once on the mean hand and kept for all (only pressing in and

@@ -332,6 +332,7 @@ class StudySubject {
     options.footprint = false;  // the study's own map serves
     options.indices.is_on = setting.indices;
     options.indices.stability.with_volume = setting.wrench_volume;
+    options.indices.torque = setting.torque;
     options.contact.refine = setting.refine;
 
     if (profile_.glove_thickness > 0.0) {

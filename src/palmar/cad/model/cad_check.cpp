@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/cad/model/cad_check.h"
 
+#include <Adaptor3d_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListIteratorOfListOfStatus.hxx>
@@ -18,8 +20,15 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gp_Lin.hxx>
+#include <gp_Torus.hxx>
+#include <optional>
+#include <vector>
 
 #include "palmar/cad/model/occt_model.h"
+#include "palmar/core/text.h"
 
 namespace palmar {
 namespace {
@@ -93,6 +102,48 @@ int free_edges_of(const TopoDS_Shape& shape) {
   return count;
 }
 
+constexpr double kHalfTurn = 3.2;  // rad, a little more: what is turned less needn't meet itself
+
+/// Whether a surface of revolution lies on both sides of its axis; `radius`: of its meridian by v,
+/// below 0 beyond the axis, mm.
+bool crosses_axis(const BRepAdaptor_Surface& surface,
+                  const std::function<double(double v)>& radius) {
+  constexpr int kSteps = 360;
+  constexpr double kTouching = 1e-3;  // mm; one that only touches it
+  double least = 0.0, most = 0.0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double v = surface.FirstVParameter() +
+                     (surface.LastVParameter() - surface.FirstVParameter()) * k / kSteps;
+    least = std::min(least, radius(v));
+    most = std::max(most, radius(v));
+  }
+  return least < -kTouching && most > kTouching;
+}
+
+/// The signed radius of a surface whose meridian lies in a plane with its axis; nothing of others.
+std::optional<std::function<double(double v)>> signed_radius(const BRepAdaptor_Surface& surface) {
+  constexpr int kSteps = 64;
+  const Handle(Adaptor3d_Curve) meridian = surface.BasisCurve();
+  const gp_Ax1 axis = surface.AxeOfRevolution();
+  const auto outwards = [meridian, axis](double v) {
+    const gp_Vec from(axis.Location(), meridian->Value(v)), along(axis.Direction());
+    return from - along * from.Dot(along);
+  };
+  gp_Vec farthest;
+  std::vector<gp_Vec> all;
+  for (int k = 0; k <= kSteps; ++k) {
+    all.push_back(outwards(surface.FirstVParameter() +
+                           (surface.LastVParameter() - surface.FirstVParameter()) * k / kSteps));
+    if (all.back().Magnitude() > farthest.Magnitude()) farthest = all.back();
+  }
+  if (farthest.Magnitude() < 1e-6) return std::nullopt;
+  const gp_Vec way = farthest.Normalized();
+  for (const gp_Vec& one : all) {
+    if (one.Crossed(way).Magnitude() > 1e-4) return std::nullopt;
+  }
+  return [outwards, way](double v) { return outwards(v).Dot(way); };
+}
+
 }  // namespace
 
 Box3 box_of(const CadModel& model) {
@@ -130,7 +181,9 @@ CadCheck check_cad(const CadModel& model) {
   check.faces = model.face_count();
   check.edges = model.edge_count();
   const BRepCheck_Analyzer analyzer(impl.shape);
-  check.is_valid = analyzer.IsValid();
+  const std::string crossing = self_crossing(model);
+  check.is_valid = analyzer.IsValid() && crossing.empty();
+  if (!crossing.empty()) check.findings.push_back(crossing);
   if (!check.is_valid) {
     add_findings(analyzer, impl.faces, "face", check.findings);
     add_findings(analyzer, impl.edges, "edge", check.findings);
@@ -159,6 +212,38 @@ CadCheck check_cad(const CadModel& model) {
                              " mm3; a solid's is positive");
   }
   return check;
+}
+
+std::string self_crossing(const CadModel& model) {
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const BRepAdaptor_Surface surface(TopoDS::Face(model.impl().faces(f)), Standard_True);
+    if (surface.LastUParameter() - surface.FirstUParameter() < kHalfTurn) continue;
+    std::string what;
+    if (surface.GetType() == GeomAbs_Torus) {
+      const gp_Torus torus = surface.Torus();
+      if (crosses_axis(surface, [&](double v) {
+            return torus.MajorRadius() + torus.MinorRadius() * std::cos(v);
+          })) {
+        what = "a torus with a ring of radius " + significant(torus.MajorRadius(), 4) +
+               " mm and a tube of " + significant(torus.MinorRadius(), 4) + " mm";
+      }
+    } else if (surface.GetType() == GeomAbs_SurfaceOfRevolution) {
+      if (const auto radius = signed_radius(surface); radius && crosses_axis(surface, *radius)) {
+        what = "a surface of revolution";
+        if (surface.BasisCurve()->GetType() == GeomAbs_Circle) {
+          const gp_Circ circle = surface.BasisCurve()->Circle();
+          const double ring = gp_Lin(surface.AxeOfRevolution()).Distance(circle.Location());
+          what = "a torus with a ring of radius " + significant(ring, 4) + " mm and a tube of " +
+                 significant(circle.Radius(), 4) + " mm";
+        }
+      }
+    }
+    if (what.empty()) continue;
+    return "face " + std::to_string(f) + " passes through itself: " + what +
+           " crosses its own axis; a surface of a solid doesn't. Make the tube thinner than the "
+           "ring, or trim the face where it meets the axis";
+  }
+  return "";
 }
 
 int most_poles(const CadModel& model) {

@@ -26,6 +26,12 @@ struct CadCheck {
 
 CadCheck check_cad(const CadModel& model);
 
+/// Why the model can't be the surface of a thing, if that is for certain: a face on a torus that
+/// passes through itself on its axis (its tube is thicker than its ring is wide, ISO 10303-42
+/// allows of such a torus only the outer or the inner part); "" if nothing is found. Names the
+/// face.
+std::string self_crossing(const CadModel& model);
+
 /// Of the triangles if there are any, else of the surfaces; empty if there is nothing.
 Box3 box_of(const CadModel& model);
 

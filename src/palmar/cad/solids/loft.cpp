@@ -32,23 +32,25 @@ constexpr double kSewing = 1e-5;  // mm; faces share their borders to rounding
 constexpr int kFilletRows = 9;    // of a quarter round; beside it the spline is off by 0.002 radii
 constexpr double kDerivative = 1e-4;  // of a turn, for normals of sections
 
+constexpr double kBesideFillet[] = {1.0 / 6.0, 0.5};  // radii beside it
+
 struct Row {
   double z, inset;
 };
 
 /// Rows of one end's rounding, from the flat end inwards, without the row where the side begins.
-std::vector<Row> rows_of_fillet(double end, double inwards, double fillet) {
+std::vector<Row> rows_of_fillet(double end, double inwards, double fillet, double whole_angle) {
   std::vector<Row> rows;
   for (int k = 0; k < kFilletRows && fillet > 0.0; ++k) {
-    const double angle = 0.5 * std::numbers::pi * (1.0 - static_cast<double>(k) / kFilletRows);
-    rows.push_back(
-        {end + inwards * fillet * (1.0 - std::sin(angle)), fillet * (1.0 - std::cos(angle))});
+    const double angle = whole_angle * (1.0 - static_cast<double>(k) / kFilletRows);
+    rows.push_back({end + inwards * fillet * (std::sin(whole_angle) - std::sin(angle)),
+                    fillet * (1.0 - std::cos(angle))});
   }
   return rows;
 }
 
 std::vector<Row> rows_of(const LoftOptions& o) {
-  std::vector<Row> rows = rows_of_fillet(o.bottom, 1.0, o.end_fillet);
+  std::vector<Row> rows = rows_of_fillet(o.bottom, 1.0, o.end_fillet, o.end_angle);
   // Rows at the borders of bands, and evenly between.
   std::vector<double> borders;
   for (const LoftBand& band : o.bands) borders.push_back(band.begin);
@@ -59,7 +61,15 @@ std::vector<Row> rows_of(const LoftOptions& o) {
     for (int k = 0; k < steps; ++k) rows.push_back({borders[b] + length * k / steps, 0.0});
   }
   rows.push_back({borders.back(), 0.0});
-  std::vector<Row> top = rows_of_fillet(o.top, -1.0, o.end_fillet);
+  if (o.splits_fillets && o.end_fillet > 0.0) {
+    for (const double share : kBesideFillet) {
+      rows.push_back({borders.front() + share * o.end_fillet, 0.0});
+      rows.push_back({borders.back() - share * o.end_fillet, 0.0});
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Row& a, const Row& b) { return a.z < b.z; });
+  }
+  std::vector<Row> top = rows_of_fillet(o.top, -1.0, o.end_fillet, o.end_angle);
   rows.insert(rows.end(), top.rbegin(), top.rend());
   return rows;
 }
@@ -194,6 +204,13 @@ NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& s
         {BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1)), wire.Wire()).Face(),
          name});
   };
+  const auto fillet_band = [&](const LoftBand& beside, const std::string& name) {
+    LoftBand band = beside;
+    for (std::string& one : band.names) one = name + ", " + one;
+    if (!options.splits_fillets) band.splits.clear();
+    if (!options.splits_fillets) band.names = {name};
+    return band;
+  };
   for (const LoftBand& band : options.bands) {
     add_band(parameter_at(band.begin), parameter_at(band.end), band);
   }
@@ -202,8 +219,8 @@ NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& s
   if (options.end_fillet > 0.0) {
     const LoftBand& first = options.bands.front();
     const LoftBand& last = options.bands.back();
-    add_patch(0.0, 1.0, v.front(), parameter_at(first.begin), "bottom fillet");
-    add_patch(0.0, 1.0, parameter_at(last.end), v.back(), "top fillet");
+    add_band(v.front(), parameter_at(first.begin), fillet_band(first, "bottom fillet"));
+    add_band(parameter_at(last.end), v.back(), fillet_band(last, "top fillet"));
   }
 
   BRepBuilderAPI_Sewing sewing(kSewing);

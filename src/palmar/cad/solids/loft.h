@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct LoftBand {
 struct LoftOptions {
   double bottom = 0.0, top = 0.0;  ///< z, mm
   double end_fillet = 0.0;         ///< mm
+  /// Over which the roundings turn, up to the flat ends: a quarter of a turn meets these without an
+  /// edge, less at an angle. The height of a rounding is end_fillet sin(end_angle).
+  double end_angle = 0.5 * std::numbers::pi;
+  /// Whether roundings are parted as the bands beside them ("bottom fillet, palm") and have two
+  /// more rows beside them, without which the side bulges there by a hundredth of their radius.
+  bool splits_fillets = false;
   int columns = 40;
   double row_distance = 5.0;  ///< mm, about
   std::vector<LoftBand> bands;

@@ -84,6 +84,8 @@ std::vector<ChosenEdges> fillets_in(const Json& answer) {
 
 }  // namespace
 
+std::string source_text(const CadSource& source) { return source_json(source).dump(); }
+
 ChangedCad change_features(const CadFeatureRequest& request, const CadLimits& limits,
                            const Progress& progress) {
   const std::string object = object_of(request);

@@ -22,6 +22,9 @@ struct CadSource {
   std::optional<MadeProduct> made;             ///< instead of a file
 };
 
+/// As the CAD program is told of it: one JSON object. Throws InputError on what is no CAD file.
+std::string source_text(const CadSource& source);
+
 /// One change of a feature; see cad/feature_edits.h for what it does and feature_choice.h for
 /// words.
 struct CadFeature {

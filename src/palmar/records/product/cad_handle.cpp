@@ -11,19 +11,28 @@ namespace palmar {
 
 using Json = nlohmann::ordered_json;
 
-HandleSolid make_handle(const HandleShape& shape, const std::string& object, double chordal_error,
-                        const CadLimits& limits, const Progress& progress) {
-  const Json request = {{"shape", handle_shape_json(shape)}, {"chordal_error_mm", chordal_error}};
+MadeHandle make_handle(const HandleShape& shape, const std::string& object,
+                       const std::optional<CadSource>& source, double chordal_error,
+                       const CadLimits& limits, const Progress& progress) {
+  Json request = {{"shape", handle_shape_json(shape)}, {"chordal_error_mm", chordal_error}};
+  if (source) request["source"] = Json::parse(source_text(*source));
   const CadFolder folder;
   const std::string reply = run_cad("handle", request.dump(), folder, object, limits, progress);
-  HandleSolid made;
+  MadeHandle made;
   try {
     const Json answer = Json::parse(reply);
-    made.volume = answer.at("volume_mm3").get<double>();
-    made.faces = answer.at("faces").get<int>();
-    made.poles = answer.at("poles").get<int>();
-    made.mesh = read_face_mesh(folder.path() / "mesh.bin");
-    made.step = read_file(folder.path() / "product.step");
+    made.handle = {.step = read_file(folder.path() / "product.step"),
+                   .mesh = read_face_mesh(folder.path() / "mesh.bin"),
+                   .volume = answer.at("volume_mm3").get<double>(),
+                   .faces = answer.at("faces").get<int>(),
+                   .poles = answer.at("poles").get<int>()};
+    made.failure = answer.value("whole_failure", "");
+    if (answer.contains("whole")) {
+      made.whole = HandleSolid{.step = read_file(folder.path() / "whole.step"),
+                               .mesh = read_face_mesh(folder.path() / "whole.bin"),
+                               .volume = answer.at("whole").at("volume_mm3").get<double>(),
+                               .faces = answer.at("whole").at("faces").get<int>()};
+    }
   } catch (const Json::exception& error) {
     throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
   } catch (const InputError& error) {

@@ -138,7 +138,7 @@ fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
       folder / "settings.csv",
       {"setting", "name", "grip_force_n", "strength_share", "strength_n", "least_grip_force_n",
        "limit_depths", "palm_limit_depth_mm", "finger_limit_depth_mm", "friction", "is_balanced",
-       "equations", "indices", "wrench_volume", "refine", "place"});
+       "equations", "indices", "wrench_volume", "torque", "refine", "place"});
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const StudySetting& one = plan.settings[i];
     file.add({std::to_string(i), one.name, optional_cell(one.grip_force),
@@ -147,6 +147,7 @@ fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
               one.limit_depths ? "1" : "0", shortest(one.palm_limit_depth),
               shortest(one.finger_limit_depth), shortest(one.friction), one.is_balanced ? "1" : "0",
               name_of(one.model), one.indices ? "1" : "0", one.wrench_volume ? "1" : "0",
+              one.torque ? "1" : "0",
               one.refine ? "1" : "0", one.is_place_per_hand ? "per_hand" : "shared"});
   }
   return file.finish();

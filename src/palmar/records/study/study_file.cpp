@@ -329,8 +329,8 @@ void read_word(const TomlSection& section, const char* key, const std::array<Enu
 StudySetting read_setting(const TomlSection& section, const std::string& default_name) {
   section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
                  "strength_share", "strength_n", "limit_depths", "friction", "balance", "preset",
-                 "kernel", "tissue_model", "regions", "indices", "wrench_volume", "refine",
-                 "place"});
+                 "kernel", "tissue_model", "regions", "indices", "wrench_volume", "torque",
+                 "refine", "place"});
   StudySetting setting;
   setting.name = section.text("name").value_or(default_name);
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
@@ -371,6 +371,7 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
   setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
   setting.indices = section.boolean("indices").value_or(setting.indices);
   setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);
+  setting.torque = section.boolean("torque").value_or(setting.torque);
   setting.refine = section.boolean("refine").value_or(setting.refine);
   if (const auto place = section.text("place")) {
     setting.is_place_per_hand = *place == "per_hand";

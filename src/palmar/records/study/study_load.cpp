@@ -21,6 +21,7 @@
 #include "palmar/records/product/product_file.h"
 #include "palmar/records/study/study_file.h"
 #include "palmar/records/study/study_store.h"
+#include "palmar/study/assessment/held_torque.h"
 #include "palmar/study/study_task.h"
 
 namespace palmar {
@@ -301,10 +302,12 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   plan.settings = request.settings;
   if (plan.settings.empty()) plan.settings.push_back({});
   plan.limits = request.limits;
-  // Who sets a limit to the volume wants it.
+  // Who sets a limit to what is computed only on demand wants it.
   for (const StudyLimit& limit : plan.limits) {
-    if (limit.quantity != "wrench_volume_l1") continue;
-    for (StudySetting& setting : plan.settings) setting.wrench_volume = true;
+    for (StudySetting& setting : plan.settings) {
+      setting.wrench_volume |= limit.quantity == "wrench_volume_l1";
+      setting.torque |= limit.quantity == kHeldTorqueKey;
+    }
   }
   for (const PopulationRequest& one : request.populations) {
     at_place(one.where, [&] { add_population(one, request.seed, study); });

@@ -259,7 +259,9 @@ Json setting_json(const StudySetting& setting) {
                {"indices", setting.indices},
                {"wrench_volume", setting.wrench_volume},
                {"place_per_hand", setting.is_place_per_hand}};
-  if (setting.refine) json["refine"] = true;  // plans without it stay those of older files
+  // Plans without these stay those of older files.
+  if (setting.refine) json["refine"] = true;
+  if (setting.torque) json["torque"] = true;
   return json;
 }
 
@@ -287,6 +289,7 @@ StudySetting setting_from(const Json& json) {
   setting.wrench_volume = json.at("wrench_volume");
   setting.is_place_per_hand = json.at("place_per_hand");
   setting.refine = json.value("refine", false);
+  setting.torque = json.value("torque", false);
   return setting;
 }
 

@@ -162,6 +162,7 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   progress.update(0.1, "figures");
   const Phrases phrases(options.language);
   std::vector<StudyFigure> figures = study_figures(results, analysis);
+  figures.insert(figures.end(), options.figures.begin(), options.figures.end());
   for (StudyFigure& one : figures) one.figure.say(phrases);
   if (options.figure_files) write_figures(root / "figures", figures);
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "palmar/core/language.h"
 #include "palmar/core/progress.h"
+#include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/report_extras.h"
 #include "palmar/report/picture/study_scene.h"
 #include "palmar/study/statistics/study_comparison.h"
@@ -16,14 +18,15 @@ struct StudyReportOptions {
   Language language = Language::kEnglish;
   std::string command;  ///< of the redesign that the study is of; may be empty
   ComparisonOptions comparison;
-  double threshold = kBloodFlowStop;  ///< MPa, of the maps of shares; blood-flow family
-  int most_grasps = 160;              ///< in the 3-D view; 0: none. Some 50 kB each
-  bool pictures = true;               ///< of the maps
-  bool figure_files = true;           ///< figures/*.svg, .png, .pdf
-  int picture_width = 1000;           ///< pixels
-  int picture_height = 700;           ///< pixels
-  ReportExtras extras = {};           ///< whose it is, units, files for other programs
-  void check() const;                 ///< throws UsageError: field, value, allowed range
+  double threshold = kBloodFlowStop;      ///< MPa, of the maps of shares; blood-flow family
+  int most_grasps = 160;                  ///< in the 3-D view; 0: none. Some 50 kB each
+  bool pictures = true;                   ///< of the maps
+  bool figure_files = true;               ///< figures/*.svg, .png, .pdf
+  int picture_width = 1000;               ///< pixels
+  int picture_height = 700;               ///< pixels
+  ReportExtras extras = {};               ///< whose it is, units, files for other programs
+  std::vector<StudyFigure> figures = {};  ///< more of them: of the search that found a redesign
+  void check() const;                     ///< throws UsageError: field, value, allowed range
 };
 
 /// What a report is made of.

@@ -9,6 +9,7 @@
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/grasp/rest/other_grip.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/study/assessment/held_torque.h"
 
 namespace palmar {
 namespace {
@@ -81,6 +82,11 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   result.indices = grasp_indices(
       hand.hand(), product, {result.grasp, result.balance, result.contact, result.posed_skin},
       load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
+  if (indices.is_on && indices.torque && result.contact.total.force > 0.0) {
+    result.indices.push_back(held_torque_index(held_torque(
+        hand, result.contact, *product.distance, {.axis = grasp.grip_axis, .at = grasp.grip_point},
+        indices.stability.reduction.friction)));
+  }
   result.times.indices = index_watch.seconds();
 
   // Where pressure is told place by place, of the refined skin, if it was refined.

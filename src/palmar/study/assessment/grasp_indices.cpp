@@ -5,6 +5,7 @@
 #include "palmar/grasp/indices/comfort.h"
 #include "palmar/grasp/indices/ease.h"
 #include "palmar/grasp/indices/fitness.h"
+#include "palmar/study/assessment/held_torque.h"
 
 namespace palmar {
 namespace {
@@ -129,6 +130,7 @@ const GraspIndices& index_catalogue() {
     stability.volume.emplace();
     stability.grip.emplace();
     append(rows, to_indices(stability));
+    rows.push_back(held_torque_index(0.0));
     append(rows, to_indices(EaseResult{}));
     append(rows, to_indices(FitnessResult{}));
     append(rows, to_indices(ComfortResult{}));

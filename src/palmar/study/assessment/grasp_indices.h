@@ -17,6 +17,8 @@ struct IndexOptions {
   StabilityOptions stability;
   std::optional<CoordinationBasis> coordination;  ///< unset: built_in_coordination()
   EffortOptions effort;
+  /// Whether evaluate() adds the largest torque about the grip axis (held_torque.h).
+  bool torque = false;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 

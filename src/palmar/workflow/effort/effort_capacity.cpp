@@ -11,6 +11,7 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/task_force.h"
 #include "palmar/study/assessment/assessment.h"
+#include "palmar/study/assessment/held_torque.h"
 #include "palmar/workflow/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
@@ -180,12 +181,6 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
         solve_friction(prepared, firmest.contact, *product.distance, grasp.grip_point, friction);
     return solved.load_factor.value_or(0.0);
   };
-  const auto held_torque = [&](const Vec3& axis) {
-    constexpr double kUnit = 1000.0;  // N mm; factors of about one
-    ProductLoad load;
-    load.torque = kUnit * axis;
-    return kUnit * held_load(load);
-  };
   const auto held_force = [&](const Vec3& along) {
     constexpr double kUnit = 10.0;  // N
     ProductLoad load;
@@ -193,7 +188,9 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     load.force_at = grasp.grip_point;
     return kUnit * held_load(load);
   };
-  result.torque = std::min(held_torque(result.torque_axis), held_torque(-result.torque_axis));
+  result.torque = held_torque(prepared, firmest.contact, *product.distance,
+                              {.axis = result.torque_axis, .at = grasp.grip_point}, rest.friction);
+  progress.throw_if_cancelled();
   // What the product bears against the hand's push comes from the thumb's side.
   result.push = held_force(-result.axis);
   result.pull = held_force(result.axis);

@@ -9,8 +9,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/csv_reader.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/product/parametric_kinds.h"
+#include "palmar/records/product/cad_format.h"
 
 namespace palmar {
 namespace {
@@ -111,6 +113,19 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
   if (is_closed) feature.points.pop_back();
   feature.is_closed = is_closed;
   return setting;
+}
+
+std::optional<CadSource> cad_source_of(const RedesignRequest& request) {
+  CadSource source;
+  if (is_made(request.product)) {
+    source.made = made_from(request.product);
+    return source;
+  }
+  source.file = request.product;
+  read_file(source.file);  // says what is wrong with it, if anything
+  if (!is_cad_file(source.file)) return std::nullopt;
+  if (request.unit) source.millimetres_per_unit = millimetres_per(*request.unit);
+  return source;
 }
 
 CadFeatureRequest request_for(const CadSource& source, const std::vector<FeatureSetting>& settings,

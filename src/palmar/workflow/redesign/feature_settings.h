@@ -8,6 +8,7 @@
 
 #include "palmar/records/product/cad_features.h"
 #include "palmar/redesign/feature_search.h"
+#include "palmar/workflow/redesign/redesign_request.h"
 
 namespace palmar {
 
@@ -30,6 +31,10 @@ struct GrooveSettings {
 
 /// Throws UsageError naming `vary` and the words; InputError on a groove's file.
 FeatureSetting feature_setting(const std::string& words, const GrooveSettings& grooves = {});
+
+/// The product of a redesign as a CAD program opens it; nothing if it is a mesh. Throws InputError
+/// if its file can't be read.
+std::optional<CadSource> cad_source_of(const RedesignRequest& request);
 
 /// What is to be made of values, one per setting.
 CadFeatureRequest request_for(const CadSource& source, const std::vector<FeatureSetting>& settings,

@@ -10,6 +10,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/product/parts/part_place.h"
 #include "palmar/records/study/people_range.h"
+#include "palmar/study/assessment/held_torque.h"
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
@@ -45,6 +46,7 @@ StudyRequest study_of(const RedesignRequest& asked) {
   StudySetting setting;
   if (asked.grip_force > 0.0) setting.grip_force = asked.grip_force;
   setting.limit_depths = asked.keeps_posture();
+  setting.torque = asked.goal_key == kHeldTorqueKey;
   request.settings = {setting};
   return request;
 }
@@ -105,7 +107,10 @@ std::shared_ptr<const ProductParts> HeldOriginal::shared_parts() const {
 HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress) {
   request.check();
   const StudyRequest asked = study_of(request);
-  StudyInputs shared{.base = load_hand(asked.hand), .products = {}};
+  HandChoice hand;
+  hand.name = asked.hand;
+  hand.is_left = request.is_left;
+  StudyInputs shared{.base = load_hand(hand), .products = {}};
   return hold_original(request, asked, std::move(shared), progress);
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "palmar/records/csv.h"
+#include "palmar/redesign/feature_goal.h"
 #include "palmar/report/chart/scatter_chart.h"
 #include "palmar/statistics/distributions.h"
 #include "palmar/statistics/summary.h"
@@ -101,10 +102,13 @@ HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
   std::vector<StudyResults> at(offsets.size(),
                                {.plan = plan_of_two(judges.original), .records = {}});
   for (const int product : {0, 1}) {
-    OffsetGrasps grasps({.original = judges.original,
-                         .product = product == 0 ? judges.original.product() : redesign,
-                         .offsets = offsets,
-                         .as = product});
+    OffsetGrasps grasps(
+        {.original = judges.original,
+         .product = product == 0 ? judges.original.product() : redesign,
+         .offsets = offsets,
+         .with_indices = std::any_of(result.quantities.begin(), result.quantities.end(),
+                                     [](const StudyQuantity& one) { return is_index(one.key); }),
+         .as = product});
     const auto records =
         grasps.of([&](int hand, std::size_t) { return hand % every == 0; }, progress);
     for (std::size_t k = 0; k < records.size(); ++k) {

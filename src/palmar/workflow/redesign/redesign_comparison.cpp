@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "palmar/formats/file.h"
 #include "palmar/records/study/study_store.h"
 #include "palmar/report/study/study_report.h"
@@ -15,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Quantities that the comparison prints; the report has all.
+/// Quantities that the comparison prints, besides the goal's; the report has all.
 const std::vector<std::string> kCompared = {"peak_pressure_cells_mpa", "mean_pressure_mpa",
                                             "contact_area_mm2", "grip_force_n"};
 
@@ -43,6 +45,7 @@ std::vector<std::string> notes_on(const RedesignComparison& comparison, std::siz
 
 RedesignComparison compare_redesigns(const RedesignRequest& request, const JudgingHands& judges,
                                      const std::vector<RedesignedProduct>& redesigns,
+                                     const std::vector<StudyFigure>& figures,
                                      const Progress& progress) {
   const HeldOriginal& original = judges.original;
   const LoadedStudy study = with_redesigns(request, original, redesigns);
@@ -79,6 +82,7 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
   StudyReportOptions report;
   report.language = request.language;
   report.command = request.command;
+  report.figures = figures;
   write_study_report((folder / "report").string(),
                      {results, study.inputs,
                       [&store](const std::function<void(const StudyRecord&)>& visit) {
@@ -91,9 +95,12 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
   if (request.on_note) {
     for (const std::string& text : comparison.notes) request.on_note(text);
   }
-  for (const std::string& key : kCompared) {
-    comparison.quantities.push_back(quantity_named(results, key));
+  std::vector<std::string> keys = kCompared;
+  if (!request.goal_key.empty() &&
+      std::find(keys.begin(), keys.end(), request.goal_key) == keys.end()) {
+    keys.insert(keys.begin(), request.goal_key);
   }
+  for (const std::string& key : keys) comparison.quantities.push_back(quantity_named(results, key));
   return comparison;
 }
 

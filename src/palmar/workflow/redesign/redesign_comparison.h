@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/report/chart/study_figures.h"
 #include "palmar/study/statistics/study_analysis.h"
 #include "palmar/workflow/redesign/candidate_study.h"
 #include "palmar/workflow/redesign/held_original.h"
@@ -28,9 +29,10 @@ struct RedesignComparison {
 };
 /// The last step of every redesign: original and redesigns in the hands that judge. Redesigns are
 /// held as the original is: the same hold, the same grip force, or the posture kept. Writes
-/// OUT/redesign.palmar and OUT/report/.
+/// OUT/redesign.palmar and OUT/report/, with `figures` besides its own.
 RedesignComparison compare_redesigns(const RedesignRequest& request, const JudgingHands& judges,
                                      const std::vector<RedesignedProduct>& redesigns,
+                                     const std::vector<StudyFigure>& figures,
                                      const Progress& progress);
 
 }  // namespace palmar

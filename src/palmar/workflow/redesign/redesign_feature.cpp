@@ -10,7 +10,6 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/records/product/cad_format.h"
 
 namespace palmar {
 namespace {
@@ -19,21 +18,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 CadSource source_of(const RedesignRequest& request) {
-  CadSource source;
-  if (is_made(request.product)) {
-    source.made = made_from(request.product);
-    return source;
-  }
-  source.file = request.product;
-  read_file(source.file);  // says what is wrong with it, if anything
-  if (!is_cad_file(source.file)) {
-    throw UsageError(
-        request.product +
-        ": a mesh; features change in CAD files (STEP, IGES) and in products made from "
-        "parameters (\"made: prism fillet_mm=3\")");
-  }
-  if (request.unit) source.millimetres_per_unit = millimetres_per(*request.unit);
-  return source;
+  const std::optional<CadSource> source = cad_source_of(request);
+  if (source) return *source;
+  throw UsageError(
+      request.product +
+      ": a mesh; features change in CAD files (STEP, IGES) and in products made from parameters "
+      "(\"made: prism fillet_mm=3\")");
 }
 
 std::vector<FeatureSetting> settings_of(const RedesignFeatureRequest& request,
@@ -76,11 +66,6 @@ void write_story(const RedesignFeatureRequest& request, const SearchStory& story
   write_file(folder / "search.json", json.dump(2) + "\n");
 }
 
-bool is_better_than_original(const SearchStory& story) {
-  const double best = story.result.history[static_cast<size_t>(*story.result.best)].outcome.goal;
-  return story.goal.is_lower_better ? best < story.original.value : best > story.original.value;
-}
-
 }  // namespace
 
 void RedesignFeatureRequest::check() const {
@@ -94,10 +79,12 @@ void RedesignFeatureRequest::check() const {
   }
 }
 
-RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& request,
+RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
                                          const Progress& progress) {
-  request.check();
+  asked.check();
   progress.throw_if_cancelled();
+  RedesignFeatureRequest request = asked;
+  request.redesign.goal_key = feature_goal(asked.goal).key;
   const CadSource source = source_of(request.redesign);
   RedesignFeatureOutcome outcome;
   outcome.goal = feature_goal(request.goal);

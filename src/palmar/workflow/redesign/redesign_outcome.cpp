@@ -18,9 +18,10 @@ void RedesignOutcome::add_note(const RedesignRequest& request, const std::string
 }
 
 void RedesignOutcome::judge(const RedesignRequest& request, const HeldOriginal& made_for,
-                            const RedesignedProduct& redesign, const Progress& progress) {
+                            const RedesignedProduct& redesign, const Progress& progress,
+                            const std::vector<StudyFigure>& figures) {
   const JudgingHands judges = judging_hands(request, made_for, progress);
-  comparison = compare_redesigns(request, judges, {redesign}, progress);
+  comparison = compare_redesigns(request, judges, {redesign}, figures, progress);
   const std::optional<Hold> hold = judges.original.hold();
   if (judges.original.study.plan.hands.size() < kLeastHands) return;
   if (request.keeps_posture() || !hold || !is_power(hold->grip) || hold->is_over_end) return;

@@ -22,9 +22,11 @@ struct RedesignOutcome {
   /// Keeps a note and says it to who asked for the redesign.
   void add_note(const RedesignRequest& request, const std::string& text);
   /// Has other hands judge the redesign, where the hold says and elsewhere; writes what
-  /// compare_redesigns() does, and gains.csv and gains.svg to OUT. Throws as that.
+  /// compare_redesigns() does (`figures` go into the report), and gains.csv and gains.svg to OUT.
+  /// Throws as that.
   void judge(const RedesignRequest& request, const HeldOriginal& made_for,
-             const RedesignedProduct& redesign, const Progress& progress);
+             const RedesignedProduct& redesign, const Progress& progress,
+             const std::vector<StudyFigure>& figures = {});
 };
 
 }  // namespace palmar

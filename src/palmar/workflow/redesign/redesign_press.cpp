@@ -64,16 +64,7 @@ HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>&
 
 PressedShapeOptions shape_options(const RedesignPressRequest& request) {
   PressedShapeOptions options = request.shape;
-  for (const std::string& face : request.keep_faces) {
-    const bool is_number = !face.empty() && std::all_of(face.begin(), face.end(), [](char c) {
-      return c >= '0' && c <= '9';
-    });
-    if (is_number && face.size() < 9) {
-      options.keep_out.faces.push_back(std::stoi(face));
-    } else {
-      options.keep_out.names.push_back(face);
-    }
-  }
+  for (const std::string& face : request.keep_faces) options.keep_out.add_face(face);
   return options;
 }
 

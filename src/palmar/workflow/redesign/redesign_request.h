@@ -30,6 +30,7 @@ struct RedesignRequest {
   std::string product;             ///< file, or "made: prism width_mm=35 fillet_mm=3"
   std::optional<LengthUnit> unit;  ///< of a file that carries none
   std::string hand = "template";   ///< that is scaled: template, or a *.hand.glb file
+  bool is_left = false;            ///< left hands: those are mirrored
   /// Whose hands: names of built-in populations, population files (.toml), tables of given hands
   /// (.csv).
   std::vector<std::string> populations = {"xie2014"};
@@ -43,6 +44,8 @@ struct RedesignRequest {
   /// kept posture decides the force itself and the original is held as it was closed, so it goes
   /// with kNew only.
   double grip_force = 0.0;
+  /// Of a quantity that is compared beside the usual ones: what a search made better. May be empty.
+  std::string goal_key;
   std::uint64_t seed = 0;                  ///< 0: a study's own
   std::filesystem::path out;               ///< folder: new or empty, or of an earlier redesign
   Language language = Language::kEnglish;  ///< of the report and the verdict

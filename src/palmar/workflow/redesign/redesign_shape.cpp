@@ -10,16 +10,13 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/product/make_product.h"
 #include "palmar/product/parts/part_place.h"
 #include "palmar/records/handle_file.h"
-#include "palmar/records/handle_json.h"
-#include "palmar/records/product/cad_handle.h"
 #include "palmar/redesign/contact_region.h"
+#include "palmar/redesign/handle_ends.h"
 #include "palmar/redesign/held_hand.h"
-#include "palmar/report/picture/depth_pictures.h"
+#include "palmar/workflow/redesign/shape_files.h"
 
 namespace palmar {
 namespace {
@@ -29,15 +26,50 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLeastEndRadius = 3.0;  // mm; so that an end isn't felt as an edge; our choice
 
-/// How the hands lie: by the hold, which is the same for all; thumb and breadth as means over them.
-HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
+std::vector<HandPressure> pressures_of(const HeldHand& held) {
+  std::vector<HandPressure> pressures;
+  for (std::size_t i = 0; i < held.pressure.size(); ++i) {
+    if (held.pressure[i] > 0.0) pressures.push_back({held.skin.vertices[i], held.pressure[i]});
+  }
+  return pressures;
+}
+
+/// All uses with their hands on the original, weights as shares.
+std::vector<ShapeUse> hold_originals(const RedesignShapeRequest& request,
+                                     const Progress& progress) {
+  std::vector<ShapeUseRequest> asked;
+  for (const std::string& words : request.uses) asked.push_back(shape_use(words, request.redesign));
+  if (asked.empty()) asked.push_back({.name = "", .asked = request.redesign});
+  double sum = 0.0;
+  for (const ShapeUseRequest& one : asked) sum += one.weight;
+  std::vector<ShapeUse> uses;
+  for (ShapeUseRequest& one : asked) {
+    if (!uses.empty()) {
+      // Files of its own; notes on product and populations were said.
+      one.asked.out = request.redesign.out / fmt::format("use-{}", uses.size() + 1);
+      one.asked.on_note = nullptr;
+    }
+    HeldOriginal original = grasp_original(one.asked, progress);
+    uses.push_back({.name = one.name,
+                    .weight = one.weight / sum,
+                    .request = one.asked,
+                    .original = std::move(original)});
+  }
+  return uses;
+}
+
+/// How the hands lie: by the hold, which is the same for all; thumb and breadth as means over them;
+/// where they press it, in all uses.
+HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hold, double spread,
                               const Progress& progress) {
+  const HeldOriginal& original = uses.front().original;
   const ProductPart& part = original.parts().parts.at(static_cast<std::size_t>(hold.part - 1));
   const Rigid3 place = part_frame(part, hold.along, hold.turn);
   HandsOnHandle result;
   result.place = place.translation;
   result.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
   result.palm = place.rotation * Vec3::UnitZ();
+  result.spread = spread;
   Vec3 thumb = Vec3::Zero();
   double pressed = 0.0, breadth = 0.0;
   int hands = 0;
@@ -46,6 +78,7 @@ HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
       [&](const HeldHand& held) {
         breadth += held.who->dimensions.hand_width;
         ++hands;
+        result.pressures.push_back(pressures_of(held));
         for (std::size_t i = 0; i < held.pressure.size(); ++i) {
           if (!(held.pressure[i] > 0.0) || part_of(held.who->region[i]) != HandPart::kThumb) {
             continue;
@@ -55,6 +88,12 @@ HandsOnHandle hands_on_handle(const HeldOriginal& original, const Hold& hold,
         }
       },
       progress);
+  for (std::size_t u = 1; u < uses.size(); ++u) {
+    const LoadedStudy& study = uses[u].original.study;
+    for_each_held_hand(
+        study.plan, study.inputs, uses[u].original.source(), {}, 0,
+        [&](const HeldHand& held) { result.pressures.push_back(pressures_of(held)); }, progress);
+  }
   result.breadth = breadth / hands;
   result.thumb = pressed > 0.0 ? Vec3(thumb / pressed)
                                : Vec3(result.place + 0.36 * result.breadth * result.thumb_side);
@@ -111,100 +150,40 @@ std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
 
 /// Where the search begins: what is `given`, or else nearest to the original, within what a search
 /// may vary.
-HandleShape start_of(const RedesignShapeRequest& request, const HandleBody& body,
-                     const FittedFeatures& fitted, const std::optional<HandleFile>& given) {
+HandleShape start_of(const RedesignShapeRequest& request, const Product& product,
+                     const HandleBody& body, const FittedFeatures& fitted,
+                     const std::optional<HandleFile>& given) {
   HandleShape start{.body = body, .features = fitted.features};
-  start.kept_ends = request.limits.kept_ends;
-  start.kept_boxes = request.limits.kept_boxes;
   if (body.is_whole) {
-    start.end_radius = request.end_radius.value_or(std::max(kLeastEndRadius, body.end_radius));
+    constexpr double kHalfBlend = 7.0;  // mm; the features begin about the end of the grip
+    for (const std::size_t end : {0, 1}) {
+      start.kept_ends[end] =
+          request.limits.kept_ends.value_or(std::max(0.0, other_ends(body)[end] - kHalfBlend));
+    }
+  }
+  start.kept_boxes = request.limits.kept_boxes;
+  start.kept_faces = request.limits.kept_faces;
+  if (body.is_whole) {
+    // An outline that is kept, with its own corners, needn't take a larger rounding than it has.
+    const bool keeps_ends = start.kept_ends[0] > 0.0 || start.kept_ends[1] > 0.0;
+    start.end_radius = request.end_radius.value_or(
+        keeps_ends ? body.end_radius : std::max(kLeastEndRadius, body.end_radius));
   }
   if (given) {
     start.features = given->features;
     start.kept_ends = given->kept_ends;
     start.kept_boxes = given->kept_boxes;
+    start.kept_faces = given->kept_faces;
     if (body.is_whole) start.end_radius = given->end_radius;
   } else if (request.limits.suits_both_hands) {
     for (const HandleFeature& one : handle_features()) {
       if (one.is_one_sided) start.features.*one.value = 0.0;
     }
   }
+  KeepOut faces;
+  for (const std::string& one : start.kept_faces) faces.add_face(one);
+  start.to_kept_faces = distances_to_faces(body, product, faces);
   return start;
-}
-
-/// The shape as files, and as the product that hands hold.
-Product write_shape(const RedesignShapeRequest& request, const Product& original,
-                    RedesignShapeOutcome& outcome, const Progress& progress) {
-  const fs::path& folder = request.redesign.out;
-  const HandleShape& shape = outcome.shape;
-  const HandleSolid solid = make_handle(shape, original.name, 0.01, {}, progress);
-  outcome.solid_volume = solid.volume;
-  outcome.faces = solid.faces;
-  outcome.poles = solid.poles;
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  const std::string name = original.name + " shaped";
-  const bool is_whole = shape.body.is_whole;
-  Product product =
-      is_whole ? make_product(name, solid.mesh.mesh, unit, "redesign.step", &solid.mesh.faces)
-               : shaped_product(original, shape, name);
-  outcome.file = folder / (is_whole ? "redesign.step" : "redesign.stl");
-  write_file(folder / (is_whole ? "redesign.step" : "handle.step"), solid.step);
-  write_mesh(folder / "redesign.stl", product.mesh);
-  write_file(folder / "handle.toml", handle_toml(shape, original.name));
-  write_file(folder / "handle.FCMacro", freecad_macro(shape, original.name));
-  return product;
-}
-
-void write_search(const RedesignShapeRequest& request, const RedesignShapeOutcome& outcome) {
-  const fs::path& folder = request.redesign.out;
-  write_file(folder / "history.csv", history_csv(outcome.story));
-  write_file(folder / "history.svg", history_svg(outcome.story));
-  write_file(folder / "choices.svg", choices_svg(outcome.story));
-}
-
-void write_shape_pictures(const RedesignShapeRequest& request, const Product& original,
-                          const Product& redesign, const HandleShape& shape,
-                          const Progress& progress) {
-  DepthScene scene;
-  // The map's even triangles show shading better than a tessellation's long ones.
-  scene.mesh = shape.body.is_whole ? handle_mesh(shape) : redesign.mesh;
-  std::vector<DistanceSample> samples(scene.mesh.vertices.size());
-  constexpr double kFar = 100.0;  // mm
-  original.distance->sample(scene.mesh.vertices, kFar, samples);
-  for (const DistanceSample& one : samples) scene.depth.push_back(std::abs(one.distance));
-  scene.title = original.name + ", shaped anew";
-  scene.subtitle = "colours: distance from the original's surface";
-  scene.axis = shape.body.product_from_handle.rotation * Vec3::UnitZ();
-  scene.palm = -(shape.body.product_from_handle.rotation * Vec3::UnitY());
-  for (const Picture& picture : depth_pictures(scene, {}, progress)) {
-    write_file(request.redesign.out / (picture.name + ".png"), encode_png(picture.image));
-  }
-}
-
-Json json_of(const RedesignShapeRequest& request, const RedesignShapeOutcome& outcome) {
-  Json json = {
-      {"product", request.redesign.product},
-      {"command", request.redesign.command},
-      {"seed", request.redesign.seed},
-      {"population", request.redesign.populations},
-      {"search", Json::parse(history_json(outcome.story))},
-      {"spread",
-       {{"places", request.spread.places},
-        {"along_mm", request.spread.along},
-        {"turn_deg", handle_feature("turn").scale * request.spread.turn}}},
-      {"features", features_json(outcome.shape.features)},
-      {"is_whole", outcome.shape.body.is_whole},
-      {"end_radius_mm", outcome.shape.end_radius},
-      {"fit_rms_mm", outcome.fit_rms},
-      {"largest_change_mm", outcome.change.largest},
-      {"volume_ratio", outcome.change.volume_ratio},
-      {"smallest_radius_mm", outcome.change.smallest_radius},
-      {"file", outcome.file.string()},
-      {"solid",
-       {{"volume_mm3", outcome.solid_volume}, {"faces", outcome.faces}, {"poles", outcome.poles}}}};
-  return json;
 }
 
 }  // namespace
@@ -226,6 +205,7 @@ void RedesignShapeRequest::check() const {
         "setting \"posture\" kept: a shape is made for hands that take it in hand; new is "
         "allowed");
   }
+  for (const std::string& words : uses) shape_use(words, redesign).asked.check();
   for (const std::string& words : vary) handle_feature(words.substr(0, words.find('=')));
   if (pick && *pick < 1) {
     throw UsageError(fmt::format("setting \"pick\" is {}; 1 or more is allowed", *pick));
@@ -239,39 +219,38 @@ void RedesignShapeRequest::check() const {
   }
 }
 
-RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const Progress& progress) {
-  request.check();
+RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Progress& progress) {
+  asked.check();
   RedesignShapeOutcome outcome;
-  const FeatureGoal goal = feature_goal(request.goal);
+  const FeatureGoal goal = feature_goal(asked.goal);
+  RedesignShapeRequest request = asked;
+  request.redesign.goal_key = goal.key;
   // Before anything is said of the hold.
   const std::optional<HandleFile> given =
       request.features.empty() ? std::nullopt : std::optional(read_handle(request.features));
-  const HeldOriginal original = grasp_original(request.redesign, progress);
+  ShapeRun run{.uses = hold_originals(request, progress),
+               .goal = goal,
+               .limits = request.limits,
+               .start = {},
+               .variables = {}};
+  const HeldOriginal& original = run.uses.front().original;
   outcome.notes = original.study.notes;
   const Product& product = original.product();
   const Hold hold = hold_for_shape(original);
   const HandleBody body =
       measure_handle(product, original.parts().parts.at(static_cast<std::size_t>(hold.part - 1)),
-                     hands_on_handle(original, hold, progress));
+                     hands_on_handle(run.uses, hold, request.spread.along, progress),
+                     request.limits.kept_ends.has_value());
   const FittedFeatures fitted = fit_features(body);
   outcome.fit_rms = fitted.rms;
-
-  ShapeRun run{.request = request.redesign,
-               .original = original,
-               .goal = goal,
-               .limits = request.limits,
-               .spread = request.spread,
-               .start = start_of(request, body, fitted, given),
-               .variables = {},
-               .offsets = {},
-               .before = {}};
+  run.start = start_of(request, product, body, fitted, given);
   run.variables = variables_of(request, run.start.features);
-  run.hold_original(progress);
+  run.hold_original(request.spread, progress);
   outcome.story = run.search(request.search, progress);
   create_folder(request.redesign.out);
-  write_search(request, outcome);
   SearchResult& found = outcome.story.result;
   if (request.pick) found.best = picked(*request.pick, found);
+  write_search(request, outcome);
   if (!found.best) {
     throw NumericalError(
         fmt::format("{}: no candidate is within the limits; {} has all that were "
@@ -281,11 +260,18 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
   outcome.shape = run.shape_of(found.history[static_cast<std::size_t>(*found.best)].values);
   outcome.change = shape_change(outcome.shape);
   const Product redesign = write_shape(request, product, outcome, progress);
+  outcome.add_note(request.redesign, replaced_words(outcome.shape));
+  if (!is_better_than_original(outcome.story)) {
+    outcome.add_note(request.redesign,
+                     product.name +
+                         ": no gain was found: what is made is not better than the original in the "
+                         "hands that it was made for");
+  }
   if (!outcome.shape.body.is_whole) {
     outcome.add_note(
         request.redesign,
-        product.name +
-            " goes on beyond its handle: redesign.stl has all of it, handle.step the handle alone");
+        fmt::format("{} goes on beyond its handle: {} has all of it, handle.step the handle alone",
+                    product.name, outcome.file.filename().string()));
   }
   Json json = json_of(request, outcome);
   if (request.draws) write_shape_pictures(request, product, redesign, outcome.shape, progress);
@@ -293,8 +279,14 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request, const P
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
   if (request.compares) {
-    outcome.judge(request.redesign, original, {redesign, "shaped", outcome.file.string()},
-                  progress);
+    const RedesignedProduct judged{redesign, "shaped", outcome.file.string()};
+    const std::vector<StudyFigure> figures = search_figures(outcome.story);
+    outcome.judge(run.uses.front().request, original, judged, progress, figures);
+    for (std::size_t u = 1; u < run.uses.size(); ++u) {
+      const ShapeUse& use = run.uses[u];
+      outcome.other_uses.push_back({.name = use.name, .weight = use.weight, .outcome = {}});
+      outcome.other_uses.back().outcome.judge(use.request, use.original, judged, progress, figures);
+    }
   }
   if (outcome.gains) {
     json["gains"] = Json::parse(gains_json(*outcome.gains));

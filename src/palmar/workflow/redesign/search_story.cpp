@@ -38,6 +38,13 @@ std::string heading(const std::string& name, const std::string& unit) {
 
 std::string cell(double value) { return fmt::format("{:.6g}", value); }
 
+/// "3, 7, 12", counted from 1.
+std::string numbers_of(const std::vector<int>& candidates) {
+  std::string text;
+  for (const int i : candidates) text += fmt::format("{}{}", text.empty() ? "" : ", ", i + 1);
+  return text;
+}
+
 bool may_be_chosen(const SearchTrial& trial) {
   return trial.is_feasible && !trial.outcome.is_rough();
 }
@@ -57,6 +64,11 @@ void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOpt
   problem.measure = nullptr;
 }
 
+bool is_better_than_original(const SearchStory& story) {
+  const double best = story.result.history[static_cast<size_t>(*story.result.best)].outcome.goal;
+  return story.goal.is_lower_better ? best < story.original.value : best > story.original.value;
+}
+
 std::string history_csv(const SearchStory& story) {
   CsvTable table;
   table.header = {"candidate"};
@@ -67,6 +79,9 @@ std::string history_csv(const SearchStory& story) {
   table.header.emplace_back("standard_error");
   for (const SearchConstraint& constraint : story.problem.constraints) {
     table.header.push_back(heading(constraint.name, constraint.unit));
+  }
+  for (std::size_t u = 0; u < story.uses.size(); ++u) {
+    table.header.push_back(fmt::format("use_{}_by_original", u + 1));
   }
   for (const char* const name :
        {"hands", "grip_force_ratio", "volume_ratio", "is_feasible", "failure", "seconds"}) {
@@ -81,6 +96,10 @@ std::string history_csv(const SearchStory& story) {
     row.push_back(is_made && trial.outcome.goal_error > 0.0 ? cell(trial.outcome.goal_error) : "");
     for (size_t k = 0; k < story.problem.constraints.size(); ++k) {
       row.push_back(is_made ? cell(trial.outcome.constraint[k]) : "");
+    }
+    for (std::size_t u = 0; u < story.uses.size(); ++u) {
+      row.push_back(is_made && u < story.beside[i].by_use.size() ? cell(story.beside[i].by_use[u])
+                                                                 : "");
     }
     row.push_back(is_made ? std::to_string(story.beside[i].hands) : "");
     row.push_back(is_made ? cell(story.beside[i].grip_force_ratio) : "");
@@ -121,6 +140,7 @@ std::string history_json(const SearchStory& story) {
       one["lost_hands"] = story.beside[i].lost;
       one["grip_force_ratio"] = story.beside[i].grip_force_ratio;
       one["volume_ratio"] = story.beside[i].volume_ratio;
+      if (!story.beside[i].by_use.empty()) one["by_use"] = story.beside[i].by_use;
     } else {
       one["failure"] = trial.outcome.failure;
     }
@@ -132,6 +152,7 @@ std::string history_json(const SearchStory& story) {
                  {"unit", story.goal.unit},
                  {"better", story.goal.is_lower_better ? "lower" : "higher"}}},
                {"original", story.original.value},
+               {"uses", story.uses},
                {"optimiser", story.result.method},
                {"ending", story.result.ending},
                {"variables", std::move(variables)},
@@ -200,7 +221,77 @@ std::vector<int> fair_choices(const SearchStory& story) {
   return fair;
 }
 
-std::string choices_svg(const SearchStory& story) {
+std::vector<int> fair_uses(const SearchStory& story) {
+  const auto is_drawn = [&](std::size_t i) {
+    return may_be_chosen(story.result.history[i]) && !story.beside[i].by_use.empty();
+  };
+  const double sense = story.goal.is_lower_better ? 1.0 : -1.0;
+  const auto beats = [&](std::size_t a, std::size_t b) {
+    bool is_better = false;
+    for (std::size_t u = 0; u < story.uses.size(); ++u) {
+      const double by = sense * (story.beside[a].by_use[u] - story.beside[b].by_use[u]);
+      if (by > 0.0) return false;
+      is_better = is_better || by < 0.0;
+    }
+    return is_better;
+  };
+  std::vector<int> fair;
+  for (std::size_t i = 0; i < story.result.history.size(); ++i) {
+    if (!is_drawn(i)) continue;
+    bool is_beaten = false;
+    for (std::size_t k = 0; k < story.result.history.size() && !is_beaten; ++k) {
+      is_beaten = k != i && is_drawn(k) && beats(k, i);
+    }
+    if (!is_beaten) fair.push_back(static_cast<int>(i));
+  }
+  std::stable_sort(fair.begin(), fair.end(), [&](int a, int b) {
+    return story.beside[static_cast<std::size_t>(a)].by_use.front() <
+           story.beside[static_cast<std::size_t>(b)].by_use.front();
+  });
+  return fair;
+}
+
+std::vector<Figure> uses_figures(const SearchStory& story) {
+  std::vector<Figure> figures;
+  const std::vector<int> fair = fair_uses(story);
+  for (std::size_t u = 1; u < story.uses.size(); ++u) {
+    const auto point = [&](std::size_t i) {
+      const std::vector<double>& by_use = story.beside[i].by_use;
+      return Eigen::Vector2d(100.0 * by_use.front(), 100.0 * by_use[u]);
+    };
+    ScatterSeries all{.name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
+    ScatterSeries front{.name = "none is better in every use", .points = {}, .line = {}};
+    ScatterSeries best{.name = "the redesign", .points = {}, .line = {}};
+    ScatterSeries original{.name = "the original", .points = {{100.0, 100.0}}, .line = {}};
+    front.colour = series_colour(1);
+    original.colour = series_colour(2);
+    best.colour = series_colour(3);
+    // Every candidate once, as points that lie on one another take each other's colour.
+    for (std::size_t i = 0; i < story.result.history.size(); ++i) {
+      if (!may_be_chosen(story.result.history[i]) || story.beside[i].by_use.empty()) continue;
+      const int number = static_cast<int>(i);
+      const bool is_fair = std::find(fair.begin(), fair.end(), number) != fair.end();
+      const bool is_best = story.result.best && *story.result.best == number;
+      (is_best ? best : is_fair ? front : all).points.push_back(point(i));
+    }
+    // With more than two uses the front is no line in this picture.
+    for (const int i : story.uses.size() == 2 ? fair : std::vector<int>{}) {
+      const Eigen::Vector2d at = point(static_cast<std::size_t>(i));
+      front.line.x.push_back(at.x());
+      front.line.value.push_back(at.y());
+    }
+    figures.push_back(scatter_chart({.title = "What one use costs the other",
+                                     .x_label = story.uses.front() + ": goal, % of the original's",
+                                     .y_label = story.uses[u] + ": goal, % of the original's",
+                                     .series = {all, front, original, best},
+                                     .notes = {"candidates of the front: " + numbers_of(fair)}}));
+  }
+  return figures;
+}
+
+std::string choices_svg(const SearchStory& story) { return to_svg(choices_figure(story)); }
+
+Figure choices_figure(const SearchStory& story) {
   ScatterSeries all{.name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
   ScatterSeries fair{.name = "none moves less and is better", .points = {}, .line = {}};
   ScatterSeries original{
@@ -213,18 +304,17 @@ std::string choices_svg(const SearchStory& story) {
   for (std::size_t i = 0; i < story.result.history.size(); ++i) {
     if (story.result.history[i].is_feasible) all.points.push_back(point(i));
   }
-  std::string numbers;
-  for (const int i : fair_choices(story)) {
+  const std::vector<int> choices = fair_choices(story);
+  for (const int i : choices) {
     fair.points.push_back(point(static_cast<std::size_t>(i)));
     fair.line.x.push_back(fair.points.back().x());
     fair.line.value.push_back(fair.points.back().y());
-    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", i + 1);
   }
-  return to_svg(scatter_chart({.title = "What a gain costs",
-                               .x_label = "largest change of the surface, mm",
-                               .y_label = with_unit(story.goal.name, story.goal.unit),
-                               .series = {all, fair, original},
-                               .notes = {"joined, from the left: candidates " + numbers}}));
+  return scatter_chart({.title = "What a gain costs",
+                        .x_label = "largest change of the surface, mm",
+                        .y_label = with_unit(story.goal.name, story.goal.unit),
+                        .series = {all, fair, original},
+                        .notes = {"joined, from the left: candidates " + numbers_of(choices)}});
 }
 
 }  // namespace palmar

@@ -9,6 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/redesign/feature_goal.h"
 #include "palmar/redesign/feature_search.h"
+#include "palmar/report/chart/figure.h"
 #include "palmar/workflow/redesign/feature_settings.h"
 
 namespace palmar {
@@ -27,8 +28,10 @@ struct SearchStory {
     double volume_ratio = 0.0;
     double largest_change = 0.0;  ///< mm, of the surface
     GoalFigure figure;
+    std::vector<double> by_use = {};  ///< goal by the original's, by `uses`; none if broken off
   };
   std::vector<Beside> beside;
+  std::vector<std::string> uses = {};  ///< names, if there are several
 };
 
 /// Makes a candidate from the values of its variables, assesses it and says what is beside the
@@ -41,6 +44,9 @@ using CandidateJudge =
 void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
                 const Progress& progress);
 
+/// Whether the goal of the best candidate, which there must be, is better than the original's.
+bool is_better_than_original(const SearchStory& story);
+
 /// One row per candidate, in the order in which they were tried.
 std::string history_csv(const SearchStory& story);
 /// One JSON object.
@@ -51,6 +57,15 @@ std::vector<int> fair_choices(const SearchStory& story);
 /// The goal over the largest change of the surface: all candidates, and the fair choices as a line
 /// with their numbers. Any of them can be picked.
 std::string choices_svg(const SearchStory& story);
+
+/// With several uses: candidates within the constraints that no other one beats in every use,
+/// ascending by the first use.
+std::vector<int> fair_uses(const SearchStory& story);
+/// The same candidates drawn: of every use but the first its goal over that of the first, as shares
+/// of the original's, with the fair ones and the best one marked.
+std::vector<Figure> uses_figures(const SearchStory& story);
+/// The picture of choices_svg().
+Figure choices_figure(const SearchStory& story);
 
 /// The goal over the candidates, and the best feasible one so far.
 std::string history_svg(const SearchStory& story);

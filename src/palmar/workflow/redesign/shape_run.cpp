@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
+#include "palmar/geometry/degrees.h"
+#include "palmar/redesign/mould_release.h"
 
 namespace palmar {
 namespace {
@@ -37,9 +40,9 @@ double read_number(const std::string& text, const std::string& words) {
       words, text));
 }
 
-constexpr int kFirstOfPlace = 2;        // hands that hold a candidate before it may be given up
-constexpr double kSure = 0.95;          // one-sided; that a candidate is worse
-constexpr double kWorthStopping = 1.5;  // times as many hands have to be there in all
+constexpr double kLeastUndercut = 0.05;  // mm; what plastic gives way to as it leaves a mould
+constexpr double kSure = 0.95;           // one-sided; that a candidate is worse
+constexpr double kWorthStopping = 1.5;   // times as many hands have to be there in all
 
 }  // namespace
 
@@ -48,8 +51,14 @@ void ShapeLimits::check() const {
   if (largest_change) {
     require_setting(*largest_change > 0.0, "largest change", *largest_change, "above 0 mm");
   }
+  constexpr double kMostDraft = 0.5236;  // 30 degrees
+  require_setting(draft >= 0.0 && draft <= kMostDraft, "draft", draft / kDegree, "0 to 30 degrees");
+  require_setting(land >= 0.0, "draft land", land, "0 mm or more");
   require_setting(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 mm or more");
-  require_setting(kept_ends >= 0.0 && kept_ends <= 200.0, "kept ends", kept_ends, "0 to 200 mm");
+  if (kept_ends) {
+    require_setting(*kept_ends >= 0.0 && *kept_ends <= 200.0, "kept ends", *kept_ends,
+                    "0 to 200 mm");
+  }
 }
 
 void HoldSpread::check() const {
@@ -87,25 +96,11 @@ ShapeVariable shape_variable(const std::string& words, const HandleFeatures& sta
   return variable;
 }
 
-void ShapeRun::grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
-                     const Progress& progress) const {
-  const auto is_wanted = [&](int hand, std::size_t offset) {
-    return hand >= from && hand < to && static_cast<std::size_t>(hand) % offsets.size() == offset;
-  };
-  for (const auto& those : grasps.of(is_wanted, progress)) {
-    records.insert(records.end(), those.begin(), those.end());
+void ShapeRun::hold_original(const HoldSpread& spread, const Progress& progress) {
+  for (ShapeUse& use : uses) {
+    use.offsets = spread_offsets(spread.places, spread.along, spread.turn);
+    use.hold_original(goal, progress);
   }
-}
-
-void ShapeRun::hold_original(const Progress& progress) {
-  offsets = spread_offsets(spread.places, spread.along, spread.turn);
-  OffsetGrasps grasps({.original = original,
-                       .product = original.product(),
-                       .offsets = offsets,
-                       .with_indices = needs_indices(goal),
-                       .as = 0});
-  before.clear();
-  grasp(grasps, 0, hand_count(), before, progress);
 }
 
 HandleShape ShapeRun::shape_of(const std::vector<double>& varying) const {
@@ -125,61 +120,80 @@ std::vector<SearchConstraint> ShapeRun::constraints() const {
   if (limits.largest_change) {
     all.push_back({"largest change of the surface", "mm", *limits.largest_change, true});
   }
+  if (limits.pull) {
+    all.push_back({"undercut against the mould's pull", "mm", kLeastUndercut, true});
+    all.push_back({"height that leans less than the draft angle", "mm", limits.land, true});
+  }
   for (const SearchConstraint& one : limits.on_volume()) all.push_back(one);
   all.push_back(limits.on_lost_hands());
   return all;
 }
 
-std::vector<double> ShapeRun::values_of(const ShapeChange& change, double lost_share) const {
+std::vector<double> ShapeRun::values_of(const HandleShape& shape, const ShapeChange& change,
+                                        double lost_share) const {
   std::vector<double> values = {change.smallest_radius};
   if (limits.largest_change) values.push_back(change.largest);
+  if (limits.pull) {
+    const MouldRelease release = mould_release(shape, *limits.pull, limits.draft);
+    values.push_back(release.undercut);
+    values.push_back(release.steep_height);
+  }
   for (const double ratio : limits.volumes(change.volume_ratio)) values.push_back(ratio);
   values.push_back(lost_share);
   return values;
 }
 
-StudyResults ShapeRun::results_with(const std::vector<StudyRecord>& after, int hands) const {
-  StudyResults results{.plan = plan_of_two(original), .records = {}};
-  for (const auto* const those : {&before, &after}) {
-    for (const StudyRecord& record : *those) {
-      if (task_at(results.plan, record.number).hand < hands) results.records.push_back(record);
-    }
-  }
-  std::sort(results.records.begin(), results.records.end(),
-            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-  return results;
-}
-
 SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
                                SearchStory::Beside& beside, const Progress& progress) const {
-  const Product candidate = shaped_product(original.product(), shape, "candidate");
-  OffsetGrasps grasps({.original = original,
-                       .product = candidate,
-                       .offsets = offsets,
-                       .with_indices = needs_indices(goal),
-                       .as = 1});
+  const Product candidate = shaped_product(uses.front().original.product(), shape, "candidate");
   const Progress quiet = silent(progress);
-  const int all = hand_count(), first = kFirstOfPlace * static_cast<int>(offsets.size());
+  /// One use's hands on the candidate.
+  struct Held {
+    OffsetGrasps grasps;
+    std::vector<StudyRecord> after = {};
+  };
+  std::vector<std::unique_ptr<Held>> held;
+  int all = 0, first = 0;
+  for (const ShapeUse& use : uses) {
+    held.push_back(
+        std::unique_ptr<Held>(new Held{.grasps = OffsetGrasps({.original = use.original,
+                                                               .product = candidate,
+                                                               .offsets = use.offsets,
+                                                               .with_indices = needs_indices(goal),
+                                                               .as = 1})}));
+    all += use.hand_count();
+    first += std::min(use.first_hands(), use.hand_count());
+  }
+  std::vector<GoalFigure> figures(uses.size());
+  double grip_force = 0.0;
+  const auto take = [&](bool only_first, bool goes_on) {
+    grip_force = 0.0;
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+      const ShapeUse& use = uses[u];
+      const int hands =
+          only_first ? std::min(use.first_hands(), use.hand_count()) : use.hand_count();
+      const int from = goes_on ? std::min(use.first_hands(), use.hand_count()) : 0;
+      use.grasp(held[u]->grasps, from, hands, held[u]->after, quiet);
+      const StudyResults results = use.results_with(held[u]->after, hands);
+      figures[u] = goal_of(results, goal, 1);
+      grip_force += use.weight * mean_ratio(results, "grip_force_n", 1);
+    }
+    return figure_of_uses(uses, figures);
+  };
   const bool may_stop =
       lead && goal.statistic == FeatureGoal::Statistic::kMean && all >= kWorthStopping * first;
-  std::vector<StudyRecord> after;
-  int hands = may_stop ? first : all;
-  grasp(grasps, 0, hands, after, quiet);
-  StudyResults results = results_with(after, hands);
-  GoalFigure figure = goal_of(results, goal, 1);
+  GoalFigure figure = take(may_stop, false);
   SearchOutcome outcome;
   if (may_stop) {
-    const GoalFigure of_lead = first_of(*lead, figure.values.size());
-    if (is_worse(goal, of_lead, figure, kSure)) {
-      const GoalChange change = goal_change(of_lead, figure);
+    const std::size_t count = figure.values.size();
+    const GoalFigure of_lead = first_of(*lead, count), now = first_of(figure, count);
+    if (is_worse(goal, of_lead, now, kSure)) {
+      const GoalChange change = goal_change(of_lead, now);
       outcome.goal = lead->value * (1.0 + change.share);
       outcome.goal_error = std::abs(lead->value) * change.error;
-      outcome.roughness = static_cast<double>(all) / hands;
+      outcome.roughness = static_cast<double>(all) / first;
     } else {
-      grasp(grasps, hands, all, after, quiet);
-      hands = all;
-      results = results_with(after, hands);
-      figure = goal_of(results, goal, 1);
+      figure = take(false, true);
     }
   }
   if (!outcome.is_rough()) {
@@ -189,12 +203,18 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
   const ShapeChange change = shape_change(shape);
   beside = {.hands = figure.hands,
             .lost = figure.lost,
-            .grip_force_ratio = mean_ratio(results, "grip_force_n", 1),
+            .grip_force_ratio = grip_force,
             .volume_ratio = change.volume_ratio,
             .largest_change = change.largest,
-            .figure = figure};
+            .figure = figure,
+            .by_use = {}};
+  if (uses.size() > 1 && !outcome.is_rough()) {
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+      beside.by_use.push_back(figures[u].value / uses[u].figure.value);
+    }
+  }
   const double lost_share = static_cast<double>(figure.lost) / figure.hands;
-  outcome.constraint = values_of(change, lost_share);
+  outcome.constraint = values_of(shape, change, lost_share);
   const bool is_better =
       !lead || (goal.is_lower_better ? figure.value < lead->value : figure.value > lead->value);
   if (!outcome.is_rough() && is_better && lost_share <= limits.lost_hands) lead = figure;
@@ -202,8 +222,15 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
 }
 
 SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progress) const {
-  SearchStory story{
-      .settings = {}, .problem = {}, .goal = goal, .result = {}, .original = {}, .beside = {}};
+  SearchStory story{.settings = {},
+                    .problem = {},
+                    .goal = goal_of_uses(goal, uses.size()),
+                    .result = {},
+                    .original = {},
+                    .beside = {}};
+  if (uses.size() > 1) {
+    for (const ShapeUse& one : uses) story.uses.push_back(one.name);
+  }
   for (const ShapeVariable& one : variables) {
     if (one.lowest >= one.highest) continue;
     FeatureSetting setting;
@@ -220,11 +247,14 @@ SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progr
   story.problem.constraints = constraints();
   story.problem.is_lower_better = goal.is_lower_better;
   story.problem.measure = [&](const std::vector<double>& values) {
+    const HandleShape shape = shape_of(values);
     return SearchOutcome{.failure = "",
-                         .constraint = values_of(shape_change(shape_of(values)),
+                         .constraint = values_of(shape, shape_change(shape),
                                                  std::numeric_limits<double>::quiet_NaN())};
   };
-  story.original = goal_of(results_with({}, hand_count()), goal, 0);
+  std::vector<GoalFigure> originals;
+  for (const ShapeUse& one : uses) originals.push_back(one.figure);
+  story.original = figure_of_uses(uses, originals);
   std::optional<GoalFigure> lead;
   run_search(
       story,

@@ -9,8 +9,8 @@
 #include "palmar/redesign/feature_goal.h"
 #include "palmar/redesign/handle_shape.h"
 #include "palmar/workflow/redesign/candidate_limits.h"
-#include "palmar/workflow/redesign/hold_offsets.h"
 #include "palmar/workflow/redesign/search_story.h"
+#include "palmar/workflow/redesign/shape_use.h"
 
 namespace palmar {
 
@@ -18,10 +18,17 @@ namespace palmar {
 struct ShapeLimits : CandidateLimits {
   std::optional<double> largest_change;  ///< mm; that any point of the handle may move
   double smallest_radius = 3.0;          ///< mm; of curvature, round the handle
-  bool suits_both_hands = false;      ///< the same for left and right hands: no one-sided features
-  double kept_ends = 0.0;             ///< mm at both flat ends that stay as they are
+  /// Along which a mould of two halves opens, product frame; unset: none. Then nothing may be
+  /// undercut, and no wall of more than `land` [mm] lean less than `draft` [rad] (mould_release.h).
+  std::optional<Vec3> pull;
+  double draft = 0.035, land = 3.0;  ///< 2 degrees
+  bool suits_both_hands = false;     ///< the same for left and right hands: no one-sided features
+  /// mm at both flat ends that stay as they are, 0 to 200. Unset: what isn't the handle stays as it
+  /// is beyond where hands grip (other_ends()).
+  std::optional<double> kept_ends;
   std::vector<Box3> kept_boxes = {};  ///< product frame, mm: what lies in them stays as it is
-  void check() const;                 ///< throws UsageError: setting, value, allowed range
+  std::vector<std::string> kept_faces = {};  ///< CAD faces that stay, by number or name
+  void check() const;                        ///< throws UsageError: setting, value, allowed range
 };
 
 /// Where hands come to lie, about the hold: independent normal distributions.
@@ -41,24 +48,21 @@ struct ShapeVariable {
 /// feature. Throws UsageError naming `vary`.
 ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start);
 
-/// Making and judging shapes of a handle in hands that lie at different places on it.
+/// Making and judging shapes of a handle in hands that lie at different places on it, in one use or
+/// several (figure_of_uses()).
 ///
-/// A candidate is held by the first two hands of every place; if it is worse there than the best
-/// one so far, beyond chance (95 %, paired), the others don't take it: its goal is that of the best
-/// one times the ratio in these hands (SearchOutcome::roughness).
+/// A candidate is held by the first two hands of every place and use; if it is worse there than the
+/// best one so far, beyond chance (95 %, paired), the others don't take it: its goal is that of the
+/// best one times the ratio in these hands (SearchOutcome::roughness).
 struct ShapeRun {
-  const RedesignRequest& request;
-  const HeldOriginal& original;
-  FeatureGoal goal;
+  std::vector<ShapeUse> uses;  ///< at least one
+  FeatureGoal goal;            ///< of each of them
   ShapeLimits limits;
-  HoldSpread spread;
   HandleShape start;  ///< nearest to what there is
   std::vector<ShapeVariable> variables;
-  std::vector<HoldOffset> offsets;  ///< hand h lies at the one number h modulo their count
-  std::vector<StudyRecord> before;  ///< of the original, one per hand
 
-  /// Fills in offsets and `before`.
-  void hold_original(const Progress& progress);
+  /// Of every use: where hands lie, and the original there.
+  void hold_original(const HoldSpread& spread, const Progress& progress);
   /// All features; `varying` are those of the variables that vary, in their units.
   HandleShape shape_of(const std::vector<double>& varying) const;
   SearchStory search(const SearchOptions& options, const Progress& progress) const;
@@ -68,13 +72,9 @@ struct ShapeRun {
   /// `lead`: the best candidate so far, which this one may take the place of.
   SearchOutcome assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
                        SearchStory::Beside& beside, const Progress& progress) const;
-  std::vector<double> values_of(const ShapeChange& change, double lost_share) const;
-  /// In the first `hands` hands, with `after` of the candidate.
-  StudyResults results_with(const std::vector<StudyRecord>& after, int hands) const;
-  /// Grasps of hands `from` to before `to`, each at its own place, added to `records`.
-  void grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
-             const Progress& progress) const;
-  int hand_count() const { return static_cast<int>(original.study.plan.hands.size()); }
+  /// By constraints().
+  std::vector<double> values_of(const HandleShape& shape, const ShapeChange& change,
+                                double lost_share) const;
 };
 
 }  // namespace palmar

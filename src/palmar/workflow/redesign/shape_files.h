@@ -1,0 +1,37 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/report/chart/study_figures.h"
+#include "palmar/workflow/redesign/redesign_shape.h"
+
+namespace palmar {
+
+// What a handle shaped anew is written as; parts of redesign_shape().
+
+/// The shape as files, and as the product that hands hold. Fills in what the outcome has of them.
+Product write_shape(const RedesignShapeRequest& request, const Product& original,
+                    RedesignShapeOutcome& outcome, const Progress& progress);
+
+/// History and choices of the search.
+void write_search(const RedesignShapeRequest& request, const RedesignShapeOutcome& outcome);
+/// The search in the report.
+std::vector<StudyFigure> search_figures(const SearchStory& story);
+
+void write_shape_pictures(const RedesignShapeRequest& request, const Product& original,
+                          const Product& redesign, const HandleShape& shape,
+                          const Progress& progress);
+
+/// shape.json, without gains.
+nlohmann::ordered_json json_of(const RedesignShapeRequest& request,
+                               const RedesignShapeOutcome& outcome);
+
+/// What of the original is replaced, in a sentence.
+std::string replaced_words(const HandleShape& shape);
+
+}  // namespace palmar
