@@ -147,8 +147,8 @@ fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
               one.limit_depths ? "1" : "0", shortest(one.palm_limit_depth),
               shortest(one.finger_limit_depth), shortest(one.friction), one.is_balanced ? "1" : "0",
               name_of(one.model), one.indices ? "1" : "0", one.wrench_volume ? "1" : "0",
-              one.torque ? "1" : "0",
-              one.refine ? "1" : "0", one.is_place_per_hand ? "per_hand" : "shared"});
+              one.torque ? "1" : "0", one.refine ? "1" : "0",
+              one.is_place_per_hand ? "per_hand" : "shared"});
   }
   return file.finish();
 }
