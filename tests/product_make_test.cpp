@@ -123,7 +123,7 @@ TEST(ProductMake, MessagesNameWhatIsWrong) {
   EXPECT_FALSE(fs::exists(fs::path(folder()) / "b"));
 }
 
-TEST(ProductMake, KindsAndSweepsStandInStudyFiles) {
+TEST(ProductMake, ThoroughKindsAndSweepsStandInStudyFiles) {
   write_text(folder() + "/kinds.toml",
              "[[population]]\npreset = \"xie2014\"\nhands = 1\n"
              "[[product]]\nname = \"grip\"\nkind = \"bicycle_grip\"\nsizes = [0.9, 1.0]\n"

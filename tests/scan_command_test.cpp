@@ -153,7 +153,7 @@ TEST_F(RingedHand, ThoroughIsMeasuredWithoutTheRing) {
   EXPECT_LT(off, 0.6);
 }
 
-TEST_F(RingedHand, FollowsEditedMarks) {
+TEST_F(RingedHand, ThoroughFollowsEditedMarks) {
   ASSERT_EQ(made().exit_code, 0) << made().err;
   EXPECT_THAT(made().err, HasSubstr("Creases not found, taken from the joints: index_distal."));
   int near_left_out = 0, on_segment = 0;
@@ -174,7 +174,7 @@ TEST_F(RingedHand, FollowsEditedMarks) {
                  3, "wrong.csv:2: no dot within 3 mm of 9000.0, 0.0, 0.0");
 }
 
-TEST_F(RingedHand, IsReportedWithWhatATapeMeasures) {
+TEST_F(RingedHand, ThoroughIsReportedWithWhatATapeMeasures) {
   ASSERT_EQ(made().exit_code, 0) << made().err;
   const std::string page = read_text(folder() + "/a.scan/report.html");
   EXPECT_THAT(page, HasSubstr("along the back"));
@@ -187,7 +187,7 @@ TEST_F(RingedHand, IsReportedWithWhatATapeMeasures) {
   EXPECT_THAT(page, HasSubstr("data-value=\"" + girth.substr(0, girth.size() - 2)));
 }
 
-TEST_F(RingedHand, IsRefusedIfAnInkIsLikeItsSkin) {
+TEST_F(RingedHand, ThoroughIsRefusedIfAnInkIsLikeItsSkin) {
   expect_refused("hand from-scan p/scan/reference.ply --crease-colour '#b38770' --out d.hand.glb",
                  folder(), 3, "reference.ply: the crease colour is like this skin's");
   EXPECT_EQ(read_text(folder() + "/d.hand.glb"), "");

@@ -119,7 +119,7 @@ test("other ways to hold it are shown with the option that takes one", () => {
   const made = assessmentPage(shown);
   assert.match(made, /Other ways to hold it/);
   assert.match(made, /--hold 3/);
-  assert.match(made, /Medium wrap of the &lt;handle&gt; \(score -3.0\); against it: no room/);
+  assert.match(made, /Medium wrap of the &lt;handle&gt; \(score −3.0\); against it: no room/);
   assert.match(made, /This one is shown here/);
 });
 
@@ -189,7 +189,7 @@ test("the turn of the hand is that of its quaternion", () => {
   // cos 45°, about -z: a quarter of a turn.
   const placed = text(placementTable(assessment()));
   assert.match(placed, />90.0</);
-  assert.match(placed, />0, 0, -1.00</);
+  assert.match(placed, />0, 0, −1.00</);
 });
 
 test("faces name the peak; settings name the sleeve", () => {

@@ -25,7 +25,7 @@ test("numbers are shortened, digits before the point stay", () => {
   assert.equal(shortNumber(0.18234), "0.182");
   assert.equal(shortNumber(1234.6), "1235");
   assert.equal(shortNumber(0), "0");
-  assert.equal(shortNumber(-2.5), "-2.50");
+  assert.equal(shortNumber(-2.5), "−2.50");
   assert.equal(shortNumber(0.0123456), "0.0123");
   assert.equal(shortNumber(1000), "1000");
   assert.equal(shortNumber(0.001), "0.00100");

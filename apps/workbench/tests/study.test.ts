@@ -22,7 +22,7 @@ test("a share stands with its interval", () => {
 test("pairs name the second less the first and who was left out", () => {
   const page = study();
   const table = comparisonTable(page, page.conditions[0]);
-  assert.match(table ? table.text : "", /new − old.*5 of 6.*old: 1 slips out.*4 of 5.*-0.0400.*p &lt; 0.001.*p = 0.031.*differ/);
+  assert.match(table ? table.text : "", /new − old.*5 of 6.*old: 1 slips out.*4 of 5.*−0.0400.*p &lt; 0.001.*p = 0.031.*differ/);
   // 0.01 of 0.25 MPa: shown by the tests, but less than a simulated grasp can resolve.
   page.conditions[0].comparisons[0].pairs[0].difference.value = -0.01;
   const small = comparisonTable(page, page.conditions[0]);

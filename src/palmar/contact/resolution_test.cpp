@@ -53,7 +53,7 @@ TEST(Resolution, ThoroughWhatIsResolvedMovesByLessThan5PercentWhenTheMeshIsHalve
   EXPECT_GE(resolved, 3);
 }
 
-TEST(Resolution, SharpEdgesAreToldAndTheirForceHoldsAllTheSame) {
+TEST(Resolution, ThoroughSharpEdgesAreToldAndTheirForceHoldsAllTheSame) {
   const ContactResult finest = press_edge(0.5, 5);
   for (const int subdivisions : {3, 4}) {
     const ContactResult contact = press_edge(0.5, subdivisions);
