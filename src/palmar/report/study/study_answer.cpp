@@ -304,7 +304,8 @@ class StudySpeaker {
       say_of_best_two(texts_(forces ? "study.same" : "study.same_no_force", values), values);
       look_at_report();
     } else {
-      say_of_best_two(texts_("study.not_shown", values), values);
+      const bool do_all_agree = peak.lower_in_second == peak.pairs;
+      say_of_best_two(texts_(do_all_agree ? "study.too_few" : "study.not_shown", values), values);
       run_again("more_hands", std::max(kManyHands, 2 * peak.hands), "");
     }
     if (is_drawn && !(forces && forces->are_unequal())) {

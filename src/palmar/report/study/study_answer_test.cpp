@@ -199,6 +199,13 @@ TEST(StudyAnswer, SaysInHowManyHandsItHurtsOrIsUncomfortable) {
   EXPECT_EQ(answer.command, "palmar redesign press a.stl --unit mm --hands 12 --out pressed");
 }
 
+TEST(StudyAnswer, AFewHandsThatAllAgreeShowNothing) {
+  // Means 0.41 and 0.295: 28 % less.
+  EXPECT_EQ(study_answer(pair_study({0.40, 0.42}, {0.30, 0.29})).sentence,
+            "No difference is shown: b presses 28 % less than a on average, and all 2 hands agree, "
+            "but so few may do so by chance.");
+}
+
 TEST(StudyAnswer, AMadeProductIsRedesignedByItsWords) {
   StudyResults results = one_product_with_comfort(120.0);
   results.plan.products.front().file = "made: prism width_mm=40";
