@@ -157,7 +157,8 @@ TEST(RedesignShape, FootAndTangOfAPistolGripStayAsTheyAre) {
   const Json json = Json::parse(run.out);
   const auto kept = json.at("kept_ends_mm").get<std::array<double, 2>>();
   EXPECT_GT(kept[0] + kept[1], 3.0) << json.at("kept_ends_mm");
-  EXPECT_LT(json.at("kept_deviation_mm").get<double>(), 0.5);
+  // Foot and tang within what the spline makes of their edges, as above.
+  EXPECT_LT(json.at("kept_deviation_mm").get<double>(), 0.6);
   EXPECT_THAT(run.err + json.dump(), HasSubstr("kept_ends_mm"));
   const ProgramRun all = shape(
       "pistol.step --grip-force-n 60 --evaluations 2 --keep-ends-mm 0 "
