@@ -197,6 +197,7 @@ async function comparison(page) {
   const answer = await page.frameValue("document.querySelector('#answer')?.textContent", (value) => /edged-handle/.test(value ?? ""), minutes);
   assert.match(answer, /round-handle/);
   assert.match(await page.text(".files"), /assessment\.json/);
+  await page.frameValue("document.readyState", (value) => value === "complete", minutes);
   await snap(page, "workbench-compare");
   // Nothing of the page round it can be reached from the report.
   assert.equal(await page.frameValue("(() => { try { return String(window.parent.document.title); } catch { return 'refused'; } })()", () => true, minutes), "refused");
