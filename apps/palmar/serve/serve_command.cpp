@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -40,6 +41,9 @@ bool is_read_fast(const std::filesystem::path& file) {
 }
 
 int run_serve(const ServeArguments& arguments, const Context& context) {
+  // glibc gives each thread an arena of its own, and what is freed in one doesn't serve another: in
+  // ten minutes the server grew by 130 MB.
+  mallopt(M_ARENA_MAX, 1);
   for (const std::string& file : arguments.files) {
     if (!std::filesystem::is_regular_file(file)) {
       throw InputError(file + ": there is no such file");
