@@ -42,7 +42,7 @@ bool is_read_fast(const std::filesystem::path& file) {
 
 int run_serve(const ServeArguments& arguments, const Context& context) {
   // glibc gives each thread an arena of its own, and what is freed in one doesn't serve another: in
-  // ten minutes the server grew by 130 MB.
+  // ten minutes the server grew by 130 MB. With one arena it grows less.
   mallopt(M_ARENA_MAX, 1);
   for (const std::string& file : arguments.files) {
     if (!std::filesystem::is_regular_file(file)) {

@@ -42,8 +42,8 @@ std::vector<Vec3> vertex_normals(std::span<const Vec3> vertices,
                                  std::span<const Triangle> triangles);
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
-/// Unit normal of each vertex: mean of the triangles' normals weighted by their area, a third of
-/// the work of vertex_normals(), for meshes of even triangles whose vertices move. Unit z where no
+/// Unit normal of each vertex: mean of the triangles' normals weighted by their area; without the
+/// angles of vertex_normals(), for meshes of even triangles whose vertices move. Unit z where no
 /// triangle has an area.
 std::vector<Vec3> area_weighted_normals(std::span<const Vec3> vertices,
                                         std::span<const Triangle> triangles);

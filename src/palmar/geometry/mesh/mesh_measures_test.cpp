@@ -151,5 +151,19 @@ TEST(MeshMeasures, CentreOfVolumeIsTheCentreOfMass) {
   EXPECT_EQ(centre_of_volume(TriangleMesh{}).norm(), 0.0);
 }
 
+TEST(AreaWeightedNormals, FollowTheLargerFaceWhereThoseByAngleLieBetweenThem) {
+  // Two right angles meet in the first vertex: of area 3 towards z, of area 1/2 towards y.
+  const std::vector<Vec3> vertices = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 0}};
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 3, 4}};
+  const std::vector<Vec3> by_area = area_weighted_normals(vertices, triangles);
+  EXPECT_LT((by_area[0] - Vec3(0.0, 1.0, 6.0).normalized()).norm(), 1e-14);
+  EXPECT_LT((vertex_normals(vertices, triangles)[0] - Vec3(0.0, 1.0, 1.0).normalized()).norm(),
+            1e-14);
+  // Without a triangle of any area: unit z.
+  const std::vector<Vec3> flat = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Triangle> line = {{0, 1, 2}};
+  EXPECT_EQ(area_weighted_normals(flat, line)[1], Vec3::UnitZ());
+}
+
 }  // namespace
 }  // namespace palmar

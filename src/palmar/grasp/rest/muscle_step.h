@@ -11,7 +11,8 @@
 
 namespace palmar {
 
-/// Forces of a grip, linear in its coordinates about a state, and what a step is to reach.
+/// Forces of a grip, linear in its coordinates about a state, and what a step is to reach. Holds
+/// references: what it is made of has to outlive it.
 struct GripEquations {
   const std::vector<int>& free;  ///< coordinates that move, ascending; the product's six come last
   const Eigen::MatrixXd& k;      ///< their stiffness, made definite
