@@ -130,7 +130,7 @@ function(palmar_module name)
   elseif(NOT name STREQUAL core)  # knows no Eigen
     palmar_use_headers(palmar_${name} palmar_module_headers)
     target_compile_options(palmar_${name} PRIVATE ${palmar_computes})
-    if(NOT name MATCHES "^(cad|board|capture)$")  # of programs that ./demo doesn't build
+    if(NOT name MATCHES "^(cad|board)$")  # OpenCASCADE and OpenCV
       palmar_batches(palmar_${name} 4)
     endif()
   endif()

@@ -11,8 +11,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kShell = 0.8;  // mm of cortical bone round marrow
-
 BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
                           const Eigen::Matrix3d& spread) {
   BoneOutline outline;
@@ -61,8 +59,8 @@ BoneOutline outline_of(const MarrowRegion& marrow) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& p : marrow.voxels) spread += (p - centre) * (p - centre).transpose();
   BoneOutline outline = outline_along(marrow.voxels, centre, spread);
-  outline.length += 2.0 * kShell;
-  outline.width += 2.0 * kShell;
+  outline.length += 2.0 * kCorticalShell;
+  outline.width += 2.0 * kCorticalShell;
   return outline;
 }
 

@@ -8,6 +8,8 @@
 
 namespace palmar {
 
+inline constexpr double kCorticalShell = 0.8;  ///< mm of cortical bone round marrow
+
 /// What a bone looks like from far: enough to determine which one it is.
 struct BoneOutline {
   Vec3 centre = Vec3::Zero();  ///< of the volume, mm
@@ -17,7 +19,7 @@ struct BoneOutline {
   std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  ///< where the axis leaves the bone
 };
 BoneOutline outline_of(const TriangleMesh& mesh);
-/// Of the bone round a marrow: 0.8 mm longer at each end, and as much wider.
+/// Of the bone round a marrow: by the cortical shell longer at each end, and wider all round.
 BoneOutline outline_of(const MarrowRegion& marrow);
 
 }  // namespace palmar

@@ -33,7 +33,6 @@ constexpr double kDarkEnough = 0.6;
 constexpr double kBorder = 4.0;     // mm
 constexpr double kNearby = 20.0;    // mm
 constexpr double kStraight = 1.15;  // widening that two parts in a row may show
-constexpr double kShell = 0.8;      // mm of cortical bone round marrow
 // Soft tissue beyond the last phalanx, mm: 3.7 to 5.7 in the mean (Buryanov, Kotiuk 2010).
 constexpr double kTipTissue = 4.6, kTipDeviation = 2.5;
 constexpr double kUsualGap = 4.0, kNarrower = 1.5, kWider = 2.5;  // between two bones' marrow, mm
@@ -106,7 +105,7 @@ bool is_alike(const MarrowRegion& a, const MarrowRegion& b, const ScanLevels& le
 /// Whether two parts make one long bone: the one's end is where the other begins.
 bool is_in_a_row(const BoneOutline& both, const BoneOutline& a, const BoneOutline& b) {
   return both.width < kStraight * std::max(a.width, b.width) && is_long(both) &&
-         both.length - 2.0 * kShell > 0.75 * (a.length + b.length - 4.0 * kShell);
+         both.length - 2.0 * kCorticalShell > 0.75 * (a.length + b.length - 4.0 * kCorticalShell);
 }
 
 /// From where a bone's marrow ends, along it, to the skin: what lies beyond the last phalanx of a
@@ -118,7 +117,7 @@ double beyond_tip(const BoneOutline& found, const Vec3& ahead, const RayQuery& s
   const double far =
       std::max(way.dot(found.ends[0] - found.centre), way.dot(found.ends[1] - found.centre));
   const std::optional<RayHit> hit = skin.first_hit(found.centre, way);
-  return hit ? hit->distance - far - kShell : std::numeric_limits<double>::infinity();
+  return hit ? hit->distance - far - kCorticalShell : std::numeric_limits<double>::infinity();
 }
 
 /// What the marrow of two bones next to each other in a finger keeps apart: two shells and a joint
