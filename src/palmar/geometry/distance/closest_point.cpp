@@ -458,7 +458,7 @@ void ClosestPointQuery::Impl::walk_inline(Search& search) const {
       if (candidate_count + kWidth > static_cast<int>(candidates.size())) test_candidates();
       for (int k = 0; k < kWidth; ++k) {
         candidates[candidate_count] = {distance2[k], leaf.first + k};
-        candidate_count += (distance2[k] <= search.limit2) & (k < leaf.count) ? 1 : 0;
+        candidate_count += ((distance2[k] <= search.limit2) & (k < leaf.count)) ? 1 : 0;
       }
       continue;
     }

@@ -204,7 +204,7 @@ inline unsigned GeodesicSolver::Front::candidates(const Corners& c, std::size_t 
       wave(dv, near, v_near, inverse, v_far, load(&c.cosine[first]), load(&c.sine[first]));
   const Double4 by_edge = dv + v_far;
   to_near = dv + v_near;
-  to_far = (near <= dv) & (by_wave < by_edge) ? by_wave : by_edge;
+  to_far = ((near <= dv) & (by_wave < by_edge)) ? by_wave : by_edge;
   to_across = dv + load(&c.diagonal[first]);
   Mask4 gains_near = (near > dv) & (to_near < near - gain);
   Mask4 gains_far = (far > dv) & (to_far < far - gain);
