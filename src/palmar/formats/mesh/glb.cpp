@@ -10,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 
 namespace palmar {
 namespace {
@@ -103,11 +104,13 @@ ByteRange view_range(const Glb& glb, int view, const std::string& name) {
   }
   try {
     const nlohmann::json& entry = (*views)[static_cast<std::size_t>(view)];
-    if (entry.value("buffer", 0) != 0) throw InputError(what + " is not in the embedded buffer");
+    if (json_whole_or<int>(entry, "buffer", 0) != 0) {
+      throw InputError(what + " is not in the embedded buffer");
+    }
     ByteRange range;
-    range.offset = entry.value("byteOffset", std::size_t{0});
-    range.length = entry.at("byteLength").get<std::size_t>();
-    range.stride = entry.value("byteStride", std::size_t{0});
+    range.offset = json_whole_or<std::size_t>(entry, "byteOffset", 0);
+    range.length = json_whole<std::size_t>(entry.at("byteLength"));
+    range.stride = json_whole_or<std::size_t>(entry, "byteStride", 0);
     if (range.offset > glb.buffer.size() || range.length > glb.buffer.size() - range.offset) {
       throw InputError(what + " reaches to byte " + std::to_string(range.offset) + " + " +
                        std::to_string(range.length) + ", but the buffer has " +
@@ -234,10 +237,10 @@ AccessorData read_accessor(const Glb& glb, int index, const std::string& name) {
     if (entry.contains("sparse") || !entry.contains("bufferView")) {
       throw InputError(what + " is sparse or has no bufferView; that can't be read");
     }
-    const ByteRange range = view_range(glb, entry.at("bufferView").get<int>(), name);
-    const int type = entry.at("componentType").get<int>();
+    const ByteRange range = view_range(glb, json_whole<int>(entry.at("bufferView")), name);
+    const int type = json_whole<int>(entry.at("componentType"));
     const std::size_t size = size_of_component(type);
-    const std::size_t count = entry.at("count").get<std::size_t>();
+    const std::size_t count = json_whole<std::size_t>(entry.at("count"));
     const int components = components_of(entry.at("type").get<std::string>());
     if (size == 0 || components == 0) {
       throw InputError(what + ": componentType " + std::to_string(type) + " or type \"" +
@@ -245,7 +248,7 @@ AccessorData read_accessor(const Glb& glb, int index, const std::string& name) {
     }
     const std::size_t element = size * static_cast<std::size_t>(components);
     const std::size_t stride = range.stride == 0 ? element : range.stride;
-    const std::size_t offset = entry.value("byteOffset", std::size_t{0});
+    const std::size_t offset = json_whole_or<std::size_t>(entry, "byteOffset", 0);
     // Division, not multiplication: a wild count must not overflow past the check.
     if (offset > range.length ||
         (count > 0 && (range.length - offset < element ||

@@ -10,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/formats/mesh/mesh_build.h"
 #include "palmar/formats/mesh/texture_file.h"
@@ -104,11 +105,11 @@ class Loader {
     if (image == nullptr || !image->is_object()) throw InputError(what + " does not exist");
     if (image->contains("uri")) return load(image->at("uri").get<std::string>(), what);
     const Json* view =
-        element(glb_.json, "bufferViews", image->value("bufferView", std::int64_t{-1}));
+        element(glb_.json, "bufferViews", json_whole_or<std::int64_t>(*image, "bufferView", -1));
     if (view == nullptr) throw InputError(what + " has neither \"uri\" nor \"bufferView\"");
     // join_buffers() has looked whether it lies inside.
-    const auto offset = view->value("byteOffset", std::uint64_t{0});
-    const auto size = view->value("byteLength", std::uint64_t{0});
+    const auto offset = json_whole_or<std::uint64_t>(*view, "byteOffset", 0);
+    const auto size = json_whole_or<std::uint64_t>(*view, "byteLength", 0);
     if (offset > glb_.buffer.size() || size > glb_.buffer.size() - offset) {
       throw InputError(what + " is outside its buffer");
     }
@@ -185,15 +186,15 @@ class Loader {
       Json& view = (*views)[i];
       if (!view.is_object())
         throw InputError(name_ + ": bufferView " + std::to_string(i) + " is no object");
-      const auto buffer = view.value("buffer", std::int64_t{0});
+      const auto buffer = json_whole_or<std::int64_t>(view, "buffer", 0);
       const std::string what = name_ + ": bufferView " + std::to_string(i);
       if (buffer < 0 || buffer >= static_cast<std::int64_t>(place.size())) {
         throw InputError(what + " names buffer " + std::to_string(buffer) + "; there are " +
                          std::to_string(place.size()));
       }
       const auto [start, length] = place[static_cast<std::size_t>(buffer)];
-      const auto offset = view.value("byteOffset", std::uint64_t{0});
-      const auto size = view.value("byteLength", std::uint64_t{0});
+      const auto offset = json_whole_or<std::uint64_t>(view, "byteOffset", 0);
+      const auto size = json_whole_or<std::uint64_t>(view, "byteLength", 0);
       if (offset > length || size > length - offset) {
         throw InputError(what + " reaches to byte " + std::to_string(offset) + " + " +
                          std::to_string(size) + "; its buffer has " + std::to_string(length));
@@ -241,7 +242,7 @@ class SceneReader {
   AccessorData fractions(int index, const std::string& what) const {
     AccessorData data = read_accessor(glb_, index, what);
     const Json* accessor = element(glb_.json, "accessors", index);
-    const int type = accessor->value("componentType", 5126);
+    const int type = json_whole_or<int>(*accessor, "componentType", 5126);
     const double whole = type == 5121 ? 255.0 : type == 5123 ? 65535.0 : 1.0;
     for (double& x : data.value) x /= whole;
     return data;
@@ -250,16 +251,17 @@ class SceneReader {
   /// Index in colours_->textures of the base colour texture of a primitive; -1 without.
   int texture_of(const Json& primitive, int& coordinates) {
     const Json* material =
-        element(glb_.json, "materials", primitive.value("material", std::int64_t{-1}));
+        element(glb_.json, "materials", json_whole_or<std::int64_t>(primitive, "material", -1));
     if (material == nullptr || !material->contains("pbrMetallicRoughness")) return -1;
     const Json& base = material->at("pbrMetallicRoughness");
     if (!base.contains("baseColorTexture")) return -1;
     const Json& use = base.at("baseColorTexture");
-    coordinates = use.value("texCoord", 0);
+    coordinates = json_whole_or<int>(use, "texCoord", 0);
     if (use.contains("extensions")) ++transformed_count_;
-    const Json* texture = element(glb_.json, "textures", use.value("index", std::int64_t{-1}));
+    const Json* texture =
+        element(glb_.json, "textures", json_whole_or<std::int64_t>(use, "index", -1));
     if (texture == nullptr) throw InputError(name_ + ": a material names a missing texture");
-    const auto source = texture->value("source", std::int64_t{-1});
+    const auto source = json_whole_or<std::int64_t>(*texture, "source", -1);
     if (source < 0) {
       ++unread_count_;
       return -1;
@@ -280,7 +282,7 @@ class SceneReader {
     const Json& attributes = primitive.at("attributes");
     colour_sum_.resize(file_.mesh.vertices.size(), Eigen::Vector4f::Zero());
     if (attributes.contains("COLOR_0")) {
-      const AccessorData colour = fractions(attributes.at("COLOR_0").get<int>(), what);
+      const AccessorData colour = fractions(json_whole<int>(attributes.at("COLOR_0")), what);
       if (colour.components < 3 || static_cast<std::size_t>(colour.count) != vertex.size()) {
         throw InputError(what + ": COLOR_0 isn't one colour per vertex");
       }
@@ -297,7 +299,7 @@ class SceneReader {
       result.texture = -1;
       return result;
     }
-    const AccessorData place = fractions(attributes.at(name).get<int>(), what);
+    const AccessorData place = fractions(json_whole<int>(attributes.at(name)), what);
     if (place.components != 2 || static_cast<std::size_t>(place.count) != vertex.size()) {
       throw InputError(what + ": " + name + " isn't one place per vertex");
     }
@@ -324,13 +326,14 @@ class SceneReader {
   std::vector<std::int64_t> root_nodes() const {
     const auto nodes = glb_.json.find("nodes");
     const std::size_t count = nodes != glb_.json.end() && nodes->is_array() ? nodes->size() : 0;
-    const Json* scene = element(glb_.json, "scenes", glb_.json.value("scene", std::int64_t{0}));
+    const Json* scene =
+        element(glb_.json, "scenes", json_whole_or<std::int64_t>(glb_.json, "scene", 0));
     if (scene != nullptr) {
-      return scene->value("nodes", std::vector<std::int64_t>{});
+      return json_wholes<std::int64_t>(*scene, "nodes");
     }
     std::vector<bool> is_child(count, false);
     for (std::size_t n = 0; n < count; ++n) {
-      for (const auto child : (*nodes)[n].value("children", std::vector<std::int64_t>{})) {
+      for (const auto child : json_wholes<std::int64_t>((*nodes)[n], "children")) {
         if (child >= 0 && child < static_cast<std::int64_t>(count)) {
           is_child[static_cast<std::size_t>(child)] = true;
         }
@@ -377,9 +380,9 @@ class SceneReader {
     if (node->contains("mesh")) {
       const bool is_skinned = node->contains("skin");
       if (is_skinned) ++skin_count_;
-      read_mesh(node->at("mesh").get<std::int64_t>(), scene_from_node);
+      read_mesh(json_whole<std::int64_t>(node->at("mesh")), scene_from_node);
     }
-    for (const auto child : node->value("children", std::vector<std::int64_t>{})) {
+    for (const auto child : json_wholes<std::int64_t>(*node, "children")) {
       visit(child, scene_from_node, depth + 1);
     }
   }
@@ -392,7 +395,7 @@ class SceneReader {
     for (const Json& primitive : mesh->at("primitives")) {
       const std::string what = name_ + ": mesh " + std::to_string(index);
       morph_count_ += primitive.contains("targets") ? 1 : 0;
-      const int mode = primitive.value("mode", 4);
+      const int mode = json_whole_or<int>(primitive, "mode", 4);
       if (mode < 4 || mode > 6) {
         ++line_count_;
         continue;
@@ -404,7 +407,7 @@ class SceneReader {
   void read_primitive(const Json& primitive, int mode, const Affine& scene_from_node,
                       const std::string& what) {
     const AccessorData positions =
-        read_accessor(glb_, primitive.at("attributes").at("POSITION").get<int>(), what);
+        read_accessor(glb_, json_whole<int>(primitive.at("attributes").at("POSITION")), what);
     if (positions.components != 3) throw InputError(what + ": POSITION is no VEC3");
     // Many nodes may show one mesh; the work must stay bounded even if it holds no triangle.
     vertices_seen_ += static_cast<std::uint64_t>(positions.count);
@@ -423,7 +426,8 @@ class SceneReader {
     if (colours_ != nullptr) colour = read_colours(primitive, vertex, what);
     std::vector<int> corners;  // of this primitive
     if (primitive.contains("indices")) {
-      const AccessorData indices = read_accessor(glb_, primitive.at("indices").get<int>(), what);
+      const AccessorData indices =
+          read_accessor(glb_, json_whole<int>(primitive.at("indices")), what);
       if (indices.components != 1) throw InputError(what + ": indices are no scalars");
       corners.reserve(indices.value.size());
       for (const double value : indices.value) {

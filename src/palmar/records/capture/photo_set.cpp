@@ -15,6 +15,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 
 namespace palmar {
 namespace {
@@ -103,7 +104,7 @@ void read_description(const fs::path& path, const fs::path& folder, PhotoSet& se
     for (const Json& one : json.at("photographs")) {
       PhotoFile file{folder / one.at("file").get<std::string>(),
                      one.value("camera", std::string("camera")),
-                     one.at("position").get<int>(),
+                     json_whole<int>(one.at("position")),
                      {}};
       if (!fs::is_regular_file(file.path)) {
         throw InputError(name + ": photograph " + file.path.string() + " isn't there");
@@ -182,8 +183,8 @@ PhotoLenses read_lenses(const fs::path& path) {
     const Json json = Json::parse(read_file(path));
     for (const auto& [camera, one] : json.at("cameras").items()) {
       LensCalibration calibration;
-      calibration.lens = {.width = one.at("width_px").get<int>(),
-                          .height = one.at("height_px").get<int>(),
+      calibration.lens = {.width = json_whole<int>(one.at("width_px")),
+                          .height = json_whole<int>(one.at("height_px")),
                           .focal_x = one.at("focal_x_px").get<double>(),
                           .focal_y = one.at("focal_y_px").get<double>(),
                           .centre_x = one.at("centre_x_px").get<double>(),
@@ -193,7 +194,7 @@ PhotoLenses read_lenses(const fs::path& path) {
       calibration.rms = one.value("rms_px", 0.0);
       calibration.focal_deviation = one.value("focal_deviation_px", 0.0);
       calibration.centre_deviation = one.value("centre_deviation_px", 0.0);
-      calibration.photographs = one.value("photographs", 0);
+      calibration.photographs = json_whole_or<int>(one, "photographs", 0);
       calibration.lens.check(name + ": camera " + camera);
       lenses[camera] = std::move(calibration);
     }

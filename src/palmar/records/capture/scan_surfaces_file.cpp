@@ -10,6 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 #include "palmar/formats/mesh/ply.h"
 #include "palmar/records/json_values.h"
 
@@ -102,7 +103,7 @@ ScanSurfaces read_scan_surfaces(const std::string& folder) {
   const fs::path base(folder), path = base / kIndex;
   const Json json = parsed_index(path);
   try {
-    const int version = json.at("palmar_scan_version").get<int>();
+    const int version = json_whole<int>(json.at("palmar_scan_version"));
     if (version > kVersion) {
       throw InputError(fmt::format("{}: is of version {}; this program reads up to {}",
                                    path.string(), version, kVersion));

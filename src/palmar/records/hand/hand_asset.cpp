@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 #include "palmar/formats/mesh/glb.h"
 
 namespace palmar {
@@ -56,7 +57,7 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!nodes[i].contains("children")) continue;
     for (const auto& child : nodes[i]["children"]) {
-      parent.at(child.get<std::size_t>()) = static_cast<int>(i);
+      parent.at(json_whole<std::size_t>(child)) = static_cast<int>(i);
     }
   }
   const auto scene_from_node = [&](std::size_t start) {
@@ -81,21 +82,23 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
   }
   if (!skinned) throw InputError(path + ": has no mesh with a skin; the generic hand has one");
   const nlohmann::json& skin =
-      glb.json.at("skins").at(nodes[*skinned].at("skin").get<std::size_t>());
+      glb.json.at("skins").at(json_whole<std::size_t>(nodes[*skinned].at("skin")));
   for (const auto& joint : skin.at("joints")) {
-    const auto node = joint.get<std::size_t>();
+    const auto node = json_whole<std::size_t>(joint);
     asset.frames.push_back({nodes.at(node).at("name").get<std::string>(), scene_from_node(node)});
   }
 
   // Skinned vertices stand in the scene's frame in the bind posture; their node's own transform is
   // ignored (glTF 2.0, section 3.7.3.3).
   const nlohmann::json& mesh =
-      glb.json.at("meshes").at(nodes[*skinned].at("mesh").get<std::size_t>());
+      glb.json.at("meshes").at(json_whole<std::size_t>(nodes[*skinned].at("mesh")));
   for (const auto& primitive : mesh.at("primitives")) {
-    if (primitive.value("mode", 4) != 4) throw InputError(path + ": the skin is not of triangles");
+    if (json_whole_or<int>(primitive, "mode", 4) != 4) {
+      throw InputError(path + ": the skin is not of triangles");
+    }
     const AccessorData position =
-        read_accessor(glb, primitive.at("attributes").at("POSITION").get<int>(), path);
-    const AccessorData index = read_accessor(glb, primitive.at("indices").get<int>(), path);
+        read_accessor(glb, json_whole<int>(primitive.at("attributes").at("POSITION")), path);
+    const AccessorData index = read_accessor(glb, json_whole<int>(primitive.at("indices")), path);
     if (position.components != 3 || index.components != 1 || index.count % 3 != 0) {
       throw InputError(path + ": the skin's positions or indices have the wrong shape");
     }

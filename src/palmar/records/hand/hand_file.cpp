@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/records/hand/hand_scene.h"
 #include "palmar/records/hand/skeleton_json.h"
@@ -64,8 +65,9 @@ class Reader {
   }
 
   std::vector<double> numbers(const PlainJson& json) const {
-    const auto count = json.at("count").get<std::size_t>();
-    std::vector<double> value = read_doubles(glb_, json.at("buffer_view").get<int>(), count, path_);
+    const auto count = json_whole<std::size_t>(json.at("count"));
+    std::vector<double> value =
+        read_doubles(glb_, json_whole<int>(json.at("buffer_view")), count, path_);
     for (const double number : value) {
       if (!std::isfinite(number)) fail("a number is not finite");
     }
@@ -73,10 +75,10 @@ class Reader {
   }
 
   std::vector<Vec3> points(const PlainJson& json) const {
-    const auto count = json.at("count").get<std::size_t>();
+    const auto count = json_whole<std::size_t>(json.at("count"));
     if (count > glb_.buffer.size()) fail("it promises more points than the file has bytes");
     const std::vector<double> value =
-        read_doubles(glb_, json.at("buffer_view").get<int>(), 3 * count, path_);
+        read_doubles(glb_, json_whole<int>(json.at("buffer_view")), 3 * count, path_);
     std::vector<Vec3> result;
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -283,7 +285,7 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
                      ": a glTF file, but no Palmar hand (no palmar_hand_version in its extras); "
                      "`palmar hand template` makes one");
   }
-  const auto version = (*extras)["palmar_hand_version"].get<std::int64_t>();
+  const auto version = json_whole<std::int64_t>((*extras)["palmar_hand_version"]);
   if (version < 1 || version > kHandFileVersion) {
     throw InputError(path + ": hand file of version " + std::to_string(version) +
                      "; this program reads up to version " + std::to_string(kHandFileVersion) +

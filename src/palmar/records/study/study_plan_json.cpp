@@ -8,6 +8,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/json_reason.h"
+#include "palmar/formats/json_whole.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/population/sex_names.h"
 #include "palmar/records/population/population_file.h"
@@ -198,8 +199,8 @@ Json holding_json(const HoldRequest& holding) {
 HoldRequest holding_from(const Json& json) {
   HoldRequest holding;
   holding.hold = hold_from(json.at("hold"));
-  if (!json.at("number").is_null()) holding.number = json.at("number").get<int>();
-  if (!json.at("part").is_null()) holding.part = json.at("part").get<int>();
+  if (!json.at("number").is_null()) holding.number = json_whole<int>(json.at("number"));
+  if (!json.at("part").is_null()) holding.part = json_whole<int>(json.at("part"));
   holding.part_name = json.at("part_name");
   holding.along = optional_from(json.at("along"));
   holding.toward = vector_from(json.at("toward"));
