@@ -96,7 +96,18 @@ ShelvedProduct ProductShelf::put(ShelvedProduct product) {
   product.key = "p" + std::to_string(++count_);
   products_.push_back(product);
   if (products_.size() > kMost) products_.erase(products_.begin());
+  if (product.product) keep_read(product.key);
   return product;
+}
+
+void ProductShelf::keep_read(const std::string& key) {
+  std::erase(read_, key);
+  read_.push_back(key);
+  if (read_.size() <= kMostRead) return;
+  for (ShelvedProduct& one : products_) {
+    if (one.key == read_.front()) one.product.reset();
+  }
+  read_.erase(read_.begin());
 }
 
 ProductShelf::Added ProductShelf::add_bytes(const std::string& name, std::string_view bytes,
@@ -142,6 +153,7 @@ ShelvedProduct ProductShelf::add_known(ShelvedProduct product) { return put(std:
 ShelvedProduct ProductShelf::add_example(const std::string& name) {
   for (const ShelvedExample& example : shelved_examples()) {
     if (example.name != name) continue;
+    if (const auto there = find(example_key(name))) return *there;
     ShelvedProduct product;
     product.file_name = name + ".stl";
     product.argument = product.file_name;
@@ -149,9 +161,18 @@ ShelvedProduct ProductShelf::add_example(const std::string& name) {
     product.made_by = make_command(example, product.file_name);
     product.path = new_folder() / product.file_name;
     write_mesh(product.path, make_solid({example.kind, example.given}).mesh);
-    return put(std::move(product));
+    product = put(std::move(product));
+    const std::scoped_lock lock(mutex_);
+    examples_[name] = product.key;
+    return product;
   }
   throw UsageError("example " + in_quotes(name) + " is not known");
+}
+
+std::string ProductShelf::example_key(const std::string& name) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = examples_.find(name);
+  return found == examples_.end() ? "" : found->second;
 }
 
 std::optional<ShelvedProduct> ProductShelf::find(const std::string& key) const {
@@ -165,11 +186,12 @@ std::optional<ShelvedProduct> ProductShelf::find(const std::string& key) const {
 ShelvedProduct ProductShelf::open(const std::string& key, const Progress& progress) {
   std::optional<ShelvedProduct> found = find(key);
   if (!found) throw UsageError("product " + in_quotes(key) + " is not there (any more)");
-  if (found->product) return *found;
-  found->product = read_product(*found, progress);
+  if (!found->product) found->product = read_product(*found, progress);
   const std::scoped_lock lock(mutex_);
   for (ShelvedProduct& one : products_) {
-    if (one.key == key) one.product = found->product;
+    if (one.key != key) continue;
+    one.product = found->product;
+    keep_read(key);
   }
   return *found;
 }

@@ -59,6 +59,8 @@ class ProductShelf {
 
   /// At most this many products; the one that was put there first goes.
   static constexpr std::size_t kMost = 32;
+  /// So many stay read; the others are read again when they are opened.
+  static constexpr std::size_t kMostRead = 6;
 
   struct Added {
     ShelvedProduct product;                ///< without key if there is a question
@@ -72,7 +74,7 @@ class ProductShelf {
   ShelvedProduct add_file(const std::filesystem::path& path, std::optional<LengthUnit> unit);
   /// One whose file is there and isn't the shelf's own, with all that is known of it but its key.
   ShelvedProduct add_known(ShelvedProduct product);
-  /// Throws UsageError for a name that is none.
+  /// The one that is there if it is still. Throws UsageError for a name that is none.
   ShelvedProduct add_example(const std::string& name);
 
   /// With its product, read if it wasn't. Throws UsageError for an unknown key, InputError,
@@ -99,13 +101,18 @@ class ProductShelf {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  std::string example_key(const std::string& name) const;  ///< empty if it never was there
   ShelvedProduct put(ShelvedProduct product);
   std::filesystem::path new_folder();
+  /// That one was used last; with the mutex locked.
+  void keep_read(const std::string& key);
 
   mutable std::mutex mutex_;
   std::filesystem::path folder_;
   int count_ = 0;
   std::vector<ShelvedProduct> products_;
+  std::map<std::string, std::string> examples_;  ///< key by name
+  std::vector<std::string> read_;  ///< keys of those that are read, the one used last at the end
   OwnHands own_hands_;
   std::mutex hands_mutex_;
   std::vector<std::pair<std::string, LiveHand>> hands_;  ///< the latest last
