@@ -148,7 +148,20 @@ TEST(GridDistance, AtASharpEdgeIsWithinAQuarterOfTheSpacing) {
   }
 }
 
+TEST(GridDistance, LeavesSharpEdgesToTheSource) {
+  const auto exact = make_box_distance({40.0, 30.0, 60.0});
+  const GridDistance grid(exact, {.spacing = 1.5, .band = 10.0, .least_gradient = 0.985});
+  // In a cell with nodes on both sides of an edge's bisector the gradient is wrong by
+  // 2 sqrt(w (1 - w)) sin(45 deg) at most before it is left to the source.
+  for (const Vec3& p : random_points(5000, 45.0, 4)) {
+    const double truth = exact->at(p).distance;
+    if (std::abs(truth) > 10.0) continue;
+    ASSERT_NEAR(grid.at(p).distance, truth, 0.05) << p.transpose();
+  }
+}
+
 TEST(GridDistance, RefusesASpacingOfZero) {
+  EXPECT_THROW(GridDistance(make_sphere_distance(30.0), {.least_gradient = 1.0}), UsageError);
   EXPECT_THROW(GridDistance(make_sphere_distance(30.0), {.spacing = 0.0}), UsageError);
 }
 

@@ -36,11 +36,16 @@ void GridDistanceOptions::check() const {
     throw UsageError("distance grid: band is " + std::to_string(band) +
                      " mm; above 0 to 1000 mm is allowed");
   }
+  if (!(least_gradient >= 0.0 && least_gradient < 1.0)) {
+    throw UsageError("distance grid: least gradient is " + std::to_string(least_gradient) +
+                     "; 0 or more and below 1 is allowed");
+  }
 }
 
 struct GridDistance::Impl {
   std::shared_ptr<const DistanceField> source;
   double band = 0.0;
+  double least_gradient = 0.0;
   double spacing = 0.0;
   Vec3 origin = Vec3::Zero();
   Eigen::Vector3i count = Eigen::Vector3i::Zero();
@@ -52,8 +57,12 @@ struct GridDistance::Impl {
   void fill();
   /// Node with the smallest indices of the cell that holds the point; -1 outside the grid.
   int cell(const Vec3& grid_point) const;
-  /// False if the point is farther than the band; then sample.distance has the right sign only.
-  bool interpolate(const Vec3& point, DistanceSample& sample) const;
+  enum class Answer {
+    kGood,
+    kFar,     ///< farther than the band; sample.distance has the right sign only
+    kUnsure,  ///< where nodes look different ways
+  };
+  Answer interpolate(const Vec3& point, DistanceSample& sample) const;
 };
 
 void GridDistance::Impl::fill() {
@@ -112,11 +121,12 @@ int GridDistance::Impl::cell(const Vec3& grid_point) const {
   return index(low.x(), low.y(), low.z());
 }
 
-bool GridDistance::Impl::interpolate(const Vec3& point, DistanceSample& sample) const {
+GridDistance::Impl::Answer GridDistance::Impl::interpolate(const Vec3& point,
+                                                           DistanceSample& sample) const {
   const Vec3 u = (point - origin) / spacing;
   const int first = cell(u);
   sample.distance = std::numeric_limits<double>::infinity();
-  if (first < 0) return false;
+  if (first < 0) return Answer::kFar;
   const Eigen::Vector3f f = (u - u.array().floor().matrix()).cast<float>();
   const auto h = static_cast<float>(spacing);
   float distance = 0.0f;
@@ -128,7 +138,7 @@ bool GridDistance::Impl::interpolate(const Vec3& point, DistanceSample& sample) 
     const Node& node = corner[a * stride[0] + b * stride[1] + d * stride[2]];
     if (!node.is_known()) {
       sample.distance = static_cast<double>(node.distance);
-      return false;
+      return Answer::kFar;
     }
     const Eigen::Vector3f away(f.x() - a, f.y() - b, f.z() - d);
     const float weight =
@@ -137,13 +147,14 @@ bool GridDistance::Impl::interpolate(const Vec3& point, DistanceSample& sample) 
     gradient += weight * node.gradient;
   }
   sample.distance = static_cast<double>(distance);
-  if (std::abs(sample.distance) > band) return false;
+  if (std::abs(sample.distance) > band) return Answer::kFar;
   const float length = gradient.norm();
+  if (length < least_gradient) return Answer::kUnsure;
   sample.normal = length > 1e-3f ? Vec3((gradient / length).cast<double>().normalized())
                                  : Vec3(corner->gradient.cast<double>().normalized());
   sample.closest = point - sample.distance * sample.normal;
   sample.triangle = -1;
-  return true;
+  return Answer::kGood;
 }
 
 GridDistance::GridDistance(std::shared_ptr<const DistanceField> source,
@@ -152,6 +163,7 @@ GridDistance::GridDistance(std::shared_ptr<const DistanceField> source,
   auto impl = std::make_unique<Impl>();
   impl->source = std::move(source);
   impl->band = options.band;
+  impl->least_gradient = options.least_gradient;
   impl->spacing = options.spacing;
   const Box3 box = impl->source->bounding_box();
   if (!box.isEmpty()) {
@@ -177,10 +189,10 @@ void GridDistance::sample(std::span<const Vec3> points, double range,
   }
   std::vector<int> missed;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool is_in_band = impl_->interpolate(points[i], samples[i]);
-    if (!is_in_band && range > impl_->band) {
+    const Impl::Answer answer = impl_->interpolate(points[i], samples[i]);
+    if (answer == Impl::Answer::kUnsure || (answer == Impl::Answer::kFar && range > impl_->band)) {
       missed.push_back(static_cast<int>(i));
-    } else if (!is_in_band) {
+    } else if (answer == Impl::Answer::kFar) {
       samples[i] = {std::copysign(range, samples[i].distance), points[i], Vec3::UnitZ(), -1};
     } else if (std::abs(samples[i].distance) > range) {
       samples[i] = {std::copysign(range, samples[i].distance), points[i], samples[i].normal, -1};

@@ -135,10 +135,16 @@ AssessmentSet LiveSession::evaluate_here(const LivePose& pose, Grip grip, const 
   return set_of(evaluate(*hand_.prepared, *product_, given(pose, grip), options, progress));
 }
 
+void LiveSession::prepare_to_move() {
+  if (solver_) return;
+  moving_distance_ = distance_for_moving(product_->mesh, product_->distance);
+  solver_.emplace(*hand_.prepared);
+}
+
 const ContactResult& LiveSession::move(const LivePose& pose) {
   const LivePose held = checked(*hand_.hand, pose);
-  if (!solver_) solver_.emplace(*hand_.prepared);
-  solver_->solve(pose_skin(*hand_.hand, held.posture), held.product_from_hand, *product_->distance,
+  prepare_to_move();
+  solver_->solve(pose_skin(*hand_.hand, held.posture), held.product_from_hand, *moving_distance_,
                  moving_);
   return moving_;
 }

@@ -73,6 +73,9 @@ class LiveSession {
   AssessmentSet evaluate_here(const LivePose& pose, Grip grip, const LiveTask& task,
                               const Progress& progress = {});
 
+  /// What move() needs beforehand, done once: some 0.2 s.
+  void prepare_to_move();
+
   /// The contact alone, along a motion: from the last call's solution, as exact as is watched
   /// (moving_contact.h), without the error band; 5 to 15 ms. The result is
   /// overwritten by the next call. Throws UsageError for numbers that aren't finite.
@@ -89,6 +92,7 @@ class LiveSession {
   std::map<int, GraspPlace> places_;  ///< by the number of the hold
   std::map<int, Grasp> grasps_;       ///< of `hand_` there
   std::optional<MovingContact> solver_;
+  std::shared_ptr<const DistanceField> moving_distance_;
   ContactResult moving_;
 };
 

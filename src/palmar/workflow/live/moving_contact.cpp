@@ -9,6 +9,8 @@
 #include "palmar/contact/pressed_skin.h"
 #include "palmar/contact/solve/contact_solver.h"
 #include "palmar/core/enum_index.h"
+#include "palmar/geometry/distance/grid_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
 
 namespace palmar {
 namespace {
@@ -17,7 +19,26 @@ constexpr double kMovingAccuracy = 0.01;  // of the moduli, and with them of for
 // mm; between touching skin and skin that is farther out, the edge of a contact is looked for.
 constexpr double kEdgeRange = 1.5;
 
+constexpr double kFinestSpacing = 1.5, kCoarsestSpacing = 2.5;  // mm, of a distance grid
+constexpr double kGridBand = 9.0;       // mm; farther skin isn't asked about
+constexpr double kMostNodes = 300'000;  // 0.3 s
+// Neighbouring nodes of the finest grid look so far apart on a radius of 5 mm.
+constexpr double kLeastGradient = 0.985;
+
 }  // namespace
+
+std::shared_ptr<const DistanceField> distance_for_moving(
+    const TriangleMesh& mesh, const std::shared_ptr<const DistanceField>& distance) {
+  const double area = surface_area(mesh);
+  for (double spacing = kFinestSpacing; spacing <= kCoarsestSpacing; spacing += 0.25) {
+    const double nodes = area * 2.0 * (kGridBand + 2.0 * spacing) / (spacing * spacing * spacing);
+    if (nodes > kMostNodes) continue;
+    return std::make_shared<GridDistance>(
+        distance, GridDistanceOptions{
+                      .spacing = spacing, .band = kGridBand, .least_gradient = kLeastGradient});
+  }
+  return distance;
+}
 
 struct MovingContact::Impl {
   explicit Impl(const PreparedHand& prepared) : solver(prepared, ContactOptions{}) {}

@@ -9,6 +9,11 @@
 
 namespace palmar {
 
+/// The product's distance as a grid, for MovingContact: at sharp edges and far from the surface the
+/// product's own answers. Where that would take more than some 300 000 nodes, the distance itself.
+std::shared_ptr<const DistanceField> distance_for_moving(
+    const TriangleMesh& mesh, const std::shared_ptr<const DistanceField>& distance);
+
 /// The contact of what is dragged and watched, along a motion: from the last call's solution, with
 /// moduli of the tissue, and so forces, settled to 1 %. Loaded skin is put on the product; the rest
 /// stays where the posture has it, and what would bulge until it touches isn't counted: areas come
