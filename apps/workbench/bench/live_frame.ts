@@ -54,6 +54,7 @@ export interface FieldFrame {
   regions: RegionRow[];
   positions: Float32Array; // hand frame, mm
   pressure: Float32Array; // MPa per vertex
+  onProduct: { vertex: Uint32Array; pressure: Float32Array }; // while it moves: the product's vertices that are pressed on
 }
 
 export type Frame = HandFrame | MeshFrame | FieldFrame;
@@ -110,10 +111,16 @@ function field(from: Reader, kind: FieldFrame["kind"], request: number, number: 
     positions[i + 1] = low[1] + step * steps[i + 1];
     positions[i + 2] = low[2] + step * steps[i + 2];
   }
-  const shares = from.u16s(vertices);
-  const pressure = new Float32Array(vertices);
-  for (let i = 0; i < vertices; ++i) pressure[i] = pressureStep * shares[i];
-  return { kind, request, number, place: { quaternion, translation }, gripForce, total, status, postureDeg, regions, positions, pressure };
+  const pressures = (count: number) => {
+    const shares = from.u16s(count);
+    const read = new Float32Array(count);
+    for (let i = 0; i < count; ++i) read[i] = pressureStep * shares[i];
+    return read;
+  };
+  const pressure = pressures(vertices);
+  const pressed = from.u32();
+  const onProduct = { vertex: from.u32s(pressed), pressure: pressures(pressed) };
+  return { kind, request, number, place: { quaternion, translation }, gripForce, total, status, postureDeg, regions, positions, pressure, onProduct };
 }
 
 /// Throws an Error for what is no such frame or is cut off.

@@ -165,7 +165,7 @@ export class BenchScene {
     this.skin.geometry.computeVertexNormals();
     this.pressure = frame.pressure;
     this.colourSkin();
-    if (frame.kind === "moving") this.showPlain();
+    if (frame.kind === "moving") this.showMoving(frame.onProduct);
     if (withProduct) this.setPlace(frame.place);
     this.skin.geometry.computeBoundingSphere();
     this.draw();
@@ -182,11 +182,25 @@ export class BenchScene {
   }
 
   private showPlain(): void {
-    if (this.product.geometry === this.plain) return;
-    this.product.geometry.dispose();
+    if (this.product.geometry === this.plain && !this.footprint) return;
+    if (this.product.geometry !== this.plain) this.product.geometry.dispose();
     this.product.geometry = this.plain;
     this.footprint = null;
     this.paint();
+  }
+
+  /// The product as it was opened with the pressure on some of its vertices, until it comes to rest.
+  private showMoving(on: FieldFrame["onProduct"]): void {
+    const isNew = this.product.geometry !== this.plain || !this.footprint;
+    if (isNew) {
+      this.showPlain();
+      this.footprint = new Float32Array(this.plain.getAttribute("position").count);
+      this.paint();
+    } else {
+      this.footprint!.fill(0);
+    }
+    for (let k = 0; k < on.vertex.length; ++k) this.footprint![on.vertex[k]] = on.pressure[k];
+    this.colourProduct();
   }
 
   private shares(geometry: BufferGeometry, pressure: Float32Array): void {

@@ -50,6 +50,7 @@ function fieldBytes(): ArrayBuffer {
   parts.push(["u32", 2]);
   for (const value of [0, 2, 4, 65535, 0, 1]) parts.push(["u16", value]);
   for (const value of [0, 200]) parts.push(["u16", value]);
+  parts.push(["u32", 2], ["u32", 3], ["u32", 70000], ["u16", 50], ["u16", 100]);
   return bytes(parts);
 }
 
@@ -65,6 +66,8 @@ test("a field is read as it was written", () => {
   assert.equal(frame.regions[0].region, 15);
   assert.deepEqual(Array.from(frame.positions), [-5, 1, 7, 32762.5, 0, 5.5]);
   assert.ok(Math.abs(frame.pressure[1] - 0.2) < 1e-6 && frame.pressure[0] === 0);
+  assert.deepEqual(Array.from(frame.onProduct.vertex), [3, 70000]);
+  assert.deepEqual(Array.from(frame.onProduct.pressure, (one) => one.toFixed(3)), ["0.050", "0.100"]);
 });
 
 test("a footprint has a pressure for each vertex, a product none", () => {

@@ -11,10 +11,13 @@
 
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/footprint.h"
+#include "palmar/contact/moving_footprint.h"
 #include "palmar/contact/prepared_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/analytic_distance.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/geometry/remesh/split_edges.h"
 
 namespace palmar {
 namespace {
@@ -193,23 +196,25 @@ TEST(HandContact, RefusesWrongInput) {
               ThrowsMessage<UsageError>(HasSubstr("cell_area is -24")));
 }
 
+/// Of a pressure that is linear over the triangles, N.
+double integral_of(const TriangleMesh& surface, const std::vector<double>& pressure) {
+  double force = 0.0;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3& a = surface.vertices[t[0]];
+    const double area = 0.5 * (surface.vertices[t[1]] - a).cross(surface.vertices[t[2]] - a).norm();
+    force += area / 3.0 * (pressure[t[0]] + pressure[t[1]] + pressure[t[2]]);
+  }
+  return force;
+}
+
 TEST(Footprint, CarriesTheForceOfTheSkin) {
   const ContactResult contact = press_on_plane(2.0);
   TriangleMesh plate = make_grid_patch(2, 2, 30.0);
   for (Vec3& v : plate.vertices) v += Vec3(-30.0, -30.0, 2.0 - kRadius);
   const ProductFootprint footprint = map_to_product(prepared_ball().hand(), contact, plate, 0.7);
   ASSERT_EQ(footprint.pressure.size(), footprint.surface.vertices.size());
-  double force = 0.0;
-  double area = 0.0;
-  for (const Triangle& t : footprint.surface.triangles) {
-    const Vec3& a = footprint.surface.vertices[t[0]];
-    const Vec3& b = footprint.surface.vertices[t[1]];
-    const Vec3& c = footprint.surface.vertices[t[2]];
-    const double part = 0.5 * (b - a).cross(c - a).norm();
-    area += part;
-    force += part / 3.0 *
-             (footprint.pressure[t[0]] + footprint.pressure[t[1]] + footprint.pressure[t[2]]);
-  }
+  const double force = integral_of(footprint.surface, footprint.pressure);
+  const double area = surface_area(footprint.surface);
   EXPECT_NEAR(area, 3600.0, 1e-6);  // the shape is unchanged
   // Linear on the plate's triangles instead of the skin's.
   EXPECT_NEAR(force, contact.total.force, 0.01 * contact.total.force);
@@ -233,16 +238,57 @@ TEST(Footprint, GoesRoundASharpEdge) {
   ASSERT_GT(contact.total.force, 0.0);
   const ProductFootprint footprint =
       map_to_product(hand.hand(), contact, make_box(Vec3(40, 40, 60), 20), 0.7);
-  double force = 0.0;
-  for (const Triangle& t : footprint.surface.triangles) {
-    const Vec3& a = footprint.surface.vertices[t[0]];
-    force +=
-        (footprint.surface.vertices[t[1]] - a).cross(footprint.surface.vertices[t[2]] - a).norm() /
-        6.0 * (footprint.pressure[t[0]] + footprint.pressure[t[1]] + footprint.pressure[t[2]]);
-  }
+  const double force = integral_of(footprint.surface, footprint.pressure);
   // The way round the edge is longer than that through it, by up to a factor of sqrt 2; the force
   // is the same.
   EXPECT_NEAR(force, contact.total.force, 0.05 * contact.total.force);
+}
+
+TEST(MovingFootprint, CarriesTheForceOfTheSkinAndForgetsTheLastOne) {
+  TriangleMesh plate = make_grid_patch(2, 2, 30.0);
+  for (Vec3& v : plate.vertices) v += Vec3(-30.0, -30.0, 2.0 - kRadius);
+  MovingFootprint moving(split_long_edges(plate, 0.7));
+  const ContactResult contact = press_on_plane(2.0);
+  const MovingFootprint::Loaded& loaded = moving.under(prepared_ball().hand(), contact);
+  std::vector<double> pressure(moving.surface().vertices.size(), 0.0);
+  for (std::size_t k = 0; k < loaded.vertex.size(); ++k) {
+    pressure[loaded.vertex[k]] = loaded.pressure[k];
+  }
+  EXPECT_NEAR(integral_of(moving.surface(), pressure), contact.total.force,
+              0.02 * contact.total.force);
+  EXPECT_NEAR(*std::max_element(pressure.begin(), pressure.end()), contact.total.peak_pressure,
+              0.03 * contact.total.peak_pressure);
+  EXPECT_TRUE(std::is_sorted(loaded.vertex.begin(), loaded.vertex.end()));
+  // Half as deep a smaller part is pressed on, and nothing is left of what was.
+  const std::size_t before = loaded.vertex.size();
+  const ContactResult less = press_on_plane(1.0);
+  const double force = less.total.force;
+  moving.under(prepared_ball().hand(), less);
+  EXPECT_LT(loaded.vertex.size(), 0.7 * static_cast<double>(before));
+  EXPECT_LT(force, contact.total.force);
+  EXPECT_TRUE(moving.under(prepared_ball().hand(), press_on_plane(-1.0)).vertex.empty());
+}
+
+TEST(MovingFootprint, SkinPressesOnlyTheSideThatItFaces) {
+  // A plate of 0.5 mm: its other side lies within reach of the skin.
+  TriangleMesh plate = make_box(Vec3(60.0, 60.0, 0.5), 1);
+  for (Vec3& v : plate.vertices) v.z() += 2.0 - kRadius - 0.25;
+  MovingFootprint moving(split_long_edges(plate, 1.5));
+  const MovingFootprint::Loaded& loaded = moving.under(prepared_ball().hand(), press_on_plane(2.0));
+  ASSERT_FALSE(loaded.vertex.empty());
+  for (const int v : loaded.vertex) {
+    EXPECT_NEAR(moving.surface().vertices[v].z(), 2.0 - kRadius, 1e-9) << "vertex " << v;
+  }
+}
+
+TEST(MovingFootprint, SurfaceIsAsFineAsItsTrianglesAllow) {
+  const TriangleMesh box = make_box(Vec3(40.0, 30.0, 130.0), 1);
+  const TriangleMesh fine = surface_for_moving(box, 120000);
+  EXPECT_GT(fine.triangle_count(), 5000);
+  EXPECT_NEAR(surface_area(fine), surface_area(box), 1e-6 * surface_area(box));
+  const TriangleMesh coarse = surface_for_moving(box, 1000);
+  EXPECT_LE(coarse.triangle_count(), 1000);
+  EXPECT_GT(coarse.triangle_count(), 200);
 }
 
 }  // namespace

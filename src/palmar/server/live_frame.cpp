@@ -141,6 +141,11 @@ std::string field_frame(const LiveField& field, const FrameHead& head) {
   for (std::size_t i = 0; i < skin.size(); ++i) {
     out.steps(i < contact.pressure.size() ? contact.pressure[i] : 0.0, pressure_step);
   }
+  const MovingFootprint::Loaded nothing;
+  const MovingFootprint::Loaded& on_product = field.on_product ? *field.on_product : nothing;
+  out.u32(static_cast<std::uint32_t>(on_product.vertex.size()));
+  for (const int v : on_product.vertex) out.u32(static_cast<std::uint32_t>(v));
+  for (const double pressure : on_product.pressure) out.steps(pressure, pressure_step);
   return out.take();
 }
 

@@ -7,6 +7,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/footprint.h"
+#include "palmar/contact/moving_footprint.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
 
@@ -52,6 +53,8 @@ struct LiveField {
   double grip_force = 0.0;                        ///< N
   const ContactResult* contact = nullptr;         ///< null: none was solved
   const std::vector<Vec3>* posed_skin = nullptr;  ///< hand frame, mm; used without contact
+  /// Along a motion: on the product's mesh as it was sent.
+  const MovingFootprint::Loaded* on_product = nullptr;
 };
 
 /// Places are kept to this, or to what spans the hand in 65535 steps.
@@ -62,7 +65,8 @@ inline constexpr double kFrameStep = 0.005;  // mm
 /// 23 angles [deg]; float32 x 3 lower corner, float32 step [mm]; float32 step of pressures [MPa];
 /// uint32 regions in contact, each 6 float32: region, force, area, peak, peak on cells, mean;
 /// uint32 vertices; uint16 x 3 per vertex: place in the hand's frame, in steps from the corner;
-/// uint16 per vertex: pressure, in steps.
+/// uint16 per vertex: pressure, in steps; uint32 vertices of the product that are pressed on,
+/// uint32 per such vertex: which; uint16 per such vertex: pressure, in the same steps.
 std::string field_frame(const LiveField& field, const FrameHead& head);
 
 }  // namespace palmar

@@ -54,6 +54,8 @@ TEST(LiveFrame, FieldReadsBackWithinItsSteps) {
   contact.regions[0].force = 12.5;
   LiveField field;
   field.contact = &contact;
+  const MovingFootprint::Loaded on_product{{4, 70000}, {0.2, 0.05}};
+  field.on_product = &on_product;
   field.grip_force = 8.0;
   field.posture[Dof::kIndexPipFlexion] = 0.5;
   field.product_from_hand = Rigid3::about_axis(Vec3::UnitZ(), Vec3(5, 0, 0), 0.3);
@@ -93,6 +95,12 @@ TEST(LiveFrame, FieldReadsBackWithinItsSteps) {
   for (const double pressure : contact.pressure) {
     EXPECT_NEAR(in.u16() * pressure_step, pressure, 0.5 * pressure_step + 1e-7);  // MPa
   }
+  ASSERT_EQ(in.u32(), 2U);
+  EXPECT_EQ(in.u32(), 4U);
+  EXPECT_EQ(in.u32(), 70000U);
+  for (const double pressure : on_product.pressure) {
+    EXPECT_NEAR(in.u16() * pressure_step, pressure, 0.5 * pressure_step + 1e-7);
+  }
   EXPECT_TRUE(in.is_at_end());
 }
 
@@ -102,7 +110,7 @@ TEST(LiveFrame, HandWithoutContactIsShownAsItIsPosed) {
   field.posed_skin = &skin;
   const std::string bytes = field_frame(field, {FrameKind::kPreview, 1, 2});
   // 400 mm don't fit into 65535 steps of 0.005 mm: larger ones.
-  EXPECT_EQ(bytes.size(), 16U + 56U + 24U + 4U + 92U + 16U + 4U + 4U + 4U + 2U * 8U);
+  EXPECT_EQ(bytes.size(), 16U + 56U + 24U + 4U + 92U + 16U + 4U + 4U + 4U + 2U * 8U + 4U);
   FrameReader in(bytes);
   expect_head(in, FrameKind::kPreview, 1, 2);
   for (int k = 0; k < 14 + 6 + 1 + 23 + 3; ++k) in.u32();

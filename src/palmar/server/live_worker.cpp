@@ -67,6 +67,11 @@ void LiveWorker::post(LiveRequest request) {
   for (const LiveRequest& one : dropped) sink_.text(dropped_answer(one.id));
 }
 
+bool LiveWorker::is_waited_for() {
+  const std::scoped_lock lock(mutex_);
+  return is_stopping_ || !waiting_.empty();
+}
+
 std::optional<LiveRequest> LiveWorker::next() {
   std::unique_lock lock(mutex_);
   running_.reset();
@@ -83,6 +88,8 @@ void LiveWorker::run() {
   while (const std::optional<LiveRequest> request = next()) {
     try {
       answer(*request);
+      // So that the first step of a drag needn't wait for it.
+      if (session_ && !is_waited_for()) session_->prepare_to_move();
     } catch (const Cancelled&) {
       sink_.text(dropped_answer(request->id));
     } catch (const Error& error) {
@@ -132,8 +139,10 @@ void LiveWorker::open(const LiveRequest& request, const Progress& progress) {
   const Product& product = session->product();
   sink_.bytes(hand_frame(session->hand(), request.id), false);
   const std::vector<double> none(product.mesh.vertices.size(), 0.0);
-  sink_.bytes(product_frame(display_mesh(product.mesh, none, kMostShownTriangles).mesh, request.id),
-              false);
+  // As fine as the skin, as its vertices are coloured along a motion.
+  moving_footprint_.emplace(surface_for_moving(
+      display_mesh(product.mesh, none, kMostShownTriangles).mesh, kMostShownTriangles));
+  sink_.bytes(product_frame(moving_footprint_->surface(), request.id), false);
   progress.update(0.2, "looking for ways to hold it");
   const RankedHolds& ranked = session->holds(progress);
   // The reference hand's skin has the same vertices in the same order.
@@ -154,9 +163,9 @@ void LiveWorker::open(const LiveRequest& request, const Progress& progress) {
 
 void LiveWorker::move(const LiveRequest& request) {
   const ContactResult& contact = session_->move(request.pose);
-  sink_.bytes(field_frame(field_of(request.pose, contact, session_->product()),
-                          {FrameKind::kMoving, request.id, 0}),
-              true);
+  LiveField field = field_of(request.pose, contact, session_->product());
+  field.on_product = &moving_footprint_->under(session_->hand(), contact);
+  sink_.bytes(field_frame(field, {FrameKind::kMoving, request.id, 0}), true);
 }
 
 void LiveWorker::work(const LiveRequest& asked, const Progress& progress) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "palmar/contact/moving_footprint.h"
 #include "palmar/server/live_request.h"
 #include "palmar/server/product_shelf.h"
 
@@ -46,6 +47,7 @@ class LiveWorker {
  private:
   void run();
   std::optional<LiveRequest> next();
+  bool is_waited_for();
   void answer(const LiveRequest& request);
   void open(const LiveRequest& request, const Progress& progress);
   void move(const LiveRequest& request);
@@ -64,6 +66,7 @@ class LiveWorker {
   std::atomic<bool> cancel_{false};
   // The thread's own:
   std::unique_ptr<LiveSession> session_;
+  std::optional<MovingFootprint> moving_footprint_;  ///< on the product as it was sent
   std::optional<ShelvedProduct> product_;
   LiveRequest opened_;    ///< hand and language of the session
   std::string own_hand_;  ///< file of the hand, if it was made here
