@@ -82,7 +82,7 @@ export function benchPage(root: HTMLElement, els: BenchElements, actions: BenchA
       el("div", { class: "tools" },
         el("span", { class: "group", role: "group", "aria-label": say("bench.look") }, el("span", { class: "soft" }, say("bench.look")), look("palm"), look("back"), look("thumb"), look("little")),
         el("label", {}, say("bench.product"), el("select", { "data-product": true },
-          el("option", { value: "clear" }, say("bench.clear")), el("option", { value: "solid" }, say("bench.solid")), el("option", { value: "hidden" }, say("bench.hidden")))),
+          el("option", { value: "clear" }, say("bench.clear")), el("option", { value: "solid" }, say("bench.solid")), el("option", { value: "hidden" }, say("bench.hidden")), el("option", { value: "alone" }, say("bench.alone")))),
         el("label", {}, say("bench.cut"), el("input", { type: "range", "data-cut": true, min: 0, max: 100, value: 100 })),
         el("button", { type: "button", "data-save": "palmar-bench" }, say("bench.picture"))),
       el("div", { class: "view" }, el("div", { class: "view-canvas", "data-label": say("bench.view") }), els.bar, els.busy), parts.steps, els.status, els.point),

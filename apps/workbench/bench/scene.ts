@@ -235,6 +235,7 @@ export class BenchScene {
     product.depthWrite = !isClear;
     product.needsUpdate = true;
     this.product.visible = this.shown() !== "hidden";
+    this.skin.visible = this.shown() !== "alone";
     this.draw();
   }
 

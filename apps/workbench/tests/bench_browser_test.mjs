@@ -167,6 +167,10 @@ async function takePictures(browser) {
   await page.set("[data-offset=turn-y]", "6", ["input"]);
   await wait(600);
   await page.picture(join(pictures, "workbench-moving.png"));
+  await page.set("[data-product]", "alone", ["change"]);
+  await wait(300);
+  await page.picture(join(pictures, "workbench-alone.png"));
+  await page.set("[data-product]", "clear", ["change"]);
   await page.click("[data-act=close]");
   await page.until(at("rest"));
   await page.set("[data-product]", "solid");

@@ -64,7 +64,7 @@ const acts = {
   redo: (page) => settled(page, () => page.key("z", 10)),
   look: (page) => page.click(`[data-look=${pick(["palm", "back", "thumb", "little"])}]`),
   cut: (page) => page.set("[data-cut]", Math.floor(100 * chance()), ["input"]),
-  product: (page) => page.set("[data-product]", pick(["clear", "solid", "hidden"]), ["change"]),
+  product: (page) => page.set("[data-product]", pick(["clear", "solid", "hidden", "alone"]), ["change"]),
   language: (page) => settled(page, () => page.set(".language", pick(["de", "en"]), ["change"])),
   point: async (page) => {
     const box = await page.box(".view-canvas canvas");
