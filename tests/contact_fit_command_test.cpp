@@ -74,8 +74,12 @@ TEST(ContactFitCommand, MistakesAreNamed) {
   };
   write_text(folder + "/bad.csv", "depth_mm,force_kg\n1,2\n");
   write_text(folder + "/few.csv", "depth_mm,force_n\n1,2\n2,5\n");
+  write_text(folder + "/deep.csv", "depth_mm,force_n\n1,2\n12,5\n2,3\n3,4\n");
   EXPECT_THAT(message("nothing.csv --indenter sphere:10", 3), HasSubstr("nothing.csv"));
   EXPECT_THAT(message("bad.csv --indenter sphere:10", 3), HasSubstr("unit \"kg\" is not known"));
+  EXPECT_THAT(message("deep.csv --indenter sphere:10", 3),
+              HasSubstr("deep.csv:3: depth_mm is 12; at most 10 mm is allowed with the indenter "
+                        "sphere:10"));
   EXPECT_THAT(message("few.csv --indenter sphere:10", 3), HasSubstr("2 readings; at least 4"));
   EXPECT_THAT(message("curves.csv --indenter sphere:10 --group fingers", 2), HasSubstr("finger?"));
   EXPECT_THAT(message("curves.csv --indenter sphere:10 --law linear", 2), HasSubstr("stiffening"));

@@ -87,7 +87,15 @@ TissueFitOutcome fit_tissue(const TissueFitRequest& request) {
   const MeasuredCurves curves = read_measured_curves(request.curves);
   PressOptions test = request.test;
   test.depths.clear();
-  for (const MeasuredPoint& point : curves.points) test.depths.push_back(point.depth);
+  const double deepest = deepest_press(test);
+  for (const MeasuredPoint& point : curves.points) {
+    if (point.depth > deepest) {
+      throw InputError(
+          fmt::format("{}:{}: depth_mm is {}; at most {} mm is allowed with the indenter {}",
+                      request.curves, point.line, point.depth, deepest, name_of(test.indenter)));
+    }
+    test.depths.push_back(point.depth);
+  }
   for (const std::string& column : curves.ignored) {
     note_to(request.note, request.curves + ": column \"" + column + "\" is left out");
   }

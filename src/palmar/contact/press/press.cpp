@@ -65,17 +65,6 @@ void check_tissue(const PressOptions& options) {
   }
 }
 
-/// Depth that no test goes beyond, mm.
-double deepest(const PressOptions& options) {
-  switch (options.indenter.kind) {
-    case PressIndenter::Kind::kSphere:
-    case PressIndenter::Kind::kCylinder:
-      return std::min(kDeepest, options.indenter.radius);
-    default:
-      return kDeepest;
-  }
-}
-
 /// Depth at which the test gives a force; the search starts at `depth`. Force grows like a power of
 /// the depth (1.5 for a sphere of fixed G), whose exponent the last two depths give; it stays
 /// between the depths known to give too little and too much.
@@ -116,6 +105,16 @@ PressStep press_to_force(double force, double depth, double deepest,
 }
 
 }  // namespace
+
+double deepest_press(const PressOptions& options) {
+  switch (options.indenter.kind) {
+    case PressIndenter::Kind::kSphere:
+    case PressIndenter::Kind::kCylinder:
+      return std::min(kDeepest, options.indenter.radius);
+    default:
+      return kDeepest;
+  }
+}
 
 std::string name_of(const PressSpecimen& specimen) {
   switch (specimen.kind) {
@@ -166,7 +165,7 @@ void PressOptions::check() const {
   }
   for (const double d : depths) {
     require(d > 0.0 && d <= kDeepest, "press: depth", d, "mm", "more than 0 and at most 30 mm");
-    require(d <= deepest(*this), "press: depth", d, "mm", "at most the indenter's radius");
+    require(d <= deepest_press(*this), "press: depth", d, "mm", "at most the indenter's radius");
   }
   for (const double f : forces) {
     require(f > 0.0 && f <= 1000.0, "press: force", f, "N", "more than 0 and at most 1000 N");
@@ -250,9 +249,9 @@ std::vector<PressStep> press(const PressOptions& options, const PreparedHand* ha
   }
   std::vector<PressStep> steps;
   for (const double depth : options.depths) steps.push_back(press_at(depth));
-  double start = std::min(0.25, deepest(options));
+  double start = std::min(0.25, deepest_press(options));
   for (const double force : options.forces) {
-    steps.push_back(press_to_force(force, start, deepest(options), press_at));
+    steps.push_back(press_to_force(force, start, deepest_press(options), press_at));
     start = steps.back().depth;
   }
   return steps;

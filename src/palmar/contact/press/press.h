@@ -62,6 +62,9 @@ struct PressOptions {
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
+/// Depth that no test goes beyond, mm: the radius of a sphere or cylinder, 30 mm at most.
+double deepest_press(const PressOptions& options);
+
 struct PressStep {
   double depth = 0.0;                  ///< mm
   double force = 0.0;                  ///< N, along the press
