@@ -1,12 +1,18 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "palmar/geometry/remesh/remesh.h"
 #include "palmar/geometry/remesh/subdivide.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/dimensions/tape_measures.h"
+#include "palmar/hand/posture/skeleton_in_posture.h"
+#include "palmar/hand/skin/creases.h"
+#include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
 namespace palmar {
@@ -124,6 +130,44 @@ TriangleMesh quartered(const TriangleMesh& mesh) {
                           {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
   }
   return fine;
+}
+
+/// Index, middle and ring finger curled, the little one spread.
+Posture curled(double curl_deg, double spread_deg) {
+  const double radians_per_degree = std::numbers::pi / 180.0;
+  Posture posture;
+  for (const Dof dof : {Dof::kIndexMcpFlexion, Dof::kIndexPipFlexion, Dof::kMiddleMcpFlexion,
+                        Dof::kMiddlePipFlexion, Dof::kRingMcpFlexion, Dof::kRingPipFlexion}) {
+    posture[dof] = curl_deg * radians_per_degree;
+  }
+  posture[Dof::kLittleMcpAbduction] = spread_deg * radians_per_degree;
+  return posture;
+}
+
+TEST_F(TemplateDimensions, WebsStayInPlaceWhereOtherFingersReachFarther) {
+  // A web is where the same skin was in the reference posture, give or take what the palm folds.
+  const HandCreases reference(hand().skin, hand().skeleton);
+  std::array<std::size_t, 4> vertex{};
+  for (int k = 0; k < 4; ++k) {
+    const auto& all = hand().skin.vertices;
+    const auto nearest =
+        std::min_element(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) {
+          return (a - reference.web(k)).norm() < (b - reference.web(k)).norm();
+        });
+    vertex[k] = static_cast<std::size_t>(nearest - all.begin());
+  }
+  for (const double curl : {0.0, 20.0, 40.0, 60.0}) {
+    for (const double spread : {-25.0, 0.0, 25.0}) {
+      const Posture posture = curled(curl, spread);
+      TriangleMesh skin = hand().skin;
+      skin.vertices = pose_skin(hand(), posture);
+      const HandCreases creases(skin, skeleton_in_posture(hand().skeleton, posture));
+      for (const int k : {0, 1, 2, 3}) {
+        EXPECT_LT((creases.web(k) - skin.vertices[vertex[k]]).norm(), k == 0 ? 15.0 : 12.0)
+            << "web " << k << ", curl " << curl << ", spread " << spread << " deg";
+      }
+    }
+  }
 }
 
 TEST_F(TemplateDimensions, TapeIsNoShorterThanTheStraightLine) {

@@ -21,6 +21,7 @@ constexpr double kThumbIpShare = 0.13;     // of the thumb's proximal phalanx: 4
 constexpr double kTransverse = 9.0;        // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
 constexpr double kAboveWeb = 1.5;          // mm; keeps the base crease a loop around one finger
 constexpr double kHighestWeb = 0.7;        // of the proximal phalanx; webs reach 0.35 to 0.5
+constexpr double kStraight = 0.87;         // cosine; from 30 deg on a finger is bent
 constexpr double kBehindWeb = 6.0;         // mm; where palmar skin ends on the first web
 constexpr double kWebWeight = 0.3;         // against the rays; small: the border bends gently
 constexpr double kWristToMcpOf185 = 90.0;  // mm, hand of 185 mm
@@ -218,14 +219,27 @@ double HandCreases::palmar_height(const Vec3& point) const {
 Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distance) const {
   const Ray& a = ray_[k];
   const Ray& b = ray_[k + 1];
-  const Vec3 distal =
-      ((a.node[3] - a.node[2]).normalized() + (b.node[3] - b.node[2]).normalized()).normalized();
+  // A bent finger's middle phalanx doesn't look the way its web lies.
+  const auto direction = [](const Ray& ray) {
+    const Vec3 proximal = (ray.node[2] - ray.node[1]).normalized();
+    const Vec3 middle = (ray.node[3] - ray.node[2]).normalized();
+    return middle.dot(proximal) > kStraight ? middle : proximal;
+  };
+  const Vec3 distal = (direction(a) + direction(b)).normalized();
   const Vec3 foot = 0.5 * (a.node[1] + b.node[1]);
   // Fingers that touch farther out make no web there. The first web is no cleft between phalanges.
   const double highest_web = k == 0 ? std::numeric_limits<double>::max()
                                     : kHighestWeb * std::min((a.node[2] - a.node[1]).norm(),
                                                              (b.node[2] - b.node[1]).norm());
   const auto nearer = [&](std::size_t i) { return distance.of(k, i) - distance.of(k + 1, i); };
+  // Half way between these two there may be another finger, in a curled hand: not their web.
+  const auto is_others = [&](std::size_t i) {
+    const double own = std::min(distance.of(k, i), distance.of(k + 1, i));
+    for (int f = 0; f < kFingerCount; ++f) {
+      if (f != k && f != k + 1 && distance.of(f, i) < own) return true;
+    }
+    return false;
+  };
   std::vector<double> level;  // of the vertices; no point of an edge lies higher than its ends
   level.reserve(skin.vertices.size());
   for (const Vec3& v : skin.vertices) level.push_back(distal.dot(v - foot));
@@ -246,7 +260,7 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
         const double s = a_nearer / (a_nearer - b_nearer);
         const Vec3 p = (1.0 - s) * skin.vertices[i] + s * skin.vertices[j];
         const double height = distal.dot(p - foot);
-        if (height <= best || height > highest_web) continue;
+        if (height <= best || height > highest_web || is_others(i) || is_others(j)) continue;
         best = height;
         web = p;
       }
