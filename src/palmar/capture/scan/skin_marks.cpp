@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <queue>
 
 #include "palmar/capture/picture_vectors.h"
 #include "palmar/core/error.h"
@@ -34,6 +37,8 @@ Vec2 chromaticity(const Srgb& colour) {
 double turn_between(const Vec2& a, const Vec2& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
+
+constexpr double kWidestLine = 4.0;  // mm
 
 constexpr std::array<const char*, 2> kInkName{"crease", "dot"};
 
@@ -93,6 +98,33 @@ std::vector<std::vector<int>> patches(const std::vector<std::vector<int>>& neigh
     result.push_back(std::move(patch));
   }
   return result;
+}
+
+/// Whether a third of a patch lies farther from its rim, along its edges, than half a line's
+/// greatest width does: a strap or a sleeve, no stroke of a pen.
+bool is_band(const std::vector<int>& patch, const std::vector<char>& is_in,
+             const TriangleMesh& mesh, const std::vector<std::vector<int>>& neighbours,
+             const std::vector<double>& area) {
+  std::map<int, double> depth;
+  using Open = std::pair<double, int>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  for (const int v : patch) {
+    const auto& around = neighbours[v];
+    const bool is_rim = std::any_of(around.begin(), around.end(), [&](int n) { return !is_in[n]; });
+    if (is_rim) open.emplace(0.0, v);
+  }
+  double whole = 0.0, deep = 0.0;
+  while (!open.empty()) {
+    const auto [at, v] = open.top();
+    open.pop();
+    if (!depth.emplace(v, at).second) continue;
+    whole += area[v];
+    if (at > 0.5 * kWidestLine) deep += area[v];
+    for (const int n : neighbours[v]) {
+      if (is_in[n]) open.emplace(at + (mesh.vertices[n] - mesh.vertices[v]).norm(), n);
+    }
+  }
+  return deep > whole / 3.0;
 }
 
 /// Share of a patch's neighbours that are guesses.
@@ -192,6 +224,7 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
     constexpr double kMuch = 0.4;  // of what lies round a mark may be a guess
     const double dot_area = 0.25 * std::numbers::pi * options.dot_diameter * options.dot_diameter;
     int odd = 0, unseen = 0;
+    double band = 0.0;  // mm^2
     for (const std::vector<int>& patch : patches(neighbours, is_in)) {
       if (rim_unseen(patch, is_in, neighbours, mesh.is_guess) > kMuch) {
         ++unseen;
@@ -208,7 +241,10 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
         sum += w * blot.point.back();
         weights += w;
       }
-      if (ink == 1) {
+      if (is_band(patch, is_in, mesh.mesh, neighbours, area)) {
+        band += blot.area;
+        for (const int v : patch) marks.is_ink[v] = 0;  // another colour
+      } else if (ink == 1) {
         if (blot.area < dot_area / 3.0 || blot.area > 3.0 * dot_area) {
           ++odd;
         } else {
@@ -223,6 +259,15 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
           "{} blots in the {} colour end where no photograph saw the skin, as the backdrop's "
           "colour does, and are left out.",
           unseen, kInkName[ink] + std::string("s'")));
+    }
+    if (band > 0.0) {
+      marks.notes.push_back(
+          fmt::format("{:.0f} mm2 in the {} colour are wider than a drawn line ({:.0f} mm), as a "
+                      "watch's strap, "
+                      "a bracelet or a sleeve is, and are left out: take such things off, they "
+                      "hide the wrist's "
+                      "crease.",
+                      band, kInkName[ink] + std::string("s'"), kWidestLine));
     }
     if (odd > 0) {
       marks.notes.push_back(fmt::format(

@@ -67,6 +67,9 @@ struct SkinMarks {
 /// direction. Connected vertices with a share of `least_share` or more make one mark; a dot's
 /// centre is the mean by area and share.
 ///
+/// What is in an ink's colour and wider than 4 mm over a third of its area or more is neither line
+/// nor dot (a watch's strap is dark, as ink is); it belongs to `other_colour`, and a note says so.
+///
 /// Vertices that are guesses bear no ink, and what is drawn as far as where guesses begin is taken
 /// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws
 /// InputError "`name`: ..." if an ink can't be distinguished from this skin or from the other ink,

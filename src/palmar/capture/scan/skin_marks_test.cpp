@@ -97,6 +97,22 @@ TEST(SkinMarks, WhatNobodySawBearsNone) {
   EXPECT_NE(find_skin_marks(ball, "ball").notes, marks.notes);
 }
 
+TEST(SkinMarks, AStrapIsNoLine) {
+  // Some 10 mm wide; the chromaticity of dark grey lies on the way from skin to green, or blue.
+  for (const Srgb& strap : {Srgb(0.10F, 0.11F, 0.10F), Srgb(0.12F, 0.40F, 0.22F)}) {
+    ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
+    for (std::size_t v = 0; v < ball.colour.size(); ++v) {
+      if (std::abs(ball.mesh.vertices[v].z() + 12.0) < 4.0) ball.colour[v] = strap;
+    }
+    const SkinMarks marks = find_skin_marks(ball, "ball");
+    for (const InkLine& line : marks.lines) {
+      for (const Vec3& p : line.point) EXPECT_NEAR(p.z(), 12.0, 0.8);
+    }
+    ASSERT_EQ(marks.other_colour.size(), 1U);
+    EXPECT_GT(marks.other_colour.front().size(), ball.colour.size() / 6);
+  }
+}
+
 TEST(SkinMarks, NamesInksThatCannotBeDistinguished) {
   const Srgb skin{0.80F, 0.60F, 0.50F};
   const ColouredMesh ball = painted_ball(skin, {}, 0.9);
