@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "palmar/formats/mesh/texture_file.h"
 #include "run_program.h"
 
 // `palmar hand quick` on photographs of `palmar phantom sheet`, whose persons aren't Palmar's
@@ -89,6 +92,46 @@ TEST_F(QuickCommand, ReportsAHandBesideACard) {
   EXPECT_EQ(reported.at("side"), "right");
   EXPECT_EQ(reported.at("photograph").at("focal_from"), "camera");
   expect_true(reported, "card");
+}
+
+/// By boxes of three widths one after the other, which is near to a bell of that deviation, pixels.
+RgbImage blurred(RgbImage image, double deviation) {
+  const int reach =
+      static_cast<int>(std::lround(0.5 * (std::sqrt(4.0 * deviation * deviation + 1.0) - 1.0)));
+  for (int pass = 0; pass < 6; ++pass) {
+    const RgbImage before = image;
+    const bool is_across = pass % 2 == 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          int sum = 0;
+          for (int k = -reach; k <= reach; ++k) {
+            const int at_x = std::clamp(is_across ? x + k : x, 0, image.width - 1);
+            const int at_y = std::clamp(is_across ? y : y + k, 0, image.height - 1);
+            sum += before.rgb[3 * (static_cast<std::size_t>(at_y) * image.width + at_x) + c];
+          }
+          image.rgb[3 * (static_cast<std::size_t>(y) * image.width + x) + c] =
+              static_cast<std::uint8_t>(std::lround(static_cast<double>(sum) / (2 * reach + 1)));
+        }
+      }
+    }
+  }
+  return image;
+}
+
+TEST_F(QuickCommand, BlurIsNamedBeforeItIsMeasured) {
+  for (const std::string name : {"sheet", "card"}) {
+    const RgbImage sharp =
+        read_texture(read_text(folder() + "/" + name + "/photo.jpg"), "photo.jpg");
+    // 1.7 pixels a millimetre: deviations of 0.9 and 2 mm.
+    for (const double pixels : {1.5, 3.5}) {
+      const std::string file = name + "-blurred.png";
+      write_text(folder() + "/" + file, format_png(blurred(sharp, pixels)));
+      const std::string card = name == "card" ? " --sheet card" : "";
+      expect_refused(file + card, 3,
+                     file + ": the photograph is blurred: the sharpest edge of the " + name);
+    }
+  }
 }
 
 TEST_F(QuickCommand, SaysWhatIsWrong) {

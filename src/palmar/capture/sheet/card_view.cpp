@@ -171,8 +171,13 @@ std::optional<std::array<Vec2, 4>> corners_of(const Part& part) {
 }
 
 /// The card's four edges in the whole picture.
-std::array<FittedLine, 4> edges_of(const RgbImage& image, const std::array<Vec2, 4>& corner,
-                                   const OffTable& off, int by, const std::string& name) {
+struct CardEdges {
+  std::array<FittedLine, 4> line;
+  double width = std::numeric_limits<double>::infinity();  ///< of the sharpest, mm (edge_width())
+};
+
+CardEdges edges_of(const RgbImage& image, const std::array<Vec2, 4>& corner, const OffTable& off,
+                   int by, const std::string& name) {
   const int width = off.grid.size[0], height = off.grid.size[1];
   const auto differs = [&](const Vec2& at) {
     const Vec3f colour = pixel_colour(image, at);
@@ -183,7 +188,9 @@ std::array<FittedLine, 4> edges_of(const RgbImage& image, const std::array<Vec2,
     for (int c = 0; c < 3; ++c) light[c] = linear_light(colour[c]);
     return 255.0 * static_cast<double>((light - table).norm());
   };
-  std::array<FittedLine, 4> lines;
+  CardEdges edges;
+  const double pixel = std::sqrt(card_format().width * card_format().height /
+                                 std::abs(area_of({corner.begin(), corner.end()})));  // mm
   for (std::size_t e = 0; e < 4; ++e) {
     const Vec2 &from = corner[e], &to = corner[(e + 1) % 4];
     const Vec2 inwards = Vec2(from.y() - to.y(), to.x() - from.x()).normalized();
@@ -192,18 +199,21 @@ std::array<FittedLine, 4> edges_of(const RgbImage& image, const std::array<Vec2,
       inside.push_back(differs(from + (0.1 + 0.8 * k / 59.0) * (to - from) + 8.0 * inwards));
     }
     std::nth_element(inside.begin(), inside.begin() + 30, inside.end());
+    const double rise = std::max(4.0, 0.35 * inside[30]);
     const SeenLine line = line_through(edge_points(
-        differs, from, to,
-        {.reach = 3.0 * by + 8.0, .rise = std::max(4.0, 0.35 * inside[30]), .from_corner = 0.1}));
+        differs, from, to, {.reach = 3.0 * by + 8.0, .rise = rise, .from_corner = 0.1}));
+    const auto sharpness = edge_width(
+        differs, from, to, {.reach = kSharpnessReach / pixel, .rise = rise, .from_corner = 0.15});
+    if (sharpness) edges.width = std::min(edges.width, *sharpness * pixel);
     if (line.points < kCardEdge * kEdgePlaces) {
       fail_card(name, fmt::format("an edge of the card, from pixel ({:.0f}, {:.0f}) to ({:.0f}, "
                                   "{:.0f}), isn't seen well: {} of {} places on it; {}",
                                   from.x(), from.y(), to.x(), to.y(), line.points, kEdgePlaces,
                                   kCardAdvice));
     }
-    lines[e] = line.line;
+    edges.line[e] = line.line;
   }
-  return lines;
+  return edges;
 }
 
 }  // namespace
@@ -247,7 +257,7 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   }
   const auto whole = [&](const Vec2& p) { return Vec2(by * p + Vec2::Constant(0.5 * (by - 1))); };
   for (Vec2& c : corner) c = whole(c);
-  const std::array<FittedLine, 4> lines = edges_of(image, corner, off, by, name);
+  const auto [lines, width] = edges_of(image, corner, off, by, name);
   for (std::size_t e = 0; e < 4; ++e) {
     const FittedLine &before = lines[(e + 3) % 4], &after = lines[e];
     const auto at = meeting(before.point, before.point + before.direction, after.point,
@@ -302,6 +312,8 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
                                 "to {:.0f} is allowed: hold the camera above the hand",
                                 view.tilt, options.most_tilt));
   }
+  if (const auto why = blurred(width, view.eye.norm() / focal, "card")) fail_card(name, *why);
+  view.edge_width = width;
   view.corner = corner;
   view.edge_error = pose.misfit * view.eye.norm() / focal;
   const Eigen::Matrix3d turned_from_pixel = view.pixel_from_sheet.inverse();

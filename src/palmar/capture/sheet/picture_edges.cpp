@@ -8,6 +8,7 @@
 
 #include "palmar/capture/photo/photo_view.h"
 #include "palmar/capture/picture_vectors.h"
+#include "palmar/statistics/median.h"
 
 namespace palmar {
 namespace {
@@ -85,11 +86,16 @@ double area_of(const std::vector<Vec2>& polygon) {
   return area;
 }
 
-std::vector<Vec2> edge_points(const std::function<double(const Vec2&)>& brightness,
-                              const Vec2& from, const Vec2& to, const EdgeSearch& search) {
+namespace {
+
+/// The profiles of an edge, from outside to inside in steps of a pixel: `visit` gets the middle of
+/// each, the direction inwards and the brightness.
+void visit_profiles(
+    const std::function<double(const Vec2&)>& brightness, const Vec2& from, const Vec2& to,
+    const EdgeSearch& search,
+    const std::function<void(const Vec2&, const Vec2&, const std::vector<double>&)>& visit) {
   const Vec2 along = (to - from).normalized();
   const Vec2 inwards(-along.y(), along.x());  // corners go round clockwise in the picture
-  std::vector<Vec2> points;
   const int steps = static_cast<int>(std::ceil(2.0 * search.reach)) + 1;
   std::vector<double> value(steps);
   for (int k = 0; k < kEdgePlaces; ++k) {
@@ -102,28 +108,70 @@ std::vector<Vec2> edge_points(const std::function<double(const Vec2&)>& brightne
       for (const double aside : {-1.0, 0.0, 1.0}) sum += brightness(at + aside * along);
       value[i] = sum / 3.0;
     }
-    // The steepest rise over a few pixels; dark before, bright behind.
-    constexpr int kBaseline = 4;
-    int best = -1;
-    double rise = search.rise;
-    for (int i = kBaseline; i + kBaseline < steps; ++i) {
-      const double r = value[i + kBaseline] - value[i - kBaseline];
-      if (r > rise) {
-        rise = r;
-        best = i;
-      }
-    }
-    if (best < 0) continue;
-    const double half = 0.5 * (value[best + kBaseline] + value[best - kBaseline]);
-    for (int i = best - kBaseline; i < best + kBaseline; ++i) {
-      const double a = value[i], b = value[i + 1];
-      if (a <= half && b > half) {
-        points.push_back(middle + (i + (half - a) / (b - a) - 0.5 * (steps - 1)) * inwards);
-        break;
-      }
-    }
+    visit(middle, inwards, value);
   }
+}
+
+}  // namespace
+
+std::vector<Vec2> edge_points(const std::function<double(const Vec2&)>& brightness,
+                              const Vec2& from, const Vec2& to, const EdgeSearch& search) {
+  std::vector<Vec2> points;
+  visit_profiles(
+      brightness, from, to, search,
+      [&](const Vec2& middle, const Vec2& inwards, const std::vector<double>& value) {
+        const int steps = static_cast<int>(value.size());
+        // The steepest rise over a few pixels; dark before, bright behind.
+        constexpr int kBaseline = 4;
+        int best = -1;
+        double rise = search.rise;
+        for (int i = kBaseline; i + kBaseline < steps; ++i) {
+          const double r = value[i + kBaseline] - value[i - kBaseline];
+          if (r > rise) {
+            rise = r;
+            best = i;
+          }
+        }
+        if (best < 0) return;
+        const double half = 0.5 * (value[best + kBaseline] + value[best - kBaseline]);
+        for (int i = best - kBaseline; i < best + kBaseline; ++i) {
+          const double a = value[i], b = value[i + 1];
+          if (a <= half && b > half) {
+            points.push_back(middle + (i + (half - a) / (b - a) - 0.5 * (steps - 1)) * inwards);
+            break;
+          }
+        }
+      });
   return points;
+}
+
+std::optional<double> edge_width(const std::function<double(const Vec2&)>& brightness,
+                                 const Vec2& from, const Vec2& to, const EdgeSearch& search) {
+  std::vector<double> widths;
+  visit_profiles(
+      brightness, from, to, search,
+      [&](const Vec2&, const Vec2&, const std::vector<double>& value) {
+        // Levels well outside and well inside.
+        const auto quarter = static_cast<std::ptrdiff_t>(value.size() / 4);
+        const double low = median(std::vector<double>(value.begin(), value.begin() + quarter)),
+                     high = median(std::vector<double>(value.end() - quarter, value.end()));
+        if (high - low < search.rise) return;
+        // The last place below a tenth before the first one above nine tenths.
+        const double tenth = low + 0.1 * (high - low), most = low + 0.9 * (high - low);
+        std::size_t end = 1;
+        while (end < value.size() && value[end] < most) ++end;
+        if (end == value.size()) return;
+        std::size_t begin = end;
+        while (begin > 0 && value[begin - 1] > tenth) --begin;
+        if (begin == 0) return;
+        const double at_end =
+            static_cast<double>(end) - (value[end] - most) / (value[end] - value[end - 1]);
+        const double at_begin =
+            static_cast<double>(begin) - (value[begin] - tenth) / (value[begin] - value[begin - 1]);
+        widths.push_back(at_end - at_begin);
+      });
+  if (widths.size() < kEdgePlaces / 4) return {};
+  return median(std::move(widths));
 }
 
 SeenLine line_through(const std::vector<Vec2>& points) {

@@ -41,6 +41,13 @@ std::vector<Eigen::Vector2d> edge_points(
     const std::function<double(const Eigen::Vector2d&)>& brightness, const Eigen::Vector2d& from,
     const Eigen::Vector2d& to, const EdgeSearch& search);
 
+/// Over how far the brightness goes from a tenth to nine tenths of the way from outside to inside,
+/// pixels: the median of the places of an edge; nothing if fewer than a quarter of them show a
+/// rise.
+std::optional<double> edge_width(const std::function<double(const Eigen::Vector2d&)>& brightness,
+                                 const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                 const EdgeSearch& search);
+
 struct SeenLine {
   FittedLine line;
   int points = 0;  ///< that lie on it within 2 pixels

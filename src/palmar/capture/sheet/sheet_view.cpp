@@ -295,11 +295,34 @@ SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by
                      "is allowed: hold the camera above the hand",
                      view.tilt, options.most_tilt));
   }
-  view.edge_error = std::sqrt(error) * view.eye.norm() / view.focal;
+  const double pixel = view.eye.norm() / view.focal;  // mm
+  view.edge_error = std::sqrt(error) * pixel;
+  view.edge_width = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < 4; ++e) {
+    const auto sharpness = edge_width([&](const Vec2& at) { return grey_at(image, at); },
+                                      view.corner[e], view.corner[(e + 1) % 4],
+                                      {.reach = kSharpnessReach / pixel, .from_corner = 0.1});
+    if (sharpness) view.edge_width = std::min(view.edge_width, *sharpness * pixel);
+  }
+  if (const auto why = blurred(view.edge_width, pixel, "sheet")) fail(name, *why);
   return view;
 }
 
 }  // namespace
+
+std::optional<std::string> blurred(double edge_width, double pixel, const std::string& what) {
+  const double allowed = std::max(kWidestEdge, kSharpPixels * pixel);
+  if (edge_width <= allowed) return {};
+  const std::string measured = std::isfinite(edge_width)
+                                   ? fmt::format("{:.1f} mm", edge_width)
+                                   : fmt::format("more than {:.0f} mm", kSharpnessReach);
+  return fmt::format(
+      "the photograph is blurred: the sharpest edge of the {} goes from dark to bright over {}; up "
+      "to {:.1f} mm is "
+      "allowed, as blur makes a hand broader: hold the camera still, let it focus, and have more "
+      "light",
+      what, measured, allowed);
+}
 
 const std::vector<SheetFormat>& sheet_formats() {
   static const std::vector<SheetFormat> all = {{"a4", 210.0, 297.0}, {"letter", 215.9, 279.4}};

@@ -40,6 +40,8 @@ struct SheetView {
   double focal = 0.0;        ///< pixels, as taken for `eye`
   std::string focal_source;  ///< "camera", "sheet", "usual"
   double edge_error = 0.0;   ///< of the edges from straight lines, RMS, mm
+  double edge_width =
+      0.0;  ///< of the sharpest edge: from a tenth to nine tenths of the brightness, mm
   double scale_error = 0.0;  ///< of lengths of a hand on it, deviation, as a share
 
   Eigen::Vector2d pixel_of(const Eigen::Vector2d& sheet) const;
@@ -56,11 +58,21 @@ struct SheetOptions {
   void check() const;                 ///< throws UsageError: field, value, allowed range
 };
 
+/// A sharp photograph shows an edge within a few tenths of a millimetre; blur makes hands broader.
+inline constexpr double kWidestEdge = 1.5;  ///< mm
+/// How far off an edge its sharpness is measured.
+inline constexpr double kSharpnessReach = 3.0;  ///< mm
+/// An edge that falls between pixels is so wide all the same.
+inline constexpr double kSharpPixels = 2.6;
+/// What is said of a wider edge of a "sheet" or "card", in mm as the size of a pixel; infinite:
+/// wider than the reach. Nothing of a sharp one.
+std::optional<std::string> blurred(double edge_width, double pixel, const std::string& what);
+
 /// Finds the sheet: the largest part of the picture that is as bright and as grey as its brightest,
 /// bounded by four straight edges (of which a hand may cross one); corners where the edges' lines
 /// meet. The lens has its axis in the picture's middle, square pixels and no distortion. Throws
 /// InputError `name`: no sheet, not all of it in the picture, hidden edges, too oblique, A4 and
-/// letter not distinguished.
+/// letter not distinguished, blurred.
 SheetView find_sheet(const RgbImage& image, const std::string& name,
                      const SheetOptions& options = {});
 
