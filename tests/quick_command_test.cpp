@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "palmar/formats/image/exif.h"
 #include "palmar/formats/mesh/texture_file.h"
 #include "run_program.h"
 
@@ -130,6 +131,25 @@ TEST_F(QuickCommand, BlurIsNamedBeforeItIsMeasured) {
       const std::string card = name == "card" ? " --sheet card" : "";
       expect_refused(file + card, 3,
                      file + ": the photograph is blurred: the sharpest edge of the " + name);
+    }
+  }
+}
+
+TEST_F(QuickCommand, ACroppedPhotographIsNamed) {
+  const RgbImage whole = read_texture(read_text(folder() + "/sheet/photo.jpg"), "photo.jpg");
+  const PhotoExif camera{"Maker", 4.2, 26.0, 714.286, 960, 720};
+  for (const int cut : {0, 60}) {  // rows at the lower edge
+    RgbImage image = whole;
+    image.height -= cut;
+    image.rgb.resize(3 * static_cast<std::size_t>(image.width) * image.height);
+    write_text(folder() + "/cropped.jpg", format_jpeg(image, 90, format_exif(camera)));
+    const ProgramRun run = run_palmar("hand quick cropped.jpg --out cropped.hand.glb", folder());
+    if (cut == 0) {
+      EXPECT_THAT(run.err, ::testing::Not(HasSubstr("cropped, and")));
+    } else {
+      EXPECT_EQ(run.exit_code, 3);
+      EXPECT_THAT(run.err, HasSubstr("cropped.jpg: has 720 x 900 pixels, but the camera took 960 "
+                                     "x 720: it is cropped"));
     }
   }
 }

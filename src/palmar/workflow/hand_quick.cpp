@@ -37,6 +37,12 @@ PhotographedHand photographed(const HandQuickRequest& request) {
   sheet.most_tilt = kMostTilt;
   if (!request.sheet.empty()) sheet.format = sheet_format_named(request.sheet);
   if (const auto exif = read_exif(bytes)) {
+    if (exif->is_cropped(result.image.width, result.image.height)) {
+      throw InputError(fmt::format(
+          "{}: has {} x {} pixels, but the camera took {} x {}: it is cropped, and where the lens "
+          "looked isn't known any more; take the photograph as the camera wrote it",
+          request.photo, result.image.width, result.image.height, exif->width, exif->height));
+    }
     sheet.focal = exif->focal_pixels(result.image.width, result.image.height);
   }
   const bool is_card = sheet.format && sheet.format->name == card_format().name;

@@ -181,6 +181,15 @@ std::optional<double> PhotoExif::focal_pixels(int picture_width, int picture_hei
   return {};
 }
 
+bool PhotoExif::is_cropped(int picture_width, int picture_height) const {
+  if (width <= 0 || height <= 0 || picture_width <= 0 || picture_height <= 0) return false;
+  // Pictures are turned upright after they were taken.
+  const auto proportion = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
+  const double taken = proportion(width, height);
+  constexpr double kRounding = 0.01;
+  return std::abs(proportion(picture_width, picture_height) - taken) > kRounding * taken;
+}
+
 std::optional<PhotoExif> read_exif(std::string_view jpeg) {
   if (!jpeg.starts_with("\xff\xd8")) return {};
   const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(jpeg[at]); };

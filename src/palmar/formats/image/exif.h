@@ -19,6 +19,10 @@ struct PhotoExif {
   /// Focal length in pixels of a picture of this size; nothing if the camera doesn't say enough.
   /// Good to a few percent: lenses say round numbers, and focusing near by changes them.
   std::optional<double> focal_pixels(int picture_width, int picture_height) const;
+
+  /// Whether a picture of this size has other proportions than what left the camera, by more than
+  /// rounding to pixels does: then the lens' axis isn't in its middle any more.
+  bool is_cropped(int picture_width, int picture_height) const;
 };
 
 /// The data of a JPEG file, of which the first 64 KB suffice; nothing if there are none. Damaged

@@ -56,6 +56,18 @@ TEST(Exif, FocalLengthBySensor) {
   EXPECT_DOUBLE_EQ(*exif.focal_pixels(1000, 1500), 1750.0);  // turned and made smaller
 }
 
+TEST(Exif, ACroppedPictureHasOtherProportions) {
+  PhotoExif exif;
+  EXPECT_FALSE(exif.is_cropped(100, 300)) << "nothing is known";
+  exif.width = 4032;
+  exif.height = 3024;
+  EXPECT_FALSE(exif.is_cropped(4032, 3024));
+  EXPECT_FALSE(exif.is_cropped(1008, 1344)) << "turned and made smaller";
+  EXPECT_FALSE(exif.is_cropped(1000, 751)) << "rounded";
+  EXPECT_TRUE(exif.is_cropped(4032, 2800));
+  EXPECT_TRUE(exif.is_cropped(3024, 3024));
+}
+
 TEST(Exif, WhatIsWrittenIsRead) {
   const PhotoExif exif{"Maker C-1 77", 4.2, 26.0, 714.286, 4032, 3024};
   const std::string segment = format_exif(exif);
