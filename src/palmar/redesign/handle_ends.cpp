@@ -129,6 +129,16 @@ std::array<double, 2> other_ends(const HandleBody& body) {
   return lengths;
 }
 
+std::array<double, 2> kept_lengths(const HandleBody& body) {
+  const std::array<double, 2> other = other_ends(body);
+  std::array<double, 2> kept = {0.0, 0.0};
+  for (const std::size_t end : {0, 1}) {
+    if (other[end] == 0.0) continue;
+    kept[end] = std::max({0.0, other[end] - 0.5 * kShapeBlend, neck_length(body, end == 1)});
+  }
+  return kept;
+}
+
 HandleOutlines distances_to_faces(const HandleBody& body, const Product& product,
                                   const KeepOut& keep_out) {
   const std::vector<unsigned char> is_kept = kept_face_triangles(product, keep_out);

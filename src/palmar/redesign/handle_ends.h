@@ -21,6 +21,10 @@ std::array<double, 2> gripped_length(const HandleBody& body, const HandsOnHandle
 /// or thicker than the middle half of the grip continued is something else even where hands press.
 std::array<double, 2> other_ends(const HandleBody& body);
 
+/// Of other_ends(), over which the outline is wholly kept, mm: the features begin over kShapeBlend
+/// about the end of the grip, but not on a neck, on which fingers may lie.
+std::array<double, 2> kept_lengths(const HandleBody& body);
+
 /// Distance from every place of the body's outlines to the faces of `keep_out`, in place of radii,
 /// mm, up to 30. Throws UsageError on a face that doesn't exist or doesn't lie on the handle.
 HandleOutlines distances_to_faces(const HandleBody& body, const Product& product,
