@@ -78,6 +78,14 @@ TEST(OtherEnds, AFootAndAWaistedNeckAreNotTheHandle) {
   EXPECT_EQ(held_neck, (std::array<double, 2>{0.0, 30.0}));
 }
 
+TEST(OtherEnds, ANeckIsAsLongHoweverMuchOfItIsGripped) {
+  HandleBody body = bar([](double z, double) { return z > 9.0 ? 8.0 : 15.0 + 0.05 * z; });
+  for (const double high : {20.0, 30.0, 50.0}) {
+    body.gripped = {-55.0, high};
+    EXPECT_EQ(other_ends(body), (std::array<double, 2>{0.0, 50.0})) << high;
+  }
+}
+
 TEST(KeptLengths, LeaveHalfOfTheRunOutToTheGripButNoneOfANeck) {
   const auto foot = kept_lengths(bar(
       [](double z, double phi) { return 15.0 + (z < -45.0 && std::cos(phi) > 0.5 ? 6.0 : 0.0); }));
