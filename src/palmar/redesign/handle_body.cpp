@@ -29,7 +29,6 @@ constexpr double kInside = 0.02;          // mm; of the first section from a fla
 constexpr double kFlatWithin = 0.05;      // mm; a plane's vertices lie within
 constexpr double kParallel = 0.9998;      // cosine of 1 degree
 constexpr double kLeanest = 0.75;         // cosine of 41 degrees, of a flat end against the axis
-constexpr double kRunOut = 14.0;          // mm
 constexpr double kHidden = 0.1;           // share of directions in which an outline is met twice
 
 /// The largest plane of a mesh that looks along `axis` and has all of the mesh behind it.
@@ -203,12 +202,11 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
 
 /// Takes what isn't the handle from a part's body.
 void leave_other_ends(const Product& product, const ProductPart& part, HandleBody& body) {
-  const std::array<double, 2> other = other_ends(body);
-  const double within = 0.5 * body.run_out;  // the shape runs out about the end of the grip
-  if (other[0] > within) body.bottom += other[0] - within;
-  if (other[1] > within) body.top -= other[1] - within;
+  const std::array<double, 2> other = other_ends(body), kept = kept_lengths(body);
+  body.bottom += kept[0];
+  body.top -= kept[1];
   for (const std::size_t end : {0, 1}) body.is_free[end] = body.is_free[end] && other[end] == 0.0;
-  if (other[0] > within || other[1] > within) take_sections(product, part, body);
+  if (kept[0] > 0.0 || kept[1] > 0.0) take_sections(product, part, body);
 }
 
 /// Radius of the rounding of the edges at flat ends, by how much the section next to the end is
@@ -284,7 +282,7 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   }
   body.product_from_handle = frame_along(hands.place, axis, hands.palm);
   if (!body.is_whole) {
-    body.run_out = kRunOut;
+    body.run_out = kShapeBlend;
     const PartEnd& low = part.ends[is_forward ? 0 : 1];
     const PartEnd& high = part.ends[is_forward ? 1 : 0];
     body.is_free = {!low.joined, !high.joined};

@@ -12,6 +12,9 @@
 
 namespace palmar {
 
+/// Over which the features begin beside what is kept, mm; our choice.
+inline constexpr double kShapeBlend = 14.0;
+
 /// The outlines of a handle across its length, by polar radius about its centre line.
 struct HandleOutlines {
   std::vector<double> z;                    ///< ascending, evenly, mm
@@ -62,19 +65,21 @@ struct HandsOnHandle {
 };
 
 /// Of a part of a product only the gripped length is shaped, and 7 mm more: where its ends are
-/// something else (other_ends()) they are left to the product; with `takes_all` they are not.
+/// something else (kept_lengths()) they are left to the product; with `takes_all` they are not.
 /// Throws UsageError naming the product if the part can't be shaped: no bar, a ring, bent by more
 /// than its own thickness, or with sections that aren't seen whole from the centre line.
 HandleBody measure_handle(const Product& product, const ProductPart& part,
                           const HandsOnHandle& hands, bool takes_all = false);
 
-/// The features that come nearest to what the handle is now: half axes and taper by extents,
-/// squareness by area, turn by principal axes; all swells 0. Root mean square of the distance to
-/// the outlines beside it, mm.
+/// The features that come nearest to what the handle is now, where they are wholly there: outside
+/// of `kept_ends` (HandleShape) and of what runs out. Half axes by extents (of a section that fills
+/// less than an ellipse, a fluted one, by area), taper by mean radii, squareness by area, turn by
+/// principal axes; all swells 0. Root mean square of the distance to the outlines beside it, mm.
 struct FittedFeatures {
   HandleFeatures features;
   double rms = 0.0;
 };
-FittedFeatures fit_features(const HandleBody& body);
+FittedFeatures fit_features(const HandleBody& body,
+                            const std::array<double, 2>& kept_ends = {0.0, 0.0});
 
 }  // namespace palmar

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "palmar/core/error.h"
@@ -35,16 +36,15 @@ double quantile_of(std::vector<std::pair<double, double>>& pressures, double sha
   return pressures.back().first;
 }
 
-/// Radii as straight lines along z, one for every direction, fitted between two z.
+/// Radii as straight lines along z, one for every direction, through some of the sections.
 struct StraightOutlines {
   std::vector<double> at_zero, slope;
 
-  StraightOutlines(const HandleOutlines& outlines, double low, double high) {
+  StraightOutlines(const HandleOutlines& outlines, const std::vector<std::size_t>& sections) {
     for (int k = 0; k < outlines.columns; ++k) {
       double n = 0.0, z1 = 0.0, z2 = 0.0, r1 = 0.0, zr = 0.0;
-      for (std::size_t j = 0; j < outlines.z.size(); ++j) {
+      for (const std::size_t j : sections) {
         const double z = outlines.z[j], r = outlines.radius[j][static_cast<std::size_t>(k)];
-        if (z < low || z > high) continue;
         n += 1.0;
         z1 += z;
         z2 += z * z;
@@ -70,13 +70,41 @@ struct StraightOutlines {
   }
 };
 
-/// Length of the top (or the bottom) over which the handle is a quarter thinner or thicker than its
-/// middle continued: a neck, even if fingers lie on it.
+constexpr double kAnother = 0.25;  // of a mean radius; what is so much off is no handle
+
+std::vector<std::size_t> sections_between(const HandleOutlines& outlines, double low, double high) {
+  std::vector<std::size_t> sections;
+  for (std::size_t j = 0; j < outlines.z.size(); ++j) {
+    if (outlines.z[j] >= low && outlines.z[j] <= high) sections.push_back(j);
+  }
+  return sections;
+}
+
+/// The gripped sections that are of the handle itself: about as thick as the median one. Where
+/// fingers lie on a neck the grip has others, too.
+std::vector<std::size_t> sections_of_handle(const HandleBody& body) {
+  std::vector<std::size_t> sections =
+      sections_between(body.outlines, body.gripped[0], body.gripped[1]);
+  if (sections.empty()) return sections;
+  const auto thickness = [&](std::size_t j) {
+    const std::vector<double>& radius = body.outlines.radius[j];
+    return std::accumulate(radius.begin(), radius.end(), 0.0);
+  };
+  std::vector<double> all;
+  for (const std::size_t j : sections) all.push_back(thickness(j));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  const double median = *middle;
+  std::erase_if(sections,
+                [&](std::size_t j) { return std::abs(thickness(j) - median) > kAnother * median; });
+  return sections;
+}
+
+/// Length of the top (or the bottom) over which the handle is a quarter thinner or thicker than
+/// it would be if it went on: a neck, even if fingers lie on it.
 double neck_length(const HandleBody& body, bool at_top) {
-  constexpr double kAnother = 0.25;  // of the mean radius
-  const auto& [low, high] = body.gripped;
-  const double quarter = 0.25 * (high - low);
-  const StraightOutlines straight(body.outlines, low + quarter, high - quarter);
+  const double middle = 0.5 * (body.gripped[0] + body.gripped[1]);
+  const StraightOutlines straight(body.outlines, sections_of_handle(body));
   const double margin = body.is_whole ? body.end_radius + 0.5 : 0.0;
   const auto rows = static_cast<int>(body.outlines.z.size());
   double length = 0.0;
@@ -84,7 +112,7 @@ double neck_length(const HandleBody& body, bool at_top) {
     const auto j = static_cast<std::size_t>(at_top ? rows - 1 - k : k);
     const double z = body.outlines.z[j];
     if (z < body.bottom + margin || z > body.top - margin) continue;
-    if (z > low + quarter && z < high - quarter) break;
+    if (at_top ? z < middle : z > middle) break;
     if (straight.rms_off(z, body.outlines.radius[j]) < kAnother * straight.mean(z)) break;
     length = at_top ? body.top - z : z - body.bottom;
   }
@@ -113,7 +141,7 @@ std::array<double, 2> other_ends(const HandleBody& body) {
   const std::array<double, 2> necks = {neck_length(body, false), neck_length(body, true)};
   const double low = std::max(body.gripped[0], body.bottom + necks[0]);
   const double high = std::min(body.gripped[1], body.top - necks[1]);
-  const StraightOutlines straight(body.outlines, low, high);
+  const StraightOutlines straight(body.outlines, sections_between(body.outlines, low, high));
   // Roundings of flat ends are no other thing.
   const double margin = body.is_whole ? body.end_radius + 0.5 : 0.0;
   std::array<double, 2> lengths = {low - body.bottom, body.top - high};
@@ -127,6 +155,16 @@ std::array<double, 2> other_ends(const HandleBody& body) {
     if (!are_other[end] || lengths[end] < kLeastEnd) lengths[end] = 0.0;
   }
   return lengths;
+}
+
+std::array<double, 2> kept_lengths(const HandleBody& body) {
+  const std::array<double, 2> other = other_ends(body);
+  std::array<double, 2> kept = {0.0, 0.0};
+  for (const std::size_t end : {0, 1}) {
+    if (other[end] == 0.0) continue;
+    kept[end] = std::max({0.0, other[end] - 0.5 * kShapeBlend, neck_length(body, end == 1)});
+  }
+  return kept;
 }
 
 HandleOutlines distances_to_faces(const HandleBody& body, const Product& product,

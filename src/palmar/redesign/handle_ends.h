@@ -18,8 +18,13 @@ std::array<double, 2> gripped_length(const HandleBody& body, const HandsOnHandle
 /// the handle: a tang, a foot, a guard, a neck. 0 where the handle goes on alike: where outlines
 /// differ by no more than 1 mm (root mean square round the section) from those of the gripped
 /// length, continued straight in every direction; and of ends below 3 mm. What is a quarter thinner
-/// or thicker than the middle half of the grip continued is something else even where hands press.
+/// or thicker than the handle continued (the gripped sections about as thick as the median one) is
+/// something else even where hands press.
 std::array<double, 2> other_ends(const HandleBody& body);
+
+/// Of other_ends(), over which the outline is wholly kept, mm: the features begin over kShapeBlend
+/// about the end of the grip, but not on a neck, on which fingers may lie.
+std::array<double, 2> kept_lengths(const HandleBody& body);
 
 /// Distance from every place of the body's outlines to the faces of `keep_out`, in place of radii,
 /// mm, up to 30. Throws UsageError on a face that doesn't exist or doesn't lie on the handle.

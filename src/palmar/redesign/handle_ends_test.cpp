@@ -78,6 +78,48 @@ TEST(OtherEnds, AFootAndAWaistedNeckAreNotTheHandle) {
   EXPECT_EQ(held_neck, (std::array<double, 2>{0.0, 30.0}));
 }
 
+TEST(OtherEnds, ANeckIsAsLongHoweverMuchOfItIsGripped) {
+  HandleBody body = bar([](double z, double) { return z > 9.0 ? 8.0 : 15.0 + 0.05 * z; });
+  for (const double high : {20.0, 30.0, 50.0}) {
+    body.gripped = {-55.0, high};
+    EXPECT_EQ(other_ends(body), (std::array<double, 2>{0.0, 50.0})) << high;
+  }
+}
+
+TEST(KeptLengths, LeaveHalfOfTheRunOutToTheGripButNoneOfANeck) {
+  const auto foot = kept_lengths(bar(
+      [](double z, double phi) { return 15.0 + (z < -45.0 && std::cos(phi) > 0.5 ? 6.0 : 0.0); }));
+  EXPECT_EQ(foot, (std::array<double, 2>{13.0, 0.0}));  // gripped from -40 on, 7 mm less
+  const auto held_neck = kept_lengths(bar([](double z, double) { return z > 29.0 ? 8.0 : 15.0; }));
+  EXPECT_EQ(held_neck, (std::array<double, 2>{0.0, 30.0}));
+}
+
+TEST(FittedFeatures, AreThoseOfTheHandleNotOfItsNeck) {
+  // A screwdriver's handle: 10 mm thicker per 100 mm towards its neck.
+  HandleBody body = bar([](double z, double) { return z > 29.0 ? 8.0 : 15.0 + 0.05 * z; });
+  FittedFeatures fitted = fit_features(body, kept_lengths(body));
+  EXPECT_NEAR(fitted.features.width, 30.0, 0.05);
+  EXPECT_NEAR(fitted.features.depth, 30.0, 0.05);
+  EXPECT_NEAR(fitted.features.taper, -10.0, 0.05);
+  EXPECT_LT(fitted.rms, 0.02);
+  // A part of a product that runs out into its neck.
+  body = bar([](double z, double) { return z > 46.0 ? 8.0 : 15.0 + 0.05 * z; });
+  body.is_whole = false;
+  body.run_out = 14.0;
+  body.is_free = {true, false};
+  fitted = fit_features(body);
+  EXPECT_NEAR(fitted.features.taper, -10.0, 0.05);
+  EXPECT_LT(fitted.rms, 0.02);
+}
+
+TEST(FittedFeatures, OfAFlutedBarHaveItsArea) {
+  // Mean of r^2: 15^2 + 1 / 2.
+  const FittedFeatures fitted =
+      fit_features(bar([](double, double phi) { return 15.0 + std::cos(7.0 * phi); }));
+  EXPECT_NEAR(fitted.features.width * fitted.features.depth, 4.0 * 225.5, 2.0);
+  EXPECT_NEAR(fitted.features.squareness, 0.0, 1e-6);
+}
+
 TEST(KeptEnds, KeepTheOutlinesThatTheyHave) {
   HandleShape shape{.body = bar([](double z, double) { return z < -45.0 ? 20.0 : 15.0; })};
   shape.features = {.width = 26.0, .depth = 26.0};

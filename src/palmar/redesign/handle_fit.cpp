@@ -26,12 +26,27 @@ double fill_of(double p) {
   return std::exp(2.0 * std::lgamma(1.0 + 1.0 / p) - std::lgamma(1.0 + 2.0 / p));
 }
 
+/// Between which z the features are wholly there; all but the ends if they are so nowhere.
+std::array<double, 2> shaped_length(const HandleBody& body,
+                                    const std::array<double, 2>& kept_ends) {
+  constexpr double kLeast = 12.0;  // mm, for a taper
+  const double margin = body.is_whole ? body.end_radius + 1.0 : 1.0;
+  const std::array<double, 2> all = {body.bottom + margin, body.top - margin};
+  std::array<double, 2> ends = {0.0, 0.0};
+  for (const std::size_t end : {0, 1}) {
+    if (!body.is_whole && !body.is_free[end]) ends[end] = body.run_out;
+    if (body.is_whole && kept_ends[end] > 0.0) ends[end] = kept_ends[end] + kShapeBlend;
+  }
+  const std::array<double, 2> shaped = {std::max(all[0], body.bottom + ends[0]),
+                                        std::min(all[1], body.top - ends[1])};
+  return shaped[1] - shaped[0] < kLeast ? all : shaped;
+}
+
 }  // namespace
 
-FittedFeatures fit_features(const HandleBody& body) {
-  // Without the ends.
-  const double margin = body.is_whole ? body.end_radius + 1.0 : 1.0;
-  const double low = body.bottom + margin, high = body.top - margin;
+FittedFeatures fit_features(const HandleBody& body, const std::array<double, 2>& kept_ends) {
+  const std::array<double, 2> shaped = shaped_length(body, kept_ends);
+  const double low = shaped[0], high = shaped[1];
   const auto radii_at = [&](double z) {
     std::vector<double> radii;
     for (int k = 0; k < kFitColumns; ++k)
@@ -75,6 +90,10 @@ FittedFeatures fit_features(const HandleBody& body) {
   f.width = extent_along(here, f.turn);
   f.depth = extent_along(here, f.turn + 0.5 * std::numbers::pi);
   const double fill = area / (f.width * f.depth);
+  if (const double by = fill / fill_of(2.0); by < 1.0) {
+    f.width *= std::sqrt(by);
+    f.depth *= std::sqrt(by);
+  }
   double least = 0.0, most = 2.0;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (least + most);

@@ -17,7 +17,6 @@ namespace {
 using Point2 = Eigen::Vector2d;
 
 constexpr double kCircle = 2.0 * std::numbers::pi;
-constexpr double kKeptBlend = 14.0;   // mm; from what is kept to the features
 constexpr int kFilletRows = 6;        // of the rounding of an end
 constexpr double kDerivative = 1e-4;  // of a turn
 constexpr double kBeside = 1.3;       // of the handle's radius; what is farther out isn't of it
@@ -46,7 +45,7 @@ double share_of_plane(const HandleShape& shape, double z) {
     for (const std::size_t end : {0, 1}) {
       if (shape.kept_ends[end] <= 0.0) continue;
       const double inwards = end == 0 ? z - body.bottom : body.top - z;
-      share *= smooth_step((inwards - shape.kept_ends[end]) / kKeptBlend);
+      share *= smooth_step((inwards - shape.kept_ends[end]) / kShapeBlend);
     }
     return share;
   }
@@ -105,14 +104,14 @@ HandleRows rows_for(const HandleShape& shape) {
 double HandleShape::share_at(double z, double phi) const {
   double share = share_of_plane(*this, z);
   if (share > 0.0 && !to_kept_faces.z.empty()) {
-    share *= smooth_step(to_kept_faces.at(z, phi) / kKeptBlend);
+    share *= smooth_step(to_kept_faces.at(z, phi) / kShapeBlend);
   }
   if (share == 0.0 || kept_boxes.empty()) return share;
   const Point2 at =
       body.centre_at(z) + radius_before(z, phi) * Point2(std::cos(phi), std::sin(phi));
   const Vec3 point = body.product_from_handle * Vec3(at.x(), at.y(), z);
   for (const Box3& box : kept_boxes) {
-    share *= smooth_step(box.exteriorDistance(point) / kKeptBlend);
+    share *= smooth_step(box.exteriorDistance(point) / kShapeBlend);
   }
   return share;
 }

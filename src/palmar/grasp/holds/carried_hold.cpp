@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/holds/carried_hold.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,6 +20,27 @@ const ProductPart& part_numbered(const ProductParts& parts, int number) {
                    std::to_string(parts.parts.size()) + " parts");
 }
 
+constexpr double kBreadth = 80.0;  // mm, of four fingers; only to tell which part they lie on
+
+/// The middle of a usual hand on the part that it holds: a place that is told by its edge may lie
+/// where the next part begins, or beyond it.
+Vec3 middle_of_hand(const Hold& hold, const ProductPart& part) {
+  double along = hold.along;
+  if (!hold.is_over_end && part.length > 0.0) {
+    along -= hold.toward * hold.edge * kBreadth / part.length;
+  }
+  if (!part.is_ring) along = std::clamp(along, 0.0, 1.0);
+  return part_frame(part, along, 0.0).translation;
+}
+
+/// From a point to a centre line, not to its lengthened ends, mm: the axis of a screwdriver's shaft
+/// goes through the handle, and yet the handle isn't the shaft.
+double distance_to_line(const ProductPart& part, const Vec3& point) {
+  double along = place_of(part, point).along;
+  if (!part.is_ring) along = std::clamp(along, 0.0, 1.0);
+  return (part_frame(part, along, 0.0).translation - point).norm();
+}
+
 /// The part whose centre line passes nearest to a point. A part of another kind is taken only if
 /// none of the kind passes within its own thickness.
 const ProductPart& part_near(const ProductParts& parts, const Vec3& point, PartKind kind) {
@@ -26,8 +48,7 @@ const ProductPart& part_near(const ProductParts& parts, const Vec3& point, PartK
   double least = 0.0;
   for (const ProductPart& part : parts.parts) {
     const double distance =
-        (part_frame(part, place_of(part, point).along, 0.0).translation - point).norm() +
-        (part.kind == kind ? 0.0 : part.thickness);
+        distance_to_line(part, point) + (part.kind == kind ? 0.0 : part.thickness);
     if (nearest != nullptr && distance >= least) continue;
     nearest = &part;
     least = distance;
@@ -41,7 +62,7 @@ const ProductPart& part_near(const ProductParts& parts, const Vec3& point, PartK
 Hold carried_hold(const Hold& hold, const ProductParts& before, const ProductParts& after) {
   const ProductPart& from = part_numbered(before, hold.part);
   const Rigid3 place = part_frame(from, hold.along, hold.turn);
-  const ProductPart& to = part_near(after, place.translation, from.kind);
+  const ProductPart& to = part_near(after, middle_of_hand(hold, from), from.kind);
   Hold carried = hold;
   carried.part = to.number;
   carried.part_name = to.name;

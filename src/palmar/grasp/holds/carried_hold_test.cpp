@@ -65,6 +65,45 @@ TEST(CarriedHold, FollowsABarWhoseWideSideBecameTheNarrowOne) {
   expect_same_way(hold, before, carried_hold(hold, before, after), after, 0.5);
 }
 
+/// A straight bar along z, from one height to another, `aside` beside the axis.
+ProductPart straight_bar(int number, double from, double to, double aside) {
+  ProductPart part;
+  part.number = number;
+  part.kind = PartKind::kBar;
+  part.length = std::abs(to - from);
+  for (const double along : {0.0, 1.0}) {
+    PartStation station;
+    station.along = along;
+    station.centre = Vec3(aside, 0.0, from + along * (to - from));
+    station.axis = Vec3(0.0, 0.0, to > from ? 1.0 : -1.0);
+    station.zero = Vec3::UnitX();
+    part.line.push_back(station);
+  }
+  return part;
+}
+
+TEST(CarriedHold, AHandleIsNotTheShaftWhoseAxisGoesThroughIt) {
+  // A screwdriver; the redesign's middle is half a millimetre off the shaft's axis.
+  ProductParts before, after;
+  before.parts = {straight_bar(1, 0.0, 100.0, 0.0), straight_bar(2, 250.0, 100.0, 0.0)};
+  after.parts = {straight_bar(1, 0.0, 100.0, 0.5), straight_bar(2, 250.0, 100.0, 0.0)};
+  Hold hold;
+  hold.along = 0.5;
+  EXPECT_EQ(carried_hold(hold, before, after).part, 1);
+  // The index finger's edge where the shaft begins, or 12 mm beyond it: the hand is on the handle.
+  hold.edge = 0.5;
+  for (const double along : {1.0, 1.12}) {
+    hold.along = along;
+    const Hold carried = carried_hold(hold, before, after);
+    EXPECT_EQ(carried.part, 1) << along;
+    EXPECT_NEAR(carried.along, along, 1e-9);
+  }
+  // A hand on the shaft stays on it.
+  hold = {};
+  hold.part = 2;
+  EXPECT_EQ(carried_hold(hold, before, after).part, 2);
+}
+
 TEST(CarriedHold, SaysThatThereIsNoSuchPart) {
   Hold hold;
   hold.part = 3;

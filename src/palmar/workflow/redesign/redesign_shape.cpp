@@ -148,19 +148,20 @@ std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
   return variables;
 }
 
+/// How much of flat ends keeps its outline, mm.
+std::array<double, 2> kept_ends_of(const RedesignShapeRequest& request, const HandleBody& body) {
+  if (!body.is_whole) return {0.0, 0.0};
+  if (const auto asked = request.limits.kept_ends) return {*asked, *asked};
+  return kept_lengths(body);
+}
+
 /// Where the search begins: what is `given`, or else nearest to the original, within what a search
 /// may vary.
 HandleShape start_of(const RedesignShapeRequest& request, const Product& product,
                      const HandleBody& body, const FittedFeatures& fitted,
                      const std::optional<HandleFile>& given) {
   HandleShape start{.body = body, .features = fitted.features};
-  if (body.is_whole) {
-    constexpr double kHalfBlend = 7.0;  // mm; the features begin about the end of the grip
-    for (const std::size_t end : {0, 1}) {
-      start.kept_ends[end] =
-          request.limits.kept_ends.value_or(std::max(0.0, other_ends(body)[end] - kHalfBlend));
-    }
-  }
+  start.kept_ends = kept_ends_of(request, body);
   start.kept_boxes = request.limits.kept_boxes;
   start.kept_faces = request.limits.kept_faces;
   if (body.is_whole) {
@@ -241,7 +242,7 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
       measure_handle(product, original.parts().parts.at(static_cast<std::size_t>(hold.part - 1)),
                      hands_on_handle(run.uses, hold, request.spread.along, progress),
                      request.limits.kept_ends.has_value());
-  const FittedFeatures fitted = fit_features(body);
+  const FittedFeatures fitted = fit_features(body, kept_ends_of(request, body));
   outcome.fit_rms = fitted.rms;
   run.start = start_of(request, product, body, fitted, given);
   run.variables = variables_of(request, run.start.features);
