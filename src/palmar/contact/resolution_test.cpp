@@ -64,7 +64,7 @@ TEST(Resolution, ThoroughSharpEdgesAreToldAndTheirForceHoldsAllTheSame) {
   }
 }
 
-TEST(Resolution, SkinRefinedOnAnEdgeComesNearTheFinestMesh) {
+TEST(Resolution, ThoroughSkinRefinedOnAnEdgeComesNearTheFinestMesh) {
   for (const double fillet : {2.0, 3.0}) {
     const double truth = press_edge(fillet, 5).total.peak_pressure_cells;
     const ContactResult refined = press_edge(fillet, 3, true);

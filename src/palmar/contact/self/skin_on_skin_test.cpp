@@ -146,7 +146,7 @@ const ContactOptions kOnSkin = [] {
 
 // By symmetry each of two equal bodies pressed on each other meets a rigid plane half way: at equal
 // force the approach is twice that to a plate.
-TEST(SkinOnSkin, TwoEqualTipsPressAsEachOnAPlateHalfWay) {
+TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
   for (const double overlap : {1.0, 2.0, 3.0}) {
     const std::vector<Vec3> both = approached(prepared().hand(), overlap);
     const ContactResult own = solve_hand_contact(prepared(), both, {}, far_plate(), kOnSkin);
