@@ -61,6 +61,8 @@ if(PALMAR_SANITIZE)
   target_compile_options(palmar_compiler INTERFACE -fsanitize=address,undefined -fno-sanitize=alignment,vptr
                                                     -fno-sanitize-recover=undefined
                                                     -fno-omit-frame-pointer)
+  # GCC's word for what Clang says by __has_feature(address_sanitizer).
+  target_compile_definitions(palmar_compiler INTERFACE $<$<CXX_COMPILER_ID:Clang>:__SANITIZE_ADDRESS__>)
   target_link_options(palmar_compiler INTERFACE -fsanitize=address,undefined)
 endif()
 if(PALMAR_TIDY)

@@ -17,8 +17,8 @@ namespace {
 constexpr double kOnSkin = 1.0;
 // mm; as far beside its facet a vertex is looked for: facets cut through a curved surface.
 constexpr double kMargin = 0.5;
-constexpr double kOver =
-    0.02;  // of a facet's height; over its sides, so that no vertex falls between two
+// Of a facet's height, beyond its sides, so that no vertex falls between two.
+constexpr double kOver = 0.02;
 constexpr double kOpposed = 0.3;  // cosine; skin and product normals must not agree by more
 constexpr double kCell = 3.0;     // mm
 constexpr double kMostCells = 1e6;

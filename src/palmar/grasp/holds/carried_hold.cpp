@@ -12,6 +12,8 @@
 namespace palmar {
 namespace {
 
+constexpr double kBreadth = 80.0;  // mm, of four fingers; only to tell which part they lie on
+
 const ProductPart& part_numbered(const ProductParts& parts, int number) {
   for (const ProductPart& part : parts.parts) {
     if (part.number == number) return part;
@@ -19,8 +21,6 @@ const ProductPart& part_numbered(const ProductParts& parts, int number) {
   throw UsageError("hold of part " + std::to_string(number) + ": the product has " +
                    std::to_string(parts.parts.size()) + " parts");
 }
-
-constexpr double kBreadth = 80.0;  // mm, of four fingers; only to tell which part they lie on
 
 /// The middle of a usual hand on the part that it holds: a place that is told by its edge may lie
 /// where the next part begins, or beyond it.
