@@ -36,7 +36,7 @@ bool has_desktop() {
 
 /// Small meshes are read at once, so that what is wrong with them is said here and not in the page.
 bool is_read_fast(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kSmall = std::uintmax_t{4} << 20U;  // bytes; some 0.1 s
+  constexpr std::uintmax_t kSmall = std::uintmax_t{1} << 19U;  // bytes; some 0.1 s
   return std::filesystem::file_size(file) <= kSmall && !is_cad_file(file);
 }
 
