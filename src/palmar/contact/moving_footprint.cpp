@@ -42,8 +42,8 @@ MovingFootprint::MovingFootprint(TriangleMesh surface) : surface_(std::move(surf
   if (box.isEmpty()) return;
   low_ = box.min();
   const Vec3 sides = box.sizes();
-  cell_ = std::max(kCell, std::cbrt(std::max(1e-9, sides.prod()) / kMostCells));
-  cell_ = std::max(cell_, sides.maxCoeff() / kMostCells);
+  cell_ = kCell;
+  while (((sides / cell_).array() + 1.0).prod() > kMostCells) cell_ *= 2.0;
   for (int k = 0; k < 3; ++k) cells_[k] = static_cast<int>(sides[k] / cell_) + 1;
   const auto index = [&](const Vec3& v) {
     const auto [x, y, z] = cell_of(v);
