@@ -41,19 +41,21 @@ constexpr double kSurely = 0.7;  // of the distance is left: the nearest surface
 DistanceSample back_through(const DistanceField& product, const Vec3& point,
                             const DistanceSample& here) {
   const double depth = std::max(0.0, (here.closest - point).dot(here.normal));
-  DistanceSample found = product.at(point + (depth + kLift) * here.normal);
+  DistanceSample found = product.at(point + (depth + kLift) * here.normal, here);
   const Vec3 way = found.closest - point;
   found.distance = -way.norm();
   found.normal = way.norm() > kAhead ? Vec3(way.normalized()) : here.normal;
   return found;
 }
 
-/// Looks for the surface from an inner point against the skin's normal by sphere tracing. Nothing
-/// if there is none within kMaxContactDepth or if it faces the wrong way.
+/// Looks for the surface from an inner point, whose sample is `nearest`, against the skin's normal
+/// by sphere tracing. Nothing if there is none within kMaxContactDepth or if it faces the wrong
+/// way.
 std::optional<DistanceSample> surface_behind(const DistanceField& product, const Vec3& point,
+                                             const DistanceSample& nearest,
                                              const Vec3& skin_normal) {
   double t = 0.0;
-  DistanceSample here = product.at(point);
+  DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps; ++step) {
     if (here.distance > -kOnSurface) {
       if (skin_normal.dot(here.normal) > -kSameSide / 2) return std::nullopt;
@@ -61,7 +63,7 @@ std::optional<DistanceSample> surface_behind(const DistanceField& product, const
     }
     t -= here.distance;
     if (t > kMaxContactDepth) return std::nullopt;
-    here = product.at(point - t * skin_normal);
+    here = product.at(point - t * skin_normal, here);
   }
   return std::nullopt;
 }
@@ -73,8 +75,9 @@ double turned_weight(double cosine) { return smooth_step(cosine / kTurned); }
 /// Thickness of the product across the nearest surface of an inner point, at most kThick, mm.
 double thickness_at(const DistanceField& product, const DistanceSample& nearest) {
   double t = -nearest.distance;
+  DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps && t < kThick; ++step) {
-    const DistanceSample here = product.at(nearest.closest - t * nearest.normal);
+    here = product.at(nearest.closest - t * nearest.normal, here);
     if (here.distance > -kOnSurface) return t;
     t -= here.distance;
   }
@@ -95,7 +98,7 @@ DistanceSample between(const DistanceField& product, const Vec3& point,
   const Vec3 way = (1.0 - weight) * (nearest.closest - point) + weight * (behind.closest - point);
   if (weight >= 1.0 || way.norm() < kAhead) return behind;
   const double depth = way.norm();
-  DistanceSample found = product.at(point + (1.0 + kLift / depth) * way);
+  DistanceSample found = product.at(point + (1.0 + kLift / depth) * way, nearest);
   if (found.distance <= 0.0) return weight > 0.5 ? behind : nearest;
   found.normal = way / depth;
   found.distance = -((1.0 - weight) * -nearest.distance + weight * -behind.distance);
@@ -126,10 +129,12 @@ double flesh_depth(const Hand& hand) {
 }
 
 std::optional<DistanceSample> surface_passed(const DistanceField& product, const Vec3& point,
-                                             const Vec3& skin_normal, double flesh) {
+                                             const DistanceSample& nearest, const Vec3& skin_normal,
+                                             double flesh) {
   double t = flesh;
+  DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps; ++step) {
-    const DistanceSample here = product.at(point - t * skin_normal);
+    here = product.at(point - t * skin_normal, here);
     if (here.distance < kAhead) {
       // Bone would be in the product.
       if (here.distance < -kAhead) return std::nullopt;
@@ -249,7 +254,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
     if (!(sample.distance < 0.0)) {
       // Skin may have gone right through a thin part of the product, which then is behind it.
       if (weight == 0.0 || !(sample.distance < std::min(flesh, kNearRange))) continue;
-      const auto passed = surface_passed(product, posed[v], skin.normal[v], flesh);
+      const auto passed = surface_passed(product, posed[v], sample, skin.normal[v], flesh);
       if (!passed || !(passed->distance < 0.0)) continue;
       sample = *passed;
       sample.distance *= weight;
@@ -261,7 +266,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
       weight = std::max(weight, on_edge_weight(product, sample, cosine));
     }
     if (weight > 0.0) {
-      const auto behind = surface_behind(product, posed[v], skin.normal[v]);
+      const auto behind = surface_behind(product, posed[v], sample, skin.normal[v]);
       if (behind) {
         sample = between(product, posed[v], sample, *behind, weight);
         skin.traced.push_back(v);

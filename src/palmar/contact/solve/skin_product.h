@@ -58,9 +58,11 @@ class SkinSampler {
 
 /// Skin whose flesh is right through a thin product (a card between thumb and finger): the surface
 /// it came through, found from `flesh` [mm] under the skin outwards; distance is how far it is
-/// behind that, negative. Nothing where no product lies in there or where it begins inside it.
+/// behind that, negative. `nearest`: the product's sample at the point. Nothing where no product
+/// lies in there or where it begins inside it.
 std::optional<DistanceSample> surface_passed(const DistanceField& product, const Vec3& point,
-                                             const Vec3& skin_normal, double flesh);
+                                             const DistanceSample& nearest, const Vec3& skin_normal,
+                                             double flesh);
 
 /// Flesh that a thin product may be pressed into without having come from the finger's other side,
 /// mm: half a finger's thickness, at most 7.

@@ -33,4 +33,10 @@ DistanceSample DistanceField::at(const Vec3& point) const {
   return result;
 }
 
+DistanceSample DistanceField::at(const Vec3& point, const DistanceSample& near) const {
+  DistanceSample result = near;
+  resample({&point, 1}, std::numeric_limits<double>::infinity(), {&result, 1});
+  return result;
+}
+
 }  // namespace palmar

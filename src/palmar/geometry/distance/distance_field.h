@@ -50,6 +50,8 @@ class DistanceField {
 
   /// One point, unlimited range. Convenience over sample().
   DistanceSample at(const Vec3& point) const;
+  /// The same, where the sample of a point near it is known: saves time, never changes the answer.
+  DistanceSample at(const Vec3& point, const DistanceSample& near) const;
 
  private:
   std::uint64_t id_;

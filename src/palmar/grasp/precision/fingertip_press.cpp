@@ -82,7 +82,7 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
       double depth = -samples[k].distance;
       // Skin may be through a thin product.
       if (-depth < flesh && normal[k].dot(samples[k].normal) > kFarSide) {
-        const auto passed = surface_passed(product, posed[k], normal[k], flesh);
+        const auto passed = surface_passed(product, posed[k], samples[k], normal[k], flesh);
         if (passed) depth = -passed->distance;
       }
       deepest = std::max(deepest, depth);
