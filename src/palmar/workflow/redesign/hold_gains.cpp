@@ -99,26 +99,16 @@ HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
   const int every = std::max(1, (static_cast<int>(all.size()) + kMostHands - 1) / kMostHands);
   std::vector<HoldOffset> offsets;
   for (const double along : kOffsets) offsets.push_back({along, 0.0});
-  std::vector<StudyResults> at(offsets.size(),
-                               {.plan = plan_of_two(judges.original), .records = {}});
-  for (const int product : {0, 1}) {
-    OffsetGrasps grasps(
-        {.original = judges.original,
-         .product = product == 0 ? judges.original.product() : redesign,
-         .offsets = offsets,
-         .with_indices = std::any_of(result.quantities.begin(), result.quantities.end(),
-                                     [](const StudyQuantity& one) { return is_index(one.key); }),
-         .as = product});
-    const auto records =
-        grasps.of([&](int hand, std::size_t) { return hand % every == 0; }, progress);
-    for (std::size_t k = 0; k < records.size(); ++k) {
-      at[k].records.insert(at[k].records.end(), records[k].begin(), records[k].end());
-    }
-  }
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    std::sort(at[k].records.begin(), at[k].records.end(),
-              [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-    result.offsets.push_back({offsets[k].along, gains_in(at[k], result.quantities, all)});
+  OffsetGrasps grasps(
+      {.original = judges.original,
+       .shapes = {{judges.original.product(), 0}, {redesign, 1}},
+       .offsets = offsets,
+       .with_indices = std::any_of(result.quantities.begin(), result.quantities.end(),
+                                   [](const StudyQuantity& one) { return is_index(one.key); })});
+  auto records = grasps.of([&](int hand, std::size_t) { return hand % every == 0; }, progress);
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    const StudyResults at{.plan = plan_of_two(judges.original), .records = std::move(records[k])};
+    result.offsets.push_back({offsets[k].along, gains_in(at, result.quantities, all)});
   }
   std::sort(result.offsets.begin(), result.offsets.end(),
             [](const auto& a, const auto& b) { return a.along < b.along; });

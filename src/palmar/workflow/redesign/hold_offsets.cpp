@@ -60,7 +60,9 @@ StudyPlan plan_of_two(const HeldOriginal& original) {
 }
 
 OffsetGrasps::OffsetGrasps(const Asked& asked)
-    : study_(asked.original.study), two_(plan_of_two(asked.original)), as_(asked.as) {
+    : study_(asked.original.study),
+      two_(plan_of_two(asked.original)),
+      offsets_(asked.offsets.size()) {
   const std::optional<Hold> hold = asked.original.hold();
   if (!hold) {
     throw UsageError(asked.original.product().name +
@@ -68,23 +70,27 @@ OffsetGrasps::OffsetGrasps(const Asked& asked)
   }
   const ProductParts& before = asked.original.parts();
   const ProductPart& part = before.parts.at(static_cast<std::size_t>(hold->part - 1));
-  const auto after = asked.as == 0
-                         ? asked.original.shared_parts()
-                         : std::make_shared<const ProductParts>(find_parts(asked.product));
   StudyPlan& plan = study_.plan;
   const StudyProduct kept = plan.products.front();
   plan.products.clear();
   study_.inputs.products.clear();
-  for (std::size_t k = 0; k < asked.offsets.size(); ++k) {
-    StudyProduct product = kept;
-    product.name = product.family = fmt::format("offset {}", k);
-    product.content_hash = content_hash(asked.product.mesh);
-    product.holding = {};
-    product.holding.hold = carried_hold(moved_hold(*hold, part, asked.offsets[k]), before, *after);
-    plan.products.push_back(std::move(product));
-    study_.inputs.products.push_back(asked.product);
+  study_.inputs.parts.clear();
+  for (const Shape& shape : asked.shapes) {
+    const auto after = shape.as == 0
+                           ? asked.original.shared_parts()
+                           : std::make_shared<const ProductParts>(find_parts(shape.product));
+    for (const HoldOffset& offset : asked.offsets) {
+      StudyProduct product = kept;
+      product.name = product.family = fmt::format("offset {}", plan.products.size());
+      product.content_hash = content_hash(shape.product.mesh);
+      product.holding = {};
+      product.holding.hold = carried_hold(moved_hold(*hold, part, offset), before, *after);
+      plan.products.push_back(std::move(product));
+      study_.inputs.products.push_back(shape.product);
+      study_.inputs.parts.push_back(after);
+    }
+    as_.push_back(shape.as);
   }
-  study_.inputs.parts.assign(asked.offsets.size(), after);
   for (StudySetting& setting : plan.settings) setting.indices = asked.with_indices;
   bench_ = std::make_unique<StudyBench>(plan, study_.inputs, StudyDetail::kFigures);
 }
@@ -95,17 +101,18 @@ std::vector<std::vector<StudyRecord>> OffsetGrasps::of(const Wanted& is_wanted,
   StudyRunOptions options;
   for (const std::int64_t number : tasks_of(plan)) {
     const StudyTask task = task_at(plan, number);
-    if (is_wanted(task.hand, static_cast<std::size_t>(task.product))) {
+    if (is_wanted(task.hand, static_cast<std::size_t>(task.product) % offsets_)) {
       options.tasks.push_back(number);
     }
   }
-  std::vector<std::vector<StudyRecord>> records(plan.products.size());
+  std::vector<std::vector<StudyRecord>> records(offsets_);
   run_study(
       *bench_, plan, options,
       [&](const StudyRecord& record) {
         StudyTask task = task_at(plan, record.number);
-        auto& those = records[static_cast<std::size_t>(task.product)];
-        task.product = as_;
+        const auto product = static_cast<std::size_t>(task.product);
+        auto& those = records[product % offsets_];
+        task.product = as_[product / offsets_];
         those.push_back(record);
         those.back().number = number_of(two_, task);
       },

@@ -28,16 +28,19 @@ std::vector<HoldOffset> spread_offsets(int count, double along_deviation, double
 /// The hold with the hand so far elsewhere.
 Hold moved_hold(const Hold& hold, const ProductPart& part, const HoldOffset& offset);
 
-/// One product held at several offsets of the hold of the original. Places are found once, for
-/// however many hands.
+/// The original, a candidate or both held at several offsets of the hold of the original. Places
+/// are found once, for however many hands.
 class OffsetGrasps {
  public:
+  struct Shape {
+    const Product& product;
+    int as = 0;  ///< its number in plan_of_two(): 0 the original, 1 the candidate
+  };
   struct Asked {
     const HeldOriginal& original;
-    const Product& product;
+    std::vector<Shape> shapes;
     std::vector<HoldOffset> offsets;
     bool with_indices = false;
-    int as = 0;  ///< number of the product in plan_of_two(): 0 the original, 1 the candidate
   };
   /// Throws UsageError if the original isn't held by a hold.
   explicit OffsetGrasps(const Asked& asked);
@@ -49,9 +52,10 @@ class OffsetGrasps {
   std::vector<std::vector<StudyRecord>> of(const Wanted& is_wanted, const Progress& progress);
 
  private:
-  LoadedStudy study_;  // a product per offset
+  LoadedStudy study_;  // a product per offset, of the first shape, of the second
   StudyPlan two_;
-  int as_ = 0;
+  std::size_t offsets_ = 0;
+  std::vector<int> as_;  // by shape
   std::unique_ptr<StudyBench> bench_;
 };
 

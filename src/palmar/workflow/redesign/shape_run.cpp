@@ -155,12 +155,11 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
   std::vector<std::unique_ptr<Held>> held;
   int all = 0, first = 0;
   for (const ShapeUse& use : uses) {
-    held.push_back(
-        std::unique_ptr<Held>(new Held{.grasps = OffsetGrasps({.original = use.original,
-                                                               .product = candidate,
-                                                               .offsets = use.offsets,
-                                                               .with_indices = needs_indices(goal),
-                                                               .as = 1})}));
+    held.push_back(std::unique_ptr<Held>(
+        new Held{.grasps = OffsetGrasps({.original = use.original,
+                                         .shapes = {{candidate, 1}},
+                                         .offsets = use.offsets,
+                                         .with_indices = needs_indices(goal)})}));
     all += use.hand_count();
     first += std::min(use.first_hands(), use.hand_count());
   }

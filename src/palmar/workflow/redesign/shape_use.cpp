@@ -69,10 +69,9 @@ int ShapeUse::first_hands() const { return kFirstOfPlace * static_cast<int>(offs
 
 void ShapeUse::hold_original(const FeatureGoal& goal, const Progress& progress) {
   OffsetGrasps grasps({.original = original,
-                       .product = original.product(),
+                       .shapes = {{original.product(), 0}},
                        .offsets = offsets,
-                       .with_indices = needs_indices(goal),
-                       .as = 0});
+                       .with_indices = needs_indices(goal)});
   before.clear();
   grasp(grasps, 0, hand_count(), before, progress);
   figure = goal_of(results_with({}, hand_count()), goal, 0);
