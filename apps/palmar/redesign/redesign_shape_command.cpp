@@ -60,7 +60,7 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
           "--vary", r.vary,
           "Feature that may vary, its range (width=28:40) or its value (width=34): width, "
           "depth, squareness, taper, swell, waist, egg, palm_swell, finger_swell, "
-          "thumb_rest, turn, twist; may be repeated. Without it: the first eight, and turn")
+          "thumb_rest, finger_grooves, turn, twist; may be repeated. Without it: the first eight, and turn")
       ->allow_extra_args(false);
   verb->add_option("--features", a->features,
                    "A handle.toml that is made and judged as it is, without a search");
@@ -86,6 +86,9 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
       ->capture_default_str();
   verb->add_option("--largest-change-mm", r.limits.largest_change,
                    "Most that any point of the handle may move, mm");
+  verb->add_option("--smallest-wall-mm", r.limits.smallest_wall,
+                   "Of a hollow handle: least wall over the hollow as it is now, across the "
+                   "handle, mm; 0: the shape must not cut into it");
   verb->add_option("--smallest-volume", r.limits.smallest_volume,
                    "Least volume of the handle as a share of the original's");
   verb->add_option("--largest-volume", r.limits.largest_volume,
@@ -128,13 +131,11 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   verb->add_flag("--no-pictures", a->no_pictures, "Leave out the pictures");
   verb->add_flag("--no-compare", a->no_compare, "Only make the shape, without a comparison");
   verb->callback([a, &context] {
-    context.setting_options = {{"largest change", "--largest-change-mm"},
-                               {"kept ends", "--keep-ends-mm"},
-                               {"draft", "--draft-deg"},
-                               {"draft land", "--draft-land-mm"},
-                               {"spread along", "--spread-mm"},
-                               {"spread of the turn", "--spread-deg"},
-                               {"suits both hands", "--both-hands"}};
+    context.setting_options = {
+        {"largest change", "--largest-change-mm"}, {"smallest wall", "--smallest-wall-mm"},
+        {"kept ends", "--keep-ends-mm"},           {"draft", "--draft-deg"},
+        {"draft land", "--draft-land-mm"},         {"spread along", "--spread-mm"},
+        {"spread of the turn", "--spread-deg"},    {"suits both hands", "--both-hands"}};
     context.run = [a, &context] { return run_shape(*a, context); };
   });
 }

@@ -22,6 +22,9 @@ def mound(t):
 def lobe(angle):
     return (0.5 * (1.0 + math.cos(angle))) ** 3
 
+def waves(s):
+    return (0.5 * (1.0 - math.cos(8.0 * math.pi * s))) ** 2 if abs(s) < 0.5 else 0.0
+
 def section_point(z, t):
     more = (-taper * z / 100.0 + swell * mound(z / (0.8 * breadth))
             - waist * mound((z - 0.36 * breadth) / (0.3 * breadth)))
@@ -35,7 +38,8 @@ def section_point(z, t):
     m = mound(z / (0.6 * breadth))
     out = (palm_swell * m * lobe(phi - 0.5 * math.pi)
            + finger_swell * m * lobe(phi + 0.5 * math.pi)
-           - thumb_rest * mound((z - thumb_at) / 16.0) * lobe(phi - thumb_phi) ** 4)
+           - thumb_rest * mound((z - thumb_at) / 16.0) * lobe(phi - thumb_phi) ** 4
+           - finger_grooves * waves(z / breadth) * lobe(phi + 0.5 * math.pi) ** 2)
     k = 1.0 + out / math.hypot(x, y)
     return x * k, y * k
 

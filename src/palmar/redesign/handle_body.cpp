@@ -82,11 +82,17 @@ Point2 centroid_of(const std::vector<Point2>& polygon) {
   return sum == 0.0 ? polygon[0] : Point2(polygon[0] + moment / sum);
 }
 
-/// The outline in the plane of z that holds `near`, else the largest; none: empty.
-std::vector<Point2> outline_in(const TriangleMesh& mesh, const Rigid3& product_from_handle,
-                               double z, const Point2& near) {
+/// The outline in the plane of z that holds `near`, else the largest (none: empty), and what is
+/// closed within it.
+struct HandleCut {
+  std::vector<Point2> outline;
+  std::vector<std::vector<Point2>> hollows;
+};
+HandleCut cut_at(const TriangleMesh& mesh, const Rigid3& product_from_handle, double z,
+                 const Point2& near) {
   const Rigid3 handle_from_product = product_from_handle.inverse();
-  std::vector<Point2> best;
+  std::vector<std::vector<Point2>> polygons;
+  std::size_t best = 0;
   double largest = 0.0;
   bool has_held = false;
   for (const SectionCurve& curve : plane_section(mesh, product_from_handle * Vec3(0, 0, z),
@@ -97,12 +103,21 @@ std::vector<Point2> outline_in(const TriangleMesh& mesh, const Rigid3& product_f
       polygon.push_back((handle_from_product * point).head<2>());
     const double area = std::abs(twice_area(polygon));
     const bool is_held = holds(polygon, near);
+    polygons.push_back(std::move(polygon));
     if (is_held < has_held || (is_held == has_held && area <= largest)) continue;
     has_held = is_held;
     largest = area;
-    best = std::move(polygon);
+    best = polygons.size() - 1;
   }
-  return best;
+  HandleCut cut;
+  if (largest == 0.0) return cut;
+  cut.outline = std::move(polygons[best]);
+  for (std::size_t k = 0; k < polygons.size(); ++k) {
+    if (k != best && holds(cut.outline, polygons[k].front())) {
+      cut.hollows.push_back(std::move(polygons[k]));
+    }
+  }
+  return cut;
 }
 
 /// Farthest crossing of the outline from a centre, by direction; counts directions in which there
@@ -151,12 +166,13 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   const double inside = body.is_whole ? kInside : 0.0;
   const double bottom = body.bottom + inside, top = body.top - inside;
   const int steps = std::max(8, static_cast<int>(std::ceil((top - bottom) / kSectionDistance)));
-  std::vector<std::vector<Point2>> outlines;
+  std::vector<HandleCut> cuts;
   const Rigid3 handle_from_product = body.product_from_handle.inverse();
   Eigen::MatrixXd powers(steps + 1, 3);
   Eigen::MatrixXd centres(steps + 1, 2);
   body.outlines.z.clear();
   body.outlines.radius.clear();
+  body.hollow = {};
   for (int k = 0; k <= steps; ++k) {
     const double z = bottom + (top - bottom) * k / steps;
     // The part's own centre line where this plane meets it.
@@ -168,8 +184,8 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
       least = std::abs(at.z() - z);
       near = at.head<2>();
     }
-    outlines.push_back(outline_in(product.mesh, body.product_from_handle, z, near));
-    if (outlines.back().empty()) {
+    cuts.push_back(cut_at(product.mesh, body.product_from_handle, z, near));
+    if (cuts.back().outline.empty()) {
       throw UsageError(
           fmt::format("{}: the {} has no closed section {:.0f} mm from the middle of "
                       "the hand; it can't be shaped anew",
@@ -177,7 +193,7 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
     }
     body.outlines.z.push_back(z);
     powers.row(k) << 1.0, z, z * z;
-    centres.row(k) = centroid_of(outlines.back()).transpose();
+    centres.row(k) = centroid_of(cuts.back().outline).transpose();
   }
   const Eigen::MatrixXd line = powers.colPivHouseholderQr().solve(centres);
   for (int i = 0; i < 3; ++i) body.centre[static_cast<std::size_t>(i)] = line.row(i).transpose();
@@ -186,11 +202,22 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
   for (int k = 0; k <= steps; ++k) {
     const double z = body.outlines.z[static_cast<std::size_t>(k)];
     body.outlines.radius.push_back(
-        radii_of(outlines[static_cast<std::size_t>(k)], body.centre_at(z), hidden));
+        radii_of(cuts[static_cast<std::size_t>(k)].outline, body.centre_at(z), hidden));
     const auto& radius = body.outlines.radius.back();
     if (*std::min_element(radius.begin(), radius.end()) <= 0.0) {
       throw UsageError(fmt::format("{}: the {} is bent too much, or too hollow, to be shaped anew",
                                    product.name, part.name));
+    }
+  }
+  const bool is_hollow = std::any_of(cuts.begin(), cuts.end(),
+                                     [](const HandleCut& one) { return !one.hollows.empty(); });
+  if (is_hollow) body.hollow = {body.outlines.z, kColumns, {}};
+  for (std::size_t k = 0; is_hollow && k < cuts.size(); ++k) {
+    std::vector<double>& radius = body.hollow.radius.emplace_back(kColumns, 0.0);
+    for (const std::vector<Point2>& one : cuts[k].hollows) {
+      int ignored = 0;
+      const std::vector<double> way = radii_of(one, body.centre_at(body.hollow.z[k]), ignored);
+      for (std::size_t i = 0; i < radius.size(); ++i) radius[i] = std::max(radius[i], way[i]);
     }
   }
   if (hidden > kHidden * kColumns * (steps + 1)) {

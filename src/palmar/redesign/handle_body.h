@@ -42,6 +42,9 @@ struct HandleBody {
   /// Centre line (x, y) = c0 + c1 z + c2 z^2, mm.
   std::array<Eigen::Vector2d, 3> centre{};
   HandleOutlines outlines;  ///< now
+  /// What is empty inside, as far out as it goes: radius 0 where nothing is. No rows if the handle
+  /// is solid all along.
+  HandleOutlines hollow = {};
   HandleHands hands;
 
   Eigen::Vector2d centre_at(double z) const;

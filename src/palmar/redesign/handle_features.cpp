@@ -35,11 +35,19 @@ double lobe(double angle) {
   return half * half * half;
 }
 
+/// Four waves over the breadth of the hand, 1 at the middle of each finger; curvature is continuous
+/// where they end.
+double finger_waves(double share) {
+  if (std::abs(share) >= 0.5) return 0.0;
+  const double wave = 0.5 * (1.0 - std::cos(8.0 * std::numbers::pi * share));
+  return wave * wave;
+}
+
 }  // namespace
 
 std::span<const HandleFeature> handle_features() {
   using F = HandleFeatures;
-  static const std::array<HandleFeature, 12> all = {{
+  static const std::array<HandleFeature, 13> all = {{
       {"width", "mm", 1.0, 12.0, 90.0, 0.1, false, &F::width, "across, where the hand lies"},
       {"depth", "mm", 1.0, 12.0, 90.0, 0.1, false, &F::depth, "towards the palm"},
       {"squareness", "", 1.0, 0.0, 2.0, 0.02, false, &F::squareness,
@@ -53,6 +61,8 @@ std::span<const HandleFeature> handle_features() {
       {"palm_swell", "mm", 1.0, -3.0, 10.0, 0.1, false, &F::palm_swell, "into the palm"},
       {"finger_swell", "mm", 1.0, -3.0, 10.0, 0.1, false, &F::finger_swell, "under the fingers"},
       {"thumb_rest", "mm", 1.0, 0.0, 4.0, 0.1, true, &F::thumb_rest, "a hollow under the thumb"},
+      {"finger_grooves", "mm", 1.0, 0.0, 4.0, 0.1, false, &F::finger_grooves,
+       "depth of four grooves, for the fingers of a mean hand"},
       {"turn", "deg", kDegrees, -90.0, 90.0, 1.0, true, &F::turn, "of the section about the axis"},
       {"twist", "deg/100mm", kDegrees, -60.0, 60.0, 1.0, true, &F::twist,
        "of the section along the handle"},
@@ -102,7 +112,9 @@ Eigen::Vector2d section_point(const HandleFeatures& f, const HandleHands& hands,
   const double out = f.palm_swell * along * lobe(phi - kRight) +
                      f.finger_swell * along * lobe(phi + kRight) -
                      f.thumb_rest * mound((z - hands.thumb_at) / kRestReach) *
-                         std::pow(lobe(phi - hands.thumb_phi), 4);
+                         std::pow(lobe(phi - hands.thumb_phi), 4) -
+                     f.finger_grooves * finger_waves(z / breadth) *
+                         std::pow(lobe(phi + kRight), 2);
   return point * (1.0 + out / point.norm());
 }
 

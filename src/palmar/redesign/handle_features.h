@@ -25,8 +25,10 @@ namespace palmar {
 ///
 ///     palm_swell u(z / (0.6 B)) v(phi - 90 deg) + finger_swell u(z / (0.6 B)) v(phi + 90 deg)
 ///     - thumb_rest u((z - thumb_at) / 16 mm) v(phi - thumb_phi)^4
+///     - finger_grooves w(z / B) v(phi + 90 deg)^2
 ///
-/// where phi is the direction of a point from the centre and v(t) = ((1 + cos t) / 2)^3; and the
+/// where phi is the direction of a point from the centre, v(t) = ((1 + cos t) / 2)^3 and w(s) =
+/// ((1 - cos(8 pi s)) / 2)^2 for |s| < 1/2, else 0: four grooves, a finger's breadth apart; and the
 /// section is turned by `turn` + twist z / 100 mm, counter-clockwise seen against z.
 struct HandleFeatures {
   double width = 32.0, depth = 36.0;  ///< mm; across and towards the palm, where the hand lies
@@ -38,6 +40,7 @@ struct HandleFeatures {
   double palm_swell = 0.0;            ///< mm, outwards
   double finger_swell = 0.0;          ///< mm, outwards, opposite to the palm
   double thumb_rest = 0.0;            ///< mm, a hollow under the thumb
+  double finger_grooves = 0.0;        ///< mm, depth of four, under the fingers of a mean hand
   double turn = 0.0;                  ///< rad
   double twist = 0.0;                 ///< rad per 100 mm
 };

@@ -93,11 +93,13 @@ HandleRows rows_for(const HandleShape& shape) {
   constexpr int kRoundColumns = 24;   // through which an elliptic section passes within 0.01 mm
   constexpr int kSquareColumns = 24;  // more per unit of squareness
   constexpr int kKeptColumns = 72;    // where the original's outlines are kept
-  constexpr double kRows = 7.0, kKeptRows = 3.5;  // mm
+  constexpr double kRows = 7.0, kFineRows = 3.5;  // mm; these for what is finer than swells
   const double wanted = kRoundColumns + kSquareColumns * shape.features.squareness;
   const bool is_whole = shape.body.is_whole;
   return {.columns = shape.keeps() ? kKeptColumns : 8 * static_cast<int>(std::ceil(wanted / 8.0)),
-          .distance = shape.keeps() && is_whole ? kKeptRows : kRows,
+          .distance = (shape.keeps() && is_whole) || shape.features.finger_grooves > 0.0
+                          ? kFineRows
+                          : kRows,
           .end_radius = is_whole ? shape.end_radius : 0.0};
 }
 

@@ -98,6 +98,15 @@ TEST(HandleFeatures, ChangeTheHandleAsTheirNamesSay) {
   const HandleHands hands{.breadth = 80.0, .thumb_at = 30.0, .thumb_phi = 0.0};
   EXPECT_NEAR(section_point(f, hands, 30.0, 0.0).x(), 13.0, 1e-9);
   EXPECT_NEAR(section_point(f, hands, 0.0, 0.0).x(), 15.0, 1e-9);
+  f = plain;
+  f.finger_grooves = 2.0;  // fingers of 20 mm: their middles are 10 and 30 mm from the hand's
+  for (const double finger : {-30.0, -10.0, 10.0, 30.0}) {
+    EXPECT_NEAR(section_point(f, hands, finger, 0.75).y(), -18.0, 1e-9) << finger;
+    EXPECT_NEAR(section_point(f, hands, finger, 0.25).y(), 20.0, 1e-9) << finger;
+  }
+  for (const double between : {-55.0, -40.0, -20.0, 0.0, 20.0, 40.0, 55.0}) {
+    EXPECT_NEAR(section_point(f, hands, between, 0.75).y(), -20.0, 1e-9) << between;
+  }
 }
 
 TEST(HandleFeatures, UnknownNamesAndValuesOutOfRangeAreNamed) {

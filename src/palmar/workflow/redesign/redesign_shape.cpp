@@ -15,6 +15,7 @@
 #include "palmar/records/handle_file.h"
 #include "palmar/redesign/contact_region.h"
 #include "palmar/redesign/handle_ends.h"
+#include "palmar/redesign/handle_wall.h"
 #include "palmar/redesign/held_hand.h"
 #include "palmar/workflow/redesign/shape_files.h"
 
@@ -242,6 +243,11 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
       measure_handle(product, original.parts().parts.at(static_cast<std::size_t>(hold.part - 1)),
                      hands_on_handle(run.uses, hold, request.spread.along, progress),
                      request.limits.kept_ends.has_value());
+  outcome.wall_before = thinnest_wall(body);
+  if (request.limits.smallest_wall && !outcome.wall_before) {
+    throw UsageError(fmt::format(
+        "setting \"smallest wall\": the handle of {} is solid; leave it out", product.name));
+  }
   const FittedFeatures fitted = fit_features(body, kept_ends_of(request, body));
   outcome.fit_rms = fitted.rms;
   run.start = start_of(request, product, body, fitted, given);
@@ -260,6 +266,7 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
   }
   outcome.shape = run.shape_of(found.history[static_cast<std::size_t>(*found.best)].values);
   outcome.change = shape_change(outcome.shape);
+  outcome.wall = thinnest_wall(outcome.shape);
   const Product redesign = write_shape(request, product, outcome, progress);
   outcome.add_note(request.redesign, replaced_words(outcome.shape));
   if (!is_better_than_original(outcome.story)) {
@@ -267,6 +274,10 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
                      product.name +
                          ": no gain was found: what is made is not better than the original in the "
                          "hands that it was made for");
+  }
+  if (outcome.wall) {
+    outcome.add_note(request.redesign,
+                     hollow_words(product.name, *outcome.wall_before, *outcome.wall));
   }
   if (!outcome.shape.body.is_whole) {
     outcome.add_note(

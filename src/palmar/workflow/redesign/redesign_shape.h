@@ -62,6 +62,8 @@ struct RedesignShapeOutcome : RedesignOutcome {
   HandleShape shape;
   double fit_rms = 0.0;  ///< mm; of the features that are nearest to the original, to it
   ShapeChange change;
+  /// Of a hollow handle: walls over the hollow as it is now, of the redesign and the original, mm.
+  std::optional<double> wall, wall_before;
   std::filesystem::path file;            ///< redesign.step, or redesign.stl of a part of a product
   std::optional<double> kept_deviation;  ///< mm; of what a whole product keeps, from the original
   double solid_volume = 0.0;             ///< mm^3, of the solid in redesign.step or handle.step

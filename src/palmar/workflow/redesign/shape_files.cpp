@@ -65,6 +65,18 @@ std::string replaced_words(const HandleShape& shape) {
       body.top - body.bottom);
 }
 
+std::string hollow_words(const std::string& product, double wall_before, double wall) {
+  const std::string now =
+      wall >= 0.0
+          ? fmt::format("the wall over the hollow as it is now is {:.1f} mm at its thinnest", wall)
+          : fmt::format("it cuts {:.1f} mm into the hollow as it is now", -wall);
+  return fmt::format(
+      "{} has a hollow handle (wall {:.1f} mm at its thinnest); what is made is solid, and {}. "
+      "Shell it "
+      "anew, or ask for --smallest-wall-mm",
+      product, wall_before, now);
+}
+
 Product write_shape(const RedesignShapeRequest& request, const Product& original,
                     RedesignShapeOutcome& outcome, const Progress& progress) {
   const fs::path& folder = request.redesign.out;
@@ -154,6 +166,8 @@ Json json_of(const RedesignShapeRequest& request, const RedesignShapeOutcome& ou
       {"largest_change_mm", outcome.change.largest},
       {"volume_ratio", outcome.change.volume_ratio},
       {"smallest_radius_mm", outcome.change.smallest_radius},
+      {"wall_mm", outcome.wall ? Json(*outcome.wall) : Json()},
+      {"original_wall_mm", outcome.wall_before ? Json(*outcome.wall_before) : Json()},
       {"file", outcome.file.string()},
       {"solid",
        {{"volume_mm3", outcome.solid_volume}, {"faces", outcome.faces}, {"poles", outcome.poles}}}};

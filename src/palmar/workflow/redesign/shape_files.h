@@ -34,4 +34,7 @@ nlohmann::ordered_json json_of(const RedesignShapeRequest& request,
 /// What of the original is replaced, in a sentence.
 std::string replaced_words(const HandleShape& shape);
 
+/// That a handle is hollow and what is made isn't, with the walls over the hollow [mm].
+std::string hollow_words(const std::string& product, double wall_before, double wall);
+
 }  // namespace palmar

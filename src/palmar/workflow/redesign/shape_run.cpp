@@ -12,6 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/redesign/handle_wall.h"
 #include "palmar/redesign/mould_release.h"
 
 namespace palmar {
@@ -28,7 +29,7 @@ constexpr double kThinnestShare = 0.8, kThickestShare = 1.25;
 constexpr UsualRange kUsual[] = {{"squareness", 0.0, 0.6},   {"taper", -6.0, 6.0},
                                  {"swell", 0.0, 6.0},        {"waist", 0.0, 4.0},
                                  {"egg", -0.2, 0.2},         {"palm_swell", 0.0, 5.0},
-                                 {"finger_swell", 0.0, 4.0}, {"thumb_rest", 0.0, 2.0},
+                                 {"finger_swell", 0.0, 4.0}, {"thumb_rest", 0.0, 2.0},   {"finger_grooves", 0.0, 3.0},
                                  {"turn", -30.0, 30.0},      {"twist", -20.0, 20.0}};
 
 double read_number(const std::string& text, const std::string& words) {
@@ -50,6 +51,10 @@ void ShapeLimits::check() const {
   CandidateLimits::check();
   if (largest_change) {
     require_setting(*largest_change > 0.0, "largest change", *largest_change, "above 0 mm");
+  }
+  if (smallest_wall) {
+    require_setting(*smallest_wall >= 0.0 && *smallest_wall <= 50.0, "smallest wall",
+                    *smallest_wall, "0 to 50 mm");
   }
   constexpr double kMostDraft = 0.5236;  // 30 degrees
   require_setting(draft >= 0.0 && draft <= kMostDraft, "draft", draft / kDegree, "0 to 30 degrees");
@@ -120,6 +125,9 @@ std::vector<SearchConstraint> ShapeRun::constraints() const {
   if (limits.largest_change) {
     all.push_back({"largest change of the surface", "mm", *limits.largest_change, true});
   }
+  if (limits.smallest_wall) {
+    all.push_back({"wall over the hollow", "mm", *limits.smallest_wall, false});
+  }
   if (limits.pull) {
     all.push_back({"undercut against the mould's pull", "mm", kLeastUndercut, true});
     all.push_back({"height that leans less than the draft angle", "mm", limits.land, true});
@@ -133,6 +141,9 @@ std::vector<double> ShapeRun::values_of(const HandleShape& shape, const ShapeCha
                                         double lost_share) const {
   std::vector<double> values = {change.smallest_radius};
   if (limits.largest_change) values.push_back(change.largest);
+  if (limits.smallest_wall) {
+    values.push_back(thinnest_wall(shape).value_or(std::numeric_limits<double>::infinity()));
+  }
   if (limits.pull) {
     const MouldRelease release = mould_release(shape, *limits.pull, limits.draft);
     values.push_back(release.undercut);

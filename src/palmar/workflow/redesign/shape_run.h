@@ -17,7 +17,10 @@ namespace palmar {
 /// What a shape must keep to; volumes are those of the handle.
 struct ShapeLimits : CandidateLimits {
   std::optional<double> largest_change;  ///< mm; that any point of the handle may move
-  double smallest_radius = 3.0;          ///< mm; of curvature, round the handle
+  /// mm, 0 or more; of a hollow handle, if the hollow stays as it is (handle_wall.h). Unset: a
+  /// redesign may cut into it.
+  std::optional<double> smallest_wall;
+  double smallest_radius = 3.0;  ///< mm; of curvature, round the handle
   /// Along which a mould of two halves opens, product frame; unset: none. Then nothing may be
   /// undercut, and no wall of more than `land` [mm] lean less than `draft` [rad] (mould_release.h).
   std::optional<Vec3> pull;
