@@ -16,12 +16,13 @@ palmar_export(palmar_umbrella palmar)
 
 install(CODE "
   include(${CMAKE_SOURCE_DIR}/cmake/PalmarPublicHeaders.cmake)
-  palmar_install_public_headers(${CMAKE_SOURCE_DIR}/src \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
+  palmar_install_public_headers(${CMAKE_SOURCE_DIR}/src \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")"
+  COMPONENT development)
 
 set(palmar_package ${CMAKE_INSTALL_LIBDIR}/cmake/palmar)
-install(EXPORT palmar NAMESPACE palmar:: FILE palmarTargets.cmake DESTINATION ${palmar_package})
+install(EXPORT palmar NAMESPACE palmar:: FILE palmarTargets.cmake DESTINATION ${palmar_package} COMPONENT development)
 configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/palmarConfig.cmake.in ${CMAKE_BINARY_DIR}/palmarConfig.cmake
                               INSTALL_DESTINATION ${palmar_package})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/palmarConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/palmarConfig.cmake ${CMAKE_BINARY_DIR}/palmarConfigVersion.cmake
-        DESTINATION ${palmar_package})
+        DESTINATION ${palmar_package} COMPONENT development)

@@ -11,7 +11,8 @@
 # palmar_export(TARGET NAME): installed, for other projects palmar::NAME (cmake/PalmarInstall.cmake).
 function(palmar_export target name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS ${target} EXPORT palmar ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/palmar)
+  install(TARGETS ${target} EXPORT palmar ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/palmar
+          COMPONENT development)
 endfunction()
 
 # One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
