@@ -18,12 +18,20 @@ endfunction()
 # One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
 # assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests.
 # palmar_add_tests(PROGRAM slow): minutes under the sanitizers, so ./check runs it in Release only.
+# palmar_add_tests(PROGRAM release): before a release only; `--target release_tests` builds these.
 function(palmar_add_tests program)
   add_test(NAME ${program} COMMAND ${program})
   set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
   palmar_use_headers(${program} palmar_test_headers)
   target_compile_options(${program} PRIVATE ${palmar_tries})
   palmar_batches(${program} 6)
+  if("release" IN_LIST ARGN)
+    set_target_properties(${program} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    if(NOT TARGET release_tests)
+      add_custom_target(release_tests)
+    endif()
+    add_dependencies(release_tests ${program})
+  endif()
 endfunction()
 
 # With PALMAR_PRECOMPILE: half of what a module's source costs to compile is reading Eigen and the standard
