@@ -56,11 +56,11 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
       "palmar redesign shape handle.step --hands 30 --grip-force-n 60 --goal peak --out shaped");
   a->redesign.add_to(*verb);
   RedesignShapeRequest& r = a->request;
-  verb->add_option(
-          "--vary", r.vary,
-          "Feature that may vary, its range (width=28:40) or its value (width=34): width, "
-          "depth, squareness, taper, swell, waist, egg, palm_swell, finger_swell, "
-          "thumb_rest, finger_grooves, turn, twist; may be repeated. Without it: the first eight, and turn")
+  verb->add_option("--vary", r.vary,
+                   "Feature that may vary, its range (width=28:40) or its value (width=34): width, "
+                   "depth, squareness, taper, swell, waist, egg, palm_swell, finger_swell, "
+                   "thumb_rest, finger_grooves, turn, twist; may be repeated. Without it: the "
+                   "first eight, and turn")
       ->allow_extra_args(false);
   verb->add_option("--features", a->features,
                    "A handle.toml that is made and judged as it is, without a search");
@@ -120,8 +120,8 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
   add_kept_boxes(*verb, a->keep_boxes);
   verb->add_option(
       "--end-radius-mm", r.end_radius,
-      "Radius of the edges round flat ends, mm; without it as they are, and at least 3 where "
-      "no end is kept");
+      "Radius of the edges round flat ends, mm; without it as they are, and at least 3; ends that "
+      "are kept sharp stay so");
   verb->add_option("--evaluations", r.search.evaluations,
                    "Largest number of candidates that are made and held")
       ->capture_default_str();

@@ -236,27 +236,27 @@ void leave_other_ends(const Product& product, const ProductPart& part, HandleBod
   if (kept[0] > 0.0 || kept[1] > 0.0) take_sections(product, part, body);
 }
 
-/// Radius of the rounding of the edges at flat ends, by how much the section next to the end is
-/// smaller than 12 mm inside.
+/// Radius of the rounding of the edges at flat ends, the larger of the two, by how much the section
+/// next to the end is smaller than those 8 and 16 mm inside, continued straight.
 double end_radius_of(const HandleBody& body) {
-  constexpr double kWithin = 12.0, kSharp = 0.3;  // mm
-  double sum = 0.0;
+  constexpr double kWithin = 8.0, kSharp = 0.3;  // mm
+  double largest = 0.0;
   for (const double end : {body.bottom, body.top}) {
     const double inwards = end == body.bottom ? 1.0 : -1.0;
     double inset = 0.0;
     for (int k = 0; k < kColumns; ++k) {
       const double phi = kFullTurn * k / kColumns;
-      inset += (body.outlines.at(end + inwards * kWithin, phi) -
-                body.outlines.at(end + inwards * kInside, phi)) /
-               kColumns;
+      const double continued = 2.0 * body.outlines.at(end + inwards * kWithin, phi) -
+                               body.outlines.at(end + inwards * 2.0 * kWithin, phi);
+      inset += (continued - body.outlines.at(end + inwards * kInside, phi)) / kColumns;
     }
     if (inset < kSharp) continue;
     // inset = r - sqrt(2 r e - e^2), e the distance of that section from the end.
     double r = inset;
     for (int i = 0; i < 50; ++i) r = inset + std::sqrt(2.0 * r * kInside - kInside * kInside);
-    sum += 0.5 * r;
+    largest = std::max(largest, r);
   }
-  return sum;
+  return largest;
 }
 
 }  // namespace

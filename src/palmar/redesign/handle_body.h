@@ -35,8 +35,8 @@ struct HandleBody {
   Rigid3 product_from_handle;      ///< z towards the thumb's side, y towards the palm
   double bottom = 0.0, top = 0.0;  ///< z of the ends of what is shaped anew, mm
   bool is_whole = false;           ///< it is all of the product, with flat ends
-  double end_radius = 0.0;         ///< of the edges round flat ends, mm; about, 0 if sharp
-  double run_out = 0.0;            ///< mm; 0 at flat ends
+  double end_radius = 0.0;  ///< of the edges round flat ends, the larger; about, mm; 0: sharp
+  double run_out = 0.0;     ///< mm; 0 at flat ends
   std::array<bool, 2> is_free = {true, true};  ///< nothing goes on beyond the bottom, the top
   std::array<double, 2> gripped = {0.0, 0.0};  ///< z between which hands press (handle_ends.h), mm
   /// Centre line (x, y) = c0 + c1 z + c2 z^2, mm.

@@ -116,6 +116,51 @@ TEST(HandleFeatures, UnknownNamesAndValuesOutOfRangeAreNamed) {
               ThrowsMessage<UsageError>(HasSubstr("width is 3 mm; 12 to 90 are allowed")));
 }
 
+/// A round bar about z whose profile goes through (radius, z), closed by flat ends.
+Product turned(const std::vector<Eigen::Vector2d>& profile) {
+  constexpr int kRound = 180;
+  TriangleMesh mesh;
+  for (const Eigen::Vector2d& at : profile) {
+    for (int i = 0; i < kRound; ++i) {
+      const double phi = 2.0 * pi * i / kRound;
+      mesh.vertices.emplace_back(at.x() * std::cos(phi), at.x() * std::sin(phi), at.y());
+    }
+  }
+  const int low = mesh.vertex_count(), high = low + 1, last = low - kRound;
+  mesh.vertices.emplace_back(0.0, 0.0, profile.front().y());
+  mesh.vertices.emplace_back(0.0, 0.0, profile.back().y());
+  for (int i = 0; i < kRound; ++i) {
+    const int next = (i + 1) % kRound;
+    for (int here = 0; here < last; here += kRound) {
+      mesh.triangles.push_back({here + i, here + next, here + kRound + next});
+      mesh.triangles.push_back({here + i, here + kRound + next, here + kRound + i});
+    }
+    mesh.triangles.push_back({low, next, i});
+    mesh.triangles.push_back({high, last + i, last + next});
+  }
+  return bar(mesh, "turned");
+}
+
+TEST(HandleBody, TheRoundingOfOneEndOfAFlaredFootIsSeen) {
+  // From 15 mm at the top to 20 mm at the foot; the foot's edge rounded with 3 mm, the top sharp.
+  std::vector<Eigen::Vector2d> profile;
+  const auto side = [](double z) { return 20.0 - 5.0 * (z + 60.0) / 120.0; };
+  for (int k = 0; k <= 12; ++k) {
+    const double a = 0.5 * pi * k / 12;
+    profile.emplace_back(side(-57.0) - 3.0 * (1.0 - std::sin(a)),
+                         -60.0 + 3.0 * (1.0 - std::cos(a)));
+  }
+  for (double z = -56.0; z <= 60.0; z += 1.0) profile.emplace_back(side(z), z);
+  const HandleBody body = body_of(turned(profile));
+  EXPECT_NEAR(body.end_radius, 3.0, 0.3);
+  // What is kept there is the foot without its rounding, which the shape makes itself: rounded
+  // twice, its profile would have a wave.
+  const HandleShape shape{.body = body, .kept_ends = {20.0, 0.0}};
+  for (const double z : {-59.5, -58.0, -57.0, -55.0}) {
+    EXPECT_NEAR(shape.radius_before(z, 0.0), side(z), 0.25) << z;
+  }
+}
+
 TEST(HandleBody, ACylinderIsFoundAsWhatItIs) {
   CylinderProductOptions options;
   options.diameter = 45.0;

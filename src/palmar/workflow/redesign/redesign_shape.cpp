@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kLeastEndRadius = 3.0;  // mm; so that an end isn't felt as an edge; our choice
+constexpr double kLeastEndRadius = 3.0;  // mm; so that an end isn't felt as an edge, and a shell of
+                                         // 2 mm can be opened there; our choice
 
 std::vector<HandPressure> pressures_of(const HeldHand& held) {
   std::vector<HandPressure> pressures;
@@ -166,10 +167,10 @@ HandleShape start_of(const RedesignShapeRequest& request, const Product& product
   start.kept_boxes = request.limits.kept_boxes;
   start.kept_faces = request.limits.kept_faces;
   if (body.is_whole) {
-    // An outline that is kept, with its own corners, needn't take a larger rounding than it has.
+    // Ends that are kept sharp stay so.
     const bool keeps_ends = start.kept_ends[0] > 0.0 || start.kept_ends[1] > 0.0;
     start.end_radius = request.end_radius.value_or(
-        keeps_ends ? body.end_radius : std::max(kLeastEndRadius, body.end_radius));
+        keeps_ends && body.end_radius == 0.0 ? 0.0 : std::max(kLeastEndRadius, body.end_radius));
   }
   if (given) {
     start.features = given->features;
