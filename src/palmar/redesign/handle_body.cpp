@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "palmar/core/error.h"
@@ -22,7 +21,6 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr int kColumns = 144;             // 2.5 degrees apart
 constexpr double kSectionDistance = 2.0;  // mm, about
 constexpr double kInside = 0.02;          // mm; of the first section from a flat end

@@ -113,8 +113,7 @@ Eigen::Vector2d section_point(const HandleFeatures& f, const HandleHands& hands,
                      f.finger_swell * along * lobe(phi + kRight) -
                      f.thumb_rest * mound((z - hands.thumb_at) / kRestReach) *
                          std::pow(lobe(phi - hands.thumb_phi), 4) -
-                     f.finger_grooves * finger_waves(z / breadth) *
-                         std::pow(lobe(phi + kRight), 2);
+                     f.finger_grooves * finger_waves(z / breadth) * std::pow(lobe(phi + kRight), 2);
   return point * (1.0 + out / point.norm());
 }
 

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace palmar {
+
+inline constexpr double kFullTurn = 2.0 * std::numbers::pi;  ///< rad
 
 /// The numbers from which a handle is shaped, as a designer would give them. Frame of the handle
 /// (handle_body.h), mm: z along it towards the thumb's side of the hand, 0 where the middle of the

@@ -16,7 +16,6 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kCircle = 2.0 * std::numbers::pi;
 constexpr int kFilletRows = 6;        // of the rounding of an end
 constexpr double kDerivative = 1e-4;  // of a turn
 constexpr double kBeside = 1.3;       // of the handle's radius; what is farther out isn't of it
@@ -27,11 +26,11 @@ double angle_of(const Point2& p) { return std::atan2(p.y(), p.x()); }
 /// Parameter of the features' section in direction phi, by bisection: directions grow with it.
 double parameter_at(const HandleShape& shape, double z, double phi) {
   const double turned = shape.features.turn + shape.features.twist * z / 100.0;
-  double low = (phi - turned) / kCircle - 0.25, high = low + 0.5;
+  double low = (phi - turned) / kFullTurn - 0.25, high = low + 0.5;
   for (int i = 0; i < 30; ++i) {
     const double t = 0.5 * (low + high);
     const double beyond = std::remainder(
-        angle_of(section_point(shape.features, shape.body.hands, z, t)) - phi, kCircle);
+        angle_of(section_point(shape.features, shape.body.hands, z, t)) - phi, kFullTurn);
     (beyond > 0.0 ? high : low) = t;
   }
   return 0.5 * (low + high);
@@ -97,9 +96,8 @@ HandleRows rows_for(const HandleShape& shape) {
   const double wanted = kRoundColumns + kSquareColumns * shape.features.squareness;
   const bool is_whole = shape.body.is_whole;
   return {.columns = shape.keeps() ? kKeptColumns : 8 * static_cast<int>(std::ceil(wanted / 8.0)),
-          .distance = (shape.keeps() && is_whole) || shape.features.finger_grooves > 0.0
-                          ? kFineRows
-                          : kRows,
+          .distance = (shape.keeps() && is_whole) || shape.features.finger_grooves > 0.0 ? kFineRows
+                                                                                         : kRows,
           .end_radius = is_whole ? shape.end_radius : 0.0};
 }
 
@@ -152,8 +150,8 @@ ShapeChange shape_change(const HandleShape& shape) {
       const Point2& at = outline.back();
       change.largest =
           std::max(change.largest, std::abs(at.norm() - body.outlines.at(z, angle_of(at))));
-      const double was = body.outlines.at(z, kCircle * k / kDirections);
-      before += was * was * kCircle / kDirections;
+      const double was = body.outlines.at(z, kFullTurn * k / kDirections);
+      before += was * was * kFullTurn / kDirections;
     }
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const Point2 &a = outline[k], &b = outline[(k + 1) % outline.size()];

@@ -6,14 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 namespace palmar {
 namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr double kTurnWhole = 2.0 * std::numbers::pi;
 constexpr int kOutlinePoints = 144;
 
 double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
@@ -33,7 +31,7 @@ std::optional<double> thinnest_over(const HandleBody& body,
     const std::vector<double>& radius = hollow.radius[row];
     const auto columns = radius.size();
     const auto at = [&](std::size_t k) {
-      const double phi = kTurnWhole * static_cast<double>(k) / static_cast<double>(columns);
+      const double phi = kFullTurn * static_cast<double>(k) / static_cast<double>(columns);
       return Point2(radius[k] * std::cos(phi), radius[k] * std::sin(phi));
     };
     if (*std::max_element(radius.begin(), radius.end()) <= 0.0) continue;
@@ -46,7 +44,7 @@ std::optional<double> thinnest_over(const HandleBody& body,
         nearest = std::min(nearest, radius[next] > 0.0 ? distance_to_segment(p, at(k), at(next))
                                                        : (p - at(k)).norm());
       }
-      double column = std::atan2(p.y(), p.x()) / kTurnWhole * static_cast<double>(columns);
+      double column = std::atan2(p.y(), p.x()) / kFullTurn * static_cast<double>(columns);
       if (column < 0.0) column += static_cast<double>(columns);
       const auto k = static_cast<std::size_t>(column) % columns;
       const double share = column - std::floor(column);
@@ -70,7 +68,7 @@ std::optional<double> thinnest_wall(const HandleShape& shape) {
 
 std::optional<double> thinnest_wall(const HandleBody& body) {
   return thinnest_over(body, [&](double z, double t) -> Point2 {
-    const double phi = kTurnWhole * t;
+    const double phi = kFullTurn * t;
     return body.outlines.at(z, phi) * Point2(std::cos(phi), std::sin(phi));
   });
 }
