@@ -3,7 +3,7 @@
 //
 // Tables of hands from scans.
 
-import { BoneError, HandFromMri, HandFromMriPage, HandFromScanPage, Picture, PlaceError, SegmentSize, Vocabulary } from "../types";
+import { BoneError, HandFromMri, HandFromScanPage, Picture, PlaceError, SegmentSize, Vocabulary } from "../types";
 import { say, sayName } from "../texts";
 import { Child, Markup, html } from "./markup";
 import { fixedNumber } from "./numbers";
@@ -50,16 +50,16 @@ function row(head: Child, values: (number | null | undefined)[], decimals: numbe
 
 // From MR images.
 
-export function scansSection(page: HandFromMriPage): Section {
-  const { report } = page;
+/// `postures`: all that can be scanned; `bones`: how many a hand has.
+export function scansSection(scans: HandFromMri["scans"], postures: string[], bones: number): Section {
   const rows: Markup[] = [], missing: string[] = [];
-  for (const posture of page.view.postures) {
-    const scan = report.scans.filter((one) => one.posture === posture)[0];
+  for (const posture of postures) {
+    const scan = scans.filter((one) => one.posture === posture)[0];
     if (!scan) {
       missing.push(postureWords(posture));
       continue;
     }
-    rows.push(html`<tr>${rowHead(postureWords(posture))}${cell(scan.series)}<td class="n">${say("study.of", { count: scan.bones.length, n: report.hand.bones.length })}</td><td class="n">${scan.markers}</td>${fixedCell(scan.bone_error_estimate_mm)}${fixedCell(scan.air_threshold, 0)}${fixedCell(scan.bone_threshold, 0)}${fixedCell(scan.noise, 1)}</tr>`);
+    rows.push(html`<tr>${rowHead(postureWords(posture))}${cell(scan.series)}<td class="n">${say("study.of", { count: scan.bones.length, n: bones })}</td><td class="n">${scan.markers}</td>${fixedCell(scan.bone_error_estimate_mm)}${fixedCell(scan.air_threshold, 0)}${fixedCell(scan.bone_threshold, 0)}${fixedCell(scan.noise, 1)}</tr>`);
   }
   return {
     id: "scanned",

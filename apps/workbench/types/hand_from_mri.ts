@@ -88,6 +88,31 @@ export interface HandFromMri {
   notes: string[];
 }
 
+/// found.json of MR images that no hand came of.
+export interface RefusedScans {
+  refusal: {
+    step: "surfaces" | "bones" | "motions" | "joints" | "hand" | "contact";
+    posture: string | null; // whose scan it was about; null: all
+    message: string;
+  };
+  side: "left" | "right";
+  scans: HandFromMri["scans"];
+  bone_motions: HandFromMri["bone_motions"];
+  notes: string[];
+}
+
+export interface RefusedScansPage {
+  kind: "refused_scans";
+  report: RefusedScans;
+  view: {
+    maker: Maker;
+    language: Language;
+    postures: string[]; // all that can be scanned
+    bones: number; // of a hand
+    pictures: Picture[]; // scan_...
+  };
+}
+
 export interface HandFromMriPage {
   kind: "hand_from_mri";
   report: HandFromMri;

@@ -201,6 +201,18 @@ std::string scan_record_json(const ScanRecord& record) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string refused_scans_json(const ScanRecord& record, const ScanRefusal& refusal) {
+  const Json json = {{"refusal",
+                      {{"step", refusal.step},
+                       {"posture", refusal.posture.empty() ? Json(nullptr) : Json(refusal.posture)},
+                       {"message", refusal.message}}},
+                     {"side", name_json(name_of(record.scans.front().surfaces.side))},
+                     {"scans", scans_json(record)},
+                     {"bone_motions", motions_json(record)},
+                     {"notes", record.notes}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string bone_motions_json(const std::vector<BoneMotion>& motions) {
   return Json{{"motions", motion_list(motions)}}.dump(2, ' ', false,
                                                       Json::error_handler_t::replace);
