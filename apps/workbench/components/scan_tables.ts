@@ -133,14 +133,14 @@ ${rows.length > 0 && fixedTable(say("mri.skin.caption"),
 }
 
 export function jointRangeSection(report: HandFromMri, vocabulary: Vocabulary): Section {
-  const rows = report.joints.map((one) => html`<tr>${rowHead(vocabulary.motions[one.dof].words)}${fixedCell(one.lower_deg, 0)}${fixedCell(one.upper_deg, 0)}${fixedCell(one.reference_deg, 0)}${cell(say(one.is_measured ? "mri.joints.measured" : "mri.joints.model"))}</tr>`);
+  const rows = report.joints.map((one) => html`<tr>${rowHead(vocabulary.motions[one.dof].words)}${fixedCell(one.lower_deg, 0)}${fixedCell(one.upper_deg, 0)}${fixedCell(one.reference_deg, 0)}${cell(say(one.is_measured ? "mri.joints.measured" : "mri.joints.model"))}${fixedCell(one.axis_error_deg, 1)}</tr>`);
   return {
     id: "joints",
     title: say("mri.joints"),
     content: html`<p>${say("mri.joints.words")}</p>
 ${folded(say("mri.joints.folded"),
       table({ caption: say("mri.joints.caption"),
-              columns: [words(say("mri.joints.motion")), numbers(say("mri.joints.from")), numbers(say("mri.joints.to")), numbers(say("mri.joints.reference")), words(say("mri.joints.axis"))], rows }))}`,
+              columns: [words(say("mri.joints.motion")), numbers(say("mri.joints.from")), numbers(say("mri.joints.to")), numbers(say("mri.joints.reference")), words(say("mri.joints.axis")), numbers(say("mri.joints.error"))], rows }))}`,
   };
 }
 

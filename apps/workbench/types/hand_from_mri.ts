@@ -44,6 +44,7 @@ export interface HandFromMri {
     joint: string;
     dof: string;
     is_measured: boolean;
+    axis_error_deg: number | null; // standard error of a measured axis; null: none is known
     axis: Vector3;
     centre_mm: Vector3;
     axis_patient: Vector3;

@@ -27,7 +27,7 @@ constexpr Rgb kIcpColour{150, 158, 166}, kAxisColour{213, 94, 0}, kCmcColour{0, 
 /// Errors of one bone, or group of bones, in every posture.
 BarChart error_chart(const std::string& title, std::string_view bones,
                      const std::vector<ErrorRow>& rows, const Phrases& phrases) {
-  BarChart chart{phrases(title), {}};
+  BarChart chart{phrases(title), {}, phrases("No scanned posture shows these bones.")};
   for (const ErrorRow& row : rows) {
     if (row.bones != bones) continue;
     const std::string words = plain_words(row.posture);

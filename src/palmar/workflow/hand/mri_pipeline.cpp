@@ -159,11 +159,11 @@ void require_bones(const RecordedScan& scan, const Hand& model) {
   if (poor.empty() && missing.size() <= kMostMissing) return;
   throw InputError(fmt::format(
       "{}: too few bones were found to make a hand of: {} of the 19 of fingers and palm are "
-      "missing ({}); up to {} may be, and each finger needs {}. Look at skin.ply and bones/ of "
-      "this "
-      "scan: finer images with less noise (pixels of 0.8 mm, slices of 1 mm) help, so do "
-      "setting \"bone threshold\", or setting \"labels\" for bones that were found without a name",
-      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger));
+      "missing ({}); up to {} may be, and each finger needs {}. What helps: setting \"labels\" for "
+      "bones that were found without a name; setting \"bone threshold\" above the {:.0f} that was "
+      "used, where the rim of small bones is grey instead of dark; {}",
+      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger,
+      scan.surfaces.bone_threshold, better_scan(scan.surfaces)));
 }
 
 void require_same_side(const RecordedScan& scan, Side reference) {
@@ -301,10 +301,11 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
       on_note(fmt::format(
           "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
           fmt::join(doubts, "; "),
-          result.scans.size() == 1 ? ". Joints and lengths of the hand hang on them: scan finer, "
-                                     "name them by setting \"labels\", "
-                                     "or mend their meshes"
-                                   : ""));
+          result.scans.size() == 1
+              ? ". Joints and lengths of the hand hang on them: name them by setting \"labels\", "
+                "mend their meshes, or make " +
+                    better_scan(scan.surfaces)
+              : ""));
     }
     step = {"bones", name};
     if (result.scans.size() == 1) {
