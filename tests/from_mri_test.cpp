@@ -175,6 +175,14 @@ TEST(HandFromMri, NoHandIsMadeOfTooLittle) {
   EXPECT_EQ(few.exit_code, 3);
   EXPECT_THAT(few.err, AllOf(HasSubstr("too few bones"), HasSubstr("little_proximal_phalanx"),
                              HasSubstr("--labels")));
+  EXPECT_THAT(few.err,
+              AllOf(HasSubstr("step bones (reference) failed"), HasSubstr("x.mri/report.html")));
+  const Json found = Json::parse(read_text(person() + "/x.mri/found.json"));
+  EXPECT_EQ(found.at("refusal").at("step"), "bones");
+  EXPECT_THAT(found.at("refusal").at("message").get<std::string>(), HasSubstr("--labels"));
+  EXPECT_EQ(found.at("scans").at(0).at("unnamed_bones"), 4);
+  const std::string page = read_text(person() + "/x.mri/report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("too few bones"), HasSubstr("data:image/png")));
 
   const std::string cut = copied_reference("cut");
   scan = Json::parse(read_text(cut));
@@ -189,6 +197,29 @@ TEST(HandFromMri, NoHandIsMadeOfTooLittle) {
   EXPECT_EQ(coarse.exit_code, 3);
   EXPECT_THAT(coarse.err, HasSubstr("too coarse for bones"));
   EXPECT_FALSE(fs::exists(person() + "/x.hand.glb"));
+}
+
+TEST(HandFromMri, ALateRefusalLeavesWhatWasFoundAndNoHand) {
+  // A skin that isn't round the bones: only the last step but one meets it.
+  const std::string index = copied_reference("other_skin");
+  const fs::path folder = fs::path(index).parent_path();
+  fs::copy(folder / "bones/capitate.ply", folder / "skin.ply",
+           fs::copy_options::overwrite_existing);
+  const std::string words = "hand from-mri other_skin --series other=reference --out late.hand.glb";
+  const ProgramRun late = run_palmar(words, person());
+  EXPECT_EQ(late.exit_code, 3) << late.err;
+  EXPECT_THAT(late.err, AllOf(HasSubstr("step hand failed"), HasSubstr("late.mri/report.html"),
+                              HasSubstr("No bone of it looks wrong")));
+  EXPECT_FALSE(fs::exists(person() + "/late.hand.glb"));
+  EXPECT_FALSE(fs::exists(person() + "/late.mri/hand.json"));
+  const Json found = Json::parse(read_text(person() + "/late.mri/found.json"));
+  EXPECT_EQ(found.at("refusal").at("step"), "hand");
+  EXPECT_EQ(found.at("scans").at(0).at("bones").size(), 29U);
+  EXPECT_THAT(read_text(person() + "/late.mri/report.html"), HasSubstr("data:image/png"));
+  // Nothing but the surfaces' folder is said to be there without a report.
+  const ProgramRun bare = run_palmar(words + " --work bare.mri --no-report", person());
+  EXPECT_EQ(bare.exit_code, 3);
+  EXPECT_THAT(bare.err, Not(HasSubstr("report.html")));
 }
 
 TEST(HandFromMri, DamagedSeriesAreNamedBeforeTheWork) {

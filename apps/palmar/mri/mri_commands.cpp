@@ -59,7 +59,11 @@ int run_info(const InfoArguments& arguments, const Context& context) {
   const ImageFile& file = info.file;
   for (const std::string& text : file.notes) note(context.common, text);
   for (const std::string& text : file.odd_slices) note(context.common, text);
+  if (!info.no_hand.empty()) note(context.common, info.no_hand + "; air and noise aren't known");
   const VolumeGrid& grid = file.image.grid;
+  const auto number = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
   if (context.common.json) {
     print(Json{{"image", arguments.image},
                {"description", file.description},
@@ -73,8 +77,8 @@ int run_info(const InfoArguments& arguments, const Context& context) {
                  vector_json(grid.axes.col(2))}},
                {"intensity_least", info.least},
                {"intensity_most", info.most},
-               {"air_threshold", info.air_threshold},
-               {"noise_deviation", info.noise},
+               {"air_threshold", number(info.air_threshold)},
+               {"noise_deviation", number(info.noise)},
                {"notes", file.notes},
                {"odd_slices", file.odd_slices}}
               .dump(2) +
@@ -93,12 +97,14 @@ int run_info(const InfoArguments& arguments, const Context& context) {
       "first voxel   ({:.2f}, {:.2f}, {:.2f}) mm; x to the patient's left, y to the back, z to "
       "the head\n"
       "axes          i {}, j {}, k {}\n"
-      "intensity     {:g} to {:g}; air up to {:.1f}; noise {:.2f} (standard deviation)\n",
+      "intensity     {:g} to {:g}; {}\n",
       file.description.empty() ? arguments.image : file.description,
       file.laterality.empty() ? "not said" : file.laterality, grid.size[0], grid.size[1],
       grid.size[2], grid.spacing[0], grid.spacing[1], grid.spacing[2], grid.origin.x(),
       grid.origin.y(), grid.origin.z(), axis(0), axis(1), axis(2), info.least, info.most,
-      info.air_threshold, info.noise));
+      info.noise ? fmt::format("air up to {:.1f}; noise {:.1f} (standard deviation)",
+                               *info.air_threshold, *info.noise)
+                 : "air and noise aren't known"));
   return 0;
 }
 

@@ -9,9 +9,10 @@ void SurfaceArguments::add_to(CLI::App& verb) {
                   "Intensity, in the image's own numbers, that separates skin from air; 0: found "
                   "from the histogram")
       ->capture_default_str();
-  verb.add_option("--bone-threshold", options_.bone_threshold,
-                  "Intensity, in the image's own numbers, that separates cortical bone from its "
-                  "surroundings; 0: found in the same way")
+  verb.add_option(
+          "--bone-threshold", options_.bone_threshold,
+          "Intensity, in the image's own numbers, that separates cortical bone from marrow; 0: "
+          "half way between theirs. A higher one finds small bones whose thin rim is grey")
       ->capture_default_str();
   verb.add_flag("--keep-bias", keeps_bias_, "Don't correct the brightness across the image");
   verb.add_option("--bone-edge-mm", options_.edge_length, "Mean edge of the meshes")

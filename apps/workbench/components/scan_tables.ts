@@ -3,7 +3,7 @@
 //
 // Tables of hands from scans.
 
-import { BoneError, HandFromMri, HandFromMriPage, HandFromScanPage, Picture, PlaceError, SegmentSize, Vocabulary } from "../types";
+import { BoneError, HandFromMri, HandFromScanPage, Picture, PlaceError, SegmentSize, Vocabulary } from "../types";
 import { say, sayName } from "../texts";
 import { Child, Markup, html } from "./markup";
 import { fixedNumber } from "./numbers";
@@ -50,16 +50,16 @@ function row(head: Child, values: (number | null | undefined)[], decimals: numbe
 
 // From MR images.
 
-export function scansSection(page: HandFromMriPage): Section {
-  const { report } = page;
+/// `postures`: all that can be scanned; `bones`: how many a hand has.
+export function scansSection(scans: HandFromMri["scans"], postures: string[], bones: number): Section {
   const rows: Markup[] = [], missing: string[] = [];
-  for (const posture of page.view.postures) {
-    const scan = report.scans.filter((one) => one.posture === posture)[0];
+  for (const posture of postures) {
+    const scan = scans.filter((one) => one.posture === posture)[0];
     if (!scan) {
       missing.push(postureWords(posture));
       continue;
     }
-    rows.push(html`<tr>${rowHead(postureWords(posture))}${cell(scan.series)}<td class="n">${say("study.of", { count: scan.bones.length, n: report.hand.bones.length })}</td><td class="n">${scan.markers}</td>${fixedCell(scan.bone_error_estimate_mm)}${fixedCell(scan.air_threshold, 0)}${fixedCell(scan.bone_threshold, 0)}${fixedCell(scan.noise, 1)}</tr>`);
+    rows.push(html`<tr>${rowHead(postureWords(posture))}${cell(scan.series)}<td class="n">${say("study.of", { count: scan.bones.length, n: bones })}</td><td class="n">${scan.markers}</td>${fixedCell(scan.bone_error_estimate_mm)}${fixedCell(scan.air_threshold, 0)}${fixedCell(scan.bone_threshold, 0)}${fixedCell(scan.noise, 1)}</tr>`);
   }
   return {
     id: "scanned",
@@ -133,14 +133,14 @@ ${rows.length > 0 && fixedTable(say("mri.skin.caption"),
 }
 
 export function jointRangeSection(report: HandFromMri, vocabulary: Vocabulary): Section {
-  const rows = report.joints.map((one) => html`<tr>${rowHead(vocabulary.motions[one.dof].words)}${fixedCell(one.lower_deg, 0)}${fixedCell(one.upper_deg, 0)}${fixedCell(one.reference_deg, 0)}${cell(say(one.is_measured ? "mri.joints.measured" : "mri.joints.model"))}</tr>`);
+  const rows = report.joints.map((one) => html`<tr>${rowHead(vocabulary.motions[one.dof].words)}${fixedCell(one.lower_deg, 0)}${fixedCell(one.upper_deg, 0)}${fixedCell(one.reference_deg, 0)}${cell(say(one.is_measured ? "mri.joints.measured" : "mri.joints.model"))}${fixedCell(one.axis_error_deg, 1)}</tr>`);
   return {
     id: "joints",
     title: say("mri.joints"),
     content: html`<p>${say("mri.joints.words")}</p>
 ${folded(say("mri.joints.folded"),
       table({ caption: say("mri.joints.caption"),
-              columns: [words(say("mri.joints.motion")), numbers(say("mri.joints.from")), numbers(say("mri.joints.to")), numbers(say("mri.joints.reference")), words(say("mri.joints.axis"))], rows }))}`,
+              columns: [words(say("mri.joints.motion")), numbers(say("mri.joints.from")), numbers(say("mri.joints.to")), numbers(say("mri.joints.reference")), words(say("mri.joints.axis")), numbers(say("mri.joints.error"))], rows }))}`,
   };
 }
 

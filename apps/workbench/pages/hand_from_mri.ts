@@ -55,7 +55,7 @@ export function handFromMriPage(page: HandFromMriPage): string {
     first: firstScreen(answer(page)),
     sections: [
       pictureSection("pictures", say("scan.pictures"), view.pictures, ["hand_"]),
-      handNotes(report.notes), scansSection(page), boneErrorSection(report, view.charts), skinSection(report), errorSection(page),
+      handNotes(report.notes), scansSection(report.scans, view.postures, hand.bones.length), boneErrorSection(report, view.charts), skinSection(report), errorSection(page),
       jointRangeSection(report, view.vocabulary), segmentSection(hand.segments, view.vocabulary),
       pictureSection("scans", say("scan.every"), view.pictures, ["scan_"]),
     ],

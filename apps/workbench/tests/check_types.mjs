@@ -101,6 +101,14 @@ function images() {
   run("hand from-mri surfaces --out b.hand.glb --product mri/truth/grasp/product.ply");
   check("images_report", "t.HandFromMri", inside("b.mri/report.html", "palmar-scan"));
   check("images_view", 't.HandFromMriPage["view"]', inside("b.mri/report.html", "palmar-view"));
+  // No hand comes of it: what was found until then.
+  const index = join(folder, "surfaces/reference/scan.json");
+  const scan = JSON.parse(readFileSync(index, "utf8"));
+  scan.bones = scan.bones.filter(({ name }) => !name.startsWith("little_"));
+  writeFileSync(index, JSON.stringify(scan));
+  spawnSync(palmar, "hand from-mri surfaces --out c.hand.glb".split(" "), { cwd: folder });
+  check("refused_report", "t.RefusedScans", inside("c.mri/report.html", "palmar-scan"));
+  check("refused_view", 't.RefusedScansPage["view"]', inside("c.mri/report.html", "palmar-view"));
 }
 
 try {

@@ -44,6 +44,7 @@ export interface HandFromMri {
     joint: string;
     dof: string;
     is_measured: boolean;
+    axis_error_deg: number | null; // standard error of a measured axis; null: none is known
     axis: Vector3;
     centre_mm: Vector3;
     axis_patient: Vector3;
@@ -86,6 +87,31 @@ export interface HandFromMri {
   };
   skin_registration: { mean_mm: number; p95_mm: number };
   notes: string[];
+}
+
+/// found.json of MR images that no hand came of.
+export interface RefusedScans {
+  refusal: {
+    step: "surfaces" | "bones" | "motions" | "joints" | "hand" | "contact";
+    posture: string | null; // whose scan it was about; null: all
+    message: string;
+  };
+  side: "left" | "right";
+  scans: HandFromMri["scans"];
+  bone_motions: HandFromMri["bone_motions"];
+  notes: string[];
+}
+
+export interface RefusedScansPage {
+  kind: "refused_scans";
+  report: RefusedScans;
+  view: {
+    maker: Maker;
+    language: Language;
+    postures: string[]; // all that can be scanned
+    bones: number; // of a hand
+    pictures: Picture[]; // scan_...
+  };
 }
 
 export interface HandFromMriPage {

@@ -31,6 +31,24 @@ struct HingeFrame {
   Vec3 point_at(const Eigen::VectorXd& x) const { return point + x[2] * e1 + x[3] * e2; }
 };
 
+/// HingeFit::axis_error of motions about the axis that was found.
+double error_of_axis(std::span<const Rigid3> motions, const HingeFit& fit) {
+  constexpr double kLeastWeight = 1e-12;  // of a motion without any turn
+  double weights = kLeastWeight, spread = 0.0;
+  for (const Rigid3& motion : motions) {
+    const AxisFit own = fit_axis(motion, fit.point);
+    const double sine = 2.0 * std::sin(0.5 * own.angle);
+    weights += sine * sine;
+    const double off =
+        std::atan2(own.axis.cross(fit.axis).norm(), std::abs(own.axis.dot(fit.axis)));
+    spread += sine * sine * off * off;
+  }
+  const double known = kTurnError * kTurnError;
+  const double degrees = 1.0 + 2.0 * (static_cast<double>(motions.size()) - 1.0);
+  const double square = std::max(known, (known + spread) / degrees);
+  return std::min(0.5 * std::numbers::pi, std::sqrt(square / weights));
+}
+
 }  // namespace
 
 AxisFit fit_axis(const Rigid3& motion, const Vec3& near) {
@@ -152,6 +170,7 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
     fit.angle.push_back(x[4 + k]);
     fit.slide.push_back(x[4 + count + k]);
   }
+  fit.axis_error = error_of_axis(motions, fit);
   x.tail(count).setZero();
   Eigen::VectorXd r;
   residual(x, r);

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "palmar/capture/two_axis_fit.h"
 #include "palmar/core/error.h"
+#include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
@@ -171,6 +173,109 @@ TEST(FitTwoAxes, AnAxisThatNothingTurnsAboutStaysAtThePrior) {
   EXPECT_TRUE(fit.is_first_observed);
   EXPECT_FALSE(fit.is_second_observed);
   EXPECT_LT(angle_between(fit.second_axis, prior.second), 0.1);
+}
+
+/// A motion as registration shows it: the bone, 40 mm from the joint, turned wrongly by `turn`
+/// [rad] about each axis and shifted by `shift` [mm], standard deviations.
+Rigid3 seen(const Rigid3& motion, double turn, double shift, RandomStream& random) {
+  const auto draw = [&](double sd) {
+    return Vec3(sd * random.normal(), sd * random.normal(), sd * random.normal());
+  };
+  const Vec3 wrong = draw(turn), centre = motion * (kOnAxis + Vec3(0.0, 40.0, 2.0));
+  Rigid3 error = Rigid3::about_axis(wrong.normalized(), centre, wrong.norm());
+  error.translation += draw(shift);
+  return error * motion;
+}
+
+/// Share of fits of hinges, of `count` motions each, that have the true axis within their 95 %.
+double hinge_coverage(int count, double least, double most, double turn_error) {
+  constexpr int kTrials = 500;
+  const std::vector<Vec3> points = bone_points();
+  int inside = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    RandomStream random(7, static_cast<std::uint64_t>(trial));
+    std::vector<Rigid3> motions;
+    for (int k = 0; k < count; ++k) {
+      const double angle = (least + (most - least) * random.uniform()) * kDegree;
+      motions.push_back(seen(Rigid3::about_axis(kAxis, kOnAxis, angle), turn_error, 0.05, random));
+    }
+    const HingeFit fit = fit_hinge(motions, points, kOnAxis);
+    const double off = std::asin(std::min(1.0, fit.axis.cross(kAxis).norm()));
+    inside += off <= kWithin95 * fit.axis_error ? 1 : 0;
+  }
+  return static_cast<double>(inside) / kTrials;
+}
+
+TEST(FitHinge, ItsErrorIsThatOfTheTurnsOverTheTurns) {
+  const std::vector<Vec3> points = bone_points();
+  const auto error_of = [&](std::vector<double> degrees) {
+    std::vector<Rigid3> motions;
+    for (const double angle : degrees) {
+      motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle * kDegree));
+    }
+    return fit_hinge(motions, points, kOnAxis).axis_error / kDegree;
+  };
+  // Half a degree over three, over sixty (its chord); four like turns show twice as much as one,
+  // and a small one beside a large one hardly anything.
+  EXPECT_NEAR(error_of({3.0}), 9.5, 0.1);
+  EXPECT_NEAR(error_of({60.0}), 0.5, 0.01);
+  EXPECT_NEAR(error_of({60.0, 60.0, 60.0, 60.0}), 0.25, 0.005);
+  EXPECT_NEAR(error_of({60.0, 3.0}), 0.5, 0.01);
+}
+
+TEST(FitHinge, NineteenOfTwentyAxesLieWithinTheirErrors) {
+  for (const int count : {1, 2, 4}) {
+    for (const auto& [least, most] : {std::pair{4.0, 12.0}, std::pair{20.0, 90.0}}) {
+      const double share = hinge_coverage(count, least, most, kTurnError);
+      EXPECT_GE(share, 0.90) << count << " turns of " << least << " to " << most;
+      EXPECT_LE(share, 0.98) << count << " turns of " << least << " to " << most;
+    }
+  }
+  // Motions three times worse than is taken for granted show it by their spread, if not all of it:
+  // without that 1 - exp(-(2.45 / 3)^2 / 2) = 28 % would lie inside.
+  EXPECT_GE(hinge_coverage(4, 20.0, 90.0, 3.0 * kTurnError), 0.75);
+}
+
+TEST(FitTwoAxes, NineteenOfTwentyAxesLieWithinTheirErrors) {
+  constexpr int kTrials = 300;
+  const std::vector<Vec3> points = bone_points();
+  TwoAxisPrior prior;
+  prior.near = kOnAxis;
+  prior.first = kAxis;
+  prior.second = kAxis.unitOrthogonal();
+  prior.first_sd = prior.second_sd = 0.12;
+  prior.slide_sd = 0.4;
+  const auto tilted = [](const Vec3& axis, double sd, RandomStream& random) {
+    const Vec3 e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
+    const double a = sd * random.normal(), b = sd * random.normal();
+    return (axis + a * e1 + b * e2).normalized();
+  };
+  int first = 0, second = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    RandomStream random(11, static_cast<std::uint64_t>(trial));
+    Vec3 bends, spreads;
+    double square = 0.0;
+    do {  // square to each other as the prior has it
+      bends = tilted(prior.first, prior.first_sd, random);
+      spreads = tilted(prior.second, prior.second_sd, random);
+      square = bends.dot(spreads) / prior.square_sd;
+    } while (random.uniform() > std::exp(-0.5 * square * square));
+    // A fist that spreads or draws in by what nobody knows, and spread fingers that hardly bend.
+    const auto motion = [&](double a, double b) {
+      return seen(Rigid3::about_axis(bends, kOnAxis, a) * Rigid3::about_axis(spreads, kOnAxis, b),
+                  0.3 * kDegree, 0.05, random);
+    };
+    const std::vector<Rigid3> motions = {motion(1.1, prior.by_first_sd * random.normal()),
+                                         motion(prior.by_second_sd * random.normal(), 0.26)};
+    const std::vector<MainAxis> main = {MainAxis::kFirst, MainAxis::kSecond};
+    const TwoAxisFit fit = fit_two_axes(motions, main, points, prior);
+    first += angle_between(fit.first_axis, bends) * kDegree <= kWithin95 * fit.first_error;
+    second += angle_between(fit.second_axis, spreads) * kDegree <= kWithin95 * fit.second_error;
+  }
+  for (const int inside : {first, second}) {
+    EXPECT_GE(inside, 0.90 * kTrials);
+    EXPECT_LE(inside, 0.98 * kTrials);
+  }
 }
 
 TEST(FitHinge, WithoutMotionsSaysSo) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,15 +40,23 @@ struct FixedAxisCmc {
 struct JointMeasures {
   Skeleton skeleton;
   std::array<bool, kDofCount> is_measured{};
+  std::array<std::optional<double>, kDofCount> axis_error{};  ///< as in MeasuredJoints
   FixedAxisCmc fixed_cmc;
   std::vector<std::string> notes;
 
   bool& measured(Dof dof) { return is_measured[index_of(dof)]; }
+  /// The axis is measured, with that standard error, rad.
+  void set_measured(Dof dof, double error) {
+    measured(dof) = true;
+    axis_error[index_of(dof)] = error;
+  }
 };
 
 /// Hinges (PIP, DIP, thumb MP, IP): the fixed axis of all limit postures (fit_hinge()). MCP: two
 /// axes, flexion fixed to the metacarpal, abduction to the phalanx (fit_two_axes()). Sense and what
-/// isn't given: the model's. Moves `hand`'s joint centres to the axes found.
+/// isn't given: the model's. An axis whose standard error is above 8 degrees is no better than the
+/// model's (people's axes differ by 5 to 8) and isn't used; above 4 degrees a note says so. Moves
+/// `hand`'s joint centres to the axes found.
 void measure_finger_joints(ReferenceHand& hand, const Hand& model, const MotionsByPosture& motions,
                            JointMeasures& measures);
 

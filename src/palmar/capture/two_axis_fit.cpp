@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/capture/two_axis_fit.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -96,9 +97,16 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   for (Eigen::Index k = 0; k < count; ++k) {
     x.segment<2>(8 + 2 * k) = angles_near(motions[k], first.axis, second.axis);
   }
-  x = solve_least_squares(problem, x, {.gradient_tolerance = 1e-8, .step_tolerance = 1e-10}).x;
+  const LeastSquaresSolution solution =
+      solve_least_squares(problem, x, {.gradient_tolerance = 1e-8, .step_tolerance = 1e-10});
+  x = solution.x;
 
   TwoAxisFit fit;
+  const Eigen::MatrixXd covariance = (solution.jacobian.transpose() * solution.jacobian)
+                                         .ldlt()
+                                         .solve(Eigen::MatrixXd::Identity(n, n));
+  fit.first_error = std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace());
+  fit.second_error = std::sqrt(0.5 * covariance.block<2, 2>(4, 4).trace());
   const Eigen::Vector4d a = x.head<4>(), b = x.segment<4>(4);
   fit.first_axis = first.axis_at(a);
   fit.first_point = first.point_at(a);

@@ -20,6 +20,10 @@ struct TwoAxisFit {
   std::vector<std::array<double, 2>> angle;  ///< first, second; of each motion, rad
   double rms = 0.0;                          ///< mm; slides dropped
   bool is_first_observed = false, is_second_observed = false;
+  /// Standard errors of the axes as HingeFit::axis_error: the root of half the trace of the tilts'
+  /// covariance, (J^T J)^-1 at the solution with the prior in it. So they hold what the prior
+  /// leaves open: what a limit posture of one axis does about the other by the way. rad.
+  double first_error = 0.0, second_error = 0.0;
 };
 
 /// What is known of a two-axis joint before any motion is looked at: standard deviations show how

@@ -88,6 +88,13 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     write_hand(request.out, hand);
     if (request.writes_report) write_scan_report(options.work, record, request.language, part);
   };
+  options.write_found = [&](const ScanRecord& found, const ScanRefusal& refusal) -> std::string {
+    if (!request.writes_report) return "What was found stays in " + options.work;
+    ScanRefusal said = refusal;
+    said.message = with_setting_names(refusal.message, request.setting_names);
+    write_refused_scan_report(options.work, found, said, model->bones.size(), request.language);
+    return "What was found, with pictures: " + options.work + "/report.html";
+  };
   outcome.record = run_mri_pipeline(selection.scans, *model, options, progress);
   if (request.writes_report) outcome.report = outcome.work + "/report.html";
   return outcome;

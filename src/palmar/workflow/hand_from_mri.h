@@ -54,7 +54,9 @@ struct HandFromMriOutcome {
 
 /// Images to hand and report; minutes per posture. What an earlier run kept in the work folder is
 /// taken up where all that goes into it is the same. Throws UsageError; InputError naming series or
-/// file, also when a scan shows too few bones; OutputError; Cancelled (what was finished is kept).
+/// file, also when a scan shows too few bones; NumericalError; OutputError; Cancelled (what was
+/// finished is kept). A step that fails once the reference's surfaces are there is named, and the
+/// report shows what was found until then (write_refused_scan_report()); no hand is written.
 HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request,
                                       const Progress& progress = {});
 

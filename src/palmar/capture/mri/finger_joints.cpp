@@ -17,6 +17,11 @@ namespace {
 // A flexion axis more than this off the model's is a mistake of the registration, not anatomy.
 constexpr double kLargestTilt = 50.0 * kDegree;
 
+// Axes of people's finger joints differ by 5 to 8 degrees: the model's is as good as one with a
+// larger error than that.
+constexpr double kNoBetter = 8.0 * kDegree;
+constexpr double kDoubtful = 4.0 * kDegree;
+
 std::string in_words(std::string_view name) {
   std::string words(name);
   for (char& c : words) c = c == '_' ? ' ' : c;
@@ -76,6 +81,18 @@ Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, D
   return to * from.transpose() * model.skeleton.dof(abduction).axis;
 }
 
+/// Whether the axis is better than the model's. Notes what is doubtful, or not used.
+bool is_better(Dof dof, double error, JointMeasures& measures) {
+  if (error <= kDoubtful) return true;
+  const bool is_used = error <= kNoBetter;
+  measures.notes.push_back(fmt::format(
+      "The motions show the axis of {} with a standard error of {:.0f} degrees only{}",
+      in_words(name_of(dof)), error / kDegree,
+      is_used ? ": it is doubtful. A posture that turns this joint further would show it."
+              : ", which is no better than the model's: that is used."));
+  return is_used;
+}
+
 void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::size_t link,
                    JointId id, Dof dof, const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
@@ -87,13 +104,13 @@ void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::s
     const HingeFit fit = fit_hinge(turns.motion, bone->second.points, node);
     const double sense = fit.axis.dot(result.axis) < 0.0 ? -1.0 : 1.0;
     const double tilt = std::acos(std::min(1.0, std::abs(fit.axis.dot(result.axis))));
-    if (tilt < kLargestTilt) {
+    if (tilt < kLargestTilt && is_better(dof, fit.axis_error, measures)) {
       result.axis = sense * fit.axis;
       result.centre = fit.point;
       result.source = source_of(turns);
       node = fit.point;
-      measures.measured(dof) = true;
-    } else {
+      measures.set_measured(dof, fit.axis_error);
+    } else if (tilt >= kLargestTilt) {
       measures.notes.push_back(
           fmt::format("The motion of the {} turns about an axis {:.0f} degrees off the one that a "
                       "{} can have; it isn't used.",
@@ -124,20 +141,23 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
     prior.second = spreads.axis;
     prior.slide_sd = 0.4;  // collateral ligaments hold the phalanx
     const TwoAxisFit fit = fit_two_axes(turns.motion, main, bone->second.points, prior);
-    if (fit.is_first_observed) {
+    const bool has_first = fit.is_first_observed && is_better(flexion, fit.first_error, measures);
+    const bool has_second =
+        fit.is_second_observed && is_better(abduction, fit.second_error, measures);
+    if (has_first) {
       bends.axis = fit.first_axis;
       bends.centre = fit.first_point;
       bends.source = source_of(turns);
       node = fit.first_point;
-      measures.measured(flexion) = true;
+      measures.set_measured(flexion, fit.first_error);
     }
-    if (fit.is_second_observed) {
+    if (has_second) {
       spreads.axis = fit.second_axis;
       spreads.centre = fit.second_point;
       spreads.source = source_of(turns);
-      if (!fit.is_first_observed) node = fit.second_point;
-      measures.measured(abduction) = true;
-    } else if (fit.is_first_observed) {
+      if (!has_first) node = fit.second_point;
+      measures.set_measured(abduction, fit.second_error);
+    } else if (has_first) {
       // As it lies in the model to flexion axis and phalanx.
       spreads.axis = carried_axis(hand, model, finger, flexion, bends.axis, abduction);
       spreads.centre = node;

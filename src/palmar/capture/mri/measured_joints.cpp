@@ -277,6 +277,7 @@ MeasuredJoints measure_joints(const std::map<ScanPosture, ScanSurfaces>& scans,
   result.skeleton = std::move(measures.skeleton);
   result.patient_from_hand = hand.patient_from_hand;
   result.is_measured = measures.is_measured;
+  result.axis_error = measures.axis_error;
   return result;
 }
 

@@ -72,6 +72,8 @@ struct MeasuredJoints {
   Rigid3 patient_from_hand;  ///< where that frame is
   std::array<bool, kDofCount>
       is_measured{};  ///< axis and range come from the scans; others from the model
+  /// Standard errors of measured axes (HingeFit::axis_error), rad; nothing where there is none.
+  std::array<std::optional<double>, kDofCount> axis_error{};
   std::map<ScanPosture, Posture> postures;  ///< angles of every posture
   /// Where the palm is in other scans, as far as something else than its bones showed.
   std::map<ScanPosture, Rigid3> patient_from_hand_in = {};

@@ -232,10 +232,27 @@ VoxelMask the_hand(const Volume& rough, double threshold, const std::string& nam
   return mask_of(parts, hands.front());
 }
 
-}  // namespace
+/// How deep voxels lie in a mask, mm.
+std::vector<float> depth_in(const VolumeGrid& grid, const VoxelMask& mask) {
+  VoxelMask outside(mask.size());
+  for (std::size_t v = 0; v < mask.size(); ++v) outside[v] = mask[v] == 0 ? 1 : 0;
+  return distance_transform(grid, outside);
+}
 
-ScanImage prepare_scan(const Volume& image, const std::string& name, const SurfaceOptions& options,
-                       const Progress& progress) {
+/// A threshold of the user's in the numbers of an image without noise floor; 0: none is given.
+double given_threshold(double threshold, double noise) {
+  return threshold > 0.0 ? without_noise_floor(threshold, noise) : 0.0;
+}
+
+struct MeasuredScan {
+  ScanImage scan;    ///< without body, markers and fixture
+  VoxelMask tissue;  ///< of the hand, roughly
+  Volume rough;
+};
+
+/// Cuts out, cleans and measures the signals.
+MeasuredScan measured_scan(const Volume& image, const std::string& name,
+                           const SurfaceOptions& options, const Progress& progress) {
   progress.update(0.0, "finding the hand in the image");
   Volume rough = gaussian_filtered(image, kRoughly);
   const VoxelMask whole = the_hand(rough, 0.7 * air_threshold(rough), name);
@@ -246,10 +263,10 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   const VolumeGrid& grid = scan.image.grid;
   VoxelMask tissue = cut_out(image.grid, whole, box);
   if (options.corrects_bias) {
-    progress.update(0.05, "taking the coil's field out");
-    scan.image = corrected_for_bias(scan.image, tissue, {}, part_of(progress, 0.05, 0.5));
+    progress.update(0.1, "taking the coil's field out");
+    scan.image = corrected_for_bias(scan.image, tissue, {}, part_of(progress, 0.1, 0.8));
   }
-  progress.update(0.5, "measuring the tissues' signals");
+  progress.update(0.8, "measuring the tissues' signals");
   ScanLevels& levels = scan.levels;
   std::vector<float> air;
   const std::vector<float> from_tissue = distance_transform(grid, tissue);
@@ -259,19 +276,11 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   // The median of Rayleigh's distribution.
   levels.noise = median(air) / std::sqrt(2.0 * std::log(2.0));
   scan.image = without_noise_floor(std::move(scan.image), levels.noise);
-  const auto given = [&](double threshold) {
-    return threshold > 0.0 ? without_noise_floor(threshold, levels.noise) : 0.0;
-  };
   scan.smooth = gaussian_filtered(scan.image, kSmoothing);
   rough = gaussian_filtered(scan.image, kRoughly);
 
-  const auto inside_of = [&](const VoxelMask& mask) {
-    VoxelMask outside(mask.size());
-    for (std::size_t v = 0; v < mask.size(); ++v) outside[v] = mask[v] == 0 ? 1 : 0;
-    return distance_transform(grid, outside);
-  };
   const auto median_at_depth = [&](const VoxelMask& mask) {
-    const std::vector<float> depth = inside_of(mask);
+    const std::vector<float> depth = depth_in(grid, mask);
     std::vector<float> values;
     for (std::size_t v = 0; v < mask.size(); ++v) {
       if (depth[v] > 1.0F && depth[v] < 1.8F) values.push_back(scan.image.value[v]);
@@ -279,15 +288,31 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
     return median(values);
   };
   tissue = filled(grid, tissue);
-  scan.depth = inside_of(tissue);
-  find_bone_levels(scan, given(options.bone_threshold));
+  scan.depth = depth_in(grid, tissue);
+  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.noise));
   levels.skin = median_at_depth(tissue);
-  levels.air_threshold =
-      options.air_threshold > 0.0 ? given(options.air_threshold) : 0.5 * levels.skin;
+  levels.air_threshold = options.air_threshold > 0.0
+                             ? given_threshold(options.air_threshold, levels.noise)
+                             : 0.5 * levels.skin;
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     tissue[v] = static_cast<double>(rough.value[v]) > 0.9 * levels.air_threshold ? 1 : 0;
   }
 
+  return {std::move(scan), std::move(tissue), std::move(rough)};
+}
+
+}  // namespace
+
+ScanLevels scan_levels(const Volume& image, const std::string& name, const SurfaceOptions& options,
+                       const Progress& progress) {
+  return measured_scan(image, name, options, progress).scan.levels;
+}
+
+ScanImage prepare_scan(const Volume& image, const std::string& name, const SurfaceOptions& options,
+                       const Progress& progress) {
+  auto [scan, tissue, rough] = measured_scan(image, name, options, part_of(progress, 0.0, 0.6));
+  const VolumeGrid& grid = scan.image.grid;
+  ScanLevels& levels = scan.levels;
   progress.update(0.6, "markers and fixture");
   VoxelMask taken(tissue.size(), 0);
   if (options.marker_diameter > 0.0) {
@@ -321,8 +346,8 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   scan.body = opened(grid, scan.body, 1.2);
   const ConnectedParts whole_parts = connected_parts(grid, scan.body);
   scan.body = mask_of(whole_parts, whole_parts.largest());
-  scan.depth = inside_of(scan.body);
-  find_bone_levels(scan, given(options.bone_threshold));
+  scan.depth = depth_in(grid, scan.body);
+  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.noise));
   return scan;
 }
 

@@ -67,6 +67,20 @@ void SurfaceOptions::check() const {
   require(marker_diameter, 0.0, 20.0, "marker_diameter", "mm");
 }
 
+std::string better_scan(const ScanSurfaces& surfaces) {
+  constexpr double kPixel = 0.8, kSlice = 1.0, kRounding = 0.02;  // mm; Xie 2014
+  const Vec3& voxel = surfaces.voxel;
+  const double slice = voxel.maxCoeff();
+  const double pixel = voxel.sum() - slice - voxel.minCoeff();  // the larger one
+  if (slice > 0.0 && slice <= kSlice + kRounding && pixel <= kPixel + kRounding) {
+    return fmt::format(
+        "a scan with less noise, of a hand that lies still (voxels of {:.2f} x "
+        "{:.2f} x {:.2f} mm are fine enough)",
+        voxel.x(), voxel.y(), voxel.z());
+  }
+  return "a finer scan with less noise (pixels of 0.8 mm, slices of 1 mm)";
+}
+
 ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const Hand& model,
                            const SurfaceOptions& options, const Progress& progress) {
   options.check();
@@ -93,6 +107,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   surfaces.air_threshold = with_noise_floor(scan.levels.air_threshold, scan.levels.noise);
   surfaces.bone_threshold = with_noise_floor(scan.levels.bone_threshold, scan.levels.noise);
   surfaces.noise = scan.levels.noise;
+  surfaces.voxel = image.grid.spacing;
 
   progress.update(0.4, "skin");
   surfaces.skin = skin_surface(scan, options.edge_length, surfaces.notes);

@@ -30,9 +30,14 @@ struct ScanSurfaces {
   double air_threshold = 0.0;  ///< intensities used, after bias correction
   double bone_threshold = 0.0;
   double noise = 0.0;                ///< standard deviation of the intensity in tissue
+  Vec3 voxel = Vec3::Zero();         ///< of the image, mm; 0: not known
   double bone_error_estimate = 0.0;  ///< expected of the surfaces at this resolution and noise, mm
   std::vector<std::string> notes;    ///< what the user should know: sentences
 };
+
+/// What a better scan would be, as a clause: finer voxels where they are coarser than 0.8 mm in the
+/// slice and 1 mm across, or aren't known; else less noise.
+std::string better_scan(const ScanSurfaces& surfaces);
 
 struct SurfaceOptions {
   double air_threshold = 0.0;   ///< intensity of the file; 0: found from the histogram

@@ -39,6 +39,13 @@ struct ScanRecord {
   std::vector<std::string> notes;      ///< of every step: sentences
 };
 
+/// Why no hand came of scans.
+struct ScanRefusal {
+  std::string step;  ///< that failed: "surfaces", "bones", "motions", "joints", "hand", "contact"
+  std::string posture;  ///< whose scan it was about; empty: all
+  std::string message;  ///< the cause: a sentence
+};
+
 /// Mean of the bones' errors in one posture, as a row of Xie 2014, tables 2-2 to 2-4, has it.
 struct ErrorRow {
   ScanPosture posture{};

@@ -96,6 +96,17 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
   return list;
 }
 
+void allow_for_fullness(PersonEstimate& estimate) {
+  for (EstimatedDimension& one : estimate.dimensions) {
+    const DimensionKind kind = one.dimension.kind;
+    if (one.is_measured || kind == DimensionKind::kHandLength ||
+        kind == DimensionKind::kSegmentLength) {
+      continue;
+    }
+    one.sd = std::hypot(one.sd, kFullness * one.value);
+  }
+}
+
 std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
                                             const std::vector<KnownMeasure>& photo) {
   for (const KnownMeasure& one : photo) {
@@ -120,6 +131,7 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
     person.outline = outline;
     person.measures = static_cast<int>(measures.size());
     person.estimate = estimate_person(population, measures);
+    allow_for_fullness(person.estimate);
     person.hand = maker.make(sizes_of(person.estimate)).hand;
     if (person.hand.side != side) person.hand = mirrored(person.hand);
   };

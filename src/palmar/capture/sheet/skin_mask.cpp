@@ -27,6 +27,23 @@ constexpr float kBluer = -0.06F;        // than paper or table: none of them and
 /// How red: shadows on the paper are as grey as it is.
 float redness(const Vec3f& light) { return (light[0] - light[2]) / std::max(0.02F, light.sum()); }
 
+/// Encloses more, or more often, than fingers can: five have four gaps between them.
+[[noreturn]] void fail_enclosed(const std::string& name, Ground ground, int gaps, double most) {
+  constexpr int kMostGaps = 4;
+  constexpr double kLargestGap = 4000.0;  // mm2; between thumb and index 2000 to 3000
+  if (ground == Ground::kTable && (gaps > kMostGaps || most > kLargestGap)) {
+    fail_skin(name,
+              fmt::format("what is redder than the table encloses {} places, up to {:.1f} cm2 "
+                          "of it: that is no hand but the table's grain or pattern; place "
+                          "hand and card on something plain that isn't of the colour of skin "
+                          "or wood, best white, grey or blue",
+                          gaps, most / 100.0));
+  }
+  fail_skin(name, fmt::format("the hand's outline encloses {:.1f} cm2 of {}: fingers touch; spread "
+                              "them so that it shows between all of them",
+                              most / 100.0, ground == Ground::kPaper ? "paper" : "the table"));
+}
+
 /// A hand beside cells that the picture doesn't show goes on there.
 void check_in_picture(const RectifiedSheet& sheet, const VoxelMask& mask, const std::string& name) {
   const SheetGrid& grid = sheet.grid;
@@ -125,17 +142,18 @@ VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::strin
   }
   // A gap between fingers that touch at their tips is no hole of the skin: up to 1 cm2 (nails,
   // rings, blemishes) is.
-  for (std::size_t p = 0; p < mask.size(); ++p) {
-    const int hole = holes.part[p];
-    if (hole < 0 || is_open[hole] != 0) continue;
+  constexpr double kLeastGap = 100.0;  // mm2
+  int gaps = 0;
+  double most = 0.0;
+  for (int hole = 0; hole < holes.count(); ++hole) {
     const double hole_area = static_cast<double>(holes.voxels[hole]) * grid.cell * grid.cell;
-    if (hole_area > 100.0) {
-      fail_skin(name,
-                fmt::format("the hand's outline encloses {:.1f} cm2 of {}: fingers touch; spread "
-                            "them so that it shows between all of them",
-                            hole_area / 100.0, ground == Ground::kPaper ? "paper" : "the table"));
-    }
-    mask[p] = 1;
+    if (is_open[hole] != 0 || hole_area <= kLeastGap) continue;
+    ++gaps;
+    most = std::max(most, hole_area);
+  }
+  if (gaps > 0) fail_enclosed(name, ground, gaps, most);
+  for (std::size_t p = 0; p < mask.size(); ++p) {
+    if (holes.part[p] >= 0 && is_open[holes.part[p]] == 0) mask[p] = 1;
   }
   return mask;
 }

@@ -49,9 +49,12 @@ Json joints_json(const ScanRecord& record) {
   Json list = Json::array();
   for (const Joint& joint : record.made.hand.skeleton.joints) {
     for (const JointDof& dof : joint.dofs) {
+      std::optional<double> axis_error = record.joints.axis_error[index_of(dof.dof)];
+      if (axis_error) *axis_error *= kDegreesPerRadian;
       list.push_back({{"joint", name_json(name_of(joint.id))},
                       {"dof", name_json(name_of(dof.dof))},
                       {"is_measured", record.joints.is_measured[index_of(dof.dof)]},
+                      {"axis_error_deg", or_null(axis_error)},
                       {"axis", vector3(dof.axis)},
                       {"centre_mm", vector3(dof.centre)},
                       {"axis_patient", vector3(patient.rotation * dof.axis)},
@@ -198,6 +201,18 @@ std::string scan_record_json(const ScanRecord& record) {
       {"skin_registration",
        {{"mean_mm", record.made.registration_mean}, {"p95_mm", record.made.registration_p95}}},
       {"notes", record.notes}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string refused_scans_json(const ScanRecord& record, const ScanRefusal& refusal) {
+  const Json json = {{"refusal",
+                      {{"step", refusal.step},
+                       {"posture", refusal.posture.empty() ? Json(nullptr) : Json(refusal.posture)},
+                       {"message", refusal.message}}},
+                     {"side", name_json(name_of(record.scans.front().surfaces.side))},
+                     {"scans", scans_json(record)},
+                     {"bone_motions", motions_json(record)},
+                     {"notes", record.notes}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -13,6 +13,10 @@ namespace palmar {
 /// in the hand frame and in the patient frame of the reference scan.
 std::string scan_record_json(const ScanRecord& record);
 
+/// What was found in scans that no hand came of, and why: {"refusal", "side", "scans",
+/// "bone_motions", "notes"}, each as scan_record_json() has it.
+std::string refused_scans_json(const ScanRecord& record, const ScanRefusal& refusal);
+
 /// {"motions": [...]}: turn, shift and fit of each bone from one scan to another; patient frames,
 /// mm.
 std::string bone_motions_json(const std::vector<BoneMotion>& motions);

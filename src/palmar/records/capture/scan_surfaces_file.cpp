@@ -80,6 +80,7 @@ void write_scan_surfaces(const std::string& folder, const ScanSurfaces& surfaces
                       {"air_threshold", surfaces.air_threshold},
                       {"bone_threshold", surfaces.bone_threshold},
                       {"noise", surfaces.noise},
+                      {"voxel_mm", vector3(surfaces.voxel)},
                       {"bone_error_estimate_mm", surfaces.bone_error_estimate},
                       {"skin", "skin.ply"},
                       {"bones", bones},
@@ -117,6 +118,7 @@ ScanSurfaces read_scan_surfaces(const std::string& folder) {
     surfaces.air_threshold = json.at("air_threshold").get<double>();
     surfaces.bone_threshold = json.at("bone_threshold").get<double>();
     surfaces.noise = json.at("noise").get<double>();
+    if (json.contains("voxel_mm")) surfaces.voxel = vector_in(json.at("voxel_mm"));
     surfaces.bone_error_estimate = json.at("bone_error_estimate_mm").get<double>();
     surfaces.skin = mesh_at(base / json.at("skin").get<std::string>());
     for (const Json& bone : json.at("bones")) {

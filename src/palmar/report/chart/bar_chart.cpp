@@ -37,7 +37,7 @@ Figure bar_figure(const BarChart& chart) {
     largest = std::max({largest, bar.value, bar.range ? bar.range->high : 0.0});
   }
   if (!(largest > 0.0)) {
-    figure.text(0.0, kTop + 16.0, "No contact.", {.size = kLetters, .colour = kFaintColour});
+    figure.text(0.0, kTop + 16.0, chart.when_empty, {.size = kLetters, .colour = kFaintColour});
     return figure;
   }
   const double upper = rounded_up(largest);

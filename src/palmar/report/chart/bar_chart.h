@@ -25,9 +25,10 @@ struct Bar {
 struct BarChart {
   std::string title;  ///< with the unit: "Force, N"
   std::vector<Bar> bars;
+  std::string when_empty = "Nothing to show.";  ///< what is missing: a sentence
 };
 
-/// Horizontal bars with their values. A chart without bars says so.
+/// Horizontal bars with their values; `when_empty` where none is above 0.
 Figure bar_figure(const BarChart& chart);
 
 }  // namespace palmar

@@ -28,7 +28,7 @@ BarChart region_chart(const ContactResult& contact, const std::string& title,
   const bool has_range = contact.band && contact.band->total.force_low > 0.0 &&
                          contact.band->total.force_high > 0.0 &&
                          contact.band->regions.size() == contact.regions.size();
-  BarChart chart{title + (has_range ? " (lines: soft to stiff tissue)" : ""), {}};
+  BarChart chart{title + (has_range ? " (lines: soft to stiff tissue)" : ""), {}, "No contact."};
   for (std::size_t i = 0; i < contact.regions.size(); ++i) {
     const RegionContact& one = contact.regions[i];
     Bar bar{plain_words(one.region), one.*value, region_colour(one.region)};
@@ -46,7 +46,7 @@ BarChart sensitivity_chart(const ContactBand& band) {
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return a.force_per_modulus > b.force_per_modulus;
   });
-  BarChart chart{"Force that 10 % stiffer skin in one region adds, N", {}};
+  BarChart chart{"Force that 10 % stiffer skin in one region adds, N", {}, "No contact."};
   for (const ContactBandRow& one : rows) {
     chart.bars.push_back({plain_words(one.region), kStiffer * std::max(one.force_per_modulus, 0.0),
                           region_colour(one.region)});

@@ -400,7 +400,11 @@ TEST(BarChart, IsWellFormedAndBarsAreInProportion) {
   EXPECT_THAT(svg, HasSubstr("a &lt;b&gt;"));
   EXPECT_THAT(svg, HasSubstr("points=\"250,37 504,37 504,53 250,53\""));
   EXPECT_THAT(svg, HasSubstr("points=\"250,61 377,61 377,77 250,77\""));
-  EXPECT_THAT(to_svg(bar_figure({"Force, N", {}})), HasSubstr("No contact."));
+  EXPECT_THAT(to_svg(bar_figure({"Force, N", {}, "No contact."})), HasSubstr("No contact."));
+  // What isn't a chart of contact doesn't speak of it.
+  const std::string empty = to_svg(bar_figure({"Thumb, mm", {}, "No posture shows it."}));
+  EXPECT_THAT(empty, HasSubstr("No posture shows it."));
+  EXPECT_THAT(empty, Not(HasSubstr("contact")));
   // The range widens the scale: 20 N is the chart's whole width.
   const std::string ranged =
       to_svg(bar_figure({"Force, N", {{"a", 10.0, {}, BarRange{5.0, 20.0}}}}));

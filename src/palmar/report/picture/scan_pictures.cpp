@@ -89,6 +89,40 @@ Rigid3 hand_from_scan(const ScanRecord& record, ScanPosture posture) {
   return hand_from_reference;
 }
 
+/// The middle of a bone, if it was found.
+std::optional<Vec3> middle_of(const ScanSurfaces& surfaces, const std::string& name) {
+  for (const ScannedBone& bone : surfaces.bones) {
+    if (bone.name != name || bone.mesh.vertices.empty()) continue;
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& vertex : bone.mesh.vertices) sum += vertex;
+    return sum / static_cast<double>(bone.mesh.vertices.size());
+  }
+  return {};
+}
+
+/// Axes of the hand frame by metacarpals and first phalanges of a scan: y towards the fingers, x
+/// towards the thumb of a right hand, away from that of a left one. The patient's where they lack.
+Rigid3 upright_from_scan(const ScanSurfaces& surfaces) {
+  Rigid3 upright;
+  std::optional<Vec3> first, last;
+  Vec3 distal = Vec3::Zero();
+  for (const char* finger : {"index", "middle", "ring", "little"}) {
+    const auto metacarpal = middle_of(surfaces, std::string(finger) + "_metacarpal");
+    const auto phalanx = middle_of(surfaces, std::string(finger) + "_proximal_phalanx");
+    if (metacarpal && !first) first = metacarpal;
+    if (metacarpal) last = metacarpal;
+    if (metacarpal && phalanx) distal += *phalanx - *metacarpal;
+  }
+  if (!first || (*first - *last).norm() < 1.0 || distal.norm() < 1.0) return upright;
+  const Vec3 y = distal.normalized();
+  Vec3 x = surfaces.side == Side::kLeft ? *last - *first : *first - *last;
+  x = (x - x.dot(y) * y).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, y, x.cross(y);
+  upright.rotation = Quat(Eigen::Matrix3d(axes.transpose()));
+  return upright;
+}
+
 /// Colours of the distance from posed to scanned skin.
 ColourScale error_scale() {
   return {.map = Colormap::kFern,
@@ -130,36 +164,18 @@ struct Shown {
   std::optional<ColourScale> scale;
 };
 
-}  // namespace
+Shown shown_scan(const RecordedScan& scan, const Rigid3& shown_from_patient) {
+  return {"scan_" + std::string(name_of(scan.posture)) + "_",
+          "Scan of the posture " + plain_words(scan.posture) + ", ",
+          "What was found in the scan: skin, bones, markers; seen from the ",
+          scan_scene(scan.surfaces, shown_from_patient),
+          {}};
+}
 
-std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options,
-                                   const Progress& progress) {
-  const double sign = record.made.hand.side == Side::kLeft ? -1.0 : 1.0;
-  std::vector<Shown> all;
-  all.push_back({"hand_",
-                 "The new hand, ",
-                 "Skin, see-through, with the bones of the scan inside, seen from the ",
-                 hand_scene(record.made.hand),
-                 {}});
-  for (const RecordedScan& scan : record.scans) {
-    const auto posed = record.joints.postures.find(scan.posture);
-    if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
-    const std::string words = plain_words(scan.posture);
-    all.push_back(
-        {"error_" + std::string(name_of(scan.posture)) + "_",
-         "Posed skin, distance to the scan: " + words + ", ",
-         "The hand in the posture " + words +
-             ", coloured by the distance of its skin from the scanned one, seen from the ",
-         error_scene(record, scan, posed->second), error_scale()});
-  }
-  for (const RecordedScan& scan : record.scans) {
-    const std::string words = plain_words(scan.posture);
-    all.push_back({"scan_" + std::string(name_of(scan.posture)) + "_",
-                   "Scan of the posture " + words + ", ",
-                   "What was found in the scan: skin, bones, markers; seen from the ",
-                   scan_scene(scan.surfaces, hand_from_scan(record, scan.posture)),
-                   {}});
-  }
+/// When cancelled, those that are finished.
+std::vector<Picture> drawn(const std::vector<Shown>& all, Side side, const PictureOptions& options,
+                           const Progress& progress) {
+  const double sign = side == Side::kLeft ? -1.0 : 1.0;
   std::vector<Picture> pictures;
   const double step = 1.0 / static_cast<double>(kViews.size() * all.size());
   try {
@@ -178,6 +194,42 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
   } catch (const Cancelled&) {
   }
   return pictures;
+}
+
+}  // namespace
+
+std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options,
+                                   const Progress& progress) {
+  std::vector<Shown> all;
+  all.push_back({"hand_",
+                 "The new hand, ",
+                 "Skin, see-through, with the bones of the scan inside, seen from the ",
+                 hand_scene(record.made.hand),
+                 {}});
+  for (const RecordedScan& scan : record.scans) {
+    const auto posed = record.joints.postures.find(scan.posture);
+    if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
+    const std::string words = plain_words(scan.posture);
+    all.push_back(
+        {"error_" + std::string(name_of(scan.posture)) + "_",
+         "Posed skin, distance to the scan: " + words + ", ",
+         "The hand in the posture " + words +
+             ", coloured by the distance of its skin from the scanned one, seen from the ",
+         error_scene(record, scan, posed->second), error_scale()});
+  }
+  for (const RecordedScan& scan : record.scans) {
+    all.push_back(shown_scan(scan, hand_from_scan(record, scan.posture)));
+  }
+  return drawn(all, record.made.hand.side, options, progress);
+}
+
+std::vector<Picture> found_pictures(const ScanRecord& record, const PictureOptions& options,
+                                    const Progress& progress) {
+  std::vector<Shown> all;
+  for (const RecordedScan& scan : record.scans) {
+    all.push_back(shown_scan(scan, upright_from_scan(scan.surfaces)));
+  }
+  return drawn(all, record.scans.front().surfaces.side, options, progress);
 }
 
 }  // namespace palmar

@@ -159,11 +159,11 @@ void require_bones(const RecordedScan& scan, const Hand& model) {
   if (poor.empty() && missing.size() <= kMostMissing) return;
   throw InputError(fmt::format(
       "{}: too few bones were found to make a hand of: {} of the 19 of fingers and palm are "
-      "missing ({}); up to {} may be, and each finger needs {}. Look at skin.ply and bones/ of "
-      "this "
-      "scan: finer images with less noise (pixels of 0.8 mm, slices of 1 mm) help, so do "
-      "setting \"bone threshold\", or setting \"labels\" for bones that were found without a name",
-      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger));
+      "missing ({}); up to {} may be, and each finger needs {}. What helps: setting \"labels\" for "
+      "bones that were found without a name; setting \"bone threshold\" above the {:.0f} that was "
+      "used, where the rim of small bones is grey instead of dark; {}",
+      scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger,
+      scan.surfaces.bone_threshold, better_scan(scan.surfaces)));
 }
 
 void require_same_side(const RecordedScan& scan, Side reference) {
@@ -209,10 +209,13 @@ ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurface
     return made;
   } catch (const InputError& error) {
     const RecordedScan& reference = record.scans.front();
+    const std::vector<std::string> doubts = doubtful_bones(reference.surfaces, model);
     throw InputError(fmt::format(
-        "{}: its bones and skin make no whole hand ({}). Bones that are missing or look "
-        "wrong: {}. Scan finer, name bones by setting \"labels\", or mend their meshes",
-        reference.title, error.what(), fmt::join(doubtful_bones(reference.surfaces, model), "; ")));
+        "{}: its bones and skin make no whole hand: {}. {}Look at the pictures; fingers that are "
+        "curled or touch in the reference can be the cause, and so can bones",
+        reference.title, error.what(),
+        doubts.empty() ? "No bone of it looks wrong. "
+                       : fmt::format("Bones that look wrong: {}. ", fmt::join(doubts, "; "))));
   }
 }
 
@@ -235,11 +238,24 @@ class Shares {
 constexpr double kChecked = 0.5;
 constexpr double kFound = 25.0, kKept = 0.1, kTracked = 4.0, kMade = 15.0, kWritten = 12.0;
 
-}  // namespace
+/// Step and posture that the work is at, for when it fails.
+struct MriStep {
+  std::string name, posture;
+};
 
-ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
-                            const MriPipelineOptions& options, const Progress& progress) {
-  ScanRecord result;
+/// The cause after the step, and where what was found lies.
+std::string refusal_message(const MriPipelineOptions& options, const ScanRecord& found,
+                            const MriStep& step, const std::string& cause) {
+  const std::string about = step.posture.empty() ? "" : " (" + step.posture + ")";
+  std::string message = fmt::format("step {}{} failed: {}", step.name, about, cause);
+  if (!options.write_found) return message;
+  const std::string where = options.write_found(found, {step.name, step.posture, cause});
+  return where.empty() ? message : message + ". " + where;
+}
+
+void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
+               const MriPipelineOptions& options, const Progress& progress, ScanRecord& result,
+               MriStep& step) {
   const auto on_note = [&](const std::string& text) {
     result.notes.push_back(with_setting_names(text, options.setting_names));
     note_to(options.note, result.notes.back());
@@ -273,6 +289,7 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   std::vector<std::string> digests;
   for (const PlannedScan& plan : plans) {
     const std::string name(name_of(plan.selected->posture));
+    step = {"surfaces", name};
     std::optional<Side> side;
     if (!result.scans.empty()) side = result.scans.front().surfaces.side;
     result.scans.push_back(surfaces_of(plan, model, side, options,
@@ -284,11 +301,13 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
       on_note(fmt::format(
           "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
           fmt::join(doubts, "; "),
-          result.scans.size() == 1 ? ". Joints and lengths of the hand hang on them: scan finer, "
-                                     "name them by setting \"labels\", "
-                                     "or mend their meshes"
-                                   : ""));
+          result.scans.size() == 1
+              ? ". Joints and lengths of the hand hang on them: name them by setting \"labels\", "
+                "mend their meshes, or make " +
+                    better_scan(scan.surfaces)
+              : ""));
     }
+    step = {"bones", name};
     if (result.scans.size() == 1) {
       require_bones(scan, model);
       require_whole(scan);
@@ -321,6 +340,7 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
     if (result.motions.contains(scan.posture)) continue;
     const Progress part = shares.next(progress, kTracked, std::string(name_of(scan.posture)));
     part.update(0.0, "reading");
+    step = {"motions", std::string(name_of(scan.posture))};
     if (!bones) {
       const std::optional<ImageLevels> image = levels_of(scans.front());
       bones = image ? images_of_bones(reference, *image) : BoneImages();
@@ -334,11 +354,13 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
 
   const Progress part = shares.next(progress, made ? kKept : kMade, "");
   part.update(0.0, "joints");
+  step = {"joints", ""};
   const Hand sided = reference.side == model.side ? model : mirrored(model);
   std::map<ScanPosture, ScanSurfaces> surfaces;
   for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
   result.joints = measure_joints(surfaces, result.motions, sided);
   for (const std::string& note : result.joints.notes) on_note(note);
+  step = {"hand", ""};
   if (made) {
     result.made = std::move(*made);
   } else {
@@ -347,9 +369,27 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   }
   for (const std::string& note : result.made.notes) on_note(note);
   if (options.product) {
+    step = {"contact", std::string(name_of(ScanPosture::kGrasp))};
     result.contact = grasp_contact(result, options.product->mesh, options.product->source);
   }
   if (options.write) options.write(result, shares.next(progress, kWritten, ""));
+}
+
+}  // namespace
+
+ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
+                            const MriPipelineOptions& options, const Progress& progress) {
+  ScanRecord result;
+  MriStep step;
+  try {
+    run_steps(scans, model, options, progress, result, step);
+  } catch (const InputError& error) {
+    if (result.scans.empty()) throw;
+    throw InputError(refusal_message(options, result, step, error.what()));
+  } catch (const NumericalError& error) {
+    if (result.scans.empty()) throw;
+    throw NumericalError(refusal_message(options, result, step, error.what()));
+  }
   return result;
 }
 

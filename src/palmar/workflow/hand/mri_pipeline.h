@@ -29,12 +29,16 @@ struct MriPipelineOptions {
   SettingNames setting_names;  ///< for notes; exceptions name settings in the library's words
   /// The last step, which writes hand and report.
   std::function<void(ScanRecord&, const Progress&)> write;
+  /// Called when a step fails after the reference's surfaces were found, with what was found so
+  /// far; returns what the message shall say about it, or "". May be empty.
+  std::function<std::string(const ScanRecord&, const ScanRefusal&)> write_found;
 };
 
 /// Images to a hand: surfaces of every scan (one after the other, each on all threads), bones from
 /// posture to posture, joints, skin, contact with the product. What an earlier run kept in the work
 /// folder is taken up where all that goes into it is the same. Throws InputError, also when a scan
-/// shows too few bones to make a hand of; Cancelled (what was finished is kept).
+/// shows too few bones to make a hand of, and NumericalError, both with the step that failed and
+/// after `write_found`; Cancelled (what was finished is kept).
 ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
                             const MriPipelineOptions& options, const Progress& progress);
 

@@ -8,10 +8,10 @@
 
 #include "palmar/capture/mri/bones/bone_labels.h"
 #include "palmar/capture/mri/bones/bone_plausibility.h"
+#include "palmar/capture/mri/scan_image.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
-#include "palmar/imaging/air_threshold.h"
-#include "palmar/imaging/denoise.h"
+#include "palmar/imaging/noise_floor.h"
 #include "palmar/records/capture/bone_label_file.h"
 #include "palmar/records/capture/scan_surfaces_file.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -37,14 +37,19 @@ void require_sound_slices(const std::vector<std::string>& odd, bool is_accepted)
 MriImageInfo describe_mri_image(const std::string& image, const SeriesChoice& choice,
                                 const Progress& progress) {
   MriImageInfo info;
-  info.file = read_image(image, choice, progress);
+  info.file = read_image(image, choice, part_of(progress, 0.0, 0.3));
   const Volume& volume = info.file.image;
   const VolumeGrid& grid = volume.grid;
   const auto [least, most] = std::minmax_element(volume.value.begin(), volume.value.end());
   info.least = *least;
   info.most = *most;
-  info.air_threshold = air_threshold(volume);
-  info.noise = noise_deviation(volume);
+  try {
+    const ScanLevels levels = scan_levels(volume, image, {}, part_of(progress, 0.3, 1.0));
+    info.air_threshold = with_noise_floor(levels.air_threshold, levels.noise);
+    info.noise = levels.noise;
+  } catch (const InputError& error) {
+    info.no_hand = error.what();
+  }
   info.centre =
       grid.to_patient(0.5 * Vec3(grid.size[0] - 1.0, grid.size[1] - 1.0, grid.size[2] - 1.0));
   return info;

@@ -20,9 +20,11 @@ namespace palmar {
 struct MriImageInfo {
   ImageFile file;
   float least = 0.0F, most = 0.0F;  ///< intensities of the file
-  double air_threshold = 0.0;       ///< up to which a voxel is taken for air
-  double noise = 0.0;               ///< standard deviation of the intensity
-  Vec3 centre = Vec3::Zero();       ///< of the image, patient frame, mm
+  /// Up to which a voxel is taken for air, and the noise's standard deviation: those that
+  /// find_mri_surfaces() uses. Nothing if the image shows no hand, or two.
+  std::optional<double> air_threshold, noise;
+  std::string no_hand;         ///< why they lack
+  Vec3 centre = Vec3::Zero();  ///< of the image, patient frame, mm
 };
 
 /// Reads a folder of DICOM files or an image file. Throws as read_image(); Cancelled.

@@ -19,6 +19,13 @@ TriangleMesh rod(double from, double to) {
   return mesh;
 }
 
+Bone named(const std::string& name, TriangleMesh mesh) {
+  Bone bone;
+  bone.name = name;
+  bone.mesh = std::move(mesh);
+  return bone;
+}
+
 Hand model() {
   Hand hand;
   hand.bones.resize(4);
@@ -58,6 +65,33 @@ TEST(BonePlausibility, HalfABoneIsReported) {
   EXPECT_EQ(doubtful_bones(surfaces, model()).size(), 1U);
   surfaces.bones.erase(surfaces.bones.begin() + 1);
   EXPECT_THAT(doubtful_bones(surfaces, model()), IsEmpty());
+}
+
+TEST(BonePlausibility, AScaphoidIsAsLongAsPeoplesAreWhateverTheModelsIs) {
+  Hand short_one = model();
+  short_one.bones.push_back(named("middle_metacarpal", rod(0.0, 64.6)));
+  short_one.bones.push_back(named("scaphoid", rod(-20.0, -4.0)));
+  ScanSurfaces surfaces;
+  for (const Bone& bone : short_one.bones) surfaces.bones.push_back({bone.name, bone.mesh, false});
+  TriangleMesh& scaphoid = surfaces.bones.back().mesh;
+  for (const double length : {24.5, 26.0, 27.6}) {  // women, all, men
+    scaphoid = rod(0.0, length);
+    EXPECT_THAT(doubtful_bones(surfaces, short_one), IsEmpty()) << length;
+  }
+  scaphoid = rod(0.0, 46.0);  // with the lunate and more
+  EXPECT_THAT(doubtful_bones(surfaces, short_one),
+              ElementsAre("scaphoid is 46 mm long, where about 26 mm are expected"));
+  scaphoid = rod(0.0, 12.0);  // half of it
+  EXPECT_THAT(doubtful_bones(surfaces, short_one),
+              ElementsAre("scaphoid is 12 mm long, where about 26 mm are expected"));
+}
+
+TEST(BonePlausibility, OfTheForearmAnyLengthWillDo) {
+  Hand stump = model();
+  stump.bones.push_back(named("radius", rod(-60.0, -40.0)));
+  ScanSurfaces surfaces = larger_hand();
+  surfaces.bones.push_back({"radius", rod(-150.0, -48.0), false});
+  EXPECT_THAT(doubtful_bones(surfaces, stump), IsEmpty());
 }
 
 }  // namespace

@@ -24,7 +24,6 @@ namespace {
 // darker than another's leaky shell.
 constexpr std::array<double, 2> kFilmDepths = {0.22, 0.35};
 constexpr double kFloor = 0.15;         // share of the way from dark to bright
-constexpr double kCore = 0.65;          // share of the way from dark to the region's own level
 constexpr double kUsualShell = 0.8;     // mm
 constexpr double kLeastMarrow = 8.0;    // mm^3
 constexpr double kMostMarrow = 60.0e3;  // mm^3: that of the radius with much of its shaft
@@ -32,7 +31,11 @@ constexpr float kSkin = 1.0F;           // mm below the surface: too near for a 
 constexpr double kLeastDepth = 1.4;     // mm below the skin
 constexpr double kMostShallow = 0.2;    // share of voxels nearer to it
 constexpr double kOpen = 0.8;           // the same, where nothing dark lies outside
-constexpr double kDarkestShell = 0.62;  // share of the way from dark to the region's own level
+// Shares of the way from dark to the region's own level, at a bone threshold half way; they move
+// with that.
+constexpr double kCore = 0.65;
+constexpr double kDarkestShell = 0.62;
+constexpr double kMostShell = 0.9;  // whatever the threshold: fat has no shell at all
 
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
@@ -102,17 +105,20 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
     bool is_cut = false;
   };
   std::vector<Sums> sums(regions.count());
-  const double dark = scan.levels.dark, contrast = scan.levels.bright - dark;
+  const double dark = scan.levels.dark;
+  const double moved = 2.0 * scan.levels.bone_share();  // 1 at a threshold half way
+  const double darkest_shell = std::min(kMostShell, kDarkestShell * moved);
+  const double core = std::min(kMostShell, kCore * moved);
   for (std::size_t v = 0; v < regions.region.size(); ++v) {
     const std::int32_t r = regions.region[v];
     const auto value = static_cast<double>(scan.smooth.value[v]);
-    if (r < 0 || value < dark + 0.5 * contrast) continue;
+    if (r < 0 || value < scan.levels.bone_threshold) continue;
     sums[r].bright += value;
     sums[r].voxels += 1.0;
   }
   const auto limit_of = [&](std::int32_t r) {
     const Sums& s = sums[r];
-    return s.voxels > 0.0 ? dark + kCore * (s.bright / s.voxels - dark)
+    return s.voxels > 0.0 ? dark + core * (s.bright / s.voxels - dark)
                           : std::numeric_limits<double>::infinity();
   };
   const auto is_core = [&](std::size_t v, std::int32_t r) {
@@ -147,7 +153,7 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
               least = std::min(least, scan.smooth.value[w]);
               w = way > 0 ? w + stride[axis] : w - stride[axis];
             }
-            const double level = dark + (limit_of(r) - dark) / kCore;
+            const double level = dark + (limit_of(r) - dark) / core;
             if (static_cast<double>(least) > dark + kOpen * (level - dark)) s.open += 1.0;
             if (least == std::numeric_limits<float>::max()) continue;
             s.shell += static_cast<double>(least);
@@ -165,7 +171,7 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
     if (volume < kLeastMarrow || volume > kMostMarrow || s.faces == 0.0) continue;
     const double level = s.bright / s.voxels;
     if (s.shallow > kMostShallow * s.core) continue;
-    if (s.shell / s.faces > dark + kDarkestShell * (level - dark)) continue;
+    if (s.shell / s.faces > dark + darkest_shell * (level - dark)) continue;
     number[r] = static_cast<int>(found.size());
     MarrowRegion region;
     region.regions = {static_cast<std::int32_t>(r)};

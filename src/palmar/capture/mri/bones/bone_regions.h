@@ -36,8 +36,10 @@ struct MarrowRegions {
 
 /// Bright regions (bright_regions.h) inside the mask that are enclosed like marrow: not near the
 /// skin, nor as large as the fat below it, and with something darker than marrow and muscle round
-/// most of them. Regions are separated by films of two depths: those that only deep films separate
-/// hold several of the others, and overlap with them as candidates.
+/// most of them: up to 0.62 of the way from cortical bone to the region's own level, or more or
+/// less as ScanLevels::bone_share() is above or below a half. Regions are separated by films of two
+/// depths: those that only deep films separate hold several of the others, and overlap with them as
+/// candidates.
 MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner);
 
 /// Whether two candidates hold the same region.
