@@ -26,11 +26,11 @@ struct UsualRange {
   double lowest, highest;
 };
 constexpr double kThinnestShare = 0.8, kThickestShare = 1.25;
-constexpr UsualRange kUsual[] = {{"squareness", 0.0, 0.6},   {"taper", -6.0, 6.0},
-                                 {"swell", 0.0, 6.0},        {"waist", 0.0, 4.0},
-                                 {"egg", -0.2, 0.2},         {"palm_swell", 0.0, 5.0},
-                                 {"finger_swell", 0.0, 4.0}, {"thumb_rest", 0.0, 2.0},   {"finger_grooves", 0.0, 3.0},
-                                 {"turn", -30.0, 30.0},      {"twist", -20.0, 20.0}};
+constexpr UsualRange kUsual[] = {
+    {"squareness", 0.0, 0.6},   {"taper", -6.0, 6.0},     {"swell", 0.0, 6.0},
+    {"waist", 0.0, 4.0},        {"egg", -0.2, 0.2},       {"palm_swell", 0.0, 5.0},
+    {"finger_swell", 0.0, 4.0}, {"thumb_rest", 0.0, 2.0}, {"finger_grooves", 0.0, 3.0},
+    {"turn", -30.0, 30.0},      {"twist", -20.0, 20.0}};
 
 double read_number(const std::string& text, const std::string& words) {
   const std::optional<double> value = parse_double(text);
