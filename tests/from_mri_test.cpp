@@ -229,11 +229,11 @@ TEST(HandFromMri, DamagedSeriesAreNamedBeforeTheWork) {
   std::string bytes = read_text(slice);
   for (std::size_t k = bytes.size() - 4000; k < bytes.size(); ++k) bytes[k] = char(k * k % 251);
   write_text(slice, bytes);
-  const ProgramRun odd = run_palmar("hand from-mri damaged --out x.hand.glb", person());
+  const ProgramRun odd = run_palmar("hand from-mri damaged --out odd.hand.glb", person());
   EXPECT_EQ(odd.exit_code, 3);
   EXPECT_THAT(odd.err,
               AllOf(HasSubstr("grasp/slice-0015.dcm: differs"), HasSubstr("--accept-odd-slices")));
-  EXPECT_FALSE(fs::exists(person() + "/x.mri"));  // made for it, and nothing came of it
+  EXPECT_FALSE(fs::exists(person() + "/odd.mri"));  // made for it, and nothing came of it
   const ProgramRun step = run_palmar("mri surfaces damaged/grasp --out step", person());
   EXPECT_EQ(step.exit_code, 3);
   EXPECT_THAT(step.err,
