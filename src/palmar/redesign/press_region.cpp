@@ -13,13 +13,15 @@
 #include "palmar/geometry/mesh/editable_mesh.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/split_edges.h"
+#include "palmar/redesign/even_patches.h"
 
 namespace palmar {
 namespace {
 
 constexpr double kCell = 2.0;  // mm; marks nearer than that to each other serve as one
 // Vertices of a skin are about 2.5 mm apart: an edge of the product can lie between them.
-constexpr double kNear = 1.5;   // mm
+constexpr double kNear = 1.5;  // mm
+constexpr double kBorderShare = 0.8;
 constexpr double kDeep = 10.0;  // mm; what is deeper has neighbours that are less deep
 
 using Cell = std::array<int, 3>;
@@ -145,8 +147,25 @@ PressRegion refine_under(const Product& product, std::span<const TriangleMesh> s
         {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
     return query.closest(centre, reach + radius).has_value();
   };
-  region.mesh =
-      with_turned_diagonals(split_long_edges(product.mesh, edge_length, is_near), edge_length);
+  // What CAD programs mesh for itself are long slivers: all of it is made anew. Of a scan the rest
+  // stays.
+  const bool is_cad = product.faces != nullptr;
+  const TriangleChoice is_made = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return is_cad || is_near(a, b, c);
+  };
+  // Borders of patches stay as they are split here: clearly shorter than what is made between them.
+  const double split = kBorderShare * edge_length;
+  region.mesh = with_turned_diagonals(split_long_edges(product.mesh, split, is_made), split);
+  // A triangle lies in one CAD face.
+  const std::vector<int> below = triangles_below(product.mesh, region.mesh);
+  std::vector<int> group(region.mesh.triangles.size(), -1);
+  for (int t = 0; t < region.mesh.triangle_count(); ++t) {
+    const Triangle& corner = region.mesh.triangles[t];
+    const auto at = [&](int k) { return region.mesh.vertices[corner[k]]; };
+    if (!is_made(at(0), at(1), at(2))) continue;
+    group[t] = !is_cad ? 0 : std::max(0, product.faces->face_of_triangle[below[t]]);
+  }
+  region.mesh = with_even_patches(region.mesh, group, edge_length);
   region.triangle_of = triangles_below(product.mesh, region.mesh);
 
   std::vector<int> part_of(region.mesh.vertices.size(), -1);

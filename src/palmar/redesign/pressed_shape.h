@@ -66,7 +66,8 @@ struct PressedShape {
 /// The product's surface offset inwards by a share of how deep hands' skins reach into it (Xie
 /// 2014, 5.5.4, "redesign 1": concaves of finger shape). `skins`: posed, undeformed, product frame.
 ///
-/// 1. Triangles near any imprint are split until no edge is longer than edge_length.
+/// 1. Triangles are made anew, nearly equilateral, no edge longer than edge_length: all of a CAD
+///    file's, of a scan's those near any imprint.
 /// 2. Outward normals are smoothed along the surface to directions m, so that on both sides of an
 ///    edge they turn steadily; depths are measured along -m (imprint.h), and vertices go that way.
 ///    So at share 1 every vertex lands on the skin, on faces and at edges alike.
@@ -76,8 +77,8 @@ struct PressedShape {
 /// 4. Where the result would cross itself, fold or leave less than `wall`, the depth is halved
 ///    there until it does no more.
 ///
-/// Elsewhere triangles and their vertices stay; the mesh stays closed if it was; volume never
-/// grows. The same result for any order of hands and any number of threads. Throws UsageError on
+/// Elsewhere the surface stays, of a scan with its triangles; the mesh stays closed if it was;
+/// volume never grows. The same result for any order of hands and any number of threads. Throws UsageError on
 /// bad options, no skins, or a keep-out face that doesn't exist; Cancelled.
 PressedShape press_shape(const Product& product, std::span<const TriangleMesh> skins,
                          const PressedShapeOptions& options = {}, const Progress& progress = {});

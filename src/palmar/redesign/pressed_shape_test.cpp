@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "palmar/core/error.h"
@@ -226,10 +227,10 @@ TEST(PressShape, MirroredHandAndProductGiveTheMirroredShape) {
   options.smoothing = 2.0;
   const PressedShape a = press(product, {hand}, options);
   const PressedShape b = press(other, {mirrored(hand)}, options);
-  // Triangles are split along other diagonals there, which the surface knows within a hundredth.
+  // Triangles, 1 mm long, are others there; imprint and smoothing see the surface through them.
   const MeshDistance surface(b.mesh);
   for (const Vec3& x : a.mesh.vertices) {
-    EXPECT_LT(std::abs(surface.at({-x.x(), x.y(), x.z()}).distance), 0.03);
+    EXPECT_LT(std::abs(surface.at({-x.x(), x.y(), x.z()}).distance), 0.05);
   }
   EXPECT_NEAR(b.removed_volume / a.removed_volume, 1.0, 0.005);
   EXPECT_NEAR(b.deepest, a.deepest, 0.01);
@@ -269,13 +270,30 @@ TEST(PressShape, OrderOfHandsAndThreadsDontMatter) {
   EXPECT_EQ(one.shift[0], four.shift[1]);
 }
 
-TEST(PressShape, ElsewhereVerticesAndTrianglesStay) {
-  const Product product = plate();
-  const PressedShape shape = press(product, {ball_on_top(20, 20)}, {});
-  for (int v = 0; v < product.mesh.vertex_count(); ++v) {
-    const Vec3& x = product.mesh.vertices[v];
-    if (std::hypot(x.x() - 20, x.y() - 20) > 20.0 || x.z() < -15.0) {
-      EXPECT_EQ(shape.mesh.vertices[v], x);
+TEST(PressShape, ElsewhereTheSurfaceStaysAndOfAScanItsTriangles) {
+  const Product cad = plate();
+  Product scan = cad;
+  scan.faces = nullptr;
+  // The imprint, what its smoothing and its rim need, and marks 2 mm apart.
+  const auto is_elsewhere = [](const Vec3& x) {
+    return std::hypot(x.x() - 20, x.y() - 20) > 30.0 || x.z() < -15.0;
+  };
+  for (const Product* product : std::initializer_list<const Product*>{&cad, &scan}) {
+    const PressedShape shape = press(*product, {ball_on_top(20, 20)}, {});
+    const MeshDistance before(product->mesh), after(shape.mesh);
+    std::set<std::array<double, 3>> there;
+    int elsewhere = 0;
+    for (const Vec3& x : shape.mesh.vertices) {
+      there.insert({x.x(), x.y(), x.z()});
+      if (!is_elsewhere(x)) continue;
+      EXPECT_NEAR(before.at(x).distance, 0.0, 1e-9);
+      ++elsewhere;
+    }
+    EXPECT_GT(elsewhere, 4);
+    for (const Vec3& x : product->mesh.vertices) {
+      if (!is_elsewhere(x)) continue;
+      EXPECT_NEAR(after.at(x).distance, 0.0, 1e-9);
+      EXPECT_TRUE(product == &cad || there.count({x.x(), x.y(), x.z()}) > 0) << x.transpose();
     }
   }
 }

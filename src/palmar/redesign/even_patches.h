@@ -1,0 +1,19 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "palmar/geometry/types.h"
+
+namespace palmar {
+
+/// Triangles of a mesh made anew, nearly equilateral, no edge longer than `edge_length` [mm]: those
+/// whose entry in `group` is 0 or more. Edges between triangles of different groups, and those that
+/// turn by more than 40 degrees, stay as they are, so they must not be longer either; triangles of
+/// group -1 and their vertices stay. Where patches between such edges aren't 2-manifold, they stay,
+/// too.
+TriangleMesh with_even_patches(const TriangleMesh& mesh, const std::vector<int>& group,
+                               double edge_length);
+
+}  // namespace palmar
