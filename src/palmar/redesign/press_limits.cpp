@@ -21,8 +21,10 @@
 namespace palmar {
 namespace {
 
-constexpr int kMaxHalvings = 12;        // 12 mm become 3 micrometres; then nothing moves there
-constexpr double kBlend = 3.0;          // mm; round what is wrong
+constexpr double kLess = 0.75;     // share of the depth that is left after a step back
+constexpr int kMaxStepsBack = 24;  // 12 mm become 12 micrometres; then nothing moves there
+// Round what is wrong, mm: narrower, the step back would be a bump with folds of its own.
+constexpr double kBlend = 10.0;
 constexpr double kLeastFacing = 0.1;    // cosine between a moved triangle and its direction
 constexpr double kFree = 1.0;           // mm deep; from there a vertex follows the smooth surface
 constexpr double kWallRounding = 1e-3;  // mm; rays are single precision
@@ -173,7 +175,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
     part_of[region_.part_vertex[i]] = static_cast<int>(i);
   }
   std::optional<std::vector<std::array<int, 2>>> old_crossings;
-  for (int round = 0; round <= kMaxHalvings; ++round) {
+  for (int round = 0; round <= kMaxStepsBack; ++round) {
     progress.throw_if_cancelled();
     const std::vector<Vec3> place = moved(tried);
     std::vector<unsigned char> wrong = folded(place);
@@ -203,7 +205,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
     }
     if (marks.triangles.empty()) break;
     const std::vector<double> distance = distance_to(marks, region_.part.vertices, kBlend);
-    const double least = round + 1 >= kMaxHalvings ? 0.0 : 0.5;
+    const double least = round + 1 >= kMaxStepsBack ? 0.0 : kLess;
     for (std::size_t i = 0; i < share.size(); ++i) {
       share[i] *= least + (1.0 - least) * smooth_step(distance[i] / kBlend);
       tried[i] = share[i] * depth[i];

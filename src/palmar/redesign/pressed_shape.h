@@ -74,12 +74,13 @@ struct PressedShape {
 /// 3. Combined over hands, times share, smoothed along the surface, taken back to nothing over
 ///    rim_width round the imprint; creases of pressed edges are smoothed away, deeper; then held
 ///    below the limits by a curve without a kink.
-/// 4. Where the result would cross itself, fold or leave less than `wall`, the depth is halved
-///    there until it does no more.
+/// 4. Where the result would cross itself, fold or leave less than `wall`, a quarter of the depth
+/// is
+///    taken back there and within 10 mm, until it does no more.
 ///
 /// Elsewhere the surface stays, of a scan with its triangles; the mesh stays closed if it was;
-/// volume never grows. The same result for any order of hands and any number of threads. Throws UsageError on
-/// bad options, no skins, or a keep-out face that doesn't exist; Cancelled.
+/// volume never grows. The same result for any order of hands and any number of threads. Throws
+/// UsageError on bad options, no skins, or a keep-out face that doesn't exist; Cancelled.
 PressedShape press_shape(const Product& product, std::span<const TriangleMesh> skins,
                          const PressedShapeOptions& options = {}, const Progress& progress = {});
 
