@@ -46,7 +46,7 @@ class PressedSurface {
   /// Shares in [0, 1] of `depth` per vertex for which the surface doesn't fold or cross itself
   /// where the original didn't, and vertices keep `wall` [mm] of product under them, along their
   /// direction, that had it (`wall_before`). 1 where nothing is wrong; round what is wrong it is
-  /// halved, with a blend, until nothing is.
+  /// taken back by a quarter, with a blend, until nothing is.
   std::vector<double> sound_share(const std::vector<double>& depth,
                                   const std::vector<double>& wall_before, double wall,
                                   const Progress& progress) const;
