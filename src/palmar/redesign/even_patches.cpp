@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/mesh/disjoint_sets.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/remesh.h"
 
@@ -19,22 +19,6 @@ namespace {
 
 constexpr double kCrease = 0.766;  // cosine of 40 degrees: facets of a small fillet turn by 26
 constexpr int kRounds = 8;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
-  int find(int i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    const int one = find(a), other = find(b);
-    root_[std::max(one, other)] = std::min(one, other);
-  }
-
- private:
-  std::vector<int> root_;
-};
 
 /// Triangles of one group that are joined across edges that aren't creases. Corners that meet only
 /// in a point, or across a crease, are different ones: `corner_of` says which, by 3 triangle + k.
@@ -59,7 +43,7 @@ Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::pair(a.edge, a.triangle) < std::pair(b.edge, b.triangle);
   });
-  UnionFind patches(mesh.triangles.size()), corners(3 * mesh.triangles.size());
+  DisjointSets patches(mesh.triangle_count()), corners(3 * mesh.triangle_count());
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
@@ -67,11 +51,11 @@ Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
       const Side &a = sides[i], &b = sides[i + 1];
       if (group[a.triangle] == group[b.triangle] &&
           normal[a.triangle].dot(normal[b.triangle]) > kCrease) {
-        patches.join(a.triangle, b.triangle);
+        patches.unite(a.triangle, b.triangle);
         for (const int k : {a.from, (a.from + 1) % 3}) {
           for (const int m : {b.from, (b.from + 1) % 3}) {
             if (mesh.triangles[a.triangle][k] == mesh.triangles[b.triangle][m]) {
-              corners.join(3 * a.triangle + k, 3 * b.triangle + m);
+              corners.unite(3 * a.triangle + k, 3 * b.triangle + m);
             }
           }
         }
@@ -84,8 +68,8 @@ Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
   result.corner_of.assign(3 * mesh.triangles.size(), -1);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (group[t] < 0) continue;
-    by_root[patches.find(t)].push_back(t);
-    for (int k = 0; k < 3; ++k) result.corner_of[3 * t + k] = corners.find(3 * t + k);
+    by_root[patches.root(t)].push_back(t);
+    for (int k = 0; k < 3; ++k) result.corner_of[3 * t + k] = corners.root(3 * t + k);
   }
   for (auto& [first, patch] : by_root) result.triangles.push_back(std::move(patch));
   return result;

@@ -29,7 +29,7 @@ std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
 /// Share of girth, breadth, widths and thicknesses by which a hand may be fuller or leaner than the
 /// surveys' people of the same length and breadth, as a standard deviation: 0.04. The regressions'
 /// residuals are those of soldiers measured with one tape; of a hand from elsewhere girth and
-/// widths came out 5 to 11 mm too large (issue 25), up to 6 % of a girth. An allowance of ours, a
+/// widths came out 5 to 11 mm too large, up to 6 % of a girth. An allowance of ours, a
 /// little less than the 5 % that breadths at the finger joints vary by about the girth (Greiner
 /// 1991).
 inline constexpr double kFullness = 0.04;

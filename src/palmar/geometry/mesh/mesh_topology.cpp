@@ -3,34 +3,13 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/mesh/disjoint_sets.h"
 
 namespace palmar {
 namespace {
-
-// Union by smaller root, so that a root is the smallest member of its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(int count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (at(i) != i) i = at(i) = at(at(i));
-    return i;
-  }
-  void unite(int i, int j) {
-    i = root(i);
-    j = root(j);
-    at(std::max(i, j)) = std::min(i, j);
-  }
-
- private:
-  int& at(int i) { return parent_[i]; }
-  std::vector<int> parent_;
-};
 
 bool is_collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
