@@ -114,6 +114,15 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
   return hold_original(request, asked, std::move(shared), progress);
 }
 
+HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold) {
+  const Rigid3 place = part_frame(original.part_of(hold), hold.along, hold.turn);
+  HandsOnHandle hands;
+  hands.place = place.translation;
+  hands.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
+  hands.palm = place.rotation * Vec3::UnitZ();
+  return hands;
+}
+
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original) {
   if (request.at) return *request.at;
   if (const std::optional<Hold> hold = original.hold()) {
