@@ -49,12 +49,15 @@ void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
 }
 
-/// The first Ctrl-C asks to stop, the second stops at once.
+/// The first Ctrl-C asks to stop, the second stops at once; so do kill and a terminal that is
+/// closed, unless who started the program has it go on then (nohup).
 void install_interrupt_handler() {
-  struct sigaction action = {};
+  struct sigaction action = {}, before = {};
   action.sa_handler = on_interrupt;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 double parse_number(const std::string& option, const std::string& text) {
