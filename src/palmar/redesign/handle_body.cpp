@@ -283,8 +283,8 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   if (part.is_ring || part.line.size() < 2 ||
       (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
        part.kind != PartKind::kBody)) {
-    throw UsageError(fmt::format("{}: the {} is a {}; a bar or a body can be shaped anew",
-                                 product.name, part.name, name_of(part.kind)));
+    throw UsageError(fmt::format("{}: is held by its {}; a bar or a body can be shaped anew",
+                                 product.name, part.name));
   }
   const Vec3 chord = part.line.back().centre - part.line.front().centre;
   Vec3 axis = chord.normalized();

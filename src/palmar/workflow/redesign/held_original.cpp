@@ -4,6 +4,8 @@
 // The first step of every redesign: hands hold the original.
 #include "palmar/workflow/redesign/held_original.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "palmar/core/error.h"
@@ -72,12 +74,19 @@ HeldOriginal hold_original(const RedesignRequest& request, const StudyRequest& a
       [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
   std::sort(original.records.begin(), original.records.end(),
             [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-  const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
-  if (!is_held) {
-    const std::string& reason = original.records.front().reason;
+  const auto lost = std::find_if_not(original.records.begin(), original.records.end(), is_in_hand);
+  if (lost == original.records.end()) return original;
+  const auto held = std::count_if(original.records.begin(), original.records.end(), is_in_hand);
+  const std::string why = lost->reason.empty() ? "" : " (" + lost->reason + ")";
+  if (held > 0) {
+    original.study.notes.push_back(fmt::format(
+        "{}: {} of {} hands don't hold it{}; the others go on without them", request.product,
+        plan.hands.size() - static_cast<std::size_t>(held), plan.hands.size(), why));
+    if (request.on_note) request.on_note(original.study.notes.back());
+  } else {
     throw NumericalError(
         request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
-        (reason.empty() ? "" : " (" + reason + ")") +
+        why +
         "; a redesign starts from hands that do (setting \"at\", setting \"axis\" and setting "
         "\"grips\" say where and how it is held)");
   }
