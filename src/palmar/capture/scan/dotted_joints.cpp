@@ -8,11 +8,29 @@
 
 #include <Eigen/Dense>
 
+#include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
 namespace palmar {
+
+double noise_of_dots(std::span<const DotGroup> groups) {
+  double squares = 0.0, freedom = 0.0;
+  for (const DotGroup& group : groups) {
+    constexpr std::size_t kFewest = 3;  // two dots keep their distance only
+    if (group.before.size() < kFewest) continue;
+    const Rigid3 moved = align_points(group.before, group.after);
+    for (std::size_t i = 0; i < group.before.size(); ++i) {
+      squares += (moved * group.before[i] - group.after[i]).squaredNorm();
+    }
+    freedom += 3.0 * static_cast<double>(group.before.size()) - 6.0;
+  }
+  constexpr double kLeast = 0.5, kMost = 1.5, kUsual = 1.0, kUsualSamples = 6.0;  // mm
+  const double variance = (kUsualSamples * kUsual * kUsual + squares) / (kUsualSamples + freedom);
+  return std::clamp(std::sqrt(variance), kLeast, kMost);
+}
+
 namespace {
 
 /// Two tilts of the axis and two shifts of the point, across the axis, and the turn.
@@ -80,14 +98,14 @@ DotHinge fit_dot_hinge(std::span<const Vec3> before, std::span<const Vec3> after
   const DotProblem problem(before, after, prior);
   // The axis open; its tilts stay below 45 degrees.
   constexpr double kOpen = 10.0;  // rad
-  constexpr double kPriorSamples = 2.0, kUnknowns = 5.0, kLeastShare = 0.5;
+  constexpr double kPriorSamples = 8.0, kUnknowns = 5.0;
   constexpr double kBeyond95 = 5.991;  // of chi squared with two degrees of freedom
   const LeastSquaresSolution first = problem.solve(prior.dot_sd, kOpen);
   const double freedom = std::max(0.0, 3.0 * static_cast<double>(before.size()) - kUnknowns);
   const double variance =
       (kPriorSamples * prior.dot_sd * prior.dot_sd + problem.left_over(first, prior.dot_sd)) /
       (kPriorSamples + freedom);
-  const double dot_sd = std::max(kLeastShare * prior.dot_sd, std::sqrt(variance));
+  const double dot_sd = std::sqrt(variance);
   const LeastSquaresSolution alone = problem.solve(dot_sd, kOpen);
   const Eigen::Matrix2d by_dots = tilt_covariance(alone);
   const Eigen::Vector2d tilt = alone.x.head<2>();

@@ -16,9 +16,18 @@ struct HingePrior {
   Vec3 axis = Vec3::UnitX(), point = Vec3::Zero();
   double axis_sd = 0.105;  ///< rad, in either direction: 6 degrees; people's differ by 5 to 8
   double point_sd = 1.5;   ///< mm, across the axis
-  double dot_sd = 1.0;     ///< mm: skin slides over bones
+  double dot_sd = 1.0;     ///< mm: skin slides over bones; see noise_of_dots()
   double turn = 0.0;       ///< rad; where to start
 };
+
+/// The dots of one part of a hand in two scans, mm.
+struct DotGroup {
+  std::vector<Vec3> before, after;
+};
+/// Standard deviation of a dot's place in one direction, mm, by how far the dots of every part are
+/// from moving with it as a rigid body: three and more dots a part, of all parts together. Counted
+/// with six samples of 1 mm, and between 0.5 and 1.5 mm: what slides together isn't seen.
+double noise_of_dots(std::span<const DotGroup> groups);
 
 /// The hinge that dots on the part behind it and what is known of it agree on best.
 struct DotHinge {

@@ -70,6 +70,7 @@ class DotReader {
     name_ = name;
     posture_ = fit.posture;
     const auto found = find_dots(scan, fit);
+    dots_sd_ = noise_of(found);
     const Rigid3 palm = palm_motion(found, fit);
     result_.scan_from_hand[name] = palm;
     read_thumb_of(palm, found);
@@ -175,6 +176,18 @@ class DotReader {
     return found;
   }
 
+  /// Of the dots that were found, by what every segment's own ones show.
+  double noise_of(const std::vector<std::optional<Vec3>>& found) const {
+    std::vector<DotGroup> groups(kSegmentCount);
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (!found[k] || dots_[k].slides) continue;
+      DotGroup& group = groups[index_of(dots_[k].segment)];
+      group.before.push_back(dots_[k].point);
+      group.after.push_back(*found[k]);
+    }
+    return noise_of_dots(groups);
+  }
+
   Rigid3 palm_motion(const std::vector<std::optional<Vec3>>& found, const MeshFit& fit) const {
     std::vector<Vec3> a, b;
     for (std::size_t k = 0; k < dots_.size(); ++k) {
@@ -210,8 +223,8 @@ class DotReader {
     prior.turn = posture_[bends.dof] - bends.reference;
     constexpr std::size_t kEnough = 2;
     // Dots behind a part whose own dots weren't found see its error, too.
-    constexpr double kByDotsSd = 1.0, kBySkinSd = 3.0;  // mm
-    prior.dot_sd = is_found_by_dots_ ? kByDotsSd : kBySkinSd;
+    constexpr double kBySkinSd = 3.0;  // mm
+    prior.dot_sd = is_found_by_dots_ ? dots_sd_ : kBySkinSd;
     is_found_by_dots_ = x.size() >= kEnough;
     if (!is_found_by_dots_) {
       return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
@@ -252,6 +265,7 @@ class DotReader {
   Posture posture_;
   std::array<double, kJointCount> found_by_{};
   std::array<std::string, kJointCount> conflicts_;  ///< of the axes that were taken; mostly empty
+  double dots_sd_ = 1.0;                            // mm, of the scan's dots
   bool is_found_by_dots_ = true;  // where the part before the next joint is, by its own dots
 };
 
